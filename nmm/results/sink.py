@@ -1,0 +1,114 @@
+"""Where a run writes to: the protocol of the step loop's output, and the sink that keeps it all."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Protocol
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from integration.polygons import Polygons
+from nmm.results.frame import Frame, Topology
+from nmm.results.summary import Summary
+
+
+class Sink(Protocol):
+    """Receiver of a run: `begin`, then frames and rows as they come, then `finish`."""
+
+    def begin(
+        self,
+        elements: Polygons,
+        element_region: Ints,
+        material_names: Sequence[str],
+        *,
+        region_material: Ints,
+        region_names: Sequence[str] = (),
+    ) -> None:
+        """Take the elements; called again whenever cutting has changed them."""
+
+    def frame(self, frame: Frame) -> None:
+        """Take one frame; its points are those of the last topology begun."""
+
+    def row(self, values: Mapping[str, float]) -> None:
+        """Take the history values of one step."""
+
+    def finish(self, summary: Summary) -> None:
+        """Take the summary; nothing follows."""
+
+
+class RunData(Protocol):
+    """What plots, exports and studies read: a run in memory or a stored one."""
+
+    @property
+    def topologies(self) -> Sequence[Topology]:
+        """Element topologies; `Frame.topology` counts in them."""
+
+    @property
+    def frames(self) -> Sequence[Frame]:
+        """Frames in the order of output."""
+
+    @property
+    def history(self) -> Mapping[str, Floats]:
+        """History columns by name, one value a step."""
+
+
+def make_topology(
+    elements: Polygons,
+    element_region: Ints,
+    material_names: Sequence[str],
+    region_material: Ints,
+    region_names: Sequence[str],
+) -> Topology:
+    """Bundle the arguments of `Sink.begin`."""
+    return Topology(
+        elements=elements,
+        element_region=np.asarray(element_region, dtype=np.int64),
+        region_material=np.asarray(region_material, dtype=np.int64),
+        material_names=tuple(material_names),
+        region_names=tuple(region_names),
+    )
+
+
+class MemorySink:
+    """Keeps topologies, frames, history and summary in memory.
+
+    The default of the Python interface; it satisfies `RunData`, so plots accept it.
+    """
+
+    def __init__(self) -> None:
+        self.topologies: list[Topology] = []
+        self.frames: list[Frame] = []
+        self.rows: list[dict[str, float]] = []
+        self.summary = Summary()
+
+    def begin(
+        self,
+        elements: Polygons,
+        element_region: Ints,
+        material_names: Sequence[str],
+        *,
+        region_material: Ints,
+        region_names: Sequence[str] = (),
+    ) -> None:
+        """Keep the elements as the topology of the frames to come."""
+        self.topologies.append(
+            make_topology(elements, element_region, material_names, region_material, region_names)
+        )
+
+    def frame(self, frame: Frame) -> None:
+        """Keep one frame."""
+        self.frames.append(replace(frame, topology=len(self.topologies) - 1))
+
+    def row(self, values: Mapping[str, float]) -> None:
+        """Keep one row of the history."""
+        self.rows.append(dict(values))
+
+    def finish(self, summary: Summary) -> None:
+        """Keep the summary."""
+        self.summary = summary
+
+    @property
+    def history(self) -> dict[str, Floats]:
+        """Columns of the history; a value that a step did not give is nan."""
+        names = dict.fromkeys(name for row in self.rows for name in row)
+        return {name: np.array([row.get(name, np.nan) for row in self.rows]) for name in names}

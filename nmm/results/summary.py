@@ -1,0 +1,210 @@
+"""The summary of a run: one record of numbers, as JSON in the run folder and as a table."""
+
+import json
+import math
+import platform
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+from importlib import metadata
+from typing import TYPE_CHECKING, Any
+
+from nmm.errors import NmmError
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+RUNNING = "running"
+PACKAGES = ("nmm-framework", "numpy", "scipy", "scikit-fem", "shapely", "numba")
+
+
+def installed_versions() -> dict[str, str]:
+    """Return the versions of Python and of the libraries that a result can depend on."""
+    found = {"python": platform.python_version()}
+    for name in PACKAGES:
+        try:
+            found[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            found[name] = "not installed"
+    return found
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What is known of a run as a whole; None stands for a number that was not measured.
+
+    Attributes
+    ----------
+    status, sentence
+        Code of the verdict ("running", "converged", ...) and the sentence that explains it.
+    blocks, elements, unknowns, steps, passes
+        Counts; passes are contact passes summed over steps.
+    seconds, effect_seconds
+        Wall-clock seconds by phase and by effect.
+    peak_memory
+        Largest resident memory of the process, bytes.
+    equilibrium_residual
+        Largest relative out-of-balance force of an accepted step.
+    largest_penetration
+        m, positive when bodies overlapped.
+    energy_balance
+        (Work done - energy stored - energy lost) / largest of the three.
+    condition_estimate
+        Estimated 1-norm condition number of the last system matrix.
+    failure_load, failure_factor, failure_tolerance
+        Largest load in N carried by the scaled loads, its load factor, and the half width of the
+        load factor's bracket relative to the factor.
+    largest_contacts
+        Largest number of contact points in each state at one step.
+    versions, seed, scene_hash, formulation_hash
+        What the run can be repeated from.
+    """
+
+    status: str = RUNNING
+    sentence: str = "the run has not ended, or was stopped before its end"
+    title: str = ""
+    blocks: int = 0
+    elements: int = 0
+    unknowns: int = 0
+    steps: int = 0
+    passes: int = 0
+    seconds: Mapping[str, float] = field(default_factory=dict)
+    effect_seconds: Mapping[str, float] = field(default_factory=dict)
+    peak_memory: int | None = None
+    equilibrium_residual: float | None = None
+    largest_penetration: float | None = None
+    energy_balance: float | None = None
+    condition_estimate: float | None = None
+    failure_load: float | None = None
+    failure_factor: float | None = None
+    failure_tolerance: float | None = None
+    largest_contacts: Mapping[str, int] = field(default_factory=dict)
+    versions: Mapping[str, str] = field(default_factory=installed_versions)
+    seed: int | None = None
+    scene_hash: str = ""
+    formulation_hash: str = ""
+
+    def to_json(self) -> str:
+        """Return the summary as JSON text; numbers that are not finite become null."""
+        return json.dumps(_finite(asdict(self)), indent=2, allow_nan=False) + "\n"
+
+    @classmethod
+    def from_json(cls, text: str) -> "Summary":
+        """Read a summary back.
+
+        Raises
+        ------
+        NmmError
+            When the text is not JSON or names a field that a summary does not have.
+        """
+        try:
+            values = json.loads(text)
+        except json.JSONDecodeError as fault:
+            raise NmmError(f"summary.json, line {fault.lineno}: not JSON ({fault.msg})") from fault
+        return cls.from_mapping(values)
+
+    @classmethod
+    def from_mapping(cls, values: Mapping[str, Any]) -> "Summary":
+        """Make a summary of a mapping of its fields; the others keep their defaults.
+
+        Raises
+        ------
+        NmmError
+            When a key is not a field of a summary.
+        """
+        known = {item.name for item in fields(cls)}
+        strange = sorted(set(values) - known)
+        if strange:
+            raise NmmError(
+                f"summary: unknown field {strange[0]!r}: expected one of {', '.join(sorted(known))}"
+            )
+        return cls(**values)
+
+
+def _finite(value: Any) -> Any:
+    """Replace numbers that JSON cannot hold by None, and numpy scalars by Python's."""
+    if isinstance(value, Mapping):
+        return {str(key): _finite(item) for key, item in value.items()}
+    if hasattr(value, "item"):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+def failure_line(summary: Summary) -> str | None:
+    """Return the failure load with its tolerance in words, None when the run has none."""
+    if summary.failure_factor is None and summary.failure_load is None:
+        return None
+    parts = []
+    if summary.failure_load is not None:
+        parts.append(_newton(summary.failure_load))
+    if summary.failure_factor is not None:
+        parts.append(f"load factor {summary.failure_factor:.5g}")
+    text = "failure load " + ", ".join(parts)
+    if summary.failure_tolerance is not None:
+        text += f", bracketed within ±{100 * summary.failure_tolerance:.2g} %"
+    return text
+
+
+def rows(summary: Summary) -> list[tuple[str, str]]:
+    """Return label and text of every number that the run has measured."""
+    listed: list[tuple[str, str | None]] = [
+        ("blocks", f"{summary.blocks:,}"),
+        ("elements", f"{summary.elements:,}"),
+        ("unknowns", f"{summary.unknowns:,}"),
+        ("steps", f"{summary.steps:,}"),
+        ("contact passes", f"{summary.passes:,}"),
+        ("failure load", _or_none(summary.failure_load, _newton)),
+        ("failure load factor", _or_none(summary.failure_factor, _number)),
+        ("equilibrium residual", _or_none(summary.equilibrium_residual, _number)),
+        ("largest penetration", _or_none(summary.largest_penetration, _metre)),
+        ("energy balance", _or_none(summary.energy_balance, _number)),
+        ("condition estimate", _or_none(summary.condition_estimate, _number)),
+        ("contacts at most", _counts(summary.largest_contacts)),
+        ("seconds", _seconds(summary.seconds)),
+        ("seconds by effect", _seconds(summary.effect_seconds)),
+        ("peak memory", _or_none(summary.peak_memory, lambda v: f"{v / 2**20:.0f} MiB")),
+        ("seed", _or_none(summary.seed, str)),
+        ("scene", summary.scene_hash[:12] or None),
+        ("formulation", summary.formulation_hash[:12] or None),
+    ]
+    return [(label, text) for label, text in listed if text is not None]
+
+
+def render(summary: Summary) -> "Table":
+    """Return the summary as a rich table for the terminal."""
+    from rich.table import Table
+
+    table = Table(title=summary.title or None, show_header=False, title_justify="left")
+    table.add_column(style="dim", no_wrap=True)
+    table.add_column(overflow="fold")
+    for label, text in rows(summary):
+        table.add_row(label, text)
+    return table
+
+
+def _or_none(value: Any, text: Any) -> str | None:
+    return None if value is None else str(text(value))
+
+
+def _number(value: float) -> str:
+    return f"{value:.4g}"
+
+
+def _metre(value: float) -> str:
+    return f"{value:.3g} m"
+
+
+def _newton(value: float) -> str:
+    return f"{value / 1e3:.4g} kN" if abs(value) >= 1e3 else f"{value:.4g} N"
+
+
+def _counts(counts: Mapping[str, int]) -> str | None:
+    return ", ".join(f"{count:,} {name}" for name, count in counts.items() if count) or None
+
+
+def _seconds(seconds: Mapping[str, float]) -> str | None:
+    if not seconds:
+        return None
+    parts = ", ".join(f"{name} {value:.3g}" for name, value in seconds.items())
+    return f"{sum(seconds.values()):.3g} ({parts})"
