@@ -1,1 +1,1 @@
-
+"""Exact integrals and point rules on polygons, segments and around crack tips."""
