@@ -1,0 +1,1 @@
+"""Contact of bodies: search, pairs, gap rows and their enforcement."""

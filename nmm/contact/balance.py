@@ -1,0 +1,46 @@
+"""How far a step is out of balance, in a norm that mixes no units."""
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+
+from integration.arrays import Floats
+from nmm.contact.problem import StepProblem
+
+
+def weights(problem: StepProblem) -> Floats:
+    """(n,) inverse roots of the diagonal of matrix plus all contact springs.
+
+    Forces on translations, rotations and strains become comparable: ``|weights * r|`` is
+    invariant under a change of the units of single unknowns.
+    """
+    diagonal = problem.matrix.diagonal() + _squared(problem.normal_rows, problem.normal_stiffness)
+    diagonal += _squared(problem.tangent_rows, problem.shear_stiffness)
+    return np.asarray(1.0 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0)))
+
+
+def relative_residual(
+    problem: StepProblem, weight: Floats, increment: Floats, normal: Floats, shear: Floats
+) -> float:
+    """Out-of-balance force over the largest of load, internal and contact force."""
+    inner = problem.matrix @ increment
+    contact = problem.normal_rows.T @ normal + problem.tangent_rows.T @ shear
+    size = max(_norm(weight * part) for part in (inner, contact, problem.force))
+    rest = _norm(weight * (inner + contact - problem.force))
+    return rest / size if size > 0 else 0.0
+
+
+def _squared(rows: csr_array, stiffness: Floats) -> Floats:
+    squares = csr_array((rows.data**2, rows.indices, rows.indptr), shape=rows.shape)
+    return np.asarray(squares.T @ stiffness)
+
+
+def _norm(vector: Floats) -> float:
+    return float(np.linalg.norm(vector))
+
+
+def with_springs(problem: StepProblem, normal: Floats, shear: Floats) -> csc_array:
+    """``matrix + Gn^T diag(normal) Gn + Gt^T diag(shear) Gt`` by sparse products."""
+    total = problem.matrix
+    for rows, stiffness in ((problem.normal_rows, normal), (problem.tangent_rows, shear)):
+        total = total + rows.T @ (diags_array(stiffness) @ rows)
+    return csc_array(total)

@@ -1,0 +1,78 @@
+"""What a contact enforcement is, and the names of the built-in ones."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from nmm.contact.problem import StepAnswer, StepProblem
+from nmm.errors import FormulationError
+from nmm.registry import Registry
+
+if TYPE_CHECKING:
+    from nmm.contact.memory import Memory
+    from nmm.solvers.linear import LinearSolver
+
+
+@dataclass(frozen=True)
+class Enforcement(ABC):
+    """Base of contact enforcements; a frozen set of options."""
+
+    name: ClassVar[str]
+
+    @abstractmethod
+    def solve(
+        self, problem: StepProblem, linear_solver: "LinearSolver", memory: "Memory | None" = None
+    ) -> StepAnswer:
+        """Find unknowns and contact forces of one step.
+
+        Parameters
+        ----------
+        problem
+            The step.
+        linear_solver
+            Factorises the matrices.
+        memory
+            What may be kept from step to step (patterns, factors); made once by the step loop and
+            handed to every call. It changes the cost, not the answer beyond the tolerance.
+
+        Returns
+        -------
+        StepAnswer
+            Its verdict says whether the forces may be used.
+
+        Raises
+        ------
+        SolveError
+            When the problem itself is malformed (shapes, numbers that are not finite).
+        """
+
+
+ENFORCEMENTS: Registry[type[Enforcement]] = Registry(
+    "enforcement",
+    {
+        "penalty": "nmm.contact.penalty:Penalty",
+        "augmented": "nmm.contact.augmented:Augmented",
+        "lagrange": "nmm.contact.lagrange:Lagrange",
+        "cone": "nmm.contact.cone:Cone",
+        "barrier": "nmm.contact.barrier:Barrier",
+    },
+)
+
+
+def make_enforcement(name: str, options: Mapping[str, Any] | None = None) -> Enforcement:
+    """Return the enforcement ``name`` ("penalty", ... or "module:Class") with ``options`` set.
+
+    Raises
+    ------
+    FormulationError
+        When the name or an option is not known.
+    """
+    kind = ENFORCEMENTS.load(name)
+    known = [item.name for item in fields(kind)]
+    for key in options or {}:
+        if key not in known:
+            raise FormulationError(
+                f'enforcement "{name}": {key}: expected one of {", ".join(known)}'
+            )
+    return kind(**(options or {}))

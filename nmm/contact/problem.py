@@ -1,0 +1,237 @@
+"""One step's contact problem, free of geometry, and its answer.
+
+Signs: gap positive open, normal force positive in tension, shear force along the tangent row. With
+``N`` and ``T`` the answer's forces the step is in balance when
+
+    matrix @ d + normal_rows.T @ N + tangent_rows.T @ T = force.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.errors import SolveError
+
+
+class State(IntEnum):
+    """What a contact does at the end of a step."""
+
+    OPEN = 0
+    STICK = 1
+    SLIDE = 2
+    BONDED = 3
+    BROKEN = 4
+
+
+OPEN, STICK, SLIDE, BONDED, BROKEN = State
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Given numbers that no contact force of this step may exceed.
+
+    The admissible forces are ``N <= tension`` and ``|T| <= cohesion + friction * max(-N, 0)``;
+    a contact with ``tension == 0`` that is open carries nothing. Within a step the limits stand
+    (force at a limit, no softening); what breaks for good is for the interface law to decide
+    between two solutions. ``inf`` is allowed: the contact then never opens or slides.
+
+    Attributes
+    ----------
+    tension
+        (m,) largest pull (N), >= 0.
+    cohesion
+        (m,) shear resistance without compression (N), >= 0.
+    friction
+        (m,) tangent of the friction angle.
+    """
+
+    tension: Floats
+    cohesion: Floats
+    friction: Floats
+
+
+@dataclass(frozen=True)
+class StepProblem:
+    """Balance of one step with ``n`` unknowns and ``m`` contact points.
+
+    Attributes
+    ----------
+    matrix
+        (n, n) symmetric, all that is constant in the step: elasticity, inertia, supports.
+    force
+        (n,) right-hand side.
+    normal_rows, tangent_rows
+        (m, n); the end gap is ``gap + normal_rows @ d``, the end slip ``slip + tangent_rows @ d``.
+    gap
+        (m,) gap at the start (m).
+    slip
+        (m,) elastic stretch of the shear spring at the start (m): ``StepAnswer.slip`` of the step
+        before, 0 for a contact that is new.
+    normal_stiffness, shear_stiffness
+        (m,) N/m, > 0: a penalty, or the joint's own.
+    limits
+        Largest forces.
+    state
+        (m,) states at the start (`State`).
+    normal_force, shear_force
+        (m,) forces of the step before (N), where the search for the new ones starts.
+    compliant
+        (m,) true where the stiffness is the joint's own: a law that every enforcement honours,
+        ``N = normal_stiffness * gap`` up to the limit. False (or None for all) where it is a
+        numerical penalty, which the exact enforcements replace by ``gap >= 0``.
+    """
+
+    matrix: csc_array
+    force: Floats
+    normal_rows: csr_array
+    tangent_rows: csr_array
+    gap: Floats
+    slip: Floats
+    normal_stiffness: Floats
+    shear_stiffness: Floats
+    limits: Limits
+    state: Ints
+    normal_force: Floats
+    shear_force: Floats
+    compliant: Bools | None = None
+
+    @property
+    def n_contacts(self) -> int:
+        """Number of contact points."""
+        return len(self.gap)
+
+    @property
+    def own_stiffness(self) -> Bools:
+        """(m,) ``compliant`` with None written out."""
+        if self.compliant is None:
+            return np.zeros(self.n_contacts, dtype=bool)
+        return self.compliant
+
+    def gaps(self, increment: Floats) -> Floats:
+        """(m,) gaps at the end of the step."""
+        return np.asarray(self.gap + self.normal_rows @ increment)
+
+    def slips(self, increment: Floats) -> Floats:
+        """(m,) total slips at the end of the step, elastic and sliding part."""
+        return np.asarray(self.slip + self.tangent_rows @ increment)
+
+    def out_of_balance(self, increment: Floats, normal: Floats, shear: Floats) -> Floats:
+        """(n,) ``matrix @ d + normal_rows.T @ N + tangent_rows.T @ T - force``."""
+        inner = self.matrix @ increment - self.force
+        return np.asarray(inner + self.normal_rows.T @ normal + self.tangent_rows.T @ shear)
+
+    def check(self) -> None:
+        """Refuse shapes and numbers that no enforcement could make sense of.
+
+        Raises
+        ------
+        SolveError
+            Naming the first array at fault.
+        """
+        n, m = len(self.force), self.n_contacts
+        sizes = {"matrix": (self.matrix.shape, (n, n))}
+        for name in ("normal_rows", "tangent_rows"):
+            sizes[name] = (getattr(self, name).shape, (m, n))
+        columns = {
+            name: getattr(self, name)
+            for name in ("slip", "normal_stiffness", "shear_stiffness", "normal_force")
+        }
+        columns |= {"state": self.state, "shear_force": self.shear_force} | vars(self.limits)
+        sizes |= {name: (np.shape(column), (m,)) for name, column in columns.items()}
+        for name, (found, expected) in sizes.items():
+            if found != expected:
+                raise SolveError(f"contact problem: {name} {found}: expected {expected}")
+        finite = {"matrix": self.matrix.data, "force": self.force, "gap": self.gap}
+        finite |= {"normal_rows": self.normal_rows.data, "tangent_rows": self.tangent_rows.data}
+        finite |= {"slip": self.slip, "friction": self.limits.friction}
+        finite |= {"normal_stiffness": self.normal_stiffness}
+        finite |= {"shear_stiffness": self.shear_stiffness}
+        for name, array in finite.items():
+            if not np.isfinite(array).all():
+                at = int(np.flatnonzero(~np.isfinite(array))[0])
+                raise SolveError(
+                    f"contact problem: {name}[{at}] = {array[at]}: expected finite numbers: "
+                    "check loads and stiffnesses, or shorten the step"
+                )
+        positive = {"normal_stiffness": self.normal_stiffness > 0}
+        positive |= {"shear_stiffness": self.shear_stiffness > 0}
+        positive |= {name: column >= 0 for name, column in vars(self.limits).items()}
+        for name, good in positive.items():
+            if not good.all():
+                at = int(np.flatnonzero(~good)[0])
+                raise SolveError(
+                    f"contact problem: {name} of contact {at}: {columns[name][at]}: "
+                    "expected a positive number (limits may be 0)"
+                )
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How a solution ended, as a sentence for the log.
+
+    Attributes
+    ----------
+    converged
+        True only when forces are admissible, gaps and slips fit them, and the step is in balance,
+        each within the enforcement's tolerance.
+    code
+        "converged", "cycle", "passes", "singular" or "stalled".
+    sentence
+        Passes, contacts and remedy in words; contacts by their row in the problem.
+    contacts
+        Rows of the contacts at fault, worst first; empty when converged.
+    unknowns
+        Unknowns at fault (a free motion), else empty.
+    """
+
+    converged: bool
+    code: str
+    sentence: str
+    contacts: tuple[int, ...] = ()
+    unknowns: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class StepAnswer:
+    """Solution of a `StepProblem`; not to be stored unless ``verdict.converged``.
+
+    Attributes
+    ----------
+    increment
+        (n,) unknowns of the step.
+    normal_force, shear_force
+        (m,) forces at the end (N).
+    gap
+        (m,) gaps at the end (m).
+    slip
+        (m,) elastic part of the slip (m), to be carried to the next step; 0 for open contacts.
+    state
+        (m,) states at the end. A bonded contact that stays below its limits is BONDED, one that
+        reached its pull is BROKEN, one that reached its shear is SLIDE.
+    passes
+        Linear systems solved with a new contact state or force.
+    residual
+        Out-of-balance force relative to the largest of load, contact and internal force, in
+        the norm weighted with the diagonal of matrix and contact springs.
+    verdict
+        How it ended.
+    factorisations
+        Matrices factorised; fewer than passes where a factor was kept.
+    solver
+        Name of the linear solver.
+    """
+
+    increment: Floats
+    normal_force: Floats
+    shear_force: Floats
+    gap: Floats
+    slip: Floats
+    state: Ints
+    passes: int
+    residual: float
+    verdict: Verdict
+    factorisations: int = 0
+    solver: str = ""

@@ -1,0 +1,233 @@
+"""What a linear solver is: a decomposition; scaling, refinement and judgement are common to all."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, ClassVar, Protocol, Self
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.errors import FormulationError, SolveError
+from nmm.registry import Registry
+
+ACCEPTED = 1e-8
+"""Largest relative residual of a solution; above it the load works on a free motion."""
+SHIFT = 1e-10
+"""Part of the diagonal added to a rank-deficient matrix (Duarte, Babuska, Oden 2000)."""
+GROWTH = 1e13
+"""Growth of a scaled solution over its load that only a rank-deficient matrix shows."""
+
+
+class RankDeficientError(Exception):
+    """A decomposition met a pivot that is exactly zero."""
+
+
+class Decomposition(Protocol):
+    """Triangular factors of a matrix with unit diagonal."""
+
+    def solve(self, rhs: Floats) -> Floats:
+        """Return the solution of one right-hand side."""
+        ...
+
+
+@dataclass(frozen=True)
+class LinearSolver(ABC):
+    """Base of direct solvers of symmetric sparse systems.
+
+    Attributes
+    ----------
+    refinements
+        Most steps of iterative refinement after a solution.
+    shift
+        Part of the scaled diagonal added before the decomposition and removed again by
+        refinement. Zero for covers with independent functions; 1e-10 saves a second decomposition
+        where functions are known to be dependent (Duarte, Babuska, Oden 2000).
+    """
+
+    name: ClassVar[str]
+    refinements: int = 1
+    shift: float = 0.0
+
+    @abstractmethod
+    def decompose(self, matrix: csc_array) -> Decomposition:
+        """Factorise a scaled matrix; raise `RankDeficientError` at a zero pivot."""
+
+    def factorise(self, matrix: csc_array) -> "Factor":
+        """Scale and factorise ``matrix``.
+
+        Raises
+        ------
+        SolveError
+            When an entry is not finite.
+        """
+        return Factor.of(self, csc_array(matrix))
+
+    def indefinite(self) -> "LinearSolver":
+        """Return the solver with settings for symmetric indefinite matrices."""
+        return self
+
+    def deflated(self) -> Self:
+        """Return the solver with the shift for rank-deficient matrices."""
+        return replace(self, shift=SHIFT, refinements=max(self.refinements, 5))
+
+
+@dataclass
+class Factor:
+    """A factorised matrix.
+
+    ``matrix = diag(1/scale) S diag(1/scale)``, and ``S`` (unit diagonal) is what was decomposed.
+
+    Attributes
+    ----------
+    solver
+        The solver that made it.
+    matrix
+        (n, n) as given.
+    scale
+        (n,) symmetric Jacobi scaling.
+    deflated
+        True when the matrix was found rank-deficient and is solved with a shift; solutions are
+        then one of many, the one of least size, for loads that do no work on free motions.
+    """
+
+    solver: LinearSolver
+    matrix: csc_array
+    scale: Floats
+    decomposition: Decomposition
+    deflated: bool = False
+    _fallback: "Factor | None" = field(default=None, repr=False)
+
+    @classmethod
+    def of(cls, solver: LinearSolver, matrix: csc_array) -> "Factor":
+        """Scale and factorise; a zero pivot leads to the shifted matrix."""
+        if not np.isfinite(matrix.data).all():
+            raise SolveError(
+                "linear system: the matrix holds numbers that are not finite: expected finite "
+                "stiffnesses and masses: check materials and the size of the step"
+            )
+        scale = jacobi_scale(matrix)
+        scaled = _scaled(matrix, scale, solver.shift)
+        try:
+            return cls(solver, matrix, scale, solver.decompose(scaled))
+        except RankDeficientError:
+            shifted = solver.deflated()
+            parts = shifted.decompose(_scaled(matrix, scale, shifted.shift))
+            return cls(shifted, matrix, scale, parts, deflated=True)
+
+    def solve(self, rhs: Floats) -> Floats:
+        """Solve ``matrix @ x = rhs`` with refinement.
+
+        Raises
+        ------
+        SolveError
+            When no solution exists: the matrix is singular and the load moves a free part.
+        """
+        x, residual, growth = self._refined(rhs)
+        if residual <= ACCEPTED and growth < GROWTH:
+            return x
+        if not self.deflated:
+            if self._fallback is None:
+                self._fallback = self._shifted()
+            return self._fallback.solve(rhs)
+        if residual <= ACCEPTED:
+            return x
+        at = self.weakest_unknown(x)
+        raise SolveError(
+            f"linear system of {len(rhs)} unknowns: residual {residual:.1e} of the load, largest "
+            f"at unknown {at}: expected a supported system: the matrix is singular and the load "
+            "moves a free part; add supports, contacts or inertia"
+        )
+
+    def apply(self, rhs: Floats) -> Floats:
+        """Return one application of the factors without refinement, for preconditioning."""
+        return np.asarray(self.scale * self.decomposition.solve(self.scale * rhs))
+
+    def relative_residual(self, x: Floats, rhs: Floats) -> float:
+        """``|rhs - matrix @ x| / |rhs|`` in scaled quantities."""
+        size = float(np.linalg.norm(self.scale * rhs))
+        rest = float(np.linalg.norm(self.scale * (rhs - self.matrix @ x)))
+        return rest / size if size > 0 else rest
+
+    def weakest_unknown(self, x: Floats) -> int:
+        """Unknown that moves most in ``x``, scaled; in a free motion when the matrix is singular."""
+        return int(np.argmax(np.abs(x / self.scale)))
+
+    def condition(self) -> float:
+        """Estimate of the 1-norm condition number of the scaled matrix (Higham, Tisseur 2000)."""
+        from scipy.sparse.linalg import LinearOperator, onenormest
+
+        scaled = _scaled(self.matrix, self.scale, 0.0)
+        solve = self.decomposition.solve
+        inverse = LinearOperator(scaled.shape, matvec=solve, rmatvec=solve, dtype=np.float64)
+        return float(abs(scaled).sum(axis=0).max() * onenormest(inverse))
+
+    def _refined(self, rhs: Floats) -> tuple[Floats, float, float]:
+        load = self.scale * rhs
+        size = float(np.linalg.norm(load))
+        if size == 0.0:
+            return np.zeros_like(load), 0.0, 0.0
+        x = self.apply(rhs)
+        best, rest = x, np.inf
+        for turn in range(self.solver.refinements + 1):
+            defect = rhs - self.matrix @ x
+            found = float(np.linalg.norm(self.scale * defect)) / size
+            if not found < rest:
+                break
+            best, rest = x, found
+            if rest < 1e-15 or turn == self.solver.refinements:
+                break
+            x = x + self.apply(defect)
+        growth = float(np.abs(best / self.scale).max() / np.abs(load).max())
+        return best, rest, growth
+
+    def _shifted(self) -> "Factor":
+        shifted = self.solver.deflated()
+        parts = shifted.decompose(_scaled(self.matrix, self.scale, shifted.shift))
+        return Factor(shifted, self.matrix, self.scale, parts, deflated=True)
+
+
+def jacobi_scale(matrix: csc_array) -> Floats:
+    """(n,) ``1/sqrt(|a_ii|)``; the largest entry of the column stands in for a zero diagonal."""
+    diagonal = np.abs(matrix.diagonal())
+    if (diagonal == 0.0).any():
+        largest = np.asarray(abs(matrix).max(axis=0).todense()).ravel()
+        diagonal = np.where(diagonal > 0, diagonal, np.where(largest > 0, largest, 1.0))
+    return np.asarray(1.0 / np.sqrt(diagonal))
+
+
+def _scaled(matrix: csc_array, scale: Floats, shift: float) -> csc_array:
+    columns = np.repeat(scale, np.diff(matrix.indptr))
+    data = matrix.data * scale[matrix.indices] * columns
+    scaled = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
+    if shift:
+        from scipy.sparse import eye_array
+
+        scaled = csc_array(scaled + shift * eye_array(len(scale)))
+    return scaled
+
+
+SOLVERS: Registry[type[LinearSolver]] = Registry(
+    "solver",
+    {
+        "superlu": "nmm.solvers.superlu:SuperLU",
+        "qdldl": "nmm.solvers.qdldl:Qdldl",
+    },
+)
+
+
+def make_solver(name: str = "auto", options: Mapping[str, Any] | None = None) -> LinearSolver:
+    """Return the linear solver ``name`` ("auto", a built-in or "module:Class").
+
+    Raises
+    ------
+    FormulationError
+        When the name or an option is not known.
+    """
+    kind = SOLVERS.load("superlu" if name == "auto" else name)
+    known = [item.name for item in fields(kind)]
+    for key in options or {}:
+        if key not in known:
+            raise FormulationError(f'solver "{name}": {key}: expected one of {", ".join(known)}')
+    return kind(**(options or {}))

@@ -1,0 +1,47 @@
+"""SuperLU of scipy with settings for symmetric matrices; always available."""
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+from scipy.sparse import csc_array
+from scipy.sparse.linalg import SuperLU as Decomposed
+from scipy.sparse.linalg import splu
+
+from nmm.solvers.linear import LinearSolver, RankDeficientError
+
+
+@dataclass(frozen=True)
+class SuperLU(LinearSolver):
+    """Sparse LU (Demmel et al. 1999) on the pattern of ``A + A^T``, pivots from the diagonal.
+
+    Attributes
+    ----------
+    pivot_threshold
+        A diagonal pivot is kept when it is at least this part of the largest entry of its
+        column: 0 for positive definite matrices (no search, symmetric fill), 0.1 for indefinite
+        ones.
+    """
+
+    name: ClassVar[str] = "superlu"
+    pivot_threshold: float = 0.0
+
+    def decompose(self, matrix: csc_array) -> Decomposed:
+        """Factorise; `RankDeficientError` at a zero pivot."""
+        indices = matrix.indices.astype(np.intc, copy=False)
+        indptr = matrix.indptr.astype(np.intc, copy=False)
+        try:
+            return splu(
+                csc_array((matrix.data, indices, indptr), shape=matrix.shape),
+                permc_spec="MMD_AT_PLUS_A",
+                diag_pivot_thresh=self.pivot_threshold,
+                options={"SymmetricMode": True},
+            )
+        except RuntimeError as fault:
+            if "singular" in str(fault):
+                raise RankDeficientError(str(fault)) from fault
+            raise
+
+    def indefinite(self) -> "SuperLU":
+        """Pivots within a factor 10 of the largest entry, refined twice."""
+        return replace(self, pivot_threshold=0.1, refinements=max(self.refinements, 2))
