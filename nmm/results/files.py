@@ -59,7 +59,8 @@ def write_text(path: Path, content: str) -> None:
 def write_arrays(path: Path, arrays: Mapping[str, npt.ArrayLike]) -> None:
     """Write an .npz as `write_bytes` does; the same arrays give the same bytes."""
     buffer = io.BytesIO()
-    np.savez(buffer, **{name: np.asarray(array) for name, array in arrays.items()})
+    named: dict[str, Any] = {name: np.asarray(array) for name, array in arrays.items()}
+    np.savez(buffer, **named)
     write_bytes(path, buffer.getvalue())
 
 
@@ -76,8 +77,8 @@ def write_frame(path: Path, frame: Frame) -> None:
 
 def read_frame(path: Path) -> Frame:
     """Read one frame."""
-    stored = read_arrays(path)
-    return Frame(**{name: a[()].item() if a.ndim == 0 else a for name, a in stored.items()})
+    stored: dict[str, Any] = read_arrays(path)
+    return Frame(**{name: a.item() if a.ndim == 0 else a for name, a in stored.items()})
 
 
 def write_topology(path: Path, topology: Topology) -> None:

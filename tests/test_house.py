@@ -1,0 +1,215 @@
+"""The plan of the house, held by tests: who may import whom, and what stays light."""
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+# A package may import itself, what stands left of it, and the libraries named here.
+PACKAGES = ("integration", "covers", "nmm")
+LIBRARIES = {
+    "integration": {"numpy", "scipy", "shapely", "skfem"},
+    "covers": {"numpy", "scipy", "shapely", "skfem"},
+}
+
+# A room of nmm may import itself and the rooms above it in this list.
+# The order is that of the manual's room list but for two: `assembly` stands above `contact` and
+# `effects` because these work on its model of bodies and unknowns; `results` stands above
+# `stepping` because the step loop hands its frames to a sink, and no file of `results` knows it.
+ROOMS = (
+    "errors",
+    "registry",
+    "formulation",
+    "scene",
+    "geometry",
+    "materials",
+    "interfaces",
+    "assembly",
+    "contact",
+    "effects",
+    "fracture",
+    "solvers",
+    "results",
+    "stepping",
+    "plots",
+    "study",
+    "verification",
+    "shipped",
+    "cli",
+    "testing",
+)
+# The public face `nmm/__init__.py` imports any room, lazily; these rooms may use it.
+MAY_USE_THE_FACE = {"study", "verification", "cli", "testing"}
+# What every file of `effects` may import from its own room.
+SHARED_BY_EFFECTS = {"base"}
+ONLY_PLOTS = {"matplotlib"}
+
+
+class Import(NamedTuple):
+    importer: str  # dotted module name
+    imported: str  # dotted module name, or module.name for `from module import name`
+    place: str  # file:line
+
+
+def module_name(path: Path, root: Path) -> str:
+    parts = path.relative_to(root).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def imports_of(path: Path, root: Path) -> Iterator[Import]:
+    importer = module_name(path, root)
+    package = importer if path.name == "__init__.py" else importer.rpartition(".")[0]
+    for node in ast.walk(ast.parse(path.read_text(), filename=str(path))):
+        place = f"{path.relative_to(root)}:{getattr(node, 'lineno', 0)}"
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield Import(importer, alias.name, place)
+        elif isinstance(node, ast.ImportFrom):
+            base = node.module or ""
+            if node.level:
+                above = package.split(".")[: len(package.split(".")) - node.level + 1]
+                base = ".".join([*above, *filter(None, [base])])
+            for alias in node.names:
+                yield Import(importer, f"{base}.{alias.name}", place)
+
+
+def all_imports(root: Path) -> list[Import]:
+    files = [path for package in PACKAGES for path in sorted((root / package).rglob("*.py"))]
+    return [found for path in files for found in imports_of(path, root)]
+
+
+def room_of(module: str) -> str:
+    return module.split(".")[1] if "." in module else "__init__"
+
+
+def fault_between_packages(found: Import) -> str | None:
+    here, there = found.importer.split(".")[0], found.imported.split(".")[0]
+    if there in PACKAGES:
+        if PACKAGES.index(there) > PACKAGES.index(here):
+            return f"{here} imports {there}: imports point integration <- covers <- nmm"
+        return None
+    allowed = LIBRARIES.get(here)
+    if allowed is None or there in allowed or there in sys.stdlib_module_names:
+        return None
+    return f"{here} imports {there}: it may import {', '.join(sorted(allowed))} only"
+
+
+def fault_between_rooms(found: Import) -> str | None:
+    if not (found.importer.startswith("nmm.") and found.imported.split(".")[0] == "nmm"):
+        return None
+    here, there = room_of(found.importer), room_of(found.imported)
+    if here not in ROOMS:
+        return f"nmm.{here} has no place in ROOMS of {Path(__file__).name}: give it one"
+    if there not in ROOMS:
+        if here in MAY_USE_THE_FACE:
+            return None
+        return f"nmm.{here} imports the public face ({found.imported}): import the room itself"
+    if ROOMS.index(there) > ROOMS.index(here):
+        return f"nmm.{here} imports nmm.{there}: rooms import upwards in ROOMS only"
+    return None
+
+
+def fault_between_effects(found: Import) -> str | None:
+    here, there = found.importer.split("."), found.imported.split(".")
+    if here[:2] != ["nmm", "effects"] or there[:2] != ["nmm", "effects"] or len(here) < 3:
+        return None
+    if len(there) > 2 and there[2] not in SHARED_BY_EFFECTS | {here[2]}:
+        return f"effect {here[2]} imports effect {there[2]}: effects never import one another"
+    return None
+
+
+def fault_of_drawing(found: Import) -> str | None:
+    library = found.imported.split(".")[0]
+    if library in ONLY_PLOTS and not found.importer.startswith("nmm.plots"):
+        return f"{found.importer} imports {library}: only nmm.plots draws"
+    return None
+
+
+RULES = [fault_between_packages, fault_between_rooms, fault_between_effects, fault_of_drawing]
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.__name__)
+def test_imports_point_one_way(rule):
+    faults = [f"{found.place}: {fault}" for found in all_imports(ROOT) if (fault := rule(found))]
+    assert not faults, "\n" + "\n".join(dict.fromkeys(faults))
+
+
+@pytest.mark.parametrize(
+    ("path", "line", "rule"),
+    [
+        ("integration/a.py", "import covers.manifold", fault_between_packages),
+        ("integration/a.py", "import matplotlib.pyplot", fault_between_packages),
+        ("covers/a.py", "def f():\n    from nmm.scene import Scene", fault_between_packages),
+        ("nmm/scene/a.py", "from nmm.contact import search", fault_between_rooms),
+        ("nmm/scene/a.py", "from ..contact import search", fault_between_rooms),
+        ("nmm/results/a.py", "from nmm.stepping.run import Run", fault_between_rooms),
+        ("nmm/stepping/a.py", "from nmm import run", fault_between_rooms),
+        ("nmm/attic/a.py", "from nmm.scene import Scene", fault_between_rooms),
+        ("nmm/effects/gravity.py", "from nmm.effects import inertia", fault_between_effects),
+        ("nmm/effects/gravity.py", "from . import inertia", fault_between_effects),
+        ("nmm/results/a.py", "import matplotlib", fault_of_drawing),
+    ],
+)
+def test_a_wrong_import_is_named_by_file_and_line(tmp_path, path, line, rule):
+    file = tmp_path / path
+    file.parent.mkdir(parents=True)
+    file.write_text("import math\n" + line + "\n")
+    faulty = [found for found in imports_of(file, tmp_path) if rule(found)]
+    assert [found.place for found in faulty] == [f"{path}:{2 + line.count(chr(10))}"]
+
+
+@pytest.mark.parametrize(
+    ("path", "line"),
+    [
+        ("nmm/effects/gravity.py", "from nmm.effects.base import Effect"),
+        ("nmm/effects/gravity.py", "from nmm.materials.base import Law"),
+        ("nmm/cli.py", "from nmm import run"),
+        ("nmm/plots/a.py", "import matplotlib.pyplot as plt"),
+        ("covers/a.py", "from integration.polygons import Polygons"),
+        ("integration/a.py", "from skfem.quadrature import get_quadrature"),
+    ],
+)
+def test_a_right_import_passes(tmp_path, path, line):
+    file = tmp_path / path
+    file.parent.mkdir(parents=True)
+    file.write_text(line + "\n")
+    assert not [
+        rule(found) for found in imports_of(file, tmp_path) for rule in RULES if rule(found)
+    ]
+
+
+HEAVY = ("scipy", "matplotlib", "skfem", "pint", "numba", "shapely", "numpy")
+
+
+def modules_after(code: str) -> set[str]:
+    answer = subprocess.run(
+        [sys.executable, "-c", f"{code}\nimport sys; print(*sys.modules)"],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=ROOT,
+    )
+    return {name.split(".")[0] for name in answer.stdout.split()}
+
+
+def test_help_imports_nothing_heavy():
+    code = (
+        "from typer.testing import CliRunner; from nmm.cli import app\n"
+        "assert CliRunner().invoke(app, ['--help']).exit_code == 0"
+    )
+    assert not modules_after(code) & set(HEAVY)
+
+
+def test_the_public_face_is_lazy():
+    assert not modules_after("import nmm; nmm.__version__") & {*HEAVY, "pydantic", "typer"}
+
+
+def test_every_public_name_is_there():
+    code = "import nmm\nfor name in nmm.__all__: getattr(nmm, name)"
+    modules_after(code)
