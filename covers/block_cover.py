@@ -1,0 +1,58 @@
+"""One patch a block, weight 1: the covers of discontinuous deformation analysis (Shi 1988)."""
+
+import numpy as np
+
+from covers.boundary import ring_edges
+from covers.local_functions import LocalFunctions
+from covers.manifold import Manifold
+from covers.polynomial_groups import PhysicalCovers, Weights, polynomial_group
+from covers.rigid_modes import rigid_modes, stretch_modes
+from integration.arrays import Ints
+from integration.polygons import Polygons, areas, centroids, diameters
+
+
+def block_manifold(polygons: Polygons, regions: Ints, functions: LocalFunctions) -> Manifold:
+    """Build the manifold with one physical cover and one element a block.
+
+    Parameters
+    ----------
+    polygons
+        The blocks, in the place where the local functions are centred on their centroids.
+    regions
+        (N,) input region of each block.
+    functions
+        Local functions of every block: `RigidStrain` gives classical DDA, `Monomials` of degree
+        2 and 3 higher-order DDA (Chen, Ohnishi and Ito 1997), `Rigid` rigid blocks.
+    """
+    polygons = polygons.oriented()
+    n = len(polygons)
+    blocks = np.arange(n, dtype=np.int64)
+    centre, size = centroids(polygons), diameters(polygons)
+    length = np.ones(n) if functions.physical_length else size / 2
+    covers = PhysicalCovers(patch=blocks, body=blocks, centre=centre, length=length)
+    offset = np.arange(n + 1, dtype=np.int64) * functions.n_unknowns
+    group = polynomial_group(
+        blocks,
+        polygons,
+        blocks[:, None],
+        Weights(0, np.ones((n, 1, 1))),
+        functions,
+        covers,
+        offset,
+        origin=centre,
+        scale=size / 2,
+    )
+    return Manifold(
+        elements=polygons,
+        element_body=blocks,
+        element_region=regions,
+        groups=(group,),
+        cover_offset=offset,
+        cover_patch=blocks,
+        cover_body=blocks,
+        boundary=ring_edges(polygons, blocks),
+        rigid_modes=rigid_modes(functions, covers, offset, centre),
+        stretch_modes=stretch_modes(functions, covers, offset, centre),
+        body_centroid=centre,
+        body_area=areas(polygons),
+    )

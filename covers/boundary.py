@@ -1,0 +1,49 @@
+"""Edges of bodies in reference coordinates: where contact, supports and loads act."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from integration.polygons import Polygons
+
+
+@dataclass(frozen=True)
+class BoundaryEdges:
+    """Free or interface edges of bodies, the material on the left hand of start -> end.
+
+    Attributes
+    ----------
+    start, end
+        (n, 2) reference coordinates.
+    element, body
+        (n,) the element whose edge it is and the body it belongs to.
+    next, previous
+        (n,) the edges that follow and precede it along the body's boundary.
+    """
+
+    start: Floats
+    end: Floats
+    element: Ints
+    body: Ints
+    next: Ints
+    previous: Ints
+
+    def __len__(self) -> int:
+        return len(self.element)
+
+
+def ring_edges(polygons: Polygons, body: Ints) -> BoundaryEdges:
+    """Return all edges of all rings as boundary: the case of one element a body."""
+    follower = polygons.next_point
+    previous = np.empty_like(follower)
+    previous[follower] = np.arange(len(follower))
+    element = polygons.polygon_of_point
+    return BoundaryEdges(
+        start=polygons.points,
+        end=polygons.points[follower],
+        element=element,
+        body=body[element],
+        next=follower,
+        previous=previous,
+    )

@@ -1,0 +1,170 @@
+"""Manifold elements whose approximation has the same shape, as rectangular arrays.
+
+On element ``e`` of a group ``u(x) = sum_a d[unknowns[e, a]] T_a(x)`` with
+
+    T(x) = [phi_0 I2, phi_1 I2, ...] @ combination        (2, L),
+
+``phi_s`` scalar functions. Everything mechanics needs are integrals of products of the ``phi_s``
+and of their gradients.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from integration.monomials import count, differentiate, evaluate, exponents
+
+
+@dataclass(frozen=True)
+class ElementGroup(ABC):
+    """Base of element groups.
+
+    Attributes
+    ----------
+    elements
+        (n,) indices into the manifold's elements.
+    unknowns
+        (n, L) global unknowns of each element.
+    combination
+        (2S, L) how unknowns combine the scalar functions; None is the identity, function major
+        and component minor.
+    """
+
+    elements: Ints
+    unknowns: Ints
+    combination: Floats | None
+
+    @abstractmethod
+    def values(self, index: Ints, points: Floats) -> Floats:
+        """``phi_s`` (m, S) at reference points (m, 2) in elements ``index`` (m,) of the group."""
+
+    @abstractmethod
+    def gradients(self, index: Ints, points: Floats) -> Floats:
+        """Gradients of ``phi_s`` (m, S, 2) at reference points."""
+
+    @abstractmethod
+    def products(self) -> Floats:
+        """Integrals of ``phi_s phi_t`` (n, S, S)."""
+
+    @abstractmethod
+    def gradient_products(self) -> Floats:
+        """Integrals (n, 3, S, S) of ``s_x t_x``, ``s_x t_y``, ``s_y t_y``."""
+
+    @abstractmethod
+    def integrals(self) -> Floats:
+        """Integrals of ``phi_s`` (n, S)."""
+
+    @abstractmethod
+    def gradient_integrals(self) -> Floats:
+        """Integrals of the gradient of ``phi_s`` (n, S, 2)."""
+
+    def displacement_rows(self, index: Ints, points: Floats) -> Floats:
+        """``T`` (m, 2, L) at reference points."""
+        return self._combine(self.values(index, points)[:, None, :])[:, 0]
+
+    def gradient_rows(self, index: Ints, points: Floats) -> Floats:
+        """``d T_c / d x_j`` (m, 2 components, 2 directions, L) at reference points."""
+        by_direction = self._combine(np.swapaxes(self.gradients(index, points), 1, 2))
+        return np.swapaxes(by_direction, 1, 2)
+
+    def _combine(self, scalars: Floats) -> Floats:
+        """Turn scalars (m, r, S) into vector rows (m, r, 2, L)."""
+        m, r, n_scalars = scalars.shape
+        if self.combination is None:
+            rows = np.zeros((m, r, 2, 2 * n_scalars))
+            rows[:, :, 0, 0::2] = scalars
+            rows[:, :, 1, 1::2] = scalars
+            return rows
+        by_component = self.combination.reshape(n_scalars, 2, -1)
+        return np.einsum("mrs,scl->mrcl", scalars, by_component, optimize=True)
+
+
+@dataclass(frozen=True)
+class PolynomialGroup(ElementGroup):
+    """Elements on which every ``phi_s`` is a polynomial, integrated from the element's moments.
+
+    Attributes
+    ----------
+    degree
+        Degree of the polynomials.
+    table
+        (n, S, K) coefficients over the monomials of ``(x - origin) / scale``.
+    origin, scale
+        (n, 2) and (n,) the elements' local coordinates.
+    moments
+        (n, count(2 degree)) integrals of the monomials over the elements.
+    """
+
+    degree: int
+    table: Floats
+    origin: Floats
+    scale: Floats
+    moments: Floats
+
+    def values(self, index: Ints, points: Floats) -> Floats:
+        """See `ElementGroup.values`."""
+        return self._evaluate(self.table, self.degree, index, points)
+
+    def gradients(self, index: Ints, points: Floats) -> Floats:
+        """See `ElementGroup.gradients`."""
+        lower = max(self.degree - 1, 0)
+        parts = [self._evaluate(d, lower, index, points) for d in self._derivatives]
+        return np.stack(parts, axis=-1)
+
+    def products(self) -> Floats:
+        """See `ElementGroup.products`."""
+        return self._contract(self.table, self.table, self.degree)
+
+    def gradient_products(self) -> Floats:
+        """See `ElementGroup.gradient_products`."""
+        x, y = self._derivatives
+        lower = max(self.degree - 1, 0)
+        return np.stack([self._contract(a, b, lower) for a, b in ((x, x), (x, y), (y, y))], axis=1)
+
+    def integrals(self) -> Floats:
+        """See `ElementGroup.integrals`."""
+        return self._integrate(self.table)
+
+    def gradient_integrals(self) -> Floats:
+        """See `ElementGroup.gradient_integrals`."""
+        return np.stack([self._integrate(d) for d in self._derivatives], axis=-1)
+
+    @cached_property
+    def _derivatives(self) -> tuple[Floats, Floats]:
+        n, n_scalars, _ = self.table.shape
+        flat = self.table.reshape(n * n_scalars, -1)
+        x, y = (
+            differentiate(flat, self.degree, axis).reshape(n, n_scalars, -1)
+            / self.scale[:, None, None]
+            for axis in (0, 1)
+        )
+        return x, y
+
+    def _evaluate(self, table: Floats, degree: int, index: Ints, points: Floats) -> Floats:
+        xi = (points - self.origin[index]) / self.scale[index, None]
+        return np.einsum("msk,mk->ms", table[index], evaluate(xi, degree))
+
+    def _integrate(self, table: Floats) -> Floats:
+        return np.einsum("nsk,nk->ns", table, self.moments[:, : table.shape[2]])
+
+    def _contract(self, left: Floats, right: Floats, degree: int) -> Floats:
+        gram = self.moments[:, product_index(degree)]
+        return left @ gram @ np.swapaxes(right, 1, 2)
+
+
+def product_index(degree: int) -> Ints:
+    """Index (K, K) of the product of two monomials up to ``degree`` among those up to twice it."""
+    powers = exponents(degree)
+    total = powers[:, None, :] + powers[None, :, :]
+    order = total.sum(axis=2)
+    # Graded order: count(order - 1) monomials come before, then descending powers of x.
+    before = order * (order + 1) // 2
+    return before + total[:, :, 1]
+
+
+def n_monomials(degree: int) -> int:
+    """Number of moments a group of this degree needs."""
+    return count(2 * degree)

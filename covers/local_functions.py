@@ -1,0 +1,135 @@
+"""Local functions of a physical cover: scalar monomials and how unknowns combine them.
+
+On a physical cover with centre ``c`` and length ``s`` the displacement is
+
+    u(x) = sum_s f_s(xi) a_s,   xi = (x - c) / s,   a = C d,
+
+with ``f_s`` all monomials up to ``degree``, ``a_s`` a vector of two components and ``d`` the
+cover's unknowns. ``C`` (`combination`) is the identity for plain polynomials; DDA's block basis is
+a particular ``C`` over the linear monomials (Shi 1988), so that nothing downstream asks which it is.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from integration.arrays import Floats
+from integration.monomials import count
+
+
+@dataclass(frozen=True)
+class LocalFunctions:
+    """Base: complete polynomials of one degree, optionally combined.
+
+    Attributes
+    ----------
+    degree
+        Highest total degree of the monomials, 0 to 3.
+    """
+
+    degree: int
+
+    def __post_init__(self) -> None:
+        if self.degree not in (0, 1, 2, 3):
+            raise ValueError(
+                f"local functions: degree = {self.degree}: expected 0, 1, 2 or 3: choose one of them"
+            )
+
+    @property
+    def n_functions(self) -> int:
+        """Number of scalar functions."""
+        return count(self.degree)
+
+    @property
+    def n_unknowns(self) -> int:
+        """Number of unknowns a cover carries."""
+        return 2 * self.n_functions if self.combination is None else self.combination.shape[1]
+
+    @property
+    def physical_length(self) -> bool:
+        """Whether ``s = 1``: the unknowns have the units of displacement and strain."""
+        return False
+
+    @cached_property
+    def combination(self) -> Floats | None:
+        """The matrix ``C`` (2 n_functions, n_unknowns); None is the identity."""
+        return None
+
+    def linear_field(self, value: Floats, gradient: Floats, length: Floats) -> Floats:
+        """Return the unknowns of ``u = value + gradient (x - c)`` on each cover.
+
+        Parameters
+        ----------
+        value
+            (n, 2) the field at the centres.
+        gradient
+            (n, 2, 2) ``gradient[:, i, j] = d u_i / d x_j``.
+        length
+            (n,) the scale ``s`` of each cover.
+
+        Returns
+        -------
+        (n, n_unknowns); a basis without linear functions takes the centre's value alone.
+        """
+        coefficients = np.zeros((len(value), self.n_functions, 2))
+        coefficients[:, 0] = value
+        if self.degree >= 1:
+            coefficients[:, 1] = gradient[:, :, 0] * length[:, None]
+            coefficients[:, 2] = gradient[:, :, 1] * length[:, None]
+        flat = coefficients.reshape(len(value), -1)
+        if self.combination is None:
+            return flat
+        return flat @ np.linalg.pinv(self.combination).T
+
+
+@dataclass(frozen=True)
+class Monomials(LocalFunctions):
+    """Complete polynomials of degree 0 to 3 in each component."""
+
+
+@dataclass(frozen=True)
+class RigidStrain(LocalFunctions):
+    """DDA's block functions (u0, v0, r0, ex, ey, gxy) about the centre (Shi 1988).
+
+    ``u = u0 - r0 y + ex x + gxy y / 2``, ``v = v0 + r0 x + ey y + gxy x / 2``.
+    """
+
+    degree: int = 1
+
+    @property
+    def physical_length(self) -> bool:
+        """The unknowns are metres, radians and strains."""
+        return True
+
+    @cached_property
+    def combination(self) -> Floats:
+        """The columns u0, v0, r0, ex, ey, gxy over (1, x, y) in two components."""
+        return np.array(
+            [
+                [1, 0, 0, 0, 0, 0],
+                [0, 1, 0, 0, 0, 0],
+                [0, 0, 0, 1, 0, 0],
+                [0, 0, 1, 0, 0, 0.5],
+                [0, 0, -1, 0, 0, 0.5],
+                [0, 0, 0, 0, 1, 0],
+            ],
+            dtype=np.float64,
+        )
+
+
+@dataclass(frozen=True)
+class Rigid(RigidStrain):
+    """Rigid motion alone (u0, v0, r0): the block of a rigid-body-spring model (Kawai 1978)."""
+
+    @cached_property
+    def combination(self) -> Floats:
+        """The first three columns of the block basis."""
+        return RigidStrain().combination[:, :3]
+
+
+FUNCTIONS: dict[str, type[LocalFunctions]] = {
+    "monomials": Monomials,
+    "rigid_strain": RigidStrain,
+    "rigid": Rigid,
+}

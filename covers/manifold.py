@@ -1,0 +1,110 @@
+"""The manifold: elements, physical covers, unknowns, boundary; the one approximation of the project.
+
+Displacement is ``u(x) = sum_i w_i(x) sum_j f_ij(x) d_ij`` over physical covers ``i`` (Shi 1991, 1997).
+DDA, finite elements, manifold and meshless formulations are manifolds made by different covers.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from covers.boundary import BoundaryEdges
+from covers.element_groups import ElementGroup
+from covers.rows import Rows, stack_groups
+from integration.arrays import Floats, Ints
+from integration.polygons import Polygons
+
+
+@dataclass(frozen=True)
+class Manifold:
+    """An approximation on a cut domain, in reference coordinates.
+
+    Attributes
+    ----------
+    elements
+        E polygons: the integration domains.
+    element_body
+        (E,) connected piece of material each element belongs to.
+    element_region
+        (E,) input region each element comes from; its material hangs on it.
+    groups
+        Element groups; together they hold every element once.
+    cover_offset
+        (C + 1,) first unknown of each physical cover.
+    cover_patch, cover_body
+        (C,) mathematical patch and body of each physical cover.
+    boundary
+        Edges of the bodies.
+    rigid_modes
+        (n_unknowns, 3 B) unknowns of unit translations along x and y and of the unit linear
+        rotation about the body's centroid, three columns a body.
+    stretch_modes
+        (n_unknowns, B) unknowns of the field ``X - Xc`` of each body.
+    body_centroid, body_area
+        (B, 2) and (B,).
+    """
+
+    elements: Polygons
+    element_body: Ints
+    element_region: Ints
+    groups: tuple[ElementGroup, ...]
+    cover_offset: Ints
+    cover_patch: Ints
+    cover_body: Ints
+    boundary: BoundaryEdges
+    rigid_modes: csc_array
+    stretch_modes: csc_array
+    body_centroid: Floats
+    body_area: Floats
+
+    @property
+    def n_unknowns(self) -> int:
+        """Number of unknowns."""
+        return int(self.cover_offset[-1])
+
+    @property
+    def n_bodies(self) -> int:
+        """Number of connected pieces of material."""
+        return len(self.body_area)
+
+    @property
+    def n_covers(self) -> int:
+        """Number of physical covers."""
+        return len(self.cover_patch)
+
+    @cached_property
+    def _place(self) -> tuple[Ints, Ints]:
+        group = np.empty(len(self.elements), dtype=np.int64)
+        index = np.empty(len(self.elements), dtype=np.int64)
+        for number, part in enumerate(self.groups):  # a handful of groups
+            group[part.elements] = number
+            index[part.elements] = np.arange(len(part.elements))
+        return group, index
+
+    def rows(self, elements: Ints, points: Floats) -> Rows:
+        """Evaluation rows of the displacement at reference ``points`` (m, 2) in ``elements`` (m,)."""
+        return Rows(*self._stack(elements, points, "displacement_rows"))
+
+    def gradient_rows(self, elements: Ints, points: Floats) -> tuple[Ints, Floats]:
+        """Unknowns (m, L) and rows (m, 2, 2, L) of ``d u_c / d x_j`` at reference points."""
+        return self._stack(elements, points, "gradient_rows")
+
+    def _stack(self, elements: Ints, points: Floats, what: str) -> tuple[Ints, Floats]:
+        group, index = self._place
+        wanted = group[elements]
+        parts = []
+        for number in np.unique(wanted):  # a handful of groups
+            position = np.flatnonzero(wanted == number)
+            inside = index[elements[position]]
+            part = self.groups[number]
+            parts.append(
+                (position, part.unknowns[inside], getattr(part, what)(inside, points[position]))
+            )
+        return stack_groups(parts, len(elements))
+
+    @cached_property
+    def vertex_rows(self) -> Rows:
+        """Evaluation rows of the elements' vertices (``elements.points``)."""
+        return self.rows(self.elements.polygon_of_point, self.elements.points)

@@ -1,0 +1,75 @@
+"""Evaluation rows: displacement at points as a linear function of the unknowns.
+
+Contact, supports, point loads and monitors know points, not covers: a row is all they need.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Floats, Ints
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows ``u(point) = sum_a values[:, :, a] d[unknowns[:, a]]``, zero padded.
+
+    Attributes
+    ----------
+    unknowns
+        (m, L) global unknowns.
+    values
+        (m, 2, L) the rows of both components.
+    """
+
+    unknowns: Ints
+    values: Floats
+
+    def __len__(self) -> int:
+        return len(self.unknowns)
+
+    def apply(self, unknowns: Floats) -> Floats:
+        """Displacement (m, 2) at the points for a vector of all unknowns."""
+        return np.einsum("mcl,ml->mc", self.values, unknowns[self.unknowns])
+
+    def along(self, directions: Floats) -> Floats:
+        """Rows (m, L) of the displacement along one direction (m, 2) a point."""
+        return np.einsum("mcl,mc->ml", self.values, directions)
+
+    def take(self, index: Ints) -> "Rows":
+        """Return the rows of some points."""
+        return Rows(self.unknowns[index], self.values[index])
+
+    def matrix(self, n_unknowns: int) -> csr_array:
+        """Return the sparse matrix (2m, n_unknowns), component minor."""
+        m, _, length = self.values.shape
+        columns = np.repeat(self.unknowns[:, None, :], 2, axis=1)
+        offsets = np.arange(2 * m + 1) * length
+        return csr_array(
+            (self.values.ravel(), columns.ravel(), offsets), shape=(2 * m, n_unknowns)
+        )
+
+
+def stack_groups(parts: list[tuple[Ints, Ints, Floats]], n_points: int) -> tuple[Ints, Floats]:
+    """Join rows of several element groups, padded to the longest.
+
+    Parameters
+    ----------
+    parts
+        For each group: positions (k,) among the points, unknowns (k, L), values (k, ..., L).
+    n_points
+        Number of points.
+
+    Returns
+    -------
+    unknowns (n_points, L_max), values (n_points, ..., L_max)
+    """
+    length = max((unknowns.shape[1] for _, unknowns, _ in parts), default=0)
+    inner = parts[0][2].shape[1:-1] if parts else (2,)
+    all_unknowns = np.zeros((n_points, length), dtype=np.int64)
+    all_values = np.zeros((n_points, *inner, length))
+    for position, unknowns, values in parts:  # a handful of groups, not elements
+        all_unknowns[position, : unknowns.shape[1]] = unknowns
+        all_values[position, ..., : values.shape[-1]] = values
+    return all_unknowns, all_values

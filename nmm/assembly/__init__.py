@@ -1,0 +1,1 @@
+"""From manifold elements to sparse matrices and force vectors."""

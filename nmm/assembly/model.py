@@ -1,0 +1,117 @@
+"""A manifold with materials: the matrices and loads of the solid, in body frames."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+
+from covers.element_groups import ElementGroup
+from covers.manifold import Manifold
+from integration.arrays import Floats
+from integration.polygons import areas
+from nmm.assembly import element_matrices
+
+
+@dataclass(frozen=True)
+class Model:
+    """What is approximated and of what it is made.
+
+    Attributes
+    ----------
+    manifold
+        Elements, covers, unknowns.
+    elasticity
+        (E, 3, 3) stress from strain of each element (Pa).
+    density
+        (E,) kg/m3; zeros where a scene calls for no mass.
+    modulus
+        (E,) Young's modulus (Pa), the unit of penalties.
+    thickness
+        Out-of-plane thickness (m).
+    """
+
+    manifold: Manifold
+    elasticity: Floats
+    density: Floats
+    modulus: Floats
+    thickness: float
+
+    @cached_property
+    def stiffness(self) -> csc_array:
+        """Elastic stiffness (n_unknowns, n_unknowns)."""
+        return self._matrix(
+            lambda g: element_matrices.stiffness(g, self.thickness * self.elasticity[g.elements])
+        )
+
+    @cached_property
+    def mass(self) -> csc_array:
+        """Consistent mass."""
+        return self._matrix(
+            lambda g: element_matrices.mass(g, self.thickness * self.density[g.elements])
+        )
+
+    @cached_property
+    def rigid_projection(self) -> csr_array:
+        """Rows (3 B, n_unknowns): mean translation x, y and mean rotation of each body.
+
+        The mean is the area-weighted least-squares fit of a rigid motion about the centroid.
+        """
+        modes = self.manifold.rigid_modes
+        unit = self._matrix(lambda g: element_matrices.mass(g, np.ones(len(g.elements))))
+        weighted = (unit @ modes).T.tocsr()
+        norm = (weighted @ modes).diagonal()
+        return csr_array(diags_array(1 / norm) @ weighted)
+
+    def body_load(self, load: Floats) -> Floats:
+        """Force vector of a load density (E, 2) in N/m3, in body axes."""
+        return self._vector(
+            lambda g: element_matrices.body_load(g, self.thickness * load[g.elements])
+        )
+
+    def stress_load(self, stress: Floats) -> Floats:
+        """Internal force of a stress (E, 3) in Pa, in body axes."""
+        return self._vector(
+            lambda g: element_matrices.stress_load(g, self.thickness * stress[g.elements])
+        )
+
+    def mean_stress(self, deformation: Floats) -> Floats:
+        """Mean elastic stress (E, 3) in body axes of the unknowns ``deformation``."""
+        return np.einsum("eij,ej->ei", self.elasticity, self.mean_strain(deformation))
+
+    def mean_strain(self, deformation: Floats) -> Floats:
+        """Mean strain (E, 3) of the unknowns ``deformation``."""
+        strain = np.empty((len(self.density), 3))
+        for group, rows in zip(self.manifold.groups, self._strain_rows, strict=True):
+            local = deformation[group.unknowns]
+            strain[group.elements] = np.einsum("nil,nl->ni", rows, local)
+        return strain / self.element_area[:, None]
+
+    @cached_property
+    def element_area(self) -> Floats:
+        """(E,) areas of the elements in the reference place (m2)."""
+        return areas(self.manifold.elements)
+
+    @cached_property
+    def _strain_rows(self) -> list[Floats]:
+        return [element_matrices.mean_strain_rows(group) for group in self.manifold.groups]
+
+    def _matrix(self, element: Callable[[ElementGroup], Floats]) -> csc_array:
+        n = self.manifold.n_unknowns
+        total = csc_array((n, n))
+        for group in self.manifold.groups:  # a handful of groups
+            values = element(group)
+            rows = np.repeat(group.unknowns[:, :, None], values.shape[2], axis=2)
+            columns = np.repeat(group.unknowns[:, None, :], values.shape[1], axis=1)
+            part = csc_array((values.ravel(), (rows.ravel(), columns.ravel())), shape=(n, n))
+            total = total + part
+        return total
+
+    def _vector(self, element: Callable[[ElementGroup], Floats]) -> Floats:
+        total = np.zeros(self.manifold.n_unknowns)
+        for group in self.manifold.groups:  # a handful of groups
+            total += np.bincount(
+                group.unknowns.ravel(), element(group).ravel(), minlength=len(total)
+            )
+        return total

@@ -1,0 +1,155 @@
+"""Where material is now: a frame a body, and a small deformation carried in it.
+
+A point ``X`` of body ``b`` stands at ``x = c_b + R(theta_b) (X - Xc_b + T(X) q)``. Step unknowns are
+increments in the body's axes, ``delta x = R(theta_b) T(X) d``: the covers are carried with the
+material, so that stiffness and mass are assembled once and a turned body keeps its size and its
+stress (MacLaughlin and Sitar 1996 name the growth of the linear update that this avoids).
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from covers.manifold import Manifold
+from covers.rows import Rows
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+
+
+@dataclass(frozen=True)
+class Frames:
+    """Place of the bodies.
+
+    Attributes
+    ----------
+    centre
+        (B, 2) where the bodies' centroids are now (m).
+    angle
+        (B,) how far the bodies have turned, counter-clockwise (rad).
+    """
+
+    centre: Floats
+    angle: Floats
+
+    @cached_property
+    def rotation(self) -> Floats:
+        """(B, 2, 2) from body axes to global axes."""
+        return rotation_matrices(self.angle)
+
+    def to_global(self, body: Ints, vectors: Floats) -> Floats:
+        """Turn vectors (m, 2) from body axes to global axes."""
+        return np.einsum("mij,mj->mi", self.rotation[body], vectors)
+
+    def to_body(self, body: Ints, vectors: Floats) -> Floats:
+        """Turn vectors (m, 2) from global axes to body axes."""
+        return np.einsum("mji,mj->mi", self.rotation[body], vectors)
+
+
+@dataclass(frozen=True)
+class State:
+    """What the step loop carries from step to step.
+
+    Attributes
+    ----------
+    time, load_factor
+        s; factor on the scaled loads.
+    frames
+        Place of the bodies.
+    deformation
+        (n,) unknowns of the deformation in body axes, without rigid part.
+    velocity, acceleration
+        (n,) rates of the unknowns in body axes.
+    """
+
+    time: float
+    load_factor: float
+    frames: Frames
+    deformation: Floats
+    velocity: Floats
+    acceleration: Floats
+
+
+def rotation_matrices(angle: Floats) -> Floats:
+    """Return the matrices (..., 2, 2) that turn by ``angle`` (...,) counter-clockwise."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.stack([np.stack([c, -s], -1), np.stack([s, c], -1)], -2)
+
+
+def initial_state(manifold: Manifold) -> State:
+    """Return the state of rest in the reference place."""
+    n = manifold.n_unknowns
+    frames = Frames(manifold.body_centroid, np.zeros(manifold.n_bodies))
+    return State(0.0, 0.0, frames, np.zeros(n), np.zeros(n), np.zeros(n))
+
+
+@dataclass(frozen=True)
+class MaterialPoints:
+    """Points that move with the material.
+
+    Attributes
+    ----------
+    body
+        (m,) the body each belongs to.
+    arm
+        (m, 2) reference place from the body's centroid.
+    rows
+        Evaluation rows in body axes.
+    """
+
+    body: Ints
+    arm: Floats
+    rows: Rows
+
+    def place(self, frames: Frames, deformation: Floats) -> Floats:
+        """Return the current place (m, 2)."""
+        local = self.arm + self.rows.apply(deformation)
+        return frames.centre[self.body] + frames.to_global(self.body, local)
+
+    def along(self, frames: Frames, directions: Floats) -> Floats:
+        """Rows (m, L) of the motion along global directions (m, 2)."""
+        return self.rows.along(frames.to_body(self.body, directions))
+
+    def take(self, index: Ints) -> "MaterialPoints":
+        """Return some of the points."""
+        return MaterialPoints(self.body[index], self.arm[index], self.rows.take(index))
+
+
+def material_points(manifold: Manifold, elements: Ints, points: Floats) -> MaterialPoints:
+    """Return reference points (m, 2) in elements (m,) as points that can be followed."""
+    body = manifold.element_body[elements]
+    return MaterialPoints(body, points - manifold.body_centroid[body], manifold.rows(elements, points))
+
+
+def move(model: Model, state: State, increment: Floats) -> State:
+    """Return the state after the step unknowns ``increment``: rigid part exact, rest carried.
+
+    The mean translation moves the frames, the mean rotation turns them exactly, and what remains is
+    added to the deformation (for a block ``x' = c + u0 + R(r0)(I + eps)(x - c)``). Of the velocity
+    only the mean translation keeps its global direction; the rest turns with the material.
+    """
+    modes = model.manifold.rigid_modes
+    rigid = (model.rigid_projection @ increment).reshape(-1, 3)
+    frames = state.frames
+    bodies = np.arange(len(rigid))
+    moved = Frames(
+        frames.centre + frames.to_global(bodies, rigid[:, :2]), frames.angle + rigid[:, 2]
+    )
+    return replace(
+        state,
+        frames=moved,
+        deformation=state.deformation + increment - modes @ rigid.ravel(),
+        velocity=_turn_translation(model, state.velocity, rigid[:, 2]),
+        acceleration=_turn_translation(model, state.acceleration, rigid[:, 2]),
+    )
+
+
+def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
+    """Keep the mean translation of a rate fixed in space while the body's axes turn."""
+    if not rate.any():
+        return rate
+    mean = (model.rigid_projection @ rate).reshape(-1, 3)
+    turned = np.einsum("bji,bj->bi", rotation_matrices(turn), mean[:, :2])
+    change = np.zeros_like(mean)
+    change[:, :2] = turned - mean[:, :2]
+    return rate + model.manifold.rigid_modes @ change.ravel()

@@ -1,0 +1,98 @@
+"""From the places a scene names (a point, a segment, a block) to points of the material."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from covers.manifold import Manifold
+from integration.arrays import Bools, Floats, Ints
+from integration.segments import segment_rule
+from nmm.assembly.motion import MaterialPoints, material_points
+
+# A place is found when it is this close, in sizes of the whole domain: 1e-9 is far above the
+# rounding of coordinates read from text and far below any block.
+NEAR = 1e-9
+
+
+@dataclass(frozen=True)
+class Place:
+    """Points of the material with the share each has.
+
+    Attributes
+    ----------
+    points
+        m points that move with the material.
+    elements
+        (m,) the elements they lie in.
+    weight
+        (m,) 1 / number of points for a point; length (m) for a segment.
+    """
+
+    points: MaterialPoints
+    elements: Ints
+    weight: Floats
+
+    def __len__(self) -> int:
+        return len(self.weight)
+
+
+def at_point(manifold: Manifold, point: Floats, regions: Bools | None = None) -> Place:
+    """Return the material at a point: one element for each body that touches it, in equal shares.
+
+    Parameters
+    ----------
+    regions
+        (N,) which input regions count; None is all.
+    """
+    polygons = manifold.elements.to_shapely()
+    near = NEAR * _size(manifold)
+    found = np.flatnonzero(shapely.dwithin(polygons, shapely.points(point), near))
+    if regions is not None:
+        found = found[regions[manifold.element_region[found]]]
+    _, first = np.unique(manifold.element_body[found], return_index=True)
+    elements = found[first]
+    points = np.tile(point, (len(elements), 1))
+    weight = np.full(len(elements), 1 / max(len(elements), 1))
+    return Place(material_points(manifold, elements, points), elements, weight)
+
+
+def on_segment(
+    manifold: Manifold, segment: Floats, regions: Bools | None = None, order: int = 4
+) -> Place:
+    """Return Gauss points on the parts of the bodies' edges that lie on a segment (2, 2).
+
+    ``order`` is the degree of the polynomials that the points integrate exactly.
+    """
+    edges = manifold.boundary
+    a, b = segment
+    length = float(np.hypot(*(b - a)))
+    t = (b - a) / length
+    n = np.array([-t[1], t[0]])
+    near = NEAR * _size(manifold)
+    on_line = (np.abs((edges.start - a) @ n) < near) & (np.abs((edges.end - a) @ n) < near)
+    ends = np.sort(np.stack([(edges.start - a) @ t, (edges.end - a) @ t], axis=1), axis=1)
+    low, high = np.maximum(ends[:, 0], 0), np.minimum(ends[:, 1], length)
+    touching = on_line & (high - low > near)
+    if regions is not None:
+        touching &= regions[manifold.element_region[edges.element]]
+    index = np.flatnonzero(touching)
+    start, end = a + low[index, None] * t, a + high[index, None] * t
+    points, weight = segment_rule(start, end, order)
+    elements = np.repeat(edges.element[index], weight.shape[1])
+    flat = points.reshape(-1, 2)
+    return Place(material_points(manifold, elements, flat), elements, weight.ravel())
+
+
+def on_block(manifold: Manifold, regions: Bools, order: int = 4) -> Place:
+    """Return Gauss points on all boundary edges of the chosen regions."""
+    edges = manifold.boundary
+    index = np.flatnonzero(regions[manifold.element_region[edges.element]])
+    points, weight = segment_rule(edges.start[index], edges.end[index], order)
+    elements = np.repeat(edges.element[index], weight.shape[1])
+    flat = points.reshape(-1, 2)
+    return Place(material_points(manifold, elements, flat), elements, weight.ravel())
+
+
+def _size(manifold: Manifold) -> float:
+    return float(np.hypot(*np.ptp(manifold.elements.points, axis=0)))

@@ -1,0 +1,88 @@
+"""Contact points of a step: where they are, what gap and slip they have, which rows move them."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.motion import Frames
+from nmm.contact.sides import Sides, tangents
+
+
+@dataclass(frozen=True)
+class ContactPoints:
+    """Contact points, one row each; side b's edge gives the normal, from b to a.
+
+    Attributes
+    ----------
+    edge_a, parameter_a, edge_b, parameter_b
+        The two sides.
+    normal
+        (m, 2) at the start of the step.
+    gap
+        (m,) normal distance (m), positive open.
+    slip
+        (m,) stretch of the shear spring at the start of the step (m).
+    length
+        (m,) tributary length (m); zero where a contact is a mere vertex.
+    interface
+        (m,) index among the scene's interfaces.
+    key
+        (m,) identity over steps; joints count -1, -2, ... and the others are not negative.
+    damage
+        (m,) of the bond: 0 intact, 1 broken or never bonded.
+    state, normal_force, shear_force
+        (m,) what the last step left, the warm start of this one.
+    """
+
+    edge_a: Ints
+    parameter_a: Floats
+    edge_b: Ints
+    parameter_b: Floats
+    normal: Floats
+    gap: Floats
+    slip: Floats
+    length: Floats
+    interface: Ints
+    key: Ints
+    damage: Floats
+    state: Ints
+    normal_force: Floats
+    shear_force: Floats
+
+    def __len__(self) -> int:
+        return len(self.gap)
+
+    def take(self, index: Ints | Bools) -> "ContactPoints":
+        """Return some of the contacts."""
+        return ContactPoints(*(getattr(self, part.name)[index] for part in fields(self)))
+
+    @property
+    def is_joint(self) -> Bools:
+        """Which contacts are points of joints."""
+        return self.key < 0
+
+
+def concatenate(parts: list[ContactPoints]) -> ContactPoints:
+    """Join contact points."""
+    return ContactPoints(
+        *(np.concatenate([getattr(p, part.name) for p in parts]) for part in fields(ContactPoints))
+    )
+
+
+def rows(
+    contacts: ContactPoints, sides: Sides, frames: Frames, n_unknowns: int
+) -> tuple[csr_array, csr_array]:
+    """Return the normal and tangent rows (m, n_unknowns): ``gap += N d``, ``slip += T d``."""
+    a = sides.at(contacts.edge_a, contacts.parameter_a)
+    b = sides.at(contacts.edge_b, contacts.parameter_b)
+    columns = np.concatenate([a.rows.unknowns, b.rows.unknowns], axis=1)
+    offsets = np.arange(len(contacts) + 1) * columns.shape[1]
+
+    def along(direction: Floats) -> csr_array:
+        values = np.concatenate([a.along(frames, direction), -b.along(frames, direction)], axis=1)
+        shape = (len(contacts), n_unknowns)
+        return csr_array((values.ravel(), columns.ravel(), offsets), shape=shape)
+
+    return along(contacts.normal), along(tangents(contacts.normal))

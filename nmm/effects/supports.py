@@ -1,0 +1,104 @@
+"""Supports: points, edges or blocks held, or driven along a given displacement, by stiff springs.
+
+The spring is Shi's fixed point (1988): ``p`` times the distance from where the point should be, in
+the held directions alone. Its force is read from the whole distance, so nothing drifts over steps.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+
+from integration.arrays import Bools, Floats
+from nmm.assembly.motion import State
+from nmm.assembly.places import Place
+from nmm.effects.base import Effect, Instant
+
+# (x, y) in which a support may hold a point.
+AXES = np.eye(2)
+
+
+@dataclass(frozen=True)
+class Support:
+    """One support.
+
+    Attributes
+    ----------
+    name
+        As the scene calls it.
+    place
+        The points held.
+    stiffness
+        (m,) of the spring at each point (N/m).
+    held
+        (2,) whether x and y are held.
+    displacement
+        From the instant to the prescribed displacement (2,) in m.
+    """
+
+    name: str
+    place: Place
+    stiffness: Floats
+    held: Bools
+    displacement: Callable[[Instant], Floats]
+
+
+class Supports(Effect):
+    """All supports of a scene."""
+
+    name = "supports"
+
+    def __init__(self, supports: list[Support], n_unknowns: int, state: State) -> None:
+        self._supports = supports
+        self._n = n_unknowns
+        self._anchors = [
+            support.place.points.place(state.frames, state.deformation) for support in supports
+        ]
+
+    def matrix(self, state: State) -> csc_array:
+        """Return the springs' stiffness."""
+        total = csc_array((self._n, self._n))
+        for support in self._supports:  # a handful of supports
+            for axis in np.flatnonzero(support.held):
+                rows = self._rows(support, state, axis)
+                total = total + rows.T @ diags_array(support.stiffness) @ rows
+        return csc_array(total)
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the springs' pull at the start of the step towards the places at its end."""
+        total = np.zeros(self._n)
+        for number, support in enumerate(self._supports):
+            pull = support.stiffness[:, None] * self._lag(number, state, end)
+            for axis in np.flatnonzero(support.held):
+                total += self._rows(support, state, axis).T @ pull[:, axis]
+        return total
+
+    def energy(self, state: State) -> float:
+        """Energy of the springs as they stand in ``state``, with places of its own instant."""
+        now = Instant(state.time, state.load_factor)
+        return 0.5 * sum(
+            float(np.sum(s.stiffness[:, None] * s.held * self._lag(i, state, now) ** 2))
+            for i, s in enumerate(self._supports)
+        )
+
+    def reactions(self, state: State) -> dict[str, Floats]:
+        """Return the force (2,) in N that each support exerts on the bodies."""
+        now = Instant(state.time, state.load_factor)
+        return {
+            s.name: np.sum(s.stiffness[:, None] * s.held * self._lag(i, state, now), axis=0)
+            for i, s in enumerate(self._supports)
+        }
+
+    def _lag(self, number: int, state: State, end: Instant) -> Floats:
+        support = self._supports[number]
+        place = support.place.points.place(state.frames, state.deformation)
+        return self._anchors[number] + support.displacement(end) - place
+
+    def _rows(self, support: Support, state: State, axis: int) -> csr_array:
+        points = support.place.points
+        directions = np.tile(AXES[axis], (len(support.place), 1))
+        values = points.along(state.frames, directions)
+        offsets = np.arange(len(values) + 1) * values.shape[1]
+        shape = (len(values), self._n)
+        return csr_array((values.ravel(), points.rows.unknowns.ravel(), offsets), shape=shape)

@@ -1,0 +1,1 @@
+"""Stress-strain laws of the solid."""

@@ -1,0 +1,23 @@
+"""What a material law is to the rest of the program."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+from integration.arrays import Floats
+
+
+@dataclass(frozen=True)
+class Law(ABC):
+    """Base of stress-strain laws; a frozen set of parameters in SI units."""
+
+    @abstractmethod
+    def stiffness(self, plane: str) -> Floats:
+        """Return the matrix (3, 3) from strain (xx, yy, 2 xy) to stress (xx, yy, xy), Pa.
+
+        ``plane`` is "stress" or "strain".
+        """
+
+    @property
+    @abstractmethod
+    def modulus(self) -> float:
+        """Young's modulus (Pa): the unit in which penalties are given."""

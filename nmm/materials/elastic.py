@@ -1,0 +1,36 @@
+"""Isotropic linear elasticity in plane stress and plane strain."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.materials.base import Law
+
+
+@dataclass(frozen=True)
+class Elastic(Law):
+    """Hooke's law.
+
+    Attributes
+    ----------
+    young_modulus
+        Pa.
+    poisson_ratio
+        Between -1 and 0.5.
+    """
+
+    young_modulus: float
+    poisson_ratio: float
+
+    def stiffness(self, plane: str) -> Floats:
+        """Return the plane stiffness; plane strain is plane stress with E/(1-nu^2), nu/(1-nu)."""
+        e, nu = self.young_modulus, self.poisson_ratio
+        if plane == "strain":
+            e, nu = e / (1 - nu**2), nu / (1 - nu)
+        return e / (1 - nu**2) * np.array([[1, nu, 0], [nu, 1, 0], [0, 0, (1 - nu) / 2]])
+
+    @property
+    def modulus(self) -> float:
+        """Young's modulus (Pa)."""
+        return self.young_modulus

@@ -1,0 +1,1 @@
+"""Integrators, load control, the step loop and its verdicts."""
