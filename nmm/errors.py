@@ -1,0 +1,62 @@
+"""Errors of `nmm`: one line a fault, naming where, the value, what was expected and what to do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing that is wrong, in the order in which a user reads it.
+
+    Attributes
+    ----------
+    place
+        Where: file, line and key path as far as they are known.
+    value
+        What was found there.
+    expected
+        What would have been accepted.
+    remedy
+        What to do.
+    """
+
+    place: str
+    value: str
+    expected: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.value}: expected {self.expected}: {self.remedy}"
+
+
+class NmmError(ValueError):
+    """Base of all errors raised on purpose; `faults` holds every fault found, one line each.
+
+    Parameters
+    ----------
+    *faults
+        `Fault` objects or ready lines. The message is one line a fault.
+    """
+
+    faults: tuple[Fault | str, ...]
+
+    def __init__(self, *faults: Fault | str) -> None:
+        self.faults = faults
+        super().__init__("\n".join(str(fault) for fault in faults))
+
+
+class SceneError(NmmError):
+    """The scene cannot be read or contradicts itself."""
+
+
+class GeometryError(NmmError):
+    """The blocks of a scene, or the places of its supports and loads, are not usable."""
+
+
+class FormulationError(NmmError):
+    """The formulation cannot be read, or one of its parts does not exist or refuses its options."""
+
+
+class SolveError(NmmError):
+    """A step was not solved: the line names step, contact, residual and remedy."""

@@ -1,0 +1,123 @@
+"""The formulation: how a scene is approximated; no physics here."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import Field
+
+from nmm.errors import FormulationError
+from nmm.scene.document import parse, read_text
+from nmm.scene.fields import Frozen, Length, Number, PartName, Time
+
+_PART = 'a registered name or "module:Name"'
+
+
+class _Part(Frozen):
+    """A part that can be exchanged; `options` is checked by the part itself."""
+
+    options: dict[str, Any] = Field(default={}, description="a table of options of the part")
+
+
+class Cover(_Part):
+    """Physical covers and their local functions: block = DDA, meshes = manifold."""
+
+    type: PartName = Field(default="block", description=_PART, examples=["triangles"])
+    functions: PartName = Field(default="rigid_strain", description=_PART, examples=["monomials"])
+    degree: int | None = Field(
+        default=None, ge=0, description="a degree, an integer >= 0", examples=[1]
+    )
+    size: Length | None = Field(
+        default=None, gt=0, description="a cover size in m, > 0", examples=[0.1]
+    )
+
+
+class ContactMethod(_Part):
+    """Enforcement of contact and joint conditions."""
+
+    enforcement: PartName = Field(default="penalty", description=_PART, examples=["penalty"])
+    normal_penalty: Number = Field(
+        default=100.0, gt=0, description="a multiple of E x thickness, > 0", examples=[100.0]
+    )
+    shear_ratio: Number = Field(
+        default=1.0, gt=0, description="shear over normal penalty, > 0", examples=[1.0]
+    )
+    max_passes: int = Field(default=20, gt=0, description="a number of passes, > 0", examples=[20])
+    joint_points: Literal["corners", "gauss"] = Field(
+        default="corners", description='"corners" or "gauss"', examples=["corners"]
+    )
+
+
+class Integrator(_Part):
+    """Time integration of dynamic scenes."""
+
+    type: PartName = Field(default="shi", description=_PART, examples=["newmark"])
+    step: Time = Field(default=1e-3, gt=0, description="a step in s, > 0", examples=["1 ms"])
+    kinetic_factor: Number = Field(
+        default=1.0, ge=0, le=1, description="a kept fraction of velocity in [0, 1]", examples=[1.0]
+    )
+
+
+class Rotation(Frozen):
+    """How a step's rotation moves a block: exact, or linear as in classical DDA."""
+
+    update: Literal["exact", "linear"] = Field(
+        default="exact", description='"exact" or "linear"', examples=["exact"]
+    )
+
+
+class LoadSteps(Frozen):
+    """Load increments of static scenes."""
+
+    increment: Number = Field(default=0.1, gt=0, description="a load factor > 0", examples=[0.1])
+    tolerance: Number = Field(
+        default=0.005, gt=0, lt=1, description="a relative tolerance in (0, 1)", examples=[0.005]
+    )
+
+
+class Solver(_Part):
+    """Linear solver."""
+
+    type: PartName = Field(default="auto", description=_PART, examples=["auto"])
+
+
+class Formulation(Frozen):
+    """Cover, contact enforcement, integrator, rotation, load steps and linear solver."""
+
+    title: str = Field(default="", description="a title", examples=["DDA"])
+    cover: Cover = Field(default=Cover(), description="a table [cover]")
+    contact: ContactMethod = Field(default=ContactMethod(), description="a table [contact]")
+    integrator: Integrator = Field(default=Integrator(), description="a table [integrator]")
+    rotation: Rotation = Field(default=Rotation(), description="a table [rotation]")
+    loading: LoadSteps = Field(default=LoadSteps(), description="a table [loading]")
+    solver: Solver = Field(default=Solver(), description="a table [solver]")
+
+
+def read_formulation(path: str | Path) -> Formulation:
+    """Formulation of a TOML file.
+
+    Raises
+    ------
+    FormulationError
+        All faults of the file, one line each.
+    """
+    return parse_formulation(read_text(path, FormulationError), str(path))
+
+
+def parse_formulation(text: str, place: str = "formulation") -> Formulation:
+    """Formulation of a TOML text; `place` names it in errors."""
+    return parse(text, Formulation, place, FormulationError)[0]
+
+
+def canonical_text(formulation: Formulation) -> str:
+    """The formulation in one form, whatever its file's order, units and comments."""
+    content = formulation.model_dump(mode="json", exclude_none=True)
+    return json.dumps(content, sort_keys=True, separators=(",", ":"))
+
+
+def formulation_hash(formulation: Formulation) -> str:
+    """SHA-256 of the canonical text, hexadecimal."""
+    return hashlib.sha256(canonical_text(formulation).encode()).hexdigest()

@@ -1,0 +1,198 @@
+"""What happens to the blocks: supports, loads, effects, initial state, what is watched."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field, field_validator, model_validator
+
+from nmm.scene.fields import (
+    Acceleration,
+    AngularVelocity,
+    AnyQuantity,
+    BlockName,
+    Force,
+    ForceDensity,
+    Frozen,
+    History,
+    Length,
+    Name,
+    Number,
+    Point,
+    Segment,
+    Stress,
+    Velocity,
+    fault,
+)
+
+_HISTORY = "pairs [t, factor] with t increasing"
+
+
+class _Placed(Frozen):
+    """Something that acts at a place: a point, a segment, a block, or a part of a block."""
+
+    name: Name = Field(description='a name without "." and ":"', examples=["left"])
+    point: Point | None = Field(default=None, description="a point [x, y] in m", examples=[[0, 0]])
+    segment: Segment | None = Field(
+        default=None, description="two points [[x, y], [x, y]] in m", examples=[[[0, 0], [1, 0]]]
+    )
+    block: BlockName | None = Field(
+        default=None, description="the name of a block", examples=["base"]
+    )
+    history: History | None = Field(default=None, description=_HISTORY, examples=[[[0, 0], [1, 1]]])
+
+    @field_validator("history")
+    @classmethod
+    def _increasing(cls, value: History | None) -> History | None:
+        if value is not None and (not value or any(a[0] >= b[0] for a, b in pairwise(value))):
+            remedy = "sort the pairs and remove equal times"
+            raise fault(value, _HISTORY, remedy)
+        return value
+
+
+class Support(_Placed):
+    """Displacement components that are prescribed at a place."""
+
+    fix: Annotated[tuple[Literal["x", "y"], ...], Field(min_length=1)] = Field(
+        description='a list of "x" and "y"', examples=[["x", "y"]]
+    )
+    displacement: tuple[Length, Length] = Field(
+        default=(0.0, 0.0), description="a displacement [ux, uy] in m", examples=[[0, 0]]
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Support:
+        given = _given(self, "point", "segment", "block")
+        if not given or {"point", "segment"} <= set(given):
+            remedy = "give point, segment or block; block may also narrow point or segment"
+            raise fault(", ".join(given) or "no place", "one place", remedy)
+        for axis, value in zip("xy", self.displacement, strict=True):
+            if value != 0 and axis not in self.fix:
+                remedy = f'add "{axis}" to fix'
+                raise fault(f"displacement in {axis}", f"{axis} in fix", remedy)
+        return self
+
+
+# kind -> (key of its magnitude, keys that may give its place)
+_LOADS = {
+    "point": ("force", ("point",)),
+    "edge": ("traction", ("segment",)),
+    "body": ("density", ()),
+}
+
+
+class Load(_Placed):
+    """A force at a point, a traction on a segment of the boundary, or a force on volume."""
+
+    kind: Literal["point", "edge", "body"] = Field(
+        description='"point", "edge" or "body"', examples=["edge"]
+    )
+    force: tuple[Force, Force] | None = Field(
+        default=None, description="a force [fx, fy] in N", examples=[[0, "-10 kN"]]
+    )
+    traction: tuple[Stress, Stress] | None = Field(
+        default=None, description="a traction [tx, ty] in Pa", examples=[[0, "-1 MPa"]]
+    )
+    density: tuple[ForceDensity, ForceDensity] | None = Field(
+        default=None, description="a force on volume [bx, by] in N/m3", examples=[[0, "-25 kN/m^3"]]
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Load:
+        key, places = _LOADS[self.kind]
+        if _given(self, "force", "traction", "density") != [key]:
+            found = ", ".join(_given(self, "force", "traction", "density")) or "no magnitude"
+            raise fault(found, f"{key}, as kind is {self.kind}", f"give {key} and nothing else")
+        if tuple(_given(self, "point", "segment")) != places:
+            wanted = places[0] if places else "block or no place"
+            found = ", ".join(_given(self, "point", "segment")) or "no place"
+            raise fault(found, f"{wanted}, as kind is {self.kind}", f"give {wanted}")
+        return self
+
+
+def _given(item: Frozen, *keys: str) -> list[str]:
+    return [key for key in keys if getattr(item, key) is not None]
+
+
+class Gravity(Frozen):
+    """Weight; needs densities."""
+
+    acceleration: tuple[Acceleration, Acceleration] = Field(
+        default=(0.0, -9.81), description="an acceleration [ax, ay] in m/s2", examples=[[0, -9.81]]
+    )
+
+
+class Inertia(Frozen):
+    """Mass; makes the run dynamic, needs densities and a duration."""
+
+
+class Contact(Frozen):
+    """Bodies touch; needs an interface."""
+
+
+def _scaled(value: object) -> object:
+    if value == "all" or isinstance(value, list | tuple):
+        return value
+    raise fault(repr(value), '"all" or a list of loads', 'write for example scaled = ["jack"]')
+
+
+def _until(value: object) -> object:
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if value == "failure" or (number and float(value) > 0):  # type: ignore[arg-type]
+        return value
+    raise fault(repr(value), '"failure" or a load factor > 0', 'write until = "failure"')
+
+
+class Loading(Frozen):
+    """How the loads of a static run grow."""
+
+    scaled: Annotated[tuple[str, ...] | Literal["all"], BeforeValidator(_scaled)] = Field(
+        default="all", description='"all" or a list of names of loads', examples=["all"]
+    )
+    until: Annotated[float | Literal["failure"], BeforeValidator(_until)] = Field(
+        default=1.0, description='"failure" or a load factor > 0', examples=["failure"]
+    )
+    maximum_factor: Number | None = Field(
+        default=None, gt=0, description="a load factor > 0 at which to stop", examples=[10.0]
+    )
+
+
+class InitialVelocity(Frozen):
+    """Velocity of blocks at the start."""
+
+    block: BlockName = Field(description='the name of a block, or "all"', examples=["all"])
+    velocity: tuple[Velocity, Velocity] = Field(
+        default=(0.0, 0.0), description="a velocity [vx, vy] in m/s", examples=[[3, 4]]
+    )
+    angular_velocity: AngularVelocity = Field(
+        default=0.0, description="an angular velocity in rad/s", examples=[2.0]
+    )
+
+
+class InitialStress(Frozen):
+    """Stress in blocks at the start."""
+
+    block: BlockName = Field(description='the name of a block, or "all"', examples=["all"])
+    stress: tuple[Stress, Stress, Stress] = Field(
+        description="stresses [sxx, syy, sxy] in Pa", examples=[[0, "-1 MPa", 0]]
+    )
+
+
+class Monitor(Frozen):
+    """A point of a block whose displacement is recorded."""
+
+    name: Name = Field(description='a name without "." and ":"', examples=["midspan"])
+    point: Point = Field(description="a point [x, y] in m", examples=[[0, 0]])
+    block: BlockName | None = Field(
+        default=None, description="the name of a block", examples=["beam"]
+    )
+
+
+class Reference(Frozen):
+    """An answer from elsewhere that a result is compared with."""
+
+    quantity: str = Field(description="what is compared", examples=["peak load factor"])
+    value: AnyQuantity = Field(description="a number in SI", examples=[9124.0])
+    tolerance: Number = Field(ge=0, description="a relative tolerance, >= 0", examples=[0.02])
+    source: str = Field(description="where the value comes from", examples=["linear programme"])

@@ -1,0 +1,163 @@
+"""What a scene must not contradict: names that exist, effects that have what they need.
+
+Works on the unvalidated tables, so that these faults are reported together with those of single
+values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pydantic import BaseModel
+
+from nmm.scene.faults import suggestion
+from nmm.scene.lines import Path
+
+Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
+Tables = Mapping[str, Any]
+
+_SOLIDS = ("blocks", "tessellations")
+_NAMED = ("joint_sets", "supports", "loads", "monitors")
+_AT_BLOCKS = ("supports", "loads", "monitors")
+_ON_BLOCKS = ("initial_velocities", "initial_stresses", "joint_sets")
+
+
+def contradictions(data: object) -> list[Finding]:
+    """All contradictions of a scene's tables; entries that are malformed are passed over."""
+    plain = _plain(data)
+    if not isinstance(plain, Mapping):
+        return []
+    rules = (_solids, _names, _materials, _interfaces, _block_names, _densities, _effects)
+    return [finding for rule in rules for finding in rule(plain)]
+
+
+def _plain(data: object) -> object:
+    """Tables from tables that may hold models (a scene built in Python)."""
+    if isinstance(data, BaseModel):
+        return data.model_dump(exclude_unset=True, by_alias=True)
+    if isinstance(data, Mapping):
+        return {key: _plain(value) for key, value in data.items()}
+    if isinstance(data, list | tuple) and any(isinstance(item, BaseModel) for item in data):
+        return [_plain(item) for item in data]
+    return data
+
+
+def _table(data: Tables, key: str) -> Tables:
+    value = data.get(key)
+    return value if isinstance(value, Mapping) else {}
+
+
+def _rows(data: Tables, *keys: str) -> Iterator[tuple[Path, Tables]]:
+    for key in keys:
+        value = data.get(key)
+        for index, row in enumerate(value if isinstance(value, list | tuple) else ()):
+            if isinstance(row, Mapping):
+                yield (key, index), row
+
+
+def _solids(data: Tables) -> Iterator[Finding]:
+    if not any(data.get(key) for key in _SOLIDS):
+        yield ("blocks",), "no block", "at least one block", "add [[blocks]] or [[tessellations]]"
+
+
+def _names(data: Tables) -> Iterator[Finding]:
+    for keys in (_SOLIDS, *((key,) for key in _NAMED)):
+        seen: dict[str, Path] = {}
+        for path, row in _rows(data, *keys):
+            name = row.get("name")
+            if not isinstance(name, str):
+                continue
+            if name in seen:
+                first = ".".join(str(part) for part in seen[name])
+                yield (*path, "name"), f'"{name}"', "a name of its own", f"{first} has it already"
+            if name in ("all", "any"):
+                yield (*path, "name"), f'"{name}"', "another name", f'"{name}" means every block'
+            seen.setdefault(name, path)
+
+
+def _materials(data: Tables) -> Iterator[Finding]:
+    known = list(_table(data, "materials"))
+    for path, row in _rows(data, *_SOLIDS):
+        name = row.get("material")
+        if isinstance(name, str) and name not in known:
+            expected = "the name of a material"
+            yield (*path, "material"), f'"{name}"', expected, suggestion(name, known)
+    if data.get("plane") == "strain":
+        yield from _incompressible(data)
+
+
+def _incompressible(data: Tables) -> Iterator[Finding]:
+    for name, row in _table(data, "materials").items():
+        if isinstance(row, Mapping) and row.get("poisson_ratio") == 0.5:
+            remedy = "plane strain has no stiffness matrix at 0.5; use for example 0.4999"
+            path = ("materials", name, "poisson_ratio")
+            yield path, "0.5", "less than 0.5 in plane strain", remedy
+
+
+def _interfaces(data: Tables) -> Iterator[Finding]:
+    known = list(_table(data, "materials"))
+    seen: dict[frozenset[str], str] = {}
+    for name, row in _table(data, "interfaces").items():
+        between = row.get("between", "any") if isinstance(row, Mapping) else "any"
+        pair = (between,) if isinstance(between, str) else between
+        if not isinstance(pair, list | tuple) or not all(isinstance(item, str) for item in pair):
+            continue
+        path: Path = ("interfaces", name, "between")
+        for material in pair:
+            if material not in known and between != "any":
+                expected = "the name of a material"
+                yield path, f'"{material}"', expected, suggestion(material, known)
+        key = frozenset(pair)
+        if key in seen:
+            remedy = f'interface "{seen[key]}" has it already; keep one'
+            yield path, str(between), "a pair of its own", remedy
+        seen.setdefault(key, name)
+
+
+def _block_names(data: Tables) -> Iterator[Finding]:
+    known = [row["name"] for _, row in _rows(data, *_SOLIDS) if isinstance(row.get("name"), str)]
+    for path, row in _rows(data, *_AT_BLOCKS, *_ON_BLOCKS):
+        name = row.get("block")
+        if not isinstance(name, str) or name.split(".")[0] in known:
+            continue
+        if name == "all" and path[0] in _ON_BLOCKS:
+            continue
+        yield (*path, "block"), f'"{name}"', "the name of a block", suggestion(name, known)
+
+
+def _densities(data: Tables) -> Iterator[Finding]:
+    needs = [key for key in ("gravity", "inertia") if key in data]
+    used = {row.get("material") for _, row in _rows(data, *_SOLIDS)}
+    for name, row in _table(data, "materials").items():
+        if needs and name in used and isinstance(row, Mapping) and "density" not in row:
+            expected = f"a density in kg/m3, as [{needs[0]}] is named"
+            remedy = 'add for example density = "2400 kg/m^3"'
+            yield ("materials", name), "density missing", expected, remedy
+
+
+def _effects(data: Tables) -> Iterator[Finding]:
+    if "inertia" in data and "duration" not in data:
+        yield ("inertia",), "duration missing", "a duration", 'add duration = "1 s" at the top'
+    if "contact" in data and not data.get("interfaces"):
+        remedy = "add [interfaces.NAME] with friction_angle"
+        yield ("contact",), "no interface", "at least one interface", remedy
+    if "loading" in data and "inertia" in data:
+        remedy = "remove [loading], or [inertia]; in dynamics loads follow their history"
+        yield ("loading",), "[loading] with [inertia]", "a static scene", remedy
+    if data.get("initial_velocities") and "inertia" not in data:
+        remedy = "add [inertia], or remove [[initial_velocities]]"
+        yield ("initial_velocities",), "no [inertia]", "a dynamic scene", remedy
+    yield from _scaled_loads(data)
+
+
+def _scaled_loads(data: Tables) -> Iterator[Finding]:
+    known = [row["name"] for _, row in _rows(data, "loads") if isinstance(row.get("name"), str)]
+    scaled = _table(data, "loading").get("scaled", "all")
+    for name in scaled if isinstance(scaled, list | tuple) else ():
+        if isinstance(name, str) and name not in known:
+            path: Path = ("loading", "scaled")
+            yield path, f'"{name}"', "the name of a load", suggestion(name, known)
+    if "loading" in data and not data.get("loads"):
+        remedy = "add [[loads]], or remove [loading]"
+        yield ("loading",), "no load", "at least one load to scale", remedy

@@ -1,0 +1,118 @@
+"""From the errors of pydantic to a report: one line a fault, with place, value and remedy."""
+
+from __future__ import annotations
+
+import difflib
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+
+from nmm.errors import Fault
+from nmm.scene.lines import Path
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """Where a model was read: file name and line numbers of its keys.
+
+    Two sources are always equal, so that equal scenes from different files compare equal.
+    """
+
+    name: str = "scene"
+    lines: Mapping[Path, int] = field(default_factory=dict)
+
+    def place(self, *path: str | int) -> str:
+        """`file:line: dotted.path`; the line is that of the nearest key that is in the file."""
+        dotted = ".".join(str(part) for part in path)
+        line = self.line(*path)
+        where = f"{self.name}:{line}" if line else self.name
+        return f"{where}: {dotted}" if dotted else where
+
+    def line(self, *path: str | int) -> int:
+        """Line of the nearest key that is in the file, 0 if there is none."""
+        lengths = range(len(path), 0, -1)
+        return next((self.lines[path[:n]] for n in lengths if path[:n] in self.lines), 0)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Source)
+
+    def __hash__(self) -> int:
+        return hash(Source)
+
+
+def report(error: ValidationError, model: type[BaseModel], source: Source) -> list[Fault]:
+    """All faults of a failed validation of `model`."""
+    details = sorted(error.errors(include_url=False), key=lambda item: source.line(*item["loc"]))
+    inner = {tuple(item["loc"][:-1]) for item in details}
+    # A list that is too short because its items are faulty is not reported twice.
+    return [
+        _fault(item, model, source)
+        for item in details
+        if item["type"] != "too_short" or tuple(item["loc"]) not in inner
+    ]
+
+
+def suggestion(word: str, known: list[str]) -> str:
+    """`did you mean "..."?`, or the list of what is known."""
+    close = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
+    if close:
+        return f'did you mean "{close[0]}"?'
+    return f"known: {', '.join(known)}" if known else "none is defined"
+
+
+def _fault(detail: Any, model: type[BaseModel], source: Source) -> Fault:
+    path: Path = tuple(detail["loc"])
+    place = source.place(*path)
+    kind, context = detail["type"], detail.get("ctx", {})
+    if kind == "fault":
+        return Fault(place, context["value"], context["expected"], context["remedy"])
+    *_, (parent, info) = _walk(model, path)
+    if kind == "extra_forbidden":
+        known = [name for name, _ in _keys(parent)]
+        remedy = suggestion(str(path[-1]), known)
+        return Fault(place, f'unknown key "{path[-1]}"', "a known key", remedy)
+    expected = (info.description if info else None) or detail["msg"]
+    key = next((part for part in reversed(path) if isinstance(part, str)), "value")
+    sample = f"{key} = {_sample(info)}"
+    if kind == "missing":
+        return Fault(place, "missing", expected, f"add {sample}")
+    return Fault(place, _short(detail["input"]), expected, f"write for example {sample}")
+
+
+def _walk(model: type[BaseModel], path: Path) -> Iterator[tuple[type[BaseModel], FieldInfo | None]]:
+    """Model that holds each part of a path, and the field nearest to it."""
+    info: FieldInfo | None = None
+    is_name = False  # the part after a field of named entries is an entry's name, not a key
+    yield model, info
+    for part in path:
+        found = None if is_name else dict(_keys(model)).get(str(part))
+        is_name = found is not None and get_origin(found.annotation) in (dict, Mapping)
+        info = found or info
+        yield model, info
+        if found is not None:
+            model = _inner(found.annotation) or model
+
+
+def _keys(model: type[BaseModel]) -> list[tuple[str, FieldInfo]]:
+    return [(info.alias or name, info) for name, info in model.model_fields.items()]
+
+
+def _inner(annotation: Any) -> type[BaseModel] | None:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((found for item in get_args(annotation) if (found := _inner(item))), None)
+
+
+def _sample(info: FieldInfo | None) -> str:
+    if info is None or not info.examples:
+        return "..."
+    return json.dumps(info.examples[0])  # which is TOML for text, numbers and lists
+
+
+def _short(value: object, width: int = 60) -> str:
+    text = repr(value)
+    return text if len(text) <= width else text[: width - 3] + "..."

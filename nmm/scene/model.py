@@ -1,0 +1,136 @@
+"""The scene: what happens, whatever the approximation. SI inside, angles in radians."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, Self
+
+from pydantic import (
+    Field,
+    ModelWrapValidatorHandler,
+    PrivateAttr,
+    ValidationError,
+    model_validator,
+)
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from nmm.errors import Fault, SceneError
+from nmm.formulation import Formulation
+from nmm.scene.actions import (
+    Contact,
+    Gravity,
+    Inertia,
+    InitialStress,
+    InitialVelocity,
+    Load,
+    Loading,
+    Monitor,
+    Reference,
+    Support,
+)
+from nmm.scene.consistency import contradictions
+from nmm.scene.faults import Source
+from nmm.scene.fields import Frozen, Length, Time, example
+from nmm.scene.solids import Block, Interface, JointSet, Material, Tessellation
+
+
+class Scene(Frozen):
+    """What happens: geometry, materials, joints, supports, loads, effects, duration.
+
+    Notes
+    -----
+    A scene is consistent when it exists: names refer to something, effects that are named have
+    what they need. Whether its blocks are sound is the matter of `nmm.geometry.regions`.
+    """
+
+    title: str = Field(default="", description="a title", examples=["beam"])
+    plane: Literal["stress", "strain"] = Field(
+        description='"stress" or "strain"', examples=["strain"]
+    )
+    thickness: Length = Field(
+        default=1.0, gt=0, description="a thickness in m, > 0", examples=["100 mm"]
+    )
+    duration: Time | None = Field(
+        default=None, gt=0, description="a duration in s, > 0", examples=example("s")
+    )
+    seed: int = Field(default=0, ge=0, description="a seed, an integer >= 0", examples=[1])
+    materials: dict[str, Material] = Field(
+        min_length=1, description="at least one table [materials.NAME]"
+    )
+    interfaces: dict[str, Interface] = Field(default={}, description="tables [interfaces.NAME]")
+    blocks: tuple[Block, ...] = Field(default=(), description="tables [[blocks]]")
+    tessellations: tuple[Tessellation, ...] = Field(
+        default=(), description="tables [[tessellations]]"
+    )
+    joint_sets: tuple[JointSet, ...] = Field(default=(), description="tables [[joint_sets]]")
+    supports: tuple[Support, ...] = Field(default=(), description="tables [[supports]]")
+    loads: tuple[Load, ...] = Field(default=(), description="tables [[loads]]")
+    gravity: Gravity | None = Field(default=None, description="a table [gravity]")
+    inertia: Inertia | None = Field(default=None, description="a table [inertia]")
+    contact: Contact | None = Field(default=None, description="a table [contact]")
+    loading: Loading | None = Field(default=None, description="a table [loading]")
+    initial_velocities: tuple[InitialVelocity, ...] = Field(
+        default=(), description="tables [[initial_velocities]]"
+    )
+    initial_stresses: tuple[InitialStress, ...] = Field(
+        default=(), description="tables [[initial_stresses]]"
+    )
+    monitors: tuple[Monitor, ...] = Field(default=(), description="tables [[monitors]]")
+    references: tuple[Reference, ...] = Field(
+        default=(), alias="reference", description="tables [[reference]]"
+    )
+    formulation: Formulation | None = Field(default=None, description="a table [formulation]")
+
+    _source: Source = PrivateAttr(default_factory=Source)
+
+    @property
+    def source(self) -> Source:
+        """Where the scene was read; `scene.source.place("blocks", 3)` is "file:line: blocks.3"."""
+        return self._source
+
+    def interface(self, first: str, second: str) -> Interface:
+        """Interface between two materials: the pair's own, else the one of `between = "any"`.
+
+        Raises
+        ------
+        SceneError
+            No interface covers the pair.
+        """
+        fallback = None
+        for interface in self.interfaces.values():
+            if interface.between == "any":
+                fallback = interface
+            elif set(interface.between) == {first, second}:
+                return interface
+        if fallback is not None:
+            return fallback
+        value = f'no interface between "{first}" and "{second}"'
+        remedy = f'add [interfaces.NAME] with between = ["{first}", "{second}"]'
+        place = self.source.place("interfaces")
+        raise SceneError(Fault(place, value, "one for every pair that touches", remedy))
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _consistent(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Gather the contradictions and the faults of single values into one error."""
+        details = [_detail(*finding) for finding in contradictions(data)]
+        try:
+            scene = handler(data)
+        except ValidationError as error:
+            single = [_again(item) for item in error.errors(include_url=False)]
+            raise ValidationError.from_exception_data(cls.__name__, single + details) from None
+        if details:
+            raise ValidationError.from_exception_data(cls.__name__, details)
+        return scene
+
+
+def _detail(
+    path: tuple[str | int, ...], value: str, expected: str, remedy: str
+) -> InitErrorDetails:
+    context = {"value": value, "expected": expected, "remedy": remedy}
+    error = PydanticCustomError("fault", "expected {expected}: {remedy}", context)
+    return InitErrorDetails(type=error, loc=path, input=value)
+
+
+def _again(item: Any) -> InitErrorDetails:
+    error = PydanticCustomError(item["type"], item["msg"], item.get("ctx"))
+    return InitErrorDetails(type=error, loc=item["loc"], input=item["input"])

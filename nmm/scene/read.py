@@ -1,0 +1,58 @@
+"""Reading scenes, and their canonical text and hash."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+from nmm.errors import SceneError
+from nmm.scene.document import build, parse, read_text
+from nmm.scene.faults import Source
+from nmm.scene.model import Scene
+
+
+def read_scene(path: str | Path) -> Scene:
+    """Scene of a TOML file.
+
+    Raises
+    ------
+    SceneError
+        All faults of the file, one line each: `file:line: key path: value: expected: remedy`.
+    """
+    return parse_scene(read_text(path, SceneError), str(path))
+
+
+def parse_scene(text: str, place: str = "scene") -> Scene:
+    """Scene of a TOML text; `place` names it in errors."""
+    scene, source = parse(text, Scene, place, SceneError)
+    scene._source = source
+    return scene
+
+
+def build_scene(tables: dict[str, Any], place: str = "scene") -> Scene:
+    """Scene of tables as `tomllib` gives them, for scenes made by a program."""
+    return build(tables, Scene, Source(place), SceneError)
+
+
+def canonical_text(scene: Scene) -> str:
+    """The scene in one form, whatever its file's order, units and comments.
+
+    The default formulation is left out: it is not part of what happens.
+    """
+    content = scene.model_dump(
+        mode="json", by_alias=True, exclude_none=True, exclude={"formulation"}
+    )
+    return json.dumps(content, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def scene_hash(scene: Scene) -> str:
+    """SHA-256 of the canonical text, hexadecimal."""
+    return hashlib.sha256(canonical_text(scene).encode()).hexdigest()
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON schema of scene files, for editors."""
+    schema = Scene.model_json_schema(by_alias=True)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -1,0 +1,196 @@
+"""What the scene is made of: materials, interfaces between them, blocks."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+
+from nmm.scene.fields import (
+    Angle,
+    BlockName,
+    Density,
+    Frozen,
+    Length,
+    Name,
+    Number,
+    PartName,
+    Point,
+    Ring,
+    SpringStiffness,
+    Stress,
+    SurfaceEnergy,
+    example,
+    fault,
+)
+
+
+class Material(Frozen):
+    """Law and constants of the inside of blocks."""
+
+    law: PartName = Field(
+        default="elastic", description='a law: a registered name or "module:Name"'
+    )
+    density: Density | None = Field(
+        default=None, gt=0, description="a density in kg/m3, > 0", examples=example("kg/m^3")
+    )
+    young_modulus: Stress = Field(
+        gt=0, description="Young's modulus in Pa, > 0", examples=example("Pa")
+    )
+    poisson_ratio: Number = Field(
+        gt=-1, le=0.5, description="Poisson's ratio in (-1, 0.5]", examples=[0.2]
+    )
+    options: dict[str, Any] = Field(
+        default={}, description="a table of options of a law of one's own"
+    )
+
+
+def _pair(value: object) -> object:
+    if value == "any" or (isinstance(value, list | tuple) and len(value) == 2):
+        return value
+    raise fault(
+        repr(value), 'two materials or "any"', 'write for example between = ["rock", "rock"]'
+    )
+
+
+def _friction(value: float) -> float:
+    if 0 <= value < math.pi / 2:
+        return value
+    remedy = 'numbers are radians; write for example friction_angle = "37 deg"'
+    raise fault(value, "a friction angle in [0, pi/2) rad", remedy)
+
+
+class Interface(Frozen):
+    """Law and constants of the joints and contacts between two materials."""
+
+    law: PartName = Field(
+        default="mohr_coulomb", description='a law: a registered name or "module:Name"'
+    )
+    between: Annotated[tuple[str, str] | Literal["any"], BeforeValidator(_pair)] = Field(
+        default="any", description='two materials or "any"', examples=[["rock", "rock"]]
+    )
+    friction_angle: Annotated[Angle, AfterValidator(_friction)] = Field(
+        description="a friction angle in [0, pi/2) rad", examples=example("rad")
+    )
+    cohesion: Stress = Field(
+        default=0.0, ge=0, description="a cohesion in Pa, >= 0", examples=["4.7 MPa"]
+    )
+    tensile_strength: Stress = Field(
+        default=0.0, ge=0, description="a tensile strength in Pa, >= 0", examples=["2.9 MPa"]
+    )
+    bonded: bool = Field(default=False, description="true or false", examples=[True])
+    normal_stiffness: SpringStiffness | None = Field(
+        default=None, gt=0, description="a normal stiffness in Pa/m, > 0", examples=example("Pa/m")
+    )
+    shear_stiffness: SpringStiffness | None = Field(
+        default=None, gt=0, description="a shear stiffness in Pa/m, > 0", examples=example("Pa/m")
+    )
+    fracture_energy: SurfaceEnergy | None = Field(
+        default=None, gt=0, description="a fracture energy in J/m2, > 0", examples=example("J/m^2")
+    )
+    options: dict[str, Any] = Field(
+        default={}, description="a table of options of a law of one's own"
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Interface:
+        if self.tensile_strength > 0 and not self.bonded:
+            remedy = "add bonded = true, or leave tensile_strength out"
+            raise fault("tensile_strength > 0, bonded = false", "a bonded interface", remedy)
+        return self
+
+
+class Block(Frozen):
+    """One block given by its corners."""
+
+    name: Name | None = Field(
+        default=None, description='a name without "." and ":"', examples=["base"]
+    )
+    material: str = Field(description="the name of a material", examples=["rock"])
+    vertices: Ring = Field(
+        description="three or more points [x, y] in m", examples=[[[0, 0], [1, 0], [1, 1]]]
+    )
+    holes: tuple[Ring, ...] = Field(default=(), description="a list of rings of points [x, y] in m")
+
+
+class Tessellation(Frozen):
+    """A region filled with Voronoi blocks, named `name.0`, `name.1`, ..."""
+
+    name: Name = Field(description='a name without "." and ":"', examples=["beam"])
+    material: str = Field(description="the name of a material", examples=["concrete"])
+    region: Ring = Field(
+        description="three or more points [x, y] in m", examples=[[[0, 0], [1, 0], [1, 1]]]
+    )
+    holes: tuple[Ring, ...] = Field(default=(), description="a list of rings of points [x, y] in m")
+    blocks: int = Field(gt=0, description="a number of blocks, > 0", examples=[130])
+    seed: int | None = Field(
+        default=None, ge=0, description="a seed, an integer >= 0", examples=[1]
+    )
+    shortest_edge: Number = Field(
+        default=0.2,
+        ge=0,
+        lt=1,
+        description="a fraction of the mean edge length in [0, 1)",
+        examples=[0.2],
+    )
+    smoothing: int = Field(
+        default=0, ge=0, description="a number of Lloyd iterations, >= 0", examples=[2]
+    )
+    keep: tuple[Point, ...] = Field(
+        default=(), description="a list of points [x, y] in m on the boundary that become vertices"
+    )
+
+
+class JointSet(Frozen):
+    """Parallel joints that cut blocks, with normally distributed dip, spacing and trace."""
+
+    name: Name = Field(description='a name without "." and ":"', examples=["bedding"])
+    block: BlockName = Field(
+        default="all", description='the block to cut, or "all"', examples=["slope"]
+    )
+    dip: Angle = Field(
+        description="the joints' angle from the x axis, counter-clockwise, in rad",
+        examples=example("rad"),
+    )
+    dip_scatter: Angle = Field(
+        default=0.0,
+        ge=0,
+        description="the dip's standard deviation in rad, >= 0",
+        examples=["3 deg"],
+    )
+    spacing: Length = Field(gt=0, description="a mean distance in m, > 0", examples=["0.5 m"])
+    spacing_scatter: Length = Field(
+        default=0.0,
+        ge=0,
+        description="the spacing's standard deviation in m, >= 0",
+        examples=["5 cm"],
+    )
+    persistence: Number = Field(
+        default=1.0,
+        gt=0,
+        le=1,
+        description="the joined fraction of a trace line in (0, 1]",
+        examples=[0.8],
+    )
+    trace: Length | None = Field(
+        default=None, gt=0, description="a mean trace length in m, > 0", examples=["2 m"]
+    )
+    trace_scatter: Length = Field(
+        default=0.0,
+        ge=0,
+        description="the trace's standard deviation in m, >= 0",
+        examples=["0.2 m"],
+    )
+    origin: Point | None = Field(
+        default=None, description="a point [x, y] in m that one joint meets"
+    )
+    seed: int | None = Field(
+        default=None, ge=0, description="a seed, an integer >= 0", examples=[1]
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> JointSet:
+        if self.persistence < 1 and self.trace is None:
+            raise fault("persistence < 1 without trace", "a trace length", 'add trace = "2 m"')
+        return self

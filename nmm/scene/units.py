@@ -1,0 +1,107 @@
+"""Quantities with units, converted to SI at the door.
+
+The units that scenes use most are converted from a table in decimal arithmetic, so that
+"300 mm" and 0.3 are the same double and give the same scene hash; every other unit is
+converted by pint, which is imported only then (0.3 s and more).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from decimal import Decimal
+
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+
+# SI unit -> unit -> factor; a test compares every entry with pint.
+COMMON: dict[str, dict[str, str]] = {
+    "m": {"m": "1", "mm": "1e-3", "cm": "1e-2", "km": "1e3"},
+    "s": {"s": "1", "ms": "1e-3", "min": "60", "h": "3600"},
+    "rad": {"rad": "1", "deg": "deg", "mrad": "1e-3"},
+    "N": {"N": "1", "kN": "1e3", "MN": "1e6"},
+    "Pa": {
+        **{"Pa": "1", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9"},
+        **{"N/m^2": "1", "kN/m^2": "1e3", "MN/m^2": "1e6", "N/mm^2": "1e6", "kN/mm^2": "1e9"},
+    },
+    "kg/m^3": {"kg/m^3": "1", "g/cm^3": "1e3", "t/m^3": "1e3"},
+    "N/m^3": {"N/m^3": "1", "kN/m^3": "1e3", "MN/m^3": "1e6"},
+    "Pa/m": {"Pa/m": "1", "kPa/m": "1e3", "MPa/m": "1e6", "GPa/m": "1e9", "MPa/mm": "1e9"},
+    "J/m^2": {"J/m^2": "1", "kJ/m^2": "1e3", "N/m": "1", "N/mm": "1e3"},
+    "m/s": {"m/s": "1", "mm/s": "1e-3", "cm/s": "1e-2", "km/h": str(Decimal("1") / Decimal("3.6"))},
+    "m/s^2": {"m/s^2": "1", "mm/s^2": "1e-3"},
+    "rad/s": {"rad/s": "1", "deg/s": "deg"},
+    "N m": {"N m": "1"},
+    "1": {},
+}
+EXAMPLES: dict[str, str] = {
+    **{"m": "100 mm", "s": "10 ms", "rad": "37 deg", "N": "10 kN", "Pa": "27.5 GPa"},
+    **{"kg/m^3": "2400 kg/m^3", "N/m^3": "25 kN/m^3", "Pa/m": "10 GPa/m", "J/m^2": "100 J/m^2"},
+    **{"m/s": "3 m/s", "m/s^2": "9.81 m/s^2", "rad/s": "30 deg/s"},
+}
+
+
+class UnitError(ValueError):
+    """A text that is no quantity of the wanted dimension; carries the two halves of the report."""
+
+    def __init__(self, expected: str, remedy: str) -> None:
+        self.expected = expected
+        self.remedy = remedy
+        super().__init__(f"expected {expected}: {remedy}")
+
+
+def convert(text: str, unit: str) -> float:
+    """Value of a quantity written as text, in the SI unit `unit`.
+
+    Parameters
+    ----------
+    text
+        Number and unit, for example "27.5 GPa".
+    unit
+        A key of `COMMON`, or "any" for the SI value of whatever dimension.
+
+    Raises
+    ------
+    UnitError
+        No number, no unit, an unknown unit or another dimension.
+    """
+    match = _QUANTITY.fullmatch(text)
+    wanted = "a number" if unit in ("any", "1") else f"a number in {unit}"
+    if match is None:
+        raise UnitError(f"{wanted}, or a text of number and unit", _advice(unit))
+    number, name = match.groups()
+    if not name:
+        raise UnitError(f"{wanted}, or a text of number and unit", f"write {number} without quotes")
+    factor = COMMON.get(unit, {}).get(name.replace("**", "^"))
+    if factor is None:
+        return _by_pint(number, name, unit)
+    return (
+        math.radians(float(number)) if factor == "deg" else float(Decimal(number) * Decimal(factor))
+    )
+
+
+def _by_pint(number: str, name: str, unit: str) -> float:
+    import pint
+
+    registry: pint.UnitRegistry[float] = pint.UnitRegistry()
+    expected = "a quantity" if unit == "any" else f"a quantity that converts to {unit}"
+    try:
+        quantity = registry.Quantity(float(number), name)
+        si = quantity.to_base_units() if unit == "any" else quantity.to(unit)
+    except pint.DimensionalityError as error:
+        found = str(error.dim1).strip() or "no dimension"
+        remedy = f"{name} has the dimension {found}; {_advice(unit)}"
+        raise UnitError(expected, remedy) from None
+    except Exception:  # pint raises tokenizer, attribute and type errors on malformed units
+        raise UnitError(expected, f"{name!r} is no unit; {_similar(name, unit)}") from None
+    return float(si.magnitude)
+
+
+def _similar(name: str, unit: str) -> str:
+    lowered = {known.lower(): known for known in COMMON.get(unit, {})}
+    close = lowered.get(name.lower())
+    return f'did you mean "{close}"?' if close else _advice(unit)
+
+
+def _advice(unit: str) -> str:
+    example = EXAMPLES.get(unit)
+    return f'write for example "{example}"' if example else "write a plain number"
