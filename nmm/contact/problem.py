@@ -8,6 +8,7 @@ Signs: gap positive open, normal force positive in tension, shear force along th
 
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -132,7 +133,7 @@ class StepProblem:
             Naming the first array at fault.
         """
         n, m = len(self.force), self.n_contacts
-        sizes = {"matrix": (self.matrix.shape, (n, n))}
+        sizes: dict[str, tuple[Any, Any]] = {"matrix": (self.matrix.shape, (n, n))}
         for name in ("normal_rows", "tangent_rows"):
             sizes[name] = (getattr(self, name).shape, (m, n))
         columns = {

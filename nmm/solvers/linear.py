@@ -151,7 +151,7 @@ class Factor:
         return rest / size if size > 0 else rest
 
     def weakest_unknown(self, x: Floats) -> int:
-        """Unknown that moves most in ``x``, scaled; in a free motion when the matrix is singular."""
+        """Unknown that moves most in ``x``, scaled: in a free motion if the matrix is singular."""
         return int(np.argmax(np.abs(x / self.scale)))
 
     def condition(self) -> float:

@@ -1,0 +1,176 @@
+"""Penalty springs and Shi's open-close iteration."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import ClassVar
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.balance import relative_residual, weights, with_springs
+from nmm.contact.enforcement import Enforcement
+from nmm.contact.law import label, shear_bound
+from nmm.contact.memory import Memory
+from nmm.contact.passes import Springs, changes, first_springs, forces, next_springs, words
+from nmm.contact.problem import StepAnswer, StepProblem, Verdict
+from nmm.errors import SolveError
+from nmm.solvers.linear import LinearSolver
+
+REMEDY = "allow more passes, shorten the step or use the cone enforcement"
+
+
+@dataclass(frozen=True)
+class Penalty(Enforcement):
+    """Springs at closed contacts, states found by open-close iteration (Shi 1988).
+
+    A pass solves the linear system of the present states: a normal spring at closed contacts, a
+    shear spring where they stick, and where they slide a friction force taken from the normal
+    force of the pass before. Passes end when no state changes and the step is in balance with the
+    friction of its own normal forces. Penetration is force over stiffness.
+
+    Attributes
+    ----------
+    max_passes
+        Most passes a step (Shi: 6).
+    tolerance
+        Largest relative out-of-balance force (-) of an accepted step.
+    """
+
+    name: ClassVar[str] = "penalty"
+    max_passes: int = 20
+    tolerance: float = 1e-8
+
+    def solve(
+        self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
+    ) -> StepAnswer:
+        """Iterate until states and friction stand still."""
+        problem.check()
+        return _OpenClose(self, problem, linear_solver).run()
+
+
+class _OpenClose:
+    """One run of the iteration: the trail of states and what the last pass found."""
+
+    def __init__(self, options: Penalty, problem: StepProblem, linear: LinearSolver) -> None:
+        self.options, self.problem, self.linear = options, problem, linear
+        self.weight = weights(problem)
+        self.trail: list[Springs] = []
+        self.increment = np.zeros_like(problem.force)
+        self.factorisations = 0
+
+    def run(self) -> StepAnswer:
+        springs = first_springs(self.problem)
+        friction_from = self.problem.normal_force
+        factor, stiff = None, b""
+        for _ in range(self.options.max_passes):
+            self.trail.append(springs)
+            normal, shear = _stiffness(self.problem, springs)
+            key = normal.tobytes() + shear.tobytes()
+            try:
+                if factor is None or key != stiff:
+                    matrix = with_springs(self.problem, normal, shear)
+                    factor, stiff = self.linear.factorise(matrix), key
+                    self.factorisations += 1
+                constant = _constant_forces(self.problem, springs, friction_from)
+                rhs = self._load(normal, shear, *constant)
+                self.increment = factor.solve(rhs)
+            except SolveError as fault:
+                if len(self.trail) == 1 and not springs.closed.all():
+                    springs = Springs(np.ones_like(springs.closed), springs.sliding, springs.sign)
+                    continue
+                return self._answer(springs, self._singular(springs, fault))
+            gap, slip = self.problem.gaps(self.increment), self.problem.slips(self.increment)
+            found = next_springs(self.problem, springs, gap, slip)
+            friction_from = np.minimum(
+                self.problem.normal_stiffness * gap, self.problem.limits.tension
+            )
+            if not changes(springs, found).any():
+                answer = self._answer(springs, None)
+                if answer.residual <= self.options.tolerance:
+                    return answer
+            springs = found
+        self.trail.append(springs)
+        return self._answer(self.trail[-2], self._unsettled())
+
+    def _load(self, kn: Floats, kt: Floats, normal: Floats, shear: Floats) -> Floats:
+        p = self.problem
+        at_normal = p.normal_rows.T @ (kn * p.gap + normal)
+        return np.asarray(p.force - at_normal - p.tangent_rows.T @ (kt * p.slip + shear))
+
+    def _answer(self, springs: Springs, verdict: Verdict | None) -> StepAnswer:
+        p = self.problem
+        gap, slip = p.gaps(self.increment), p.slips(self.increment)
+        normal, shear = forces(p, springs, gap, slip)
+        residual = relative_residual(p, self.weight, self.increment, normal, shear)
+        passes = len(self.trail) - (verdict is not None and verdict.code in ("cycle", "passes"))
+        if verdict is None:
+            good = residual <= self.options.tolerance
+            verdict = Verdict(good, "converged", f"contact states settled in {passes} passes")
+        elastic = np.where(springs.closed | (p.limits.tension > 0), shear / p.shear_stiffness, 0.0)
+        return StepAnswer(
+            increment=self.increment,
+            normal_force=normal,
+            shear_force=shear,
+            gap=gap,
+            slip=elastic,
+            state=label(p, ~springs.closed, springs.sliding),
+            passes=passes,
+            residual=residual,
+            verdict=verdict,
+            factorisations=self.factorisations,
+            solver=self.linear.name,
+        )
+
+    def _singular(self, springs: Springs, fault: SolveError) -> Verdict:
+        n_open = int((~springs.closed).sum())
+        sentence = (
+            f"pass {len(self.trail)}: {n_open} of {self.problem.n_contacts} contacts open and "
+            f"nothing else holds a part: {fault}"
+        )
+        return Verdict(False, "singular", sentence)
+
+    def _unsettled(self) -> Verdict:
+        codes = [springs.code for springs in self.trail]
+        last = len(codes) - 1
+        first = max((i for i in range(last - 1) if codes[i] == codes[last]), default=None)
+        changing = np.flatnonzero(changes(self.trail[-2], self.trail[-1]))
+        if first is None or not changing.size:
+            tail = f"{changing.size} of {self.problem.n_contacts} contacts changed in pass {last}"
+            if not changing.size:
+                tail = "states stood still but friction had not settled"
+            sentence = f"not settled after {last} passes: {tail}; allow more passes, shorten"
+            where = tuple(int(i) for i in changing)
+            return Verdict(
+                False, "passes", f"{sentence} the step or use the cone enforcement", where
+            )
+        cycle = self.trail[first:]
+        moved = np.zeros(self.problem.n_contacts, dtype=bool)
+        for old, new in pairwise(cycle):
+            moved |= changes(old, new)
+        who = np.flatnonzero(moved)
+        named = "; ".join(f"contact {i} {_story(cycle, int(i))}" for i in who[:5])
+        more = f" and {who.size - 5} more" if who.size > 5 else ""
+        sentence = (
+            f"the contact state cycled between passes {first + 1} and {last + 1}: {named}{more}; "
+            f"{REMEDY}"
+        )
+        return Verdict(False, "cycle", sentence, tuple(int(i) for i in who))
+
+
+def _stiffness(problem: StepProblem, springs: Springs) -> tuple[Floats, Floats]:
+    normal = np.where(springs.closed, problem.normal_stiffness, 0.0)
+    sticks = ~springs.sliding & (springs.closed | (problem.limits.tension > 0))
+    return normal, np.where(sticks, problem.shear_stiffness, 0.0)
+
+
+def _constant_forces(
+    problem: StepProblem, springs: Springs, normal: Floats
+) -> tuple[Floats, Floats]:
+    held = np.where(springs.closed, 0.0, problem.limits.tension)
+    bound = shear_bound(normal, ~springs.closed, problem.limits)
+    return held, np.where(springs.sliding, springs.sign * bound, 0.0)
+
+
+def _story(cycle: list[Springs], contact: int) -> str:
+    seen = dict.fromkeys(words(springs, contact) for springs in cycle)
+    return "/".join(seen)
