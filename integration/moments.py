@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from integration import gauss
 from integration.arrays import Floats
 from integration.monomials import count, exponents, powers, shift_moments
 from integration.polygons import Polygons
@@ -58,9 +59,8 @@ def _central(polygons: Polygons, degree: int, size: Floats) -> Floats:
     sign = np.sign(polygons.ring_areas) * polygons.ring_signs
     weight = (x * y1 - x1 * y) * sign[polygons.ring_of_point]
     x, y, x1, y1 = (c / size[owner] for c in (x, y, x1, y1))
-    nodes, weights = np.polynomial.legendre.leggauss(degree // 2 + 1)
     total = np.zeros((count(degree), len(x)))
-    for t, w in zip(0.5 * (1.0 + nodes), 0.5 * weights, strict=True):
+    for t, w in zip(*gauss.interval(degree // 2 + 1), strict=True):
         total += w * powers(x + t * (x1 - x), y + t * (y1 - y), degree)
     total *= weight
     sums = np.add.reduceat(total, polygons.first_point, axis=1)

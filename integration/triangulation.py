@@ -1,0 +1,86 @@
+"""Triangles that tile polygons."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+
+from integration.arrays import Bools, Floats, Ints
+from integration.polygons import Polygons, diameters
+
+
+def triangulate(polygons: Polygons) -> tuple[Floats, Ints]:
+    """Counter-clockwise triangles (T, 3, 2) that tile each polygon and their polygon (T,), sorted.
+
+    A ring seen whole from its first vertex, as every convex one, is cut into a fan; the others go
+    through the constrained Delaunay triangulation of GEOS. No new vertices. Polygons of zero area
+    have no triangles.
+
+    Raises
+    ------
+    ValueError
+        A polygon that crosses itself or its holes.
+    """
+    fans, owner, seen = _fans(polygons)
+    rest = np.flatnonzero(~seen & (polygons.areas != 0.0))
+    if len(rest):
+        others, other_owner = _delaunay(polygons.take(rest), rest)
+        fans = np.concatenate([fans, others])
+        owner = np.concatenate([owner, other_owner])
+        order = np.argsort(owner, kind="stable")
+        fans, owner = fans[order], owner[order]
+    return fans, owner
+
+
+def triangle_areas(triangles: Floats) -> Floats:
+    """Signed area (T,) of triangles (T, 3, 2), positive when counter-clockwise."""
+    (x1, y1), (x2, y2) = (
+        (triangles[:, 1] - triangles[:, 0]).T,
+        (triangles[:, 2] - triangles[:, 0]).T,
+    )
+    return np.asarray(0.5 * (x1 * y2 - x2 * y1))
+
+
+def _fans(polygons: Polygons) -> tuple[Floats, Ints, Bools]:
+    """Fans about first vertices, their polygons, and which polygons (N,) they tile."""
+    owner = polygons.polygon_of_point
+    index = np.arange(len(owner))
+    single = np.diff(polygons.polygon_offsets) == 1
+    inner = single[owner] & (index != polygons.first_point[owner])
+    inner &= polygons.next_point != polygons.first_point[owner]
+    index, owner = index[inner], owner[inner]
+    corners = np.stack([polygons.first_point[owner], index, polygons.next_point[index]], axis=1)
+    clockwise = polygons.ring_areas[polygons.polygon_offsets[:-1]][owner] < 0
+    corners[clockwise] = corners[clockwise][:, [0, 2, 1]]
+    triangles = polygons.points[corners]
+    area = triangle_areas(triangles)
+    seen = single & (np.bincount(owner[area < 0], minlength=len(polygons)) == 0)
+    keep = seen[owner] & (area > 0) & (polygons.areas != 0.0)[owner]
+    return triangles[keep], owner[keep], seen
+
+
+def _delaunay(polygons: Polygons, number: Ints) -> tuple[Floats, Ints]:
+    shapes = polygons.to_shapely()
+    try:
+        parts = shapely.constrained_delaunay_triangles(shapes)
+    except shapely.errors.GEOSException:
+        raise _fault(polygons, number, ~shapely.is_valid(shapes)) from None
+    corners, owner = shapely.get_coordinates(np.asarray(parts), return_index=True)
+    triangles, owner = corners.reshape(-1, 4, 2)[:, :3].copy(), owner[::4]
+    area = triangle_areas(triangles)
+    triangles[area < 0] = triangles[area < 0][:, [0, 2, 1]]
+    tiled = np.bincount(owner, np.abs(area), minlength=len(polygons))
+    missed = np.abs(tiled - polygons.areas) > 1e-9 * diameters(polygons) ** 2
+    if missed.any():
+        raise _fault(polygons, number, missed)
+    keep = area != 0.0
+    return triangles[keep], number[owner[keep]]
+
+
+def _fault(polygons: Polygons, number: Ints, bad: Bools) -> ValueError:
+    n = int(np.flatnonzero(bad)[0]) if bad.any() else 0
+    reason = shapely.is_valid_reason(polygons.take([n]).to_shapely()[0])
+    return ValueError(
+        f"polygon {number[n]}: {reason}: rings that do not cross expected: "
+        "split the polygon at the crossing"
+    )
