@@ -57,7 +57,7 @@ def next_springs(problem: StepProblem, springs: Springs, gap: Floats, slip: Floa
     bound = shear_bound(np.minimum(normal, limits.tension), opens, limits)
     smooth = (limits.friction == 0) & (limits.cohesion == 0)
     stays = springs.sliding & (springs.sign * shear >= bound)
-    turned = np.abs(shear) > bound
+    turned = springs.closed & (np.abs(shear) > bound)
     sliding = stays | turned | smooth
     return Springs(~opens, sliding, np.where(smooth, 0.0, np.sign(shear)) * sliding)
 
