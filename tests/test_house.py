@@ -19,9 +19,9 @@ LIBRARIES = {
 }
 
 # A room of nmm may import itself and the rooms above it in this list.
-# The order is that of the manual's room list but for two: `assembly` stands above `contact` and
-# `effects` because these work on its model of bodies and unknowns; `results` stands above
-# `stepping` because the step loop hands its frames to a sink, and no file of `results` knows it.
+# The order is that of the manual's room list but for three: `solvers` and `assembly` stand above
+# `contact` and `effects`, which work on the model of bodies and unknowns and are handed a linear
+# solver; `results` stands above `stepping`, which hands its frames to a sink that knows no loop.
 ROOMS = (
     "errors",
     "registry",
@@ -29,11 +29,11 @@ ROOMS = (
     "geometry",
     "materials",
     "interfaces",
+    "solvers",
     "assembly",
     "contact",
     "effects",
     "fracture",
-    "solvers",
     "results",
     "stepping",
     "plots",
@@ -48,7 +48,7 @@ IN_ROOM = {"formulation": "scene"}  # formulation files are read by the reader o
 # The public face `nmm/__init__.py` imports any room, lazily; these rooms may use it.
 MAY_USE_THE_FACE = {"study", "verification", "cli", "testing"}
 # What every file of `effects` may import from its own room.
-SHARED_BY_EFFECTS = {"base"}
+SHARED_BY_EFFECTS = {"base", "load_factor"}
 ONLY_PLOTS = {"matplotlib"}
 
 
