@@ -53,22 +53,22 @@ class _Scanner:
     def _header(self, line: int) -> Path:
         double = self._peek(1) == "["
         self.at += 2 if double else 1
-        path = self._resolve(self._key())
+        path = self._resolve(self._key(), line)
         if double:
             index = self.lengths.get(path, 0)
             self.lengths[path] = index + 1
-            self.found.setdefault(path, line)
             path = (*path, index)
         self.found.setdefault(path, line)
         while self.at < len(self.tokens) and self.tokens[self.at][0] != "end":
             self.at += 1
         return path
 
-    def _resolve(self, keys: list[str]) -> Path:
+    def _resolve(self, keys: list[str], line: int) -> Path:
         """A header such as [a.b] below [[a]] means the last element of a."""
         path: Path = ()
         for number, key in enumerate(keys):
             path = (*path, key)
+            self.found.setdefault(path, line)
             if path in self.lengths and number < len(keys) - 1:
                 path = (*path, self.lengths[path] - 1)
         return path

@@ -1,0 +1,79 @@
+"""Quantities with units at the door of scenes."""
+
+import math
+import subprocess
+import sys
+
+import pytest
+
+from nmm.scene.units import COMMON, EXAMPLES, UnitError, convert
+
+ENTRIES = [(unit, name) for unit, names in COMMON.items() for name in names]
+
+
+@pytest.mark.parametrize(("unit", "name"), ENTRIES)
+def test_the_table_agrees_with_pint(unit: str, name: str) -> None:
+    import pint
+
+    expected = pint.UnitRegistry().Quantity(2.5, name).to(unit).magnitude
+    # pint multiplies chains of factors in floating point: a few ulp.
+    assert convert(f"2.5 {name}", unit) == pytest.approx(expected, rel=1e-14)
+
+
+def test_every_example_converts() -> None:
+    assert all(math.isfinite(convert(text, unit)) for unit, text in EXAMPLES.items())
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("27.5 GPa", "Pa", 27.5e9),
+        ("300mm", "m", 0.3),
+        ("1e-1 km", "m", 100.0),
+        ("-4.7 MPa", "Pa", -4.7e6),
+        ("37 deg", "rad", math.radians(37)),
+        ("25 kN/m^3", "N/m^3", 25e3),
+        (".5 s", "s", 0.5),
+    ],
+)
+def test_common_units_give_the_nearest_double(text: str, unit: str, value: float) -> None:
+    assert convert(text, unit) == value
+
+
+def test_a_rare_unit_goes_through_pint() -> None:
+    assert convert("1 inch", "m") == pytest.approx(0.0254, rel=1e-15)
+    assert convert("2 kN m", "any") == pytest.approx(2000.0, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "part"),
+    [
+        ("25 kN/m^3", "kg/m^3", "dimension"),
+        ("27.5 Gpa", "Pa", 'did you mean "GPa"'),
+        ("27.5", "Pa", "without quotes"),
+        ("twenty MPa", "Pa", "27.5 GPa"),
+        ("1 parsnip", "m", "no unit"),
+        ("1 m m", "m", "dimension"),
+        ("5 deg", "1", "plain number"),
+    ],
+)
+def test_wrong_units_are_refused_with_a_remedy(text: str, unit: str, part: str) -> None:
+    if unit == "1":
+        assert convert(text, unit) == pytest.approx(math.radians(5))  # an angle is a number
+        return
+    with pytest.raises(UnitError, match=part):
+        convert(text, unit)
+
+
+def test_reading_common_units_imports_none_of_the_heavy_libraries() -> None:
+    code = (
+        "import sys, nmm.scene as s; s.Scene; s.build_scene({'plane': 'strain', 'thickness': '1 m',"
+        "'materials': {'a': {'young_modulus': '1 GPa', 'poisson_ratio': 0.2}}, 'blocks': ["
+        "{'material': 'a', 'vertices': [[0, 0], [1, 0], [0, 1]]}]});"
+        "print([m for m in ('numpy', 'scipy', 'shapely', 'matplotlib', 'pint', 'numba')"
+        " if m in sys.modules])"
+    )
+    answer = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    )
+    assert answer.stdout.strip() == "[]"
