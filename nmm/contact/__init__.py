@@ -1,1 +1,1 @@
-"""Contact of bodies: search, pairs, gap rows and their enforcement."""
+"""Contact: search, gaps and joints; one file for each enforcement."""

@@ -1,0 +1,74 @@
+"""Boundary edges of all bodies where they are now: all that contact search knows of a body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from integration.polygons import Polygons
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Closed rings of edges with the solid on the left hand of start -> end.
+
+    Vertex ``i`` is the start of edge ``i``; edges ``previous[i]`` and ``i`` meet there.
+
+    Attributes
+    ----------
+    start, end
+        (n, 2) ends of each edge (m).
+    body
+        (n,) body of each edge.
+    next, previous
+        (n,) the edges that follow and precede it in its ring.
+    """
+
+    start: Floats
+    end: Floats
+    body: Ints
+    next: Ints
+    previous: Ints
+
+    def __len__(self) -> int:
+        return len(self.body)
+
+    @cached_property
+    def direction(self) -> Floats:
+        """(n, 2) unit vectors from start to end; zero for an edge without length."""
+        length = self.length[:, None]
+        return np.divide(
+            self.end - self.start, length, out=np.zeros_like(self.start), where=length > 0.0
+        )
+
+    @cached_property
+    def normal(self) -> Floats:
+        """(n, 2) outward unit normals: the directions turned clockwise."""
+        return np.stack([self.direction[:, 1], -self.direction[:, 0]], axis=1)
+
+    @cached_property
+    def length(self) -> Floats:
+        """(n,) lengths of the edges (m)."""
+        return np.asarray(np.hypot(*(self.end - self.start).T))
+
+    def moved(self, start: Floats, end: Floats) -> Surface:
+        """Return the same rings with their edges elsewhere."""
+        return Surface(start, end, self.body, self.next, self.previous)
+
+
+def polygon_surface(polygons: Polygons) -> Surface:
+    """Surface of polygons, one body each; rings are turned to have the solid on the left."""
+    polygons = polygons.oriented()
+    follower = polygons.next_point
+    previous = np.empty_like(follower)
+    previous[follower] = np.arange(len(follower))
+    return Surface(
+        polygons.points,
+        polygons.points[follower],
+        polygons.polygon_of_point,
+        follower,
+        previous,
+    )
