@@ -46,9 +46,7 @@ class Rows:
         m, _, length = self.values.shape
         columns = np.repeat(self.unknowns[:, None, :], 2, axis=1)
         offsets = np.arange(2 * m + 1) * length
-        return csr_array(
-            (self.values.ravel(), columns.ravel(), offsets), shape=(2 * m, n_unknowns)
-        )
+        return csr_array((self.values.ravel(), columns.ravel(), offsets), shape=(2 * m, n_unknowns))
 
 
 def stack_groups(parts: list[tuple[Ints, Ints, Floats]], n_points: int) -> tuple[Ints, Floats]:

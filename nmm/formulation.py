@@ -62,10 +62,17 @@ class Integrator(_Part):
 
 
 class Rotation(Frozen):
-    """How a step's rotation moves a block: exact, or linear as in classical DDA."""
+    """How a step's rotation moves a body.
 
-    update: Literal["exact", "linear"] = Field(
-        default="exact", description='"exact" or "linear"', examples=["exact"]
+    "exact" turns it; "linear" is the update of classical DDA, in which areas grow; "small" keeps all
+    bodies where they are (theory of small displacements); "auto" is small for statics without
+    contact and exact for all else.
+    """
+
+    update: Literal["auto", "exact", "linear", "small"] = Field(
+        default="auto",
+        description='"auto", "exact", "linear" or "small"',
+        examples=["exact"],
     )
 
 

@@ -118,7 +118,9 @@ class MaterialPoints:
 def material_points(manifold: Manifold, elements: Ints, points: Floats) -> MaterialPoints:
     """Return reference points (m, 2) in elements (m,) as points that can be followed."""
     body = manifold.element_body[elements]
-    return MaterialPoints(body, points - manifold.body_centroid[body], manifold.rows(elements, points))
+    return MaterialPoints(
+        body, points - manifold.body_centroid[body], manifold.rows(elements, points)
+    )
 
 
 def move(model: Model, state: State, increment: Floats) -> State:
@@ -153,3 +155,8 @@ def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
     change = np.zeros_like(mean)
     change[:, :2] = turned - mean[:, :2]
     return rate + model.manifold.rigid_modes @ change.ravel()
+
+
+def strain_only(model: Model, state: State, increment: Floats) -> State:
+    """Return the state after ``increment`` in small displacements: the bodies' axes stay."""
+    return replace(state, deformation=state.deformation + increment)

@@ -1,12 +1,20 @@
-"""What an effect is to the step loop."""
+"""What an effect is to the step loop, and what it is built from."""
 
-from abc import ABC
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Self
 
+import numpy as np
 from scipy.sparse import csc_array
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+
+if TYPE_CHECKING:
+    from nmm.formulation import Formulation
+    from nmm.scene.model import Scene
 
 
 @dataclass(frozen=True)
@@ -16,7 +24,7 @@ class Instant:
     Attributes
     ----------
     time
-        s.
+        s; in statics the load factor.
     load_factor
         Factor on the scaled loads.
     """
@@ -25,13 +33,48 @@ class Instant:
     load_factor: float
 
 
+@dataclass(frozen=True)
+class Setup:
+    """What effects are built from.
+
+    Attributes
+    ----------
+    scene, formulation
+        As read.
+    model
+        Manifold and materials.
+    region_name, region_material
+        Name and material (index in the scene's order) of each input region.
+    start
+        State at the start of the run.
+    """
+
+    scene: "Scene"
+    formulation: "Formulation"
+    model: Model
+    region_name: tuple[str, ...]
+    region_material: Ints
+    start: State
+
+    def regions(self, name: str | None) -> Bools | None:
+        """Return which regions a name means: a block, all blocks of a tessellation, or "all"."""
+        if name is None or name == "all":
+            return None
+        return np.array([one == name or one.startswith(f"{name}.") for one in self.region_name])
+
+
 class Effect(ABC):
     """Base of effects: override the hooks the effect has; those left alone are never called.
 
     All vectors and matrices are in the unknowns of the step, that is in the bodies' axes.
     """
 
-    name: str
+    name: ClassVar[str]
+
+    @classmethod
+    @abstractmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build the effect of a scene that names it."""
 
     def force(self, state: State, end: Instant) -> Floats:
         """Force (n,) that acts through the step."""
@@ -41,7 +84,7 @@ class Effect(ABC):
         """Symmetric matrix (n, n) that joins the stiffness in the step that starts at ``state``."""
         raise NotImplementedError
 
-    def work(self, before: State, after: State, increment: Floats, end: Instant) -> float:
+    def work(self, before: State, after: State) -> float:
         """Work (J) that the effect did on the bodies in an accepted step."""
         raise NotImplementedError
 
@@ -49,7 +92,19 @@ class Effect(ABC):
         """Energy (J) the effect stores."""
         raise NotImplementedError
 
+    def begin(self, state: State) -> State:
+        """Return the state at the start of the run as the effect changes it."""
+        raise NotImplementedError
+
 
 def defines(effect: Effect, hook: str) -> bool:
     """Say whether an effect has its own ``hook``."""
     return getattr(type(effect), hook) is not getattr(Effect, hook)
+
+
+def factor_of(history: Sequence[tuple[float, float]] | None, time: float) -> float:
+    """Return the factor of a history of (time, factor) pairs, linear between and held beyond."""
+    if history is None:
+        return 1.0
+    times, factors = np.transpose(history)
+    return float(np.interp(time, times, factors))

@@ -1,12 +1,14 @@
 """Inertia: mass times acceleration, and the pull outwards in bodies that turn."""
 
+from typing import Self
+
 import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.effects.base import Effect, Instant
+from nmm.effects.base import Effect, Instant, Setup
 
 
 class Inertia(Effect):
@@ -21,6 +23,11 @@ class Inertia(Effect):
     def __init__(self, model: Model) -> None:
         self._model = model
         self.mass: csc_array = model.mass
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from ``[inertia]``."""
+        return cls(setup.model)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the centrifugal force of the rotation at the start of the step."""

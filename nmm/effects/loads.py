@@ -1,14 +1,20 @@
-"""Applied forces: at points, along edges, in blocks; dead loads, fixed in direction."""
+"""Applied forces: at points and along edges; dead loads, fixed in direction."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
-from nmm.assembly.places import Place
-from nmm.effects.base import Effect, Instant
+from nmm.assembly.places import Place, at_point, on_segment
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.load_factor import load_factor
+from nmm.errors import GeometryError
+
+if TYPE_CHECKING:
+    from nmm.scene.actions import Load as SceneLoad
 
 
 @dataclass(frozen=True)
@@ -32,10 +38,9 @@ class Load:
     force: Floats
     factor: Callable[[Instant], float]
 
-    @property
-    def magnitude(self) -> float:
-        """Length of the resultant at factor 1 (N)."""
-        return float(np.hypot(*self.force.sum(axis=0)))
+    def resultant(self, end: Instant) -> Floats:
+        """Sum (2,) of the forces at an instant (N)."""
+        return self.factor(end) * self.force.sum(axis=0)
 
 
 class Loads(Effect):
@@ -47,6 +52,12 @@ class Loads(Effect):
         self.loads = loads
         self._n = n_unknowns
 
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[loads]]`` of kind "point" and "edge"."""
+        found = [_load(setup, load) for load in setup.scene.loads if load.kind != "body"]
+        return cls(found, setup.model.manifold.n_unknowns)
+
     def force(self, state: State, end: Instant) -> Floats:
         """Return the loads in the bodies' axes."""
         total = np.zeros(self._n)
@@ -56,9 +67,10 @@ class Loads(Effect):
             total += np.bincount(points.rows.unknowns.ravel(), local.ravel(), minlength=self._n)
         return total
 
-    def work(self, before: State, after: State, increment: Floats, end: Instant) -> float:
+    def work(self, before: State, after: State) -> float:
         """Mean of the loads at both ends of the step times the motion of their points."""
         start = Instant(before.time, before.load_factor)
+        end = Instant(after.time, after.load_factor)
         total = 0.0
         for load in self.loads:
             points = load.place.points
@@ -68,3 +80,27 @@ class Loads(Effect):
             mean = (load.factor(start) + load.factor(end)) / 2
             total += mean * float(np.sum(load.force * way))
         return total
+
+    def scaled_resultant(self, factor: float) -> float:
+        """Length of what the loads' sum gains from load factor 0 to ``factor`` (N)."""
+        gain = sum(
+            load.resultant(Instant(factor, factor)) - load.resultant(Instant(factor, 0.0))
+            for load in self.loads
+        )
+        return float(np.hypot(*gain))
+
+
+def _load(setup: Setup, load: "SceneLoad") -> Load:
+    manifold, regions = setup.model.manifold, setup.regions(load.block)
+    if load.kind == "point":
+        place = at_point(manifold, np.array(load.point), regions)
+        total = np.array(load.force)
+    else:
+        place = on_segment(manifold, np.array(load.segment), regions)
+        total = np.array(load.traction) * setup.model.thickness
+    if not len(place):
+        raise GeometryError(
+            f"load {load.name}: {load.point or load.segment}: expected a place on the material: "
+            "move it onto a block or onto the edge of one"
+        )
+    return Load(load.name, place, place.weight[:, None] * total, load_factor(setup, load))

@@ -6,17 +6,25 @@ the held directions alone. Its force is read from the whole distance, so nothing
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
-from nmm.assembly.places import Place
-from nmm.effects.base import Effect, Instant
+from nmm.assembly.places import Place, at_point, on_block, on_segment
+from nmm.effects.base import Effect, Instant, Setup, factor_of
+from nmm.errors import GeometryError
+
+if TYPE_CHECKING:
+    from nmm.scene.actions import Support as SceneSupport
 
 # (x, y) in which a support may hold a point.
 AXES = np.eye(2)
+
+# Spring of a support in Young's moduli times thickness: Shi's 10 to 1000, at the stiff end.
+STIFFNESS = 1000.0
 
 
 @dataclass(frozen=True)
@@ -55,6 +63,12 @@ class Supports(Effect):
         self._anchors = [
             support.place.points.place(state.frames, state.deformation) for support in supports
         ]
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[supports]]``."""
+        found = [_support(setup, support) for support in setup.scene.supports]
+        return cls(found, setup.model.manifold.n_unknowns, setup.start)
 
     def matrix(self, state: State) -> csc_array:
         """Return the springs' stiffness."""
@@ -102,3 +116,30 @@ class Supports(Effect):
         offsets = np.arange(len(values) + 1) * values.shape[1]
         shape = (len(values), self._n)
         return csr_array((values.ravel(), points.rows.unknowns.ravel(), offsets), shape=shape)
+
+
+def _support(setup: Setup, support: "SceneSupport") -> Support:
+    manifold, regions = setup.model.manifold, setup.regions(support.block)
+    if support.point is not None:
+        place = at_point(manifold, np.array(support.point), regions)
+    elif support.segment is not None:
+        place = on_segment(manifold, np.array(support.segment), regions)
+    else:
+        assert regions is not None or support.block == "all"
+        everything = np.ones(len(setup.region_name), dtype=bool)
+        place = on_block(manifold, everything if regions is None else regions)
+    if not len(place):
+        raise GeometryError(
+            f"support {support.name}: {support.point or support.segment or support.block}: "
+            "expected a place on the material: move it onto a block or onto the edge of one"
+        )
+    share = place.weight / place.weight.sum()
+    spring = STIFFNESS * setup.model.modulus[place.elements] * setup.model.thickness * share
+    to = np.array(support.displacement)
+    return Support(
+        name=support.name,
+        place=place,
+        stiffness=spring * (len(place) if support.point is None else 1),
+        held=np.array(["x" in support.fix, "y" in support.fix]),
+        displacement=lambda end: to * factor_of(support.history, end.time),
+    )

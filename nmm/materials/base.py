@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from integration.arrays import Floats
+from nmm.registry import Registry
 
 
 @dataclass(frozen=True)
@@ -21,3 +22,6 @@ class Law(ABC):
     @abstractmethod
     def modulus(self) -> float:
         """Young's modulus (Pa): the unit in which penalties are given."""
+
+
+MATERIAL_LAWS = Registry[type[Law]]("material law", {"elastic": "nmm.materials.elastic:Elastic"})

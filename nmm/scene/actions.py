@@ -22,6 +22,7 @@ from nmm.scene.fields import (
     Point,
     Segment,
     Stress,
+    Time,
     Velocity,
     fault,
 )
@@ -155,6 +156,12 @@ class Loading(Frozen):
     )
     maximum_factor: Number | None = Field(
         default=None, gt=0, description="a load factor > 0 at which to stop", examples=[10.0]
+    )
+    motion_after_failure: Time | None = Field(
+        default=None,
+        gt=0,
+        description="a duration in s: the failed blocks move with inertia, to show the mode",
+        examples=["5 ms"],
     )
 
 

@@ -1,0 +1,105 @@
+"""Which laws act at contact points: limits, springs, and bonds that break for good."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.points import ContactPoints
+from nmm.contact.problem import BONDED, BROKEN, Limits, StepAnswer
+from nmm.interfaces.base import InterfaceLaw
+
+# Loads on bonds of a symmetric structure agree to rounding only; those within this of the worst
+# break together, so that a symmetric mesh stays symmetric.
+TIE = 1e-6
+
+
+@dataclass(frozen=True)
+class Laws:
+    """Interface laws of a scene and the springs that carry them.
+
+    Attributes
+    ----------
+    laws
+        One for each interface.
+    thickness
+        m.
+    normal_penalty, shear_penalty
+        N/m of a contact whose law has no stiffness of its own.
+    """
+
+    laws: Sequence[InterfaceLaw]
+    thickness: float
+    normal_penalty: float
+    shear_penalty: float
+
+    def limits(self, contacts: ContactPoints) -> Limits:
+        """Return the largest forces of the contacts."""
+        tension, cohesion, friction = (np.empty(len(contacts)) for _ in range(3))
+        for law, index in self._by_law(contacts):
+            limits = law.limits(contacts.length[index], contacts.damage[index], self.thickness)
+            tension[index], cohesion[index] = limits.tension, limits.cohesion
+            friction[index] = limits.friction
+        return Limits(tension, cohesion, friction)
+
+    def springs(self, contacts: ContactPoints) -> tuple[Floats, Floats, Bools]:
+        """Return normal and shear stiffness (N/m) and which are the joints' own."""
+        normal = np.full(len(contacts), self.normal_penalty)
+        shear = np.full(len(contacts), self.shear_penalty)
+        own = np.zeros(len(contacts), dtype=bool)
+        for law, index in self._by_law(contacts):
+            if law.normal_stiffness is None:
+                continue
+            index = index[contacts.length[index] > 0]
+            area = contacts.length[index] * self.thickness
+            normal[index] = law.normal_stiffness * area
+            shear[index] = (law.shear_stiffness or law.normal_stiffness) * area
+            own[index] = True
+        return normal, shear, own
+
+    def breaking(
+        self, contacts: ContactPoints, answer: StepAnswer, worst_only: bool
+    ) -> tuple[Bools, Floats]:
+        """Return which intact bonds cannot hold the forces of an answer, and all overloads (m,).
+
+        With ``worst_only`` the most loaded ones alone, the others being judged again after the
+        forces have moved: the order of failure then does not depend on the load increment.
+        """
+        load = np.zeros(len(contacts))
+        for law, index in self._by_law(contacts):
+            if law.bonded:
+                index = index[contacts.damage[index] < 1]
+                load[index] = law.overload(
+                    answer.normal_force[index],
+                    answer.shear_force[index],
+                    contacts.length[index],
+                    self.thickness,
+                )
+        over = load > 1
+        if worst_only and over.any():
+            over &= load >= load.max() * (1 - TIE)
+        return over, load
+
+    def _by_law(self, contacts: ContactPoints) -> list[tuple[InterfaceLaw, Ints]]:
+        return [
+            (law, np.flatnonzero(contacts.interface == number))
+            for number, law in enumerate(self.laws)
+        ]
+
+
+def break_bonds(contacts: ContactPoints, broken: Bools) -> ContactPoints:
+    """Return the contacts with some bonds broken for good, their forces gone."""
+    return replace(
+        contacts,
+        damage=np.where(broken, 1.0, contacts.damage),
+        state=np.where(broken, int(BROKEN), contacts.state),
+        normal_force=np.where(broken, 0.0, contacts.normal_force),
+        shear_force=np.where(broken, 0.0, contacts.shear_force),
+        slip=np.where(broken, 0.0, contacts.slip),
+    )
+
+
+def intact(contacts: ContactPoints) -> Bools:
+    """Which contacts are bonds that hold."""
+    return (contacts.state == BONDED) & (contacts.damage < 1)

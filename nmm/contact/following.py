@@ -1,0 +1,177 @@
+"""Contact points from step to step: joints keep their place, the others are found anew."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.joints import Joints, joint_ends, joint_points
+from nmm.contact.narrow import Contacts, follow, pair_key
+from nmm.contact.points import ContactPoints, concatenate
+from nmm.contact.problem import BONDED, BROKEN, OPEN, StepAnswer
+from nmm.contact.sides import Sides, tangents
+from nmm.contact.surface import Surface
+
+# A broken joint whose faces have slid by this share of its length is left to the search.
+SLID = 0.05
+
+
+@dataclass(frozen=True)
+class JointBook:
+    """Joints that are still followed.
+
+    Attributes
+    ----------
+    points
+        Their contact points, keys -1, -2, ...
+    joint
+        (m,) joint of each point.
+    pairs
+        (k,) keys of the vertex-edge pairs at the joints' ends, which the search reports too.
+    pair_joint
+        (k,) joint of each such pair.
+    lost
+        Points of joints that came apart; the search finds what touches there.
+    """
+
+    points: ContactPoints
+    joint: Ints
+    pairs: Ints
+    pair_joint: Ints
+    lost: ContactPoints
+
+    def hides(self, found: Contacts) -> Bools:
+        """Which found contacts a followed joint carries already."""
+        alive = np.isin(self.pair_joint, self.joint)
+        return np.isin(found.key, self.pairs[alive])
+
+    def now(self, surface: Surface) -> ContactPoints:
+        """Return the points with gap, slip and normal of the moved surface."""
+        p = self.points
+        normal = surface.normal[p.edge_b]
+        apart = _on(surface, p.edge_a, p.parameter_a) - _on(surface, p.edge_b, p.parameter_b)
+        stretch = np.einsum("ij,ij->i", apart, tangents(normal))
+        held = p.damage < 1
+        return replace(
+            p,
+            normal=normal,
+            gap=np.einsum("ij,ij->i", apart, normal),
+            slip=np.where(held, stretch, p.slip),
+        )
+
+    def keep(self, points: ContactPoints, surface: Surface) -> "JointBook":
+        """Return the book with the answer's points; joints that came apart are given up."""
+        apart = _on(surface, points.edge_a, points.parameter_a)
+        apart = apart - _on(surface, points.edge_b, points.parameter_b)
+        far = np.hypot(apart[:, 0], apart[:, 1]) > SLID * points.length
+        lost = far & (points.damage >= 1)
+        gone = np.isin(self.joint, self.joint[lost]) & (points.damage >= 1)
+        if not gone.any():
+            return replace(self, points=points)
+        zero = np.zeros(int(gone.sum()))
+        apart_now = replace(
+            points.take(gone),
+            state=np.full(len(zero), int(BROKEN)),
+            normal_force=zero,
+            shear_force=zero,
+        )
+        return replace(
+            self,
+            points=points.take(~gone),
+            joint=self.joint[~gone],
+            lost=concatenate([self.lost, apart_now]),
+        )
+
+    @property
+    def broken(self) -> int:
+        """Number of points whose bond is broken, lost ones included."""
+        return int((self.points.damage >= 1).sum()) + len(self.lost)
+
+
+def joint_book(
+    surface: Surface, joints: Joints, interface: Ints, bonded: Bools, stations: str
+) -> JointBook:
+    """Follow joints: ``interface`` and ``bonded`` (j,) of each, points at ``stations``."""
+    points = joint_points(surface, joints, stations)
+    m = len(points)
+    vertex, edge, joint = joint_ends(surface, joints)
+    zeros = np.zeros(m)
+    held = bonded[points.joint]
+    found = ContactPoints(
+        edge_a=points.edge_a,
+        parameter_a=points.parameter_a,
+        edge_b=points.edge_b,
+        parameter_b=points.parameter_b,
+        normal=points.normal,
+        gap=points.gap,
+        slip=zeros,
+        length=points.length,
+        interface=interface[points.joint],
+        key=-1 - np.arange(m),
+        damage=np.where(held, 0.0, 1.0),
+        state=np.where(held, int(BONDED), int(OPEN)),
+        normal_force=zeros,
+        shear_force=zeros,
+    )
+    pairs = pair_key(surface, vertex, edge)
+    return JointBook(
+        found, points.joint, pairs, joint, lost=found.take(np.zeros(0, dtype=np.int64))
+    )
+
+
+def searched_points(found: Contacts, interface: Ints) -> ContactPoints:
+    """Return found contacts as points without memory."""
+    m = len(found.gap)
+    zeros = np.zeros(m)
+    return ContactPoints(
+        edge_a=found.vertex,
+        parameter_a=zeros,
+        edge_b=found.edge,
+        parameter_b=found.parameter,
+        normal=found.normal,
+        gap=found.gap,
+        slip=zeros,
+        length=zeros,
+        interface=interface,
+        key=found.key,
+        damage=np.ones(m),
+        state=np.full(m, int(OPEN)),
+        normal_force=zeros,
+        shear_force=zeros,
+    )
+
+
+def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> ContactPoints:
+    """Return the new points with state, forces and slip of the old points they continue."""
+    known = predecessor >= 0
+    source = np.where(known, predecessor, 0)
+
+    def kept(name: str) -> Floats:
+        values = getattr(old, name)
+        return (
+            np.where(known, values[source], getattr(new, name)) if len(old) else getattr(new, name)
+        )
+
+    return replace(
+        new,
+        slip=kept("slip"),
+        state=kept("state").astype(np.int64),
+        normal_force=kept("normal_force"),
+        shear_force=kept("shear_force"),
+    )
+
+
+def answered(points: ContactPoints, answer: StepAnswer) -> ContactPoints:
+    """Return the points as an answer leaves them."""
+    return replace(
+        points,
+        gap=answer.gap,
+        slip=answer.slip,
+        state=np.where(points.damage < 1, int(BONDED), answer.state),
+        normal_force=answer.normal_force,
+        shear_force=answer.shear_force,
+    )
+
+
+def _on(surface: Surface, edge: Ints, parameter: Floats) -> Floats:
+    return surface.start[edge] + parameter[:, None] * (surface.end[edge] - surface.start[edge])

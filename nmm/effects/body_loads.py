@@ -1,0 +1,62 @@
+"""Force densities in the volume of blocks."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.load_factor import load_factor
+
+
+@dataclass(frozen=True)
+class BodyLoad:
+    """One load: its density (E, 2) on each element at factor 1 (N/m3), and its factor."""
+
+    density: Floats
+    factor: Callable[[Instant], float]
+
+
+class BodyLoads(Effect):
+    """All body loads of a scene, fixed in direction while bodies turn."""
+
+    name = "body loads"
+
+    def __init__(self, model: Model, loads: list[BodyLoad]) -> None:
+        self._model = model
+        self._loads = loads
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[loads]]`` of kind "body"."""
+        region = setup.model.manifold.element_region
+        found = []
+        for load in setup.scene.loads:  # a handful of loads
+            if load.kind == "body":
+                assert load.density is not None
+                regions = setup.regions(load.block)
+                inside = np.ones(len(region)) if regions is None else regions[region] * 1.0
+                density = inside[:, None] * np.array(load.density)
+                found.append(BodyLoad(density, load_factor(setup, load)))
+        return cls(setup.model, found)
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the loads in the bodies' axes."""
+        density = self._density(end)
+        body = self._model.manifold.element_body
+        return self._model.body_load(state.frames.to_body(body, density))
+
+    def work(self, before: State, after: State) -> float:
+        """Mean load times the motion of the centres."""
+        ends = (Instant(s.time, s.load_factor) for s in (before, after))
+        mean = sum(self._density(end) for end in ends) / 2
+        volume = self._model.element_area * self._model.thickness
+        way = (after.frames.centre - before.frames.centre)[self._model.manifold.element_body]
+        return float(np.sum(volume[:, None] * mean * way))
+
+    def _density(self, end: Instant) -> Floats:
+        return np.sum([load.factor(end) * load.density for load in self._loads], axis=0)

@@ -1,0 +1,269 @@
+"""Contact: bodies touch, rub, hold together by bonds, and part.
+
+Joints (shared edges whose interface has strength or stiffness) are followed from the start; all
+other contacts are found by search as bodies move. Both are contact points of one step problem.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.contact.bonds import Laws, break_bonds
+from nmm.contact.enforcement import Enforcement, make_enforcement
+from nmm.contact.following import (
+    JointBook,
+    answered,
+    joint_book,
+    remember,
+    searched_points,
+)
+from nmm.contact.joints import find_joints
+from nmm.contact.memory import Memory
+from nmm.contact.narrow import Contacts, find_contacts, follow
+from nmm.contact.points import ContactPoints, concatenate, rows
+from nmm.contact.problem import StepAnswer, StepProblem
+from nmm.contact.search import NeighbourList
+from nmm.contact.sides import sides
+from nmm.contact.surface import Surface
+from nmm.effects.base import Effect, Setup
+from nmm.errors import SceneError
+from nmm.interfaces.base import INTERFACE_LAWS, InterfaceLaw
+from nmm.solvers.linear import LinearSolver
+
+NONE = -1
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Contact points of a step with the forces found.
+
+    Attributes
+    ----------
+    contacts
+        As they entered the last solution, bonds that broke on the way marked.
+    answer
+        Unknowns and forces.
+    passes
+        Linear systems solved.
+    loss
+        Energy lost to friction and broken springs (J).
+    """
+
+    contacts: ContactPoints
+    answer: StepAnswer
+    passes: int
+    loss: float
+
+
+@dataclass(frozen=True)
+class ContactRecord:
+    """What contact keeps from accepted step to accepted step.
+
+    Attributes
+    ----------
+    book
+        Joints.
+    found, known
+        Contacts of the last search, and the same as points with forces and slip.
+    """
+
+    book: JointBook
+    found: Contacts | None = None
+    known: ContactPoints | None = None
+
+
+class Contact(Effect):
+    """All contacts of a scene.
+
+    The step loop asks for `candidates` once a step, solves them by `solve` as often as it needs,
+    and hands the accepted ones back to `commit`.
+    """
+
+    name = "contact"
+
+    def __init__(
+        self,
+        model: Model,
+        laws: Laws,
+        interface_of: Ints,
+        enforcement: Enforcement,
+        stations: str,
+        start: State,
+    ) -> None:
+        self._model = model
+        self._laws = laws
+        self._interface_of = interface_of
+        self._enforcement = enforcement
+        self._memory = Memory()
+        self._sides = sides(model.manifold)
+        surface = self._sides.surface(start.frames, start.deformation)
+        self._neighbours: NeighbourList | None = None
+        self._last: Contacts | None = None
+        self.record = ContactRecord(self._follow_joints(surface, stations))
+        self._unbonded = self.record.book.broken
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from ``[contact]``, the interfaces and the formulation's ``[contact]``."""
+        method = setup.formulation.contact
+        unit = float(setup.model.modulus.max()) * setup.model.thickness
+        penalty = method.normal_penalty * unit
+        laws = Laws(
+            laws=[interface_law(item) for item in setup.scene.interfaces.values()],
+            thickness=setup.model.thickness,
+            normal_penalty=penalty,
+            shear_penalty=penalty * method.shear_ratio,
+        )
+        options: dict[str, Any] = dict(method.options)
+        if method.enforcement == "penalty":
+            options.setdefault("max_passes", method.max_passes)
+        return cls(
+            setup.model,
+            laws,
+            _interface_of_regions(setup),
+            make_enforcement(method.enforcement, options),
+            method.joint_points,
+            setup.start,
+        )
+
+    def candidates(self, state: State, reach: float) -> ContactPoints:
+        """Return the contact points of a step in which no point moves further than ``reach``."""
+        surface = self._sides.surface(state.frames, state.deformation)
+        record = self.record
+        joints = record.book.now(surface)
+        found = self._search(surface, 2 * reach)
+        new = searched_points(found, self._interfaces(found.vertex, found.edge))
+        if record.found is not None and record.known is not None:
+            new = remember(new, record.known, follow(record.found, found))
+        self._last = found
+        return concatenate([joints, new])
+
+    def solve(
+        self,
+        contacts: ContactPoints,
+        state: State,
+        matrix: csc_array,
+        force: Floats,
+        solver: LinearSolver,
+        worst_first: bool,
+    ) -> Solved:
+        """Solve one step; bonds that cannot hold break and the step is solved again."""
+        n_unknowns = self._model.manifold.n_unknowns
+        normal_rows, tangent_rows = rows(contacts, self._sides, state.frames, n_unknowns)
+        normal, shear, own = self._laws.springs(contacts)
+        passes, loss = 0, 0.0
+        while True:
+            problem = StepProblem(
+                matrix=matrix,
+                force=force,
+                normal_rows=normal_rows,
+                tangent_rows=tangent_rows,
+                gap=contacts.gap,
+                slip=contacts.slip,
+                normal_stiffness=normal,
+                shear_stiffness=shear,
+                limits=self._laws.limits(contacts),
+                state=contacts.state,
+                normal_force=contacts.normal_force,
+                shear_force=contacts.shear_force,
+                compliant=own | (contacts.damage < 1),
+            )
+            answer = self._enforcement.solve(problem, solver, self._memory)
+            passes += answer.passes
+            broken = np.zeros(len(contacts), dtype=bool)
+            if answer.verdict.converged:
+                broken, _ = self._laws.breaking(contacts, answer, worst_first)
+            if not broken.any():
+                slid = problem.slips(answer.increment) - answer.slip
+                loss += float(np.abs(answer.shear_force * slid).sum())
+                return Solved(contacts, answer, passes, loss)
+            elastic = answer.normal_force**2 / normal + answer.shear_force**2 / shear
+            loss += float(elastic[broken].sum()) / 2
+            contacts = break_bonds(contacts, broken)
+
+    def commit(self, solved: Solved, state: State) -> ContactPoints:
+        """Keep the accepted contacts as the start of the next step, and return them."""
+        done = answered(solved.contacts, solved.answer)
+        surface = self._sides.surface(state.frames, state.deformation)
+        self.record = ContactRecord(
+            book=self.record.book.keep(done.take(done.is_joint), surface),
+            found=self._last,
+            known=done.take(~done.is_joint),
+        )
+        return concatenate([done, self.record.book.lost])
+
+    @property
+    def broken_bonds(self) -> int:
+        """Number of joint points whose bond is broken."""
+        return self.record.book.broken - self._unbonded
+
+    def position(self, contacts: ContactPoints, state: State) -> Floats:
+        """Return where the contacts are (m, 2)."""
+        side = self._sides.at(contacts.edge_b, contacts.parameter_b)
+        return side.place(state.frames, state.deformation)
+
+    def energy(self, state: State) -> float:
+        """Energy of the springs of the contacts as last committed (J)."""
+        record = self.record
+        known = [] if record.known is None else [record.known]
+        points = concatenate([record.book.points, *known])
+        normal, shear, _ = self._laws.springs(points)
+        elastic = points.normal_force**2 / normal + points.shear_force**2 / shear
+        return float(elastic.sum() / 2)
+
+    def _search(self, surface: Surface, reach: float) -> Contacts:
+        if self._neighbours is None or self._neighbours.skin < 2 * reach:
+            self._neighbours = NeighbourList(skin=4 * reach)
+        vertex, edge = self._neighbours.update(surface)
+        found = find_contacts(surface, vertex, edge, reach, last=self.record.found)
+        return found.take(~self.record.book.hides(found))
+
+    def _interfaces(self, vertex: Ints, edge: Ints) -> Ints:
+        manifold = self._model.manifold
+        region = manifold.element_region[manifold.boundary.element]
+        return self._interface_of[region[vertex], region[edge]]
+
+    def _follow_joints(self, surface: Surface, stations: str) -> JointBook:
+        joints = find_joints(surface)
+        interface = self._interfaces(joints.edge_a, joints.edge_b)
+        makes = np.array([law.makes_joints for law in self._laws.laws])
+        wanted = makes[interface]
+        joints = joints.take(wanted)
+        bonded = np.array([law.bonded for law in self._laws.laws])[interface[wanted]]
+        return joint_book(surface, joints, interface[wanted], bonded, stations)
+
+
+def interface_law(item: Any) -> InterfaceLaw:
+    """Return the law of a scene's interface."""
+    kind = INTERFACE_LAWS.load(item.law)
+    names = (
+        "friction_angle",
+        "cohesion",
+        "tensile_strength",
+        "bonded",
+        "normal_stiffness",
+        "shear_stiffness",
+        "fracture_energy",
+    )
+    return kind(**{name: getattr(item, name) for name in names}, **item.options)
+
+
+def _interface_of_regions(setup: Setup) -> Ints:
+    """Index (N, N) of the interface between any two regions; NONE where the scene has none."""
+    materials = list(setup.scene.materials)
+    names: Mapping[int, str] = dict(enumerate(materials))
+    order = {id(item): number for number, item in enumerate(setup.scene.interfaces.values())}
+    table = np.full((len(materials), len(materials)), NONE)
+    for i, j in np.ndindex(*table.shape):  # pairs of materials
+        try:
+            table[i, j] = order[id(setup.scene.interface(names[i], names[j]))]
+        except SceneError:
+            continue
+    material = setup.region_material
+    return table[np.ix_(material, material)]

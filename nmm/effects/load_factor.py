@@ -1,0 +1,19 @@
+"""How large a scene's load is at an instant."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from nmm.effects.base import Instant, Setup, factor_of
+
+if TYPE_CHECKING:
+    from nmm.scene.actions import Load
+
+
+def load_factor(setup: Setup, load: "Load") -> Callable[[Instant], float]:
+    """Return the factor of a load: its history, times the load factor if it is scaled.
+
+    Without ``[loading]`` all loads are scaled: from 0 to 1 in statics, by 1 in dynamics.
+    """
+    loading = setup.scene.loading
+    scaled = loading is None or loading.scaled == "all" or load.name in loading.scaled
+    return lambda end: factor_of(load.history, end.time) * (end.load_factor if scaled else 1.0)

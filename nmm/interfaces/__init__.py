@@ -1,0 +1,1 @@
+"""Traction laws of joints and contacts."""

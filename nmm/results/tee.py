@@ -1,0 +1,78 @@
+"""Receivers that stand before others: one run to several, or its frames alone."""
+
+from collections.abc import Mapping, Sequence
+
+from integration.arrays import Ints
+from integration.polygons import Polygons
+from nmm.results.frame import Frame
+from nmm.results.sink import Sink
+from nmm.results.summary import Summary
+
+
+class Tee:
+    """Sink that hands everything on to all of ``sinks``."""
+
+    def __init__(self, sinks: Sequence[Sink]) -> None:
+        self._sinks = sinks
+
+    def begin(
+        self,
+        elements: Polygons,
+        element_region: Ints,
+        material_names: Sequence[str],
+        *,
+        region_material: Ints,
+        region_names: Sequence[str] = (),
+    ) -> None:
+        """See `Sink.begin`."""
+        for sink in self._sinks:
+            sink.begin(
+                elements,
+                element_region,
+                material_names,
+                region_material=region_material,
+                region_names=region_names,
+            )
+
+    def frame(self, frame: Frame) -> None:
+        """See `Sink.frame`."""
+        for sink in self._sinks:
+            sink.frame(frame)
+
+    def row(self, values: Mapping[str, float]) -> None:
+        """See `Sink.row`."""
+        for sink in self._sinks:
+            sink.row(values)
+
+    def finish(self, summary: Summary) -> None:
+        """See `Sink.finish`."""
+        for sink in self._sinks:
+            sink.finish(summary)
+
+
+class Frames:
+    """Sink that hands on frames alone: for motion that is shown but is no result."""
+
+    def __init__(self, sink: Sink) -> None:
+        self._sink = sink
+
+    def begin(
+        self,
+        elements: Polygons,
+        element_region: Ints,
+        material_names: Sequence[str],
+        *,
+        region_material: Ints,
+        region_names: Sequence[str] = (),
+    ) -> None:
+        """Ignore: the topology stands."""
+
+    def frame(self, frame: Frame) -> None:
+        """See `Sink.frame`."""
+        self._sink.frame(frame)
+
+    def row(self, values: Mapping[str, float]) -> None:
+        """Ignore."""
+
+    def finish(self, summary: Summary) -> None:
+        """Ignore."""

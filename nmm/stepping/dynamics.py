@@ -1,0 +1,91 @@
+"""Steps in time: a step that does not converge is cut; one that cannot be cut ends the run."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+from nmm.stepping.recorder import Recorder
+from nmm.stepping.step import Attempt, Stepper
+from nmm.stepping.verdict import CONVERGED, FAILED, RunVerdict
+
+# A step is halved this often before the run is given up: 1/1024 of the chosen step.
+CUTS = 10
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """Times of a dynamic run.
+
+    Attributes
+    ----------
+    duration, step
+        s.
+    frames
+        Number of frames over the duration.
+    load_factor
+        Factor on the scaled loads, constant in dynamics.
+    stage
+        Name of the frames' stage.
+    """
+
+    duration: float
+    step: float
+    frames: int
+    load_factor: float = 1.0
+    stage: str = "dynamic"
+
+
+def run_in_time(
+    stepper: Stepper,
+    recorder: Recorder,
+    state: State,
+    schedule: Schedule,
+    progress: Callable[[float, str], None],
+) -> tuple[State, RunVerdict]:
+    """Step from ``state`` over the schedule's duration.
+
+    Returns
+    -------
+    The last accepted state and the verdict.
+    """
+    begin, end = state.time, state.time + schedule.duration
+    step, contacts, outputs = schedule.step, None, 0
+    while state.time < end - 1e-9 * schedule.step:
+        attempt = _step_or_cut(stepper, state, min(step, end - state.time), schedule)
+        if not attempt.converged:
+            recorder.frame(state, schedule.stage, contacts)
+            return state, RunVerdict(FAILED, _failure(attempt, state, step))
+        taken = attempt.state.time - state.time
+        contacts = stepper.accept(attempt)
+        recorder.step(state, attempt, contacts)
+        state = attempt.state
+        # After a cut the step grows back slowly: what made it fail is rarely over at once.
+        step = min(schedule.step, 2 * taken) if taken < schedule.step else schedule.step
+        share = (state.time - begin) / schedule.duration
+        if share * schedule.frames >= outputs + 1 - 1e-9:
+            outputs = int(share * schedule.frames + 1e-9)
+            recorder.frame(state, schedule.stage, contacts)
+        progress(share, f"time {state.time:.4g} s of {end:.4g} s")
+    return state, RunVerdict(CONVERGED, f"every step to {state.time:.6g} s converged")
+
+
+def _step_or_cut(stepper: Stepper, state: State, step: float, schedule: Schedule) -> Attempt:
+    for length in _halves(step):
+        end = Instant(state.time + length, schedule.load_factor)
+        attempt = stepper.attempt(state, end, length)
+        if attempt.converged:
+            return attempt
+    return attempt
+
+
+def _halves(step: float) -> Iterator[float]:
+    for cut in range(CUTS + 1):
+        yield step / 2**cut
+
+
+def _failure(attempt: Attempt, state: State, step: float) -> str:
+    return (
+        f"the step at {state.time:.6g} s did not converge, though cut to {step / 2**CUTS:.3g} s: "
+        f"{attempt.sentence}"
+    )

@@ -1,0 +1,159 @@
+"""The effects of a scene, compiled once: only those it names, only the hooks they have.
+
+What a scene does not name is not imported and has no arrays.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from importlib import import_module
+from time import perf_counter
+from typing import TYPE_CHECKING, TypeVar, cast
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.effects.base import Effect, Instant, Setup, defines
+
+if TYPE_CHECKING:
+    from nmm.effects.contact import Contact
+    from nmm.effects.inertia import Inertia
+    from nmm.effects.initial_stress import InitialStress
+    from nmm.effects.loads import Loads
+    from nmm.effects.supports import Supports
+    from nmm.scene.model import Scene
+
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Called:
+    """An effect's class and when a scene calls for it."""
+
+    target: str
+    named: Callable[["Scene"], bool]
+
+
+EFFECTS: dict[str, Called] = {
+    "initial velocity": Called(
+        "nmm.effects.initial_velocity:InitialVelocity", lambda s: bool(s.initial_velocities)
+    ),
+    "initial stress": Called(
+        "nmm.effects.initial_stress:InitialStress", lambda s: bool(s.initial_stresses)
+    ),
+    "gravity": Called("nmm.effects.gravity:Gravity", lambda s: s.gravity is not None),
+    "loads": Called(
+        "nmm.effects.loads:Loads", lambda s: any(load.kind != "body" for load in s.loads)
+    ),
+    "body loads": Called(
+        "nmm.effects.body_loads:BodyLoads", lambda s: any(load.kind == "body" for load in s.loads)
+    ),
+    "supports": Called("nmm.effects.supports:Supports", lambda s: bool(s.supports)),
+    "inertia": Called("nmm.effects.inertia:Inertia", lambda s: s.inertia is not None),
+    "contact": Called("nmm.effects.contact:Contact", lambda s: s.contact is not None),
+}
+
+
+def called_for(scene: "Scene") -> dict[str, bool]:
+    """Say for every effect whether a scene names it."""
+    return {name: called.named(scene) for name, called in EFFECTS.items()}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Effects by name, and the seconds each has cost.
+
+    Attributes
+    ----------
+    effects
+        In the order of the table.
+    seconds
+        Wall-clock seconds by effect.
+    """
+
+    effects: dict[str, Effect]
+    seconds: dict[str, float] = field(default_factory=dict)
+
+    def joined(self, effect: Effect) -> "Plan":
+        """Return the plan with one effect more."""
+        return Plan({**self.effects, effect.name: effect})
+
+    def begin(self, state: State) -> State:
+        """Return the state at the start of the run."""
+        for effect in self._with("begin"):
+            state = effect.begin(state)
+        return state
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the sum of all effects' forces (n,)."""
+        total = np.zeros(len(state.deformation))
+        for effect in self._with("force"):
+            total += self._timed(effect.name, partial(effect.force, state, end))
+        return total
+
+    def matrix(self, state: State, base: csc_array) -> csc_array:
+        """Return ``base`` with all effects' matrices added."""
+        for effect in self._with("matrix"):
+            base = base + self._timed(effect.name, partial(effect.matrix, state))
+        return csc_array(base)
+
+    def work(self, before: State, after: State) -> float:
+        """Return the work of all applied forces (J)."""
+        return sum(effect.work(before, after) for effect in self._with("work"))
+
+    def energy(self, name: str, state: State) -> float:
+        """Return the energy of one effect (J), zero when the scene does not name it."""
+        effect = self.effects.get(name)
+        return 0.0 if effect is None else effect.energy(state)
+
+    @property
+    def contact(self) -> "Contact | None":
+        """The contact effect."""
+        return cast("Contact | None", self.effects.get("contact"))
+
+    @property
+    def inertia(self) -> "Inertia | None":
+        """The inertia effect."""
+        return cast("Inertia | None", self.effects.get("inertia"))
+
+    @property
+    def loads(self) -> "Loads | None":
+        """The point and edge loads."""
+        return cast("Loads | None", self.effects.get("loads"))
+
+    @property
+    def supports(self) -> "Supports | None":
+        """The supports."""
+        return cast("Supports | None", self.effects.get("supports"))
+
+    @property
+    def initial_stress(self) -> "InitialStress | None":
+        """The initial stress."""
+        return cast("InitialStress | None", self.effects.get("initial stress"))
+
+    def spend(self, name: str, seconds: float) -> None:
+        """Count seconds for an effect."""
+        self.seconds[name] = self.seconds.get(name, 0.0) + seconds
+
+    def _with(self, hook: str) -> list[Effect]:
+        return [effect for effect in self.effects.values() if defines(effect, hook)]
+
+    def _timed(self, name: str, call: Callable[[], T]) -> T:
+        start = perf_counter()
+        result = call()
+        self.spend(name, perf_counter() - start)
+        return result
+
+
+def compile_plan(setup: Setup) -> Plan:
+    """Import and build the effects that a scene names."""
+    effects = {}
+    for name, wanted in called_for(setup.scene).items():
+        if wanted:
+            module, _, attribute = EFFECTS[name].target.partition(":")
+            kind: type[Effect] = getattr(import_module(module), attribute)
+            effects[name] = kind.from_setup(setup)
+    return Plan(effects)

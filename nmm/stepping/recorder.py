@@ -1,0 +1,192 @@
+"""From states to what a run hands over: frames, history rows, and the totals of the summary."""
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.motion import MaterialPoints, State
+from nmm.assembly.places import at_point
+from nmm.effects.base import Setup
+from nmm.errors import GeometryError
+from nmm.results.frame import Frame
+from nmm.results.sink import Sink
+from nmm.stepping.step import Attempt, Stepper
+
+if TYPE_CHECKING:
+    from nmm.contact.points import ContactPoints
+
+
+@dataclass(frozen=True)
+class Monitor:
+    """A point whose displacement is recorded."""
+
+    name: str
+    points: MaterialPoints
+    start: Floats
+
+
+def monitors(setup: Setup) -> list[Monitor]:
+    """Return the monitors of a scene.
+
+    Raises
+    ------
+    GeometryError
+        When a monitor lies on no material.
+    """
+    found = []
+    for item in setup.scene.monitors:  # a handful
+        place = at_point(setup.model.manifold, np.array(item.point), setup.regions(item.block))
+        if not len(place):
+            raise GeometryError(
+                f"monitor {item.name}: {item.point}: expected a point of the material: move it "
+                "onto a block"
+            )
+        first = place.points.take(np.array([0]))
+        start = first.place(setup.start.frames, setup.start.deformation)[0]
+        found.append(Monitor(item.name, first, start))
+    return found
+
+
+@dataclass
+class Recorder:
+    """Writes to a sink and keeps the running totals of a run.
+
+    Attributes
+    ----------
+    stepper, sink, monitors
+        What is recorded, where to, and which points.
+    work, friction_loss
+        Accumulated over accepted steps (J).
+    """
+
+    stepper: Stepper
+    sink: Sink
+    monitors: list[Monitor]
+    work: float = 0.0
+    friction_loss: float = 0.0
+    steps: int = 0
+    passes: int = 0
+    frames: int = 0
+    residual: float = 0.0
+    penetration: float = 0.0
+    energies: dict[str, float] = field(default_factory=dict)
+    largest: dict[str, int] = field(default_factory=dict)
+
+    def step(self, before: State, attempt: Attempt, contacts: "ContactPoints | None") -> None:
+        """Record an accepted step in the history."""
+        plan, after = self.stepper.plan, attempt.state
+        self.steps += 1
+        self.passes += attempt.passes
+        self.residual = max(self.residual, attempt.residual)
+        self.work += plan.work(before, after)
+        self.energies = self._energies(after)
+        row = {
+            "time": after.time,
+            "load_factor": after.load_factor,
+            "step": float(self.steps),
+            "passes": float(attempt.passes),
+            "residual": attempt.residual,
+            **self.energies,
+            "external_work": self.work,
+        }
+        if contacts is not None:
+            row |= self._contact_row(attempt, contacts)
+        if plan.supports is not None:
+            for name, force in plan.supports.reactions(after).items():
+                row[f"reaction:{name}:x"], row[f"reaction:{name}:y"] = force
+        for monitor in self.monitors:
+            way = monitor.points.place(after.frames, after.deformation)[0] - monitor.start
+            row[f"monitor:{monitor.name}:ux"], row[f"monitor:{monitor.name}:uy"] = way
+        self.sink.row(row)
+
+    def frame(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
+        """Hand over a frame."""
+        stepper, manifold = self.stepper, self.stepper.model.manifold
+        place = stepper.place(state)
+        body = manifold.element_body[manifold.elements.polygon_of_point]
+        velocity = stepper.vertices.rows.apply(state.velocity)
+        self.sink.frame(
+            Frame(
+                index=self.frames,
+                time=state.time,
+                load_factor=state.load_factor,
+                stage=stage,
+                points=place,
+                displacement=place - manifold.elements.points,
+                velocity=state.frames.to_global(body, velocity),
+                stress=self.stress(state),
+                **self._contact_arrays(state, contacts),
+            )
+        )
+        self.frames += 1
+
+    def stress(self, state: State) -> Floats:
+        """Return the mean Cauchy stress (E, 3) of the elements in global axes (Pa)."""
+        model, initial = self.stepper.model, self.stepper.plan.initial_stress
+        stress = model.mean_stress(state.deformation)
+        if initial is not None:
+            stress = stress + initial.stress
+        turn = state.frames.rotation[model.manifold.element_body]
+        tensor = turn @ stress[:, [[0, 2], [2, 1]]] @ np.swapaxes(turn, 1, 2)
+        return np.stack([tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 0, 1]], axis=1)
+
+    @property
+    def energy_balance(self) -> float:
+        """Return (work - stored - lost to friction) over the largest of them."""
+        stored = sum(self.energies.values())
+        size = max(abs(self.work), abs(stored), self.friction_loss)
+        return (self.work - stored - self.friction_loss) / size if size else 0.0
+
+    def _energies(self, state: State) -> dict[str, float]:
+        plan, q = self.stepper.plan, state.deformation
+        return {
+            "kinetic_energy": plan.energy("inertia", state),
+            "strain_energy": float(q @ (self.stepper.model.stiffness @ q)) / 2,
+            "contact_energy": plan.energy("contact", state),
+            "support_energy": plan.energy("supports", state),
+        }
+
+    def _contact_row(self, attempt: Attempt, contacts: "ContactPoints") -> dict[str, float]:
+        from nmm.contact.problem import State as ContactState
+
+        contact = self.stepper.plan.contact
+        assert attempt.solved is not None and contact is not None
+        self.friction_loss += attempt.solved.loss
+        self.penetration = max(self.penetration, -float(contacts.gap.min(initial=0.0)))
+        counts = {s.name.lower(): int(np.sum(contacts.state == s)) for s in ContactState}
+        counts["broken"] = contact.broken_bonds
+        for name, count in counts.items():
+            self.largest[name] = max(self.largest.get(name, 0), count)
+        return {
+            "penetration": -float(contacts.gap.min(initial=0.0)),
+            "friction_loss": self.friction_loss,
+            **{name: float(count) for name, count in counts.items()},
+        }
+
+    def _contact_arrays(self, state: State, contacts: "ContactPoints | None") -> dict[str, Any]:
+        contact = self.stepper.plan.contact
+        if contacts is None or contact is None:
+            return no_contacts()
+        return {
+            "contact_position": contact.position(contacts, state),
+            "contact_normal": contacts.normal,
+            "contact_length": contacts.length,
+            "contact_force": np.stack([contacts.normal_force, contacts.shear_force], axis=1),
+            "contact_gap": contacts.gap,
+            "contact_state": contacts.state,
+        }
+
+
+def no_contacts() -> dict[str, Any]:
+    """Return the contact arrays of a frame without contacts."""
+    empty, pairs = np.zeros(0), np.zeros((0, 2))
+    return {
+        "contact_position": pairs,
+        "contact_normal": pairs,
+        "contact_length": empty,
+        "contact_force": pairs,
+        "contact_gap": empty,
+        "contact_state": np.zeros(0, dtype=np.int64),
+    }

@@ -1,0 +1,138 @@
+"""Growing loads without inertia: increments adapt to failure, and every state is in equilibrium.
+
+A step in which bonds break is accepted only when its load increment is within the tolerance of the
+load, so that bonds break in the order, and at the load, of a slow test whatever increment one
+starts from.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+from nmm.stepping.recorder import Recorder
+from nmm.stepping.step import Attempt, Stepper
+from nmm.stepping.verdict import CONVERGED, FAILED, FAILURE, RunVerdict
+
+if TYPE_CHECKING:
+    from nmm.contact.points import ContactPoints
+
+# Corrections for the turn of contacts and bodies end when they move nothing by more than this
+# share of the step's own motion.
+SETTLED = 1e-8
+CORRECTIONS = 12
+
+# A structure whose points move by this share of its size in one increment has no equilibrium near.
+COLLAPSE = 0.05
+
+
+@dataclass(frozen=True)
+class LoadSchedule:
+    """How far and how finely the loads grow.
+
+    Attributes
+    ----------
+    target
+        Load factor at which to stop.
+    until_failure
+        Whether failing before the target is the result sought.
+    increment
+        Largest increment of the load factor.
+    tolerance
+        Relative width of the bracket of the failure load.
+    """
+
+    target: float
+    until_failure: bool
+    increment: float
+    tolerance: float
+
+
+def run_load(
+    stepper: Stepper,
+    recorder: Recorder,
+    state: State,
+    schedule: LoadSchedule,
+    progress: Callable[[float, str], None],
+) -> tuple[State, RunVerdict]:
+    """Raise the load factor from that of ``state``.
+
+    Returns
+    -------
+    The last state in equilibrium and the verdict.
+    """
+    increment = min(schedule.increment, schedule.target)
+    while state.load_factor < schedule.target * (1 - 1e-12):
+        factor = min(state.load_factor + increment, schedule.target)
+        fine = increment <= schedule.tolerance * factor
+        start, bonds = stepper.remember(), stepper.broken_bonds
+        found = settle(stepper, state, Instant(factor, factor))
+        broke = stepper.broken_bonds > bonds
+        if found.attempt.converged and (fine or not broke):
+            recorder.step(state, found.attempt, found.contacts)
+            state = found.attempt.state
+            recorder.frame(state, "load", found.contacts)
+            progress(min(factor / schedule.target, 1.0), f"load factor {factor:.5g}")
+            increment = increment if broke else min(2 * increment, schedule.increment)
+            continue
+        stepper.restore(start)
+        if fine:
+            return state, _no_equilibrium(state, factor, found.attempt, schedule)
+        increment /= 2
+    return state, RunVerdict(CONVERGED, f"equilibrium at load factor {state.load_factor:.6g}")
+
+
+@dataclass(frozen=True)
+class Settled:
+    """An attempt with its corrections, and the contacts as they are left."""
+
+    attempt: Attempt
+    contacts: "ContactPoints | None"
+
+
+def settle(stepper: Stepper, state: State, end: Instant) -> Settled:
+    """Find equilibrium in the moved place: solve, move, and correct until nothing moves."""
+    total, current, contacts = None, state, None
+    for _ in range(CORRECTIONS):
+        attempt = stepper.attempt(current, end, None, worst_first=True)
+        total = attempt if total is None else _joined(total, attempt)
+        if not attempt.converged or total.motion > COLLAPSE * stepper.size:
+            return Settled(replace(total, converged=False), contacts)
+        contacts = stepper.accept(attempt)
+        current = attempt.state
+        if stepper.small or attempt.motion <= SETTLED * total.motion:
+            return Settled(total, contacts)
+    sentence = f"the moved place is not in equilibrium after {CORRECTIONS} corrections"
+    return Settled(replace(total, converged=False, sentence=sentence), contacts)
+
+
+def _joined(first: Attempt, then: Attempt) -> Attempt:
+    """One attempt of a step and its correction."""
+    solved = then.solved
+    if solved is not None and first.solved is not None:
+        solved = replace(solved, loss=solved.loss + first.solved.loss)
+    return replace(
+        then,
+        motion=max(first.motion, then.motion),
+        passes=first.passes + then.passes,
+        solved=solved,
+    )
+
+
+def _no_equilibrium(
+    state: State, factor: float, attempt: Attempt, schedule: LoadSchedule
+) -> RunVerdict:
+    held = state.load_factor
+    reason = attempt.sentence
+    if attempt.converged or attempt.motion > 0:
+        reason = f"points move by {attempt.motion:.3g} m in the last increment ({reason})"
+    if not schedule.until_failure or held == 0:
+        sentence = f"no equilibrium between load factors {held:.6g} and {factor:.6g}: {reason}"
+        return RunVerdict(FAILED, sentence, held)
+    tolerance = (factor - held) / held
+    sentence = (
+        f"in equilibrium up to load factor {held:.6g}, none at {factor:.6g} "
+        f"({100 * tolerance:.2g} % above): {reason}"
+    )
+    return RunVerdict(FAILURE, sentence, held, tolerance)

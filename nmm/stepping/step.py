@@ -1,0 +1,229 @@
+"""One step: assemble what is constant in it, solve, judge. Nothing is kept unless accepted."""
+
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State, material_points, move, strain_only
+from nmm.effects.base import Instant
+from nmm.errors import SolveError
+from nmm.solvers.linear import Factor, LinearSolver
+from nmm.stepping.integrators import Integrator
+from nmm.stepping.plan import Plan
+
+if TYPE_CHECKING:
+    from nmm.contact.points import ContactPoints
+    from nmm.effects.contact import ContactRecord, Solved
+
+# Contacts are sought as far as points can move in a step. The first step has no motion to go by
+# and looks this far, in sizes of the domain; a step that moves further is solved again.
+FIRST_REACH = 1e-6
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """What came of a step; to be accepted or thrown away.
+
+    Attributes
+    ----------
+    converged, sentence
+        The verdict.
+    state
+        The state at the end; that of the start when the step failed.
+    increment
+        (n,) unknowns of the step.
+    motion
+        Largest motion of a point (m).
+    residual
+        Relative out-of-balance force.
+    passes
+        Linear systems solved.
+    solved
+        Contact points with their forces; None without contact.
+    """
+
+    converged: bool
+    sentence: str
+    state: State
+    increment: Floats
+    motion: float
+    residual: float
+    passes: int
+    solved: "Solved | None" = None
+
+
+class Stepper:
+    """Solves steps of one plan; owns factors and what contact remembers."""
+
+    def __init__(
+        self, model: Model, plan: Plan, integrator: Integrator, solver: LinearSolver, small: bool
+    ) -> None:
+        self.model = model
+        self.plan = plan
+        self._integrator = integrator
+        self.solver = solver
+        self.small = small
+        self.seconds: dict[str, float] = {}
+        manifold = model.manifold
+        self.vertices = material_points(
+            manifold, manifold.elements.polygon_of_point, manifold.elements.points
+        )
+        self._size = float(np.hypot(*np.ptp(manifold.elements.points, axis=0)))
+        self._reach = FIRST_REACH * self._size
+        self._factor: Factor | None = None
+
+    @property
+    def size(self) -> float:
+        """Diagonal of the domain (m)."""
+        return self._size
+
+    @property
+    def factor(self) -> Factor | None:
+        """The last factor of a system without contacts."""
+        return self._factor
+
+    def attempt(
+        self, state: State, end: Instant, step: float | None, worst_first: bool = False
+    ) -> Attempt:
+        """Solve the step from ``state`` to ``end``; ``step`` is its length in s, None is statics."""
+        started = perf_counter()
+        matrix, force = self._system(state, end, step)
+        self._spend("assembly", started)
+        try:
+            return self._solve(state, end, step, matrix, force, worst_first)
+        except SolveError as fault:
+            return Attempt(False, str(fault), state, np.zeros_like(force), 0.0, np.nan, 1)
+
+    def accept(self, attempt: Attempt) -> "ContactPoints | None":
+        """Make an attempt the start of the next step; return its contacts as they are left."""
+        self._reach = max(2 * attempt.motion, FIRST_REACH * self._size)
+        contact = self.plan.contact
+        if contact is None or attempt.solved is None:
+            return None
+        return contact.commit(attempt.solved, attempt.state)
+
+    def remember(self) -> "ContactRecord | None":
+        """Return what contact knows now, for `restore`."""
+        return None if self.plan.contact is None else self.plan.contact.record
+
+    def restore(self, record: "ContactRecord | None") -> None:
+        """Take back what was accepted since `remember`."""
+        if self.plan.contact is not None and record is not None:
+            self.plan.contact.record = record
+
+    @property
+    def broken_bonds(self) -> int:
+        """Number of joint points whose bond is broken."""
+        return 0 if self.plan.contact is None else self.plan.contact.broken_bonds
+
+    def _system(self, state: State, end: Instant, step: float | None) -> tuple[csc_array, Floats]:
+        force = self.plan.force(state, end) - self.model.stiffness @ state.deformation
+        inertia = self.plan.inertia
+        if step is None or inertia is None:
+            return self.plan.matrix(state, self.model.stiffness), force
+        integrator, weight = self._integrator, self._integrator.end_weight
+        if weight < 1:
+            now = Instant(state.time, state.load_factor)
+            earlier = self.plan.force(state, now) - self.model.stiffness @ state.deformation
+            force = weight * force + (1 - weight) * earlier
+        velocity = integrator.kinetic_factor * state.velocity
+        momentum = integrator.momentum(velocity, state.acceleration, step)
+        base = weight * self.model.stiffness + integrator.mass_factor(step) * inertia.mass
+        return self.plan.matrix(state, csc_array(base)), force + inertia.mass @ momentum
+
+    def _solve(
+        self,
+        state: State,
+        end: Instant,
+        step: float | None,
+        matrix: csc_array,
+        force: Floats,
+        worst_first: bool,
+    ) -> Attempt:
+        if self.plan.contact is None:
+            return self._solve_alone(state, end, step, matrix, force)
+        passes, reach = 0, self._reach
+        while True:
+            started = perf_counter()
+            contacts = self.plan.contact.candidates(state, reach)
+            self._spend("search", started)
+            started = perf_counter()
+            solved = self.plan.contact.solve(
+                contacts, state, matrix, force, self.solver, worst_first
+            )
+            self._spend("solve", started)
+            passes += solved.passes
+            verdict = solved.answer.verdict
+            result = self._result(state, end, step, solved.answer.increment)
+            far = result.motion
+            if far <= reach or not verdict.converged or far > self._size:
+                return replace(
+                    result,
+                    converged=verdict.converged and far <= self._size,
+                    sentence=verdict.sentence,
+                    residual=solved.answer.residual,
+                    passes=passes,
+                    solved=solved,
+                )
+            reach = 1.5 * far
+
+    def _solve_alone(
+        self, state: State, end: Instant, step: float | None, matrix: csc_array, force: Floats
+    ) -> Attempt:
+        started = perf_counter()
+        if self._factor is None or not _same(self._factor.matrix, matrix):
+            self._factor = self.solver.factorise(matrix)
+        increment = self._factor.solve(force)
+        residual = self._factor.relative_residual(increment, force)
+        self._spend("solve", started)
+        result = self._result(state, end, step, increment)
+        return replace(result, residual=residual)
+
+    def _result(self, state: State, end: Instant, step: float | None, increment: Floats) -> Attempt:
+        started = perf_counter()
+        after = state
+        if step is not None:
+            velocity, acceleration = self._integrator.rates(
+                increment,
+                self._integrator.kinetic_factor * state.velocity,
+                state.acceleration,
+                step,
+            )
+            after = replace(state, velocity=velocity, acceleration=acceleration)
+        moved = (strain_only if self.small else move)(self.model, after, increment)
+        moved = replace(moved, time=end.time, load_factor=end.load_factor)
+        way = self.place(moved) - self.place(state)
+        motion = float(np.sqrt((way**2).sum(axis=1).max()))
+        self._spend("update", started)
+        return Attempt(True, "converged", moved, increment, motion, 0.0, 1)
+
+    def place(self, state: State) -> Floats:
+        """Return where the elements' vertices are (P, 2)."""
+        return self.vertices.place(state.frames, state.deformation)
+
+    def condition(self, state: State) -> float | None:
+        """Estimate the condition number of the last system, springs of contact included."""
+        if self._factor is not None:
+            return self._factor.condition()
+        contact = self.plan.contact
+        return None if contact is None else contact.condition()
+
+    def _spend(self, phase: str, started: float) -> None:
+        self.seconds[phase] = self.seconds.get(phase, 0.0) + perf_counter() - started
+
+
+def _same(a: csc_array, b: csc_array) -> bool:
+    return (
+        a.nnz == b.nnz and np.array_equal(a.data, b.data) and np.array_equal(a.indices, b.indices)
+    )
+
+
+def scaled_load(stepper: Stepper, factor: float) -> float | None:
+    """Return the resultant (N) of the scaled loads at a load factor; None without loads."""
+    loads = stepper.plan.loads
+    return None if loads is None else loads.scaled_resultant(factor)
