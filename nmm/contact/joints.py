@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal
 
 import numpy as np
 import shapely
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from nmm.contact.surface import Surface
 from nmm.errors import FormulationError
 
@@ -43,6 +43,10 @@ class Joints:
 
     def __len__(self) -> int:
         return len(self.edge_a)
+
+    def take(self, index: Ints | Bools) -> Joints:
+        """Return some of the joints."""
+        return Joints(*(getattr(self, item.name)[index] for item in fields(self)))
 
     @property
     def length(self) -> Floats:
