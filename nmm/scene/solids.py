@@ -135,7 +135,7 @@ class Tessellation(Frozen):
         examples=[0.2],
     )
     smoothing: int = Field(
-        default=0, ge=0, description="a number of Lloyd iterations, >= 0", examples=[2]
+        default=2, ge=0, description="a number of Lloyd iterations, >= 0", examples=[2]
     )
     keep: tuple[Point, ...] = Field(
         default=(), description="a list of points [x, y] in m on the boundary that become vertices"

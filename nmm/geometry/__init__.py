@@ -1,0 +1,9 @@
+"""Geometry: the blocks of a scene from corners, tessellations and joint sets; imports; checks."""
+
+# Eager, as the module `regions` would else hide the function of the same name.
+from nmm.geometry.blocks import Regions
+from nmm.geometry.joint_sets import Joints, cut
+from nmm.geometry.regions import regions
+from nmm.geometry.voronoi import tessellate
+
+__all__ = ["Joints", "Regions", "cut", "regions", "tessellate"]

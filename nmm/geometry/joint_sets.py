@@ -1,0 +1,181 @@
+"""Statistical joint sets that cut regions into blocks.
+
+A set is a family of parallel lines; dip, spacing and trace length are normally distributed, each
+line is a row of traces and gaps: the description used by UDEC (Itasca, `jset`) and in field
+mapping. Persistence is the jointed fraction of a line, trace / (trace + gap).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from integration.arrays import Floats, Ints
+from integration.polygons import Polygons
+from nmm.errors import Fault, GeometryError
+from nmm.geometry.faces import Shapes, absorb, faces_and_loose_ends, owners
+
+# Smaller steps and traces would only be made by the tail of a wide normal distribution.
+_LEAST = 0.05  # of the mean
+_SCRAP = 1e-9  # of a region's area: faces between joints that almost coincide
+_REACH = 1e-6  # of the regions' extent
+_MOST_LINES = 100_000
+
+
+@dataclass(frozen=True)
+class Joints:
+    """A joint set in numbers: lengths in m, angles in rad, scatters are standard deviations.
+
+    Attributes
+    ----------
+    dip, dip_scatter
+        Angle of the joints from the x axis, counter-clockwise.
+    spacing, spacing_scatter
+        Distance of neighbouring lines, measured across the mean dip.
+    persistence
+        Jointed fraction of a line in (0, 1].
+    trace, trace_scatter
+        Length of a joint; needed when `persistence` is less than 1.
+    origin
+        A point that one line meets; None draws the first line's position.
+    seed
+        Seed of all draws of the set (NumPy's PCG64).
+    """
+
+    dip: float
+    spacing: float
+    dip_scatter: float = 0.0
+    spacing_scatter: float = 0.0
+    persistence: float = 1.0
+    trace: float | None = None
+    trace_scatter: float = 0.0
+    origin: tuple[float, float] | None = None
+    seed: int | tuple[int, ...] = 0
+
+    def segments(self, low: Floats, high: Floats, place: str = "joint set") -> Floats:
+        """Joints (m, 2, 2) of the set that cover a box.
+
+        Raises
+        ------
+        GeometryError
+            The spacing is so small that the box would hold more than 100 000 lines.
+        """
+        generator = np.random.Generator(np.random.PCG64(self.seed))
+        centre, half = (low + high) / 2, float(np.hypot(*(high - low))) / 2
+        if 2 * half / self.spacing > _MOST_LINES:
+            fault = Fault(
+                place,
+                f"spacing {self.spacing:g} m in a region of {2 * half:g} m",
+                f"at most {_MOST_LINES} lines",
+                "increase the spacing",
+            )
+            raise GeometryError(fault)
+        across = np.array([-np.sin(self.dip), np.cos(self.dip)])
+        offsets = self._offsets(centre, half, across, generator)
+        angles = self.dip + self.dip_scatter * generator.standard_normal(len(offsets))
+        middle = centre + offsets[:, None] * across
+        along = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        # A turned line must still cross the whole box.
+        reach = 2 * half
+        if self.persistence == 1 or self.trace is None:
+            return np.stack([middle - reach * along, middle + reach * along], axis=1)
+        return np.concatenate(
+            [
+                point + direction * self._traces(reach, self.trace, generator)[:, :, None]
+                for point, direction in zip(middle, along, strict=True)  # a few lines
+            ]
+        )
+
+    def _offsets(
+        self, centre: Floats, half: float, across: Floats, generator: np.random.Generator
+    ) -> Floats:
+        """Positions of the lines across the mean dip, from the box's centre."""
+        if self.origin is None:
+            first = self.spacing * generator.random()
+        else:
+            first = float((np.asarray(self.origin) - centre) @ across)
+        count = int(np.ceil((half + abs(first)) / self.spacing)) + 2
+        steps = _positive(self.spacing, self.spacing_scatter, (2, 2 * count), generator)
+        up, down = np.cumsum(steps, axis=1)
+        offsets = np.concatenate([first - down[::-1], [first], first + up])
+        return np.asarray(offsets[np.abs(offsets) <= half])
+
+    def _traces(self, reach: float, trace: float, generator: np.random.Generator) -> Floats:
+        """Begin and end (k, 2) of the traces on a line from -reach to reach."""
+        gap = trace * (1 - self.persistence) / self.persistence
+        count = int(np.ceil(2 * reach / (trace + gap) / (1 - _LEAST))) + 2
+        traces = _positive(trace, self.trace_scatter, (2 * count,), generator)
+        gaps = traces * (gap / trace)
+        ends = np.cumsum(traces + gaps) - reach - (trace + gap) * generator.random()
+        pairs = np.stack([ends - traces - gaps, ends - gaps], axis=1)
+        return np.asarray(pairs[(pairs[:, 1] > -reach) & (pairs[:, 0] < reach)])
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Regions cut by joints.
+
+    Attributes
+    ----------
+    polygons
+        The blocks, those of one region together; neighbours share their vertices bit by bit.
+    region : (N,)
+        Region of each block.
+    cracks : (m, 2, 2)
+        Parts of joints that end inside a block.
+    """
+
+    polygons: Polygons
+    region: Ints
+    cracks: Floats
+
+
+def cut(regions: Polygons, joints: Floats) -> Cut:
+    """Cut regions by segments.
+
+    Joints that pass a vertex of a region, or end short of an edge, by less than 1e-6 of the extent
+    of all regions are drawn to it: blocks of that size are never meant.
+
+    Parameters
+    ----------
+    regions
+        Polygons that do not overlap.
+    joints : (m, 2, 2)
+        Segments, through one region or many.
+    """
+    shapes = regions.to_shapely()
+    reach = _REACH * float(np.hypot(*np.ptp(regions.points, axis=0)))
+    lines = shapely.linestrings(_longer(joints.reshape(-1, 2, 2), reach))
+    lines = shapely.snap(lines, shapely.MultiPoint(regions.points), reach)
+    found, loose = faces_and_loose_ends(np.concatenate([shapely.boundary(shapes), lines]))
+    owner = owners(shapely.point_on_surface(found), shapes)
+    found, owner = found[owner >= 0], owner[owner >= 0]
+    large = shapely.area(found) > _SCRAP * regions.areas[owner]
+    found, kept = absorb(found, large, owner)
+    owner = owner[kept]
+    order = np.argsort(owner, kind="stable")
+    cracks = _segments(loose)
+    cracks = cracks[np.hypot(*(cracks[:, 1] - cracks[:, 0]).T) > 2 * reach]
+    cracks = cracks[owners(shapely.points(cracks.mean(axis=1)), shapes) >= 0]
+    return Cut(Polygons.from_shapely(found[order]).oriented(), owner[order], cracks)
+
+
+def _longer(segments: Floats, by: float) -> Floats:
+    step = segments[:, 1] - segments[:, 0]
+    step = by * step / np.hypot(*step.T)[:, None]
+    return np.asarray(segments + np.stack([-step, step], axis=1))
+
+
+def _segments(lines: Shapes) -> Floats:
+    points, line = shapely.get_coordinates(lines, return_index=True)
+    follows = np.flatnonzero(line[1:] == line[:-1])
+    return np.stack([points[follows], points[follows + 1]], axis=1)
+
+
+def _positive(
+    mean: float, deviation: float, shape: tuple[int, ...], generator: np.random.Generator
+) -> Floats:
+    drawn = mean + deviation * generator.standard_normal(shape)
+    return np.maximum(drawn, _LEAST * mean)

@@ -1,0 +1,95 @@
+"""Checks of the places of supports, loads and monitors against the blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import shapely
+
+from integration.arrays import Floats, Ints
+from nmm.errors import Fault
+from nmm.geometry.blocks import Regions
+from nmm.geometry.places import edges_on, polygons_at, tolerance
+from nmm.scene.actions import Load, Monitor, Support
+from nmm.scene.model import Scene
+
+_COVERED = 1e-6  # of a loaded segment's length
+
+
+def place_faults(scene: Scene, whole: Regions) -> list[Fault]:
+    """Supports, loads and monitors whose place touches no block, or whose block does not exist."""
+    items: list[tuple[str, int, Support | Load | Monitor]] = []
+    items += [("supports", k, item) for k, item in enumerate(scene.supports)]
+    items += [("loads", k, item) for k, item in enumerate(scene.loads)]
+    items += [("monitors", k, item) for k, item in enumerate(scene.monitors)]
+    found = [
+        fault
+        for key, index, item in items
+        for fault in _faults(item, whole, scene.source.place(key, index))
+    ]
+    return [*found, *_named_pieces(scene, whole)]
+
+
+def _faults(item: Support | Load | Monitor, whole: Regions, place: str) -> Iterator[Fault]:
+    chosen = whole.select(item.block)
+    if not len(chosen):
+        yield _no_block(item.block, place)
+    elif item.point is not None:
+        yield from _point_faults(item, whole, chosen, place)
+    elif not isinstance(item, Monitor) and item.segment is not None:
+        yield from _segment_faults(item, whole, chosen, place)
+
+
+def _named_pieces(scene: Scene, whole: Regions) -> Iterator[Fault]:
+    """The reader knows names of blocks; names of pieces such as "beam.200" are known only here."""
+    named = {
+        "initial_velocities": [item.block for item in scene.initial_velocities],
+        "initial_stresses": [item.block for item in scene.initial_stresses],
+    }
+    for key, blocks in named.items():
+        for index, block in enumerate(blocks):
+            if not len(whole.select(block)):
+                yield _no_block(block, scene.source.place(key, index))
+
+
+def _no_block(block: str | None, place: str) -> Fault:
+    remedy = "name the whole block, or a piece that exists"
+    return Fault(place, f'"{block}"', "the name of a block or of a piece", remedy)
+
+
+def _point_faults(
+    item: Support | Load | Monitor, whole: Regions, chosen: Ints, place: str
+) -> Iterator[Fault]:
+    point = np.asarray(item.point)
+    polygons = whole.polygons.take(chosen)
+    if len(polygons_at(polygons, point, tolerance(whole.polygons.points))):
+        return
+    away = shapely.distance(polygons.to_shapely(), shapely.Point(point))
+    nearest = whole.name[chosen[int(np.argmin(away))]]
+    value = f'point {point.tolist()} is {away.min():.3g} m away from the nearest block "{nearest}"'
+    yield Fault(place, value, "a point of a block", "correct the point or the block")
+
+
+def _segment_faults(
+    item: Support | Load, whole: Regions, chosen: Ints, place: str
+) -> Iterator[Fault]:
+    polygons = whole.polygons.take(chosen)
+    segment: Floats = np.asarray(item.segment)
+    length = float(np.hypot(*(segment[1] - segment[0])))
+    within = tolerance(whole.polygons.points)
+    if length <= within:
+        yield Fault(place, f"segment of length {length:.3g} m", "a length", "correct its ends")
+        return
+    end = polygons.points[polygons.next_point]
+    covered = float(edges_on(polygons.points, end, segment, within).lengths.sum()) / length
+    if covered == 0:
+        value = f"segment {segment.tolist()} lies on no edge"
+        yield Fault(place, value, "a segment on edges of blocks", "correct its ends")
+    elif isinstance(item, Load) and covered < 1 - _COVERED:
+        value = f"{covered:.3%} of the segment lies on edges"
+        remedy = "shorten it to the edges, so that the whole load acts"
+        yield Fault(place, value, "all of a loaded segment", remedy)
+    elif isinstance(item, Load) and covered > 1 + _COVERED:
+        value = "the segment lies on edges of both sides of a joint"
+        yield Fault(place, value, "edges of one side", "name the loaded block by block = ...")
