@@ -60,11 +60,13 @@ class Polygons:
                 f"polygon {counts.index(0)}: no ring: an exterior ring expected: "
                 "give its vertices or leave the polygon out"
             )
-        return cls(
+        built = cls(
             np.concatenate([np.empty((0, 2)), *rings]),
             _offsets([len(ring) for ring in rings]),
             _offsets(counts),
         )
+        _check_finite(built)
+        return built
 
     @classmethod
     def from_vertices(cls, rings: Sequence[npt.ArrayLike]) -> Polygons:
@@ -185,12 +187,12 @@ class Polygons:
 
     @cached_property
     def areas(self) -> Floats:
-        """(N,) area of each polygon, holes subtracted."""
-        return _sums(np.abs(self.ring_areas) * self.ring_signs, self.polygon_offsets)
+        """(N,) area of each polygon, holes subtracted (read only)."""
+        return _read_only(_sums(np.abs(self.ring_areas) * self.ring_signs, self.polygon_offsets))
 
     @cached_property
     def centroids(self) -> Floats:
-        """(N, 2) centroid of each polygon; mean vertex where the area is zero."""
+        """(N, 2) centroid of each polygon; mean vertex where the area is zero (read only)."""
         area, first = self._ring_integrals
         start = self.points[self.ring_offsets[:-1]]
         anchor = self.points[self.first_point]
@@ -205,7 +207,7 @@ class Polygons:
             offset = self.points - anchor[self.polygon_of_point]
             mean = anchor + _sums(offset, self.ring_offsets[self.polygon_offsets]) / vertices
             centroid[flat] = mean[flat]
-        return centroid
+        return _read_only(centroid)
 
     @cached_property
     def _ring_integrals(self) -> tuple[Floats, Floats]:
@@ -274,16 +276,25 @@ def _open_ring(ring: npt.ArrayLike, where: str) -> Floats:
         points = points.reshape(0, 2)
     if points.ndim != 2 or points.shape[1] != 2:
         raise ValueError(f"{where}: shape {points.shape}: (n, 2) expected: give rows of x and y")
-    if len(points) > 1 and np.array_equal(points[0], points[-1]):
+    if len(points) > 1 and points[0, 0] == points[-1, 0] and points[0, 1] == points[-1, 1]:
         points = points[:-1]
     if len(points) < 3:
         raise ValueError(
             f"{where}: {len(points)} vertices: at least 3 expected: add vertices or drop the ring"
         )
-    if not np.isfinite(points).all():
-        n = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
-        raise ValueError(
-            f"{where}, vertex {n}: {points[n].tolist()}: finite numbers expected: "
-            "correct the coordinates"
-        )
     return points
+
+
+def _check_finite(polygons: Polygons) -> None:
+    finite = np.isfinite(polygons.points).all(axis=1)
+    if not finite.all():
+        n = int(np.flatnonzero(~finite)[0])
+        raise ValueError(
+            f"polygon {polygons.polygon_of_point[n]}: vertex {polygons.points[n].tolist()}: "
+            "finite numbers expected: correct the coordinates"
+        )
+
+
+def _read_only(values: Floats) -> Floats:
+    values.flags.writeable = False
+    return values
