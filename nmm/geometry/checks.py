@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 import shapely
 
 from integration.arrays import Floats, Ints
-from integration.polygons import Polygons, areas, diameters
+from integration.polygons import Polygons, diameters
 from nmm.errors import Fault
 
 _SAME_POINT = 1e-12  # of the block's diameter
@@ -16,55 +16,68 @@ _FLAT = 1e-12  # area over squared diameter
 OVERLAP = 1e-6  # of the smaller block's area: what coordinates of six digits leave
 
 
-def ring_faults(rings: Sequence[Sequence[Sequence[float]]], place: Sequence[str]) -> list[Fault]:
-    """Faults of one polygon given as [exterior, hole, ...]; `place` names each ring."""
-    arrays = [_open(np.asarray(ring, dtype=float)) for ring in rings]
+def outline_faults(outlines: Polygons, place: Callable[[int, int], str]) -> list[Fault]:
+    """Outlines and holes that are not sound; `place` names ring `k` of polygon `n`.
+
+    Holes are looked at when all outlines are sound.
+    """
+    rings = _rings(outlines)
+    start = outlines.points
+    gap = np.hypot(*(start[outlines.next_point] - start).T)
+    twice = gap <= _SAME_POINT * diameters(rings)[outlines.ring_of_point]
+    lines = np.asarray(shapely.linearrings(start, indices=outlines.ring_of_point), dtype=object)
+    flat = rings.areas <= _FLAT * diameters(rings) ** 2
+    doubtful = ~shapely.is_simple(lines) | flat
+    doubtful[outlines.ring_of_point[twice]] = True
+    bad = np.flatnonzero(doubtful)
+    owner = outlines.polygon_of_ring
+    number = bad - outlines.polygon_offsets[owner[bad]]
     found = [
-        fault for ring, where in zip(arrays, place, strict=True) for fault in _ring(ring, where)
+        _ring_fault(rings.take([r]), place(owner[r], k)) for r, k in zip(bad, number, strict=True)
     ]
-    return found or list(_holes(arrays, place))
+    with_holes = np.flatnonzero(np.diff(outlines.polygon_offsets) > 1)
+    if found or not len(with_holes):
+        return found
+    return [fault for n in with_holes for fault in _hole_faults(outlines, int(n), place)]
 
 
-def _open(ring: Floats) -> Floats:
-    closed = len(ring) > 3 and np.array_equal(ring[0], ring[-1])
-    return ring[:-1] if closed else ring
+def _rings(polygons: Polygons) -> Polygons:
+    """Every ring as a polygon of its own."""
+    count = len(polygons.ring_offsets)
+    return Polygons(polygons.points, polygons.ring_offsets, np.arange(count))
 
 
-def _ring(ring: Floats, place: str) -> Iterator[Fault]:
-    polygon = Polygons.from_vertices([ring])
-    size = float(diameters(polygon)[0])
-    gaps = np.hypot(*(np.roll(ring, -1, axis=0) - ring).T)
-    for index in np.flatnonzero(gaps <= _SAME_POINT * size):
-        following = (int(index) + 1) % len(ring)
-        value = f"vertices {index} and {following} are both {_point(ring[index])}"
-        yield Fault(place, value, "different vertices", f"remove vertex {following}")
-        return
-    area = float(areas(polygon)[0])
-    crossing = _crossing(ring)
-    if crossing is not None:
+def _ring_fault(ring: Polygons, place: str) -> Fault:
+    size, points = float(diameters(ring)[0]), ring.points
+    gap = np.hypot(*(points[ring.next_point] - points).T)
+    if gap.min() <= _SAME_POINT * size:
+        index = int(np.argmin(gap))
+        following = (index + 1) % len(points)
+        value = f"vertices {index} and {following} are both {_point(points[index])}"
+        return Fault(place, value, "different vertices", f"remove vertex {max(index, following)}")
+    hull = shapely.MultiPoint(points).convex_hull.area  # the area itself is 0 for a bow tie too
+    if hull > _FLAT * size**2 and not shapely.is_simple(shapely.LinearRing(points)):
+        value = f"the outline crosses or touches itself at {_crossing(points)}"
         remedy = "list the vertices in the order in which the outline passes them, each once"
-        value = f"the outline crosses or touches itself at {_point(crossing)}"
-        yield Fault(place, value, "a simple outline", remedy)
-    elif area <= _FLAT * size**2:
-        value = f"area {area:.3g} m2 at a size of {size:.3g} m"
-        yield Fault(place, value, "an area", "correct the vertices or remove the block")
+        return Fault(place, value, "a simple outline", remedy)
+    value = f"area {ring.areas[0]:.3g} m2 at a size of {size:.3g} m"
+    return Fault(place, value, "an area", "correct the vertices or remove the block")
 
 
-def _crossing(ring: Floats) -> Floats | None:
-    """A point where a ring meets itself; edges on one line that turn back count as meeting."""
-    line = shapely.LinearRing(ring)
-    if shapely.is_simple(line):
-        return None
+def _crossing(ring: Floats) -> str:
+    """A point where a ring meets itself, as GEOS words it: "Self-intersection[0.5 0.5]"."""
     reason = str(shapely.is_valid_reason(shapely.Polygon(ring)))
     if "[" not in reason:
-        return np.asarray(ring[0])
-    return np.array([float(x) for x in reason.split("[")[1].rstrip("]").split()])
+        return "a vertex"
+    return _point(np.array([float(x) for x in reason.split("[")[1].rstrip("]").split()]))
 
 
-def _holes(rings: list[Floats], place: Sequence[str]) -> Iterator[Fault]:
-    outline, *holes = (shapely.Polygon(ring) for ring in rings)
+def _hole_faults(
+    outlines: Polygons, polygon: int, place: Callable[[int, int], str]
+) -> Iterator[Fault]:
+    outline, *holes = _rings(outlines.take([polygon])).to_shapely()
     for index, hole in enumerate(holes):
-        where = place[index + 1]
+        where = place(polygon, index + 1)
         if not shapely.contains_properly(outline, hole):
             value = "the hole touches or leaves the outline"
             yield Fault(where, value, "a hole inside the block", "move the hole or cut the outline")

@@ -47,7 +47,9 @@ class Drawing:
 
     def enclosed(self) -> Polygons:
         """Faces that the open lines enclose, for drawings made of single lines."""
-        return Polygons.from_shapely(faces([*shapely.linestrings(self.lines)])).oriented()
+        return Polygons.from_shapely(
+            faces(np.array(shapely.linestrings(self.lines), dtype=object))
+        ).oriented()
 
 
 def read_drawing(path: str | Path, scale: float = 1.0) -> Drawing:

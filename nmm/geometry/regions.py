@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.errors import Fault, GeometryError
 from nmm.geometry.blocks import Regions, joined
-from nmm.geometry.checks import overlap_faults, ring_faults
+from nmm.geometry.checks import outline_faults, overlap_faults
 from nmm.geometry.jointing import jointed
 from nmm.geometry.place_checks import place_faults
 from nmm.geometry.places import edge_distances, tolerance
@@ -32,9 +33,12 @@ def regions(scene: Scene) -> Regions:
         vertices, blocks that overlap or lie inside others, supports, loads and monitors that
         touch nothing.
     """
-    _refuse(_outline_faults(scene))
-    parts = [_block(scene, index) for index in range(len(scene.blocks))]
-    parts += [_tessellated(scene, index) for index in range(len(scene.tessellations))]
+    outlines = _outlines(scene)
+    _refuse(outline_faults(outlines, partial(_ring_place, scene)))
+    parts = [_given(scene, outlines)]
+    for index in range(len(scene.tessellations)):
+        outline = outlines.take([len(scene.blocks) + index]).oriented()
+        parts.append(_tessellated(scene, index, outline))
     whole = jointed(scene, joined(parts))
     places = [scene.source.place(*_path(scene, int(index))) for index in whole.source]
     faults = overlap_faults(whole.polygons, whole.source, whole.name, places)
@@ -52,29 +56,33 @@ def _path(scene: Scene, index: int) -> tuple[str, int]:
     return ("blocks", index) if index < count else ("tessellations", index - count)
 
 
-def _outline_faults(scene: Scene) -> list[Fault]:
-    found: list[Fault] = []
-    solids = [*((b.vertices, b.holes) for b in scene.blocks)]
-    solids += [(t.region, t.holes) for t in scene.tessellations]
-    for index, (outline, holes) in enumerate(solids):
-        path = _path(scene, index)
-        key = "vertices" if path[0] == "blocks" else "region"
-        place = [scene.source.place(*path, key)]
-        place += [scene.source.place(*path, "holes", k) for k in range(len(holes))]
-        found += ring_faults([outline, *holes], place)
-    return found
+def _outlines(scene: Scene) -> Polygons:
+    """Outlines of all blocks and tessellated regions; a ring's repeated first vertex is dropped."""
+    solids = [[block.vertices, *block.holes] for block in scene.blocks]
+    solids += [[item.region, *item.holes] for item in scene.tessellations]
+    return Polygons.from_rings(solids)
 
 
-def _block(scene: Scene, index: int) -> Regions:
-    block = scene.blocks[index]
-    polygons = Polygons.from_rings([[block.vertices, *block.holes]]).oriented()
-    return _part(scene, polygons, block.material, [block.name or f"#{index}"], index)
+def _ring_place(scene: Scene, index: int, ring: int) -> str:
+    path = _path(scene, int(index))
+    if ring:
+        return scene.source.place(*path, "holes", int(ring) - 1)
+    return scene.source.place(*path, "vertices" if path[0] == "blocks" else "region")
 
 
-def _tessellated(scene: Scene, index: int) -> Regions:
+def _given(scene: Scene, outlines: Polygons) -> Regions:
+    names = list(scene.materials)
+    count = len(scene.blocks)
+    return Regions(
+        outlines.take(np.arange(count)).oriented(),
+        np.array([names.index(block.material) for block in scene.blocks], dtype=np.int64),
+        tuple(block.name or f"#{index}" for index, block in enumerate(scene.blocks)),
+        np.arange(count),
+    )
+
+
+def _tessellated(scene: Scene, index: int, outline: Polygons) -> Regions:
     item = scene.tessellations[index]
-    path = ("tessellations", index)
-    outline = Polygons.from_rings([[item.region, *item.holes]]).oriented()
     cells = tessellate(
         outline,
         item.blocks,
@@ -82,18 +90,15 @@ def _tessellated(scene: Scene, index: int) -> Regions:
         smoothing=item.smoothing,
         shortest_edge=item.shortest_edge,
         keep=np.concatenate([np.reshape(item.keep, (-1, 2)), _acting_points(scene, outline)]),
-        place=scene.source.place(*path),
+        place=scene.source.place("tessellations", index),
     )
-    names = [f"{item.name}.{k}" for k in range(len(cells))]
-    return _part(scene, cells, item.material, names, len(scene.blocks) + index)
-
-
-def _part(
-    scene: Scene, polygons: Polygons, material: str, names: list[str], source: int
-) -> Regions:
-    count = len(polygons)
-    number = list(scene.materials).index(material)
-    return Regions(polygons, np.full(count, number), tuple(names), np.full(count, source))
+    count = len(cells)
+    return Regions(
+        cells,
+        np.full(count, list(scene.materials).index(item.material)),
+        tuple(f"{item.name}.{k}" for k in range(count)),
+        np.full(count, len(scene.blocks) + index),
+    )
 
 
 def _acting_points(scene: Scene, outline: Polygons) -> Floats:

@@ -127,11 +127,12 @@ def _block_names(data: Tables) -> Iterator[Finding]:
 
 
 def _densities(data: Tables) -> Iterator[Finding]:
-    needs = [key for key in ("gravity", "inertia") if key in data]
+    needs = [f"[{key}]" for key in ("gravity", "inertia") if key in data]
+    needs += ["motion_after_failure"] if "motion_after_failure" in _table(data, "loading") else []
     used = {row.get("material") for _, row in _rows(data, *_SOLIDS)}
     for name, row in _table(data, "materials").items():
         if needs and name in used and isinstance(row, Mapping) and "density" not in row:
-            expected = f"a density in kg/m3, as [{needs[0]}] is named"
+            expected = f"a density in kg/m3, as {needs[0]} is named"
             remedy = 'add for example density = "2400 kg/m^3"'
             yield ("materials", name), "density missing", expected, remedy
 

@@ -33,7 +33,9 @@ def parse_scene(text: str, place: str = "scene") -> Scene:
 
 def build_scene(tables: dict[str, Any], place: str = "scene") -> Scene:
     """Scene of tables as `tomllib` gives them, for scenes made by a program."""
-    return build(tables, Scene, Source(place), SceneError)
+    scene = build(tables, Scene, Source(place), SceneError)
+    scene._source = Source(place)
+    return scene
 
 
 def canonical_text(scene: Scene) -> str:

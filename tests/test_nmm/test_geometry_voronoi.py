@@ -10,7 +10,7 @@ from nmm.errors import GeometryError
 from nmm.geometry import tessellate
 from nmm.geometry.short_edges import edge_lengths
 
-BEAM = Polygons.from_vertices([[[0, 0], [0.4, 0], [0.4, 0.1], [0, 0.1]]])
+BEAM = Polygons.from_vertices([np.array([[0, 0], [0.4, 0], [0.4, 0.1], [0, 0.1]])])
 KEEP = [[0.05, 0], [0.35, 0], [0.145, 0.1], [0.155, 0.1], [0.245, 0.1], [0.255, 0.1]]
 # Non-convex, with a hole: the polygon of benchmark D1, area 15/2.
 OUTLINE = [[0, 0], [4, 0], [4, 3], [2, 1], [0, 3]]

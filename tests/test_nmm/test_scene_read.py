@@ -9,7 +9,6 @@ import pytest
 
 from nmm.errors import SceneError
 from nmm.scene import Scene, canonical_text, json_schema, parse_scene, read_scene, scene_hash
-from nmm.scene.history import factor
 
 GOOD = """
 plane = "stress"
@@ -208,9 +207,10 @@ def test_the_json_schema_offers_numbers_and_texts_with_units() -> None:
     assert "reference" in schema["properties"]
 
 
-def test_histories_are_linear_between_pairs_and_constant_outside() -> None:
-    pairs = ((1.0, 0.0), (3.0, 4.0))
-    assert [factor(pairs, t) for t in (0, 1, 2, 3, 9)] == [0, 0, 2, 4, 4]
-    assert factor(None, 5.0) == 1.0
+def test_a_history_goes_forward_in_time() -> None:
     text = GOOD.replace('[0, "-1 kN"]', "[0, -1]\nhistory = [[1, 0], [1, 1]]")
     assert "t increasing" in _line(text)
+
+
+def test_motion_after_failure_needs_densities() -> None:
+    assert "density missing" in _line(GOOD + 'motion_after_failure = "5 ms"\n')

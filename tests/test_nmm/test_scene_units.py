@@ -1,21 +1,29 @@
 """Quantities with units at the door of scenes."""
 
+import functools
 import math
 import subprocess
 import sys
+from typing import Any
 
 import pytest
 
 from nmm.scene.units import COMMON, EXAMPLES, UnitError, convert
+
+
+@functools.cache
+def _registry() -> Any:
+    import pint
+
+    return pint.UnitRegistry()
+
 
 ENTRIES = [(unit, name) for unit, names in COMMON.items() for name in names]
 
 
 @pytest.mark.parametrize(("unit", "name"), ENTRIES)
 def test_the_table_agrees_with_pint(unit: str, name: str) -> None:
-    import pint
-
-    expected = pint.UnitRegistry().Quantity(2.5, name).to(unit).magnitude
+    expected = _registry().Quantity(2.5, name).to(unit).magnitude
     # pint multiplies chains of factors in floating point: a few ulp.
     assert convert(f"2.5 {name}", unit) == pytest.approx(expected, rel=1e-14)
 

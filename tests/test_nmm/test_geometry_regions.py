@@ -1,0 +1,238 @@
+"""All blocks of a scene: names, materials, and every geometric fault in one report."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from nmm.errors import GeometryError
+from nmm.geometry import regions
+from nmm.scene import Scene, build_scene, parse_scene
+
+ROCK = {"young_modulus": 1e9, "poisson_ratio": 0.2}
+SQUARE = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+
+
+def _moved(x: float, y: float, size: float = 1.0) -> list[list[float]]:
+    return [[x + size * a, y + size * b] for a, b in SQUARE]
+
+
+def _scene(*outlines: Any, **tables: Any) -> Scene:
+    blocks = [{"name": f"b{k}", "material": "rock", "vertices": v} for k, v in enumerate(outlines)]
+    return build_scene(
+        {"plane": "strain", "materials": {"rock": ROCK}, "blocks": blocks, **tables}, "s.toml"
+    )
+
+
+def _faults(scene: Scene) -> list[str]:
+    with pytest.raises(GeometryError) as caught:
+        regions(scene)
+    return str(caught.value).splitlines()
+
+
+def _line(*outlines: Any, **tables: Any) -> str:
+    (line,) = _faults(_scene(*outlines, **tables))
+    return line
+
+
+def test_blocks_keep_their_corners_and_come_counter_clockwise() -> None:
+    whole = regions(_scene(SQUARE[::-1], _moved(1, 0)))
+    assert whole.polygons.areas.tolist() == [1.0, 1.0]
+    assert (whole.polygons.ring_areas > 0).all()
+    assert sorted(whole.polygons.points[:4].tolist()) == sorted(SQUARE)
+    assert whole.name == ("b0", "b1")
+
+
+def test_names_materials_and_selection_over_all_sources() -> None:
+    scene = parse_scene(
+        """
+        plane = "stress"
+        materials.steel = {young_modulus = 2e11, poisson_ratio = 0.3}
+        materials.rock = {young_modulus = 1e9, poisson_ratio = 0.2}
+        [[blocks]]
+        material = "steel"
+        vertices = [[0, -1], [4, -1], [4, 0], [0, 0]]
+        [[blocks]]
+        name = "slab"
+        material = "rock"
+        vertices = [[0, 1], [4, 1], [4, 2], [0, 2]]
+        [[tessellations]]
+        name = "core"
+        material = "rock"
+        region = [[0, 0], [4, 0], [4, 1], [0, 1]]
+        blocks = 12
+        [[joint_sets]]
+        name = "cracks"
+        block = "slab"
+        dip = "90 deg"
+        spacing = 1.0
+        origin = [0.5, 0]
+        """
+    )
+    whole = regions(scene)
+    assert whole.name[:2] == ("#0", "slab.0")
+    assert len(whole.select("slab")) == 5
+    assert len(whole.select("core")) == 12
+    assert whole.select("core.3").tolist() == [6 + 3]
+    assert len(whole.select("cor")) == 0
+    assert len(whole.select("all")) == len(whole) == 18
+    assert whole.material.tolist() == [0] + 17 * [1]
+    assert np.bincount(whole.source, whole.polygons.areas) == pytest.approx([4.0, 4.0, 4.0])
+
+
+def test_load_and_support_points_become_vertices_of_tessellated_blocks() -> None:
+    tables: dict[str, Any] = {
+        "tessellations": [{"name": "beam", "material": "rock", "region": SQUARE, "blocks": 30}],
+        "supports": [{"name": "left", "point": [0.123, 0], "fix": ["y"]}],
+        "loads": [
+            {"name": "p", "kind": "edge", "segment": [[0.4, 1], [0.45, 1]], "traction": [0, -1]}
+        ],
+    }
+    points = {tuple(p) for p in regions(_scene(**tables)).polygons.points.tolist()}
+    assert {(0.123, 0.0), (0.4, 1.0), (0.45, 1.0)} <= points
+
+
+def test_tessellations_without_a_seed_follow_the_scene_and_differ_from_each_other() -> None:
+    two = [
+        {"name": name, "material": "rock", "region": region, "blocks": 9}
+        for name, region in (("a", SQUARE), ("b", _moved(2, 0)))
+    ]
+    first, again, other = (
+        regions(_scene(tessellations=two, seed=seed)).polygons for seed in (1, 1, 2)
+    )
+    assert first.points.tobytes() == again.points.tobytes() != other.points.tobytes()
+    assert abs(np.diff(first.areas.reshape(2, 9), axis=0)).max() > 1e-3
+
+
+def test_joints_that_end_inside_blocks_are_handed_on_as_cracks() -> None:
+    sets = [
+        {"name": "j", "dip": 0.0, "spacing": 0.4, "persistence": 0.5, "trace": 0.3, "seed": 1},
+        {"name": "k", "dip": 1.2, "spacing": 0.4, "seed": 2},
+    ]
+    whole = regions(_scene(SQUARE, joint_sets=sets))
+    assert whole.polygons.areas.sum() == pytest.approx(1.0, rel=1e-12)
+    assert len(whole.cracks) > 0
+    assert len(whole.cracks) == len(whole.crack_region)
+    assert whole.crack_region.min() >= 0
+
+
+BOW = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]
+TOUCHING = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.0], [0.0, 1.0]]
+BACK = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, 1.0]]
+
+
+@pytest.mark.parametrize(
+    ("outline", "parts"),
+    [
+        (BOW, ("crosses or touches itself at [0.5, 0.5]", "in the order")),
+        (TOUCHING, ("crosses or touches itself at [1, 0]",)),
+        (BACK, ("crosses or touches itself",)),
+        ([[0, 0], [1, 0], [2, 0]], ("area 0 m2",)),
+        ([[0, 0], [1, 0], [0.5, 1e-13]], ("area 5e-14 m2",)),
+        ([[0, 0], [1, 0], [1, 0], [1, 1]], ("vertices 1 and 2 are both [1, 0]", "remove vertex 2")),
+        ([[0, 0], [1, 0], [1, 1], [1e-14, 0]], ("vertices 3 and 0 are both",)),
+    ],
+)
+def test_an_unsound_outline_is_refused(outline: Any, parts: Sequence[str]) -> None:
+    line = _line(outline)
+    assert [part for part in ("s.toml: blocks.0.vertices", *parts) if part not in line] == [], line
+
+
+def test_a_thin_strip_a_small_block_and_a_closed_ring_are_sound() -> None:
+    strip = [[0.0, -1.0], [1.0, -1.0], [1.0, 1e-4 - 1], [0.0, 1e-4 - 1]]
+    whole = regions(_scene([*SQUARE, SQUARE[0]], _moved(3, 0, 1e-4), strip))
+    assert whole.polygons.areas == pytest.approx([1.0, 1e-8, 1e-4], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("holes", "part"),
+    [
+        ([[[0, 0.2], [0.5, 0.2], [0.5, 0.5]]], "touches or leaves"),
+        ([[[0.5, 0.2], [1.5, 0.2], [0.5, 0.5]]], "touches or leaves"),
+        ([_moved(0.2, 0.2, 0.4), _moved(0.4, 0.4, 0.4)], "meets another hole"),
+        ([_moved(0.2, 0.2, 0.5), _moved(0.3, 0.3, 0.1)], "meets another hole"),
+    ],
+)
+def test_unsound_holes_are_refused(holes: Any, part: str) -> None:
+    block = {"material": "rock", "vertices": SQUARE, "holes": holes}
+    (line,) = _faults(_with_blocks(block))
+    assert part in line
+    assert "blocks.0.holes" in line
+
+
+def _with_blocks(*blocks: Any) -> Scene:
+    return build_scene({"plane": "strain", "materials": {"rock": ROCK}, "blocks": blocks}, "s.toml")
+
+
+def test_overlapping_and_nested_blocks_are_refused() -> None:
+    lines = _faults(_scene(SQUARE, _moved(0.5, 0.5), _moved(5, 5, 3.0), _moved(6, 6)))
+    assert '"b1" overlaps "b0" by 0.25 m2' in lines[0]
+    assert '"b3" lies inside "b2"' in lines[1]
+    assert "blocks.3" in lines[1]
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-12, -1e-12, 1e-16, -1e-8])
+def test_blocks_that_touch_up_to_rounding_pass(gap: float) -> None:
+    assert len(regions(_scene(SQUARE, _moved(1 + gap, 0), _moved(0, 1 + gap)))) == 3
+
+
+def test_a_block_in_a_hole_of_its_size_passes() -> None:
+    ring = {"material": "rock", "vertices": _moved(-1, -1, 3.0), "holes": [SQUARE]}
+    assert len(regions(_with_blocks(ring, {"material": "rock", "vertices": SQUARE}))) == 2
+
+
+def test_two_identical_blocks_are_refused() -> None:
+    assert "lies inside" in _line(SQUARE, SQUARE)
+
+
+def _support(**place: Any) -> dict[str, Any]:
+    return {"supports": [{"name": "s", "fix": ["x"], **place}]}
+
+
+def _edge_load(segment: Any, **more: Any) -> dict[str, Any]:
+    load = {"name": "p", "kind": "edge", "segment": segment, "traction": [0, -1], **more}
+    return {"loads": [load]}
+
+
+@pytest.mark.parametrize(
+    ("tables", "parts"),
+    [
+        (_support(point=[2.5, 0]), ("supports.0", "1.5 m away", '"b0"')),
+        (_support(segment=[[0, 2], [1, 2]]), ("lies on no edge",)),
+        (_support(segment=[[0, 0.5], [1, 0.5]]), ("lies on no edge",)),
+        (_support(segment=[[0, 0], [0, 0]]), ("segment of length 0",)),
+        (_edge_load([[0.5, 1], [1.5, 1]]), ("loads.0", "50.000% of the segment")),
+        (_edge_load([[0, 1], [1, 2]]), ("lies on no edge",)),
+        ({"monitors": [{"name": "m", "point": [1, 3]}]}, ("monitors.0", "2 m away")),
+        ({"initial_stresses": [{"block": "b0.7", "stress": [0, 0, 0]}]}, ('"b0.7"', "a piece")),
+    ],
+)
+def test_a_place_that_touches_nothing_is_refused(tables: Any, parts: Sequence[str]) -> None:
+    line = _line(SQUARE, **tables)
+    assert [part for part in parts if part not in line] == [], line
+
+
+def test_a_load_on_a_joint_must_say_which_block_it_loads() -> None:
+    load = _edge_load([[0, 1], [1, 1]])
+    assert "both sides" in _line(SQUARE, _moved(0, 1), **load)
+    narrowed = _edge_load([[0, 1], [1, 1]], block="b0")
+    assert len(regions(_scene(SQUARE, _moved(0, 1), **narrowed))) == 2
+
+
+def test_all_geometric_faults_are_reported_at_once() -> None:
+    lines = _faults(_scene(SQUARE, SQUARE, **_support(point=[9, 9])))
+    assert len(lines) == 2
+    assert len(_faults(_scene(BOW, TOUCHING))) == 2
+
+
+def test_a_far_scene_is_read_like_a_near_one() -> None:
+    far = [[x + 1e6, y - 1e6] for x, y in SQUARE]
+    beside = [[x + 1e6 + 1, y - 1e6] for x, y in SQUARE]
+    scene = _scene(far, beside, **_support(point=[1e6 + 0.3, -1e6]))
+    assert regions(scene).polygons.areas.tolist() == [1.0, 1.0]
+
+
+def test_a_wall_of_two_thousand_blocks_passes() -> None:
+    wall = [_moved(x, y) for x in range(50) for y in range(40)]
+    assert len(regions(_scene(*wall))) == 2000
