@@ -45,6 +45,12 @@ class ContactMethod(_Part):
     shear_ratio: Number = Field(
         default=1.0, gt=0, description="shear over normal penalty, > 0", examples=[1.0]
     )
+    bond_stiffness: Number = Field(
+        default=1.0,
+        gt=0,
+        description="a multiple of E / (distance of the blocks' middles), > 0: stiffness of joints",
+        examples=[1.0],
+    )
     max_passes: int = Field(default=20, gt=0, description="a number of passes, > 0", examples=[20])
     joint_points: Literal["corners", "gauss"] = Field(
         default="corners", description='"corners" or "gauss"', examples=["corners"]

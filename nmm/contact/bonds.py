@@ -26,13 +26,19 @@ class Laws:
     thickness
         m.
     normal_penalty, shear_penalty
-        N/m of a contact whose law has no stiffness of its own.
+        N/m of a vertex contact.
+    normal_bond, shear_bond
+        Pa m of a joint whose law has no stiffness of its own: its spring is this times the joint's
+        length over the distance of the blocks' middles, so that between Voronoi blocks a uniform
+        strain gives a uniform stress on all joints (Kawai 1978).
     """
 
     laws: Sequence[InterfaceLaw]
     thickness: float
     normal_penalty: float
     shear_penalty: float
+    normal_bond: float
+    shear_bond: float
 
     def limits(self, contacts: ContactPoints) -> Limits:
         """Return the largest forces of the contacts."""
@@ -45,17 +51,16 @@ class Laws:
 
     def springs(self, contacts: ContactPoints) -> tuple[Floats, Floats, Bools]:
         """Return normal and shear stiffness (N/m) and which are the joints' own."""
-        normal = np.full(len(contacts), self.normal_penalty)
-        shear = np.full(len(contacts), self.shear_penalty)
-        own = np.zeros(len(contacts), dtype=bool)
+        own = contacts.is_joint
+        normal = np.where(own, self.normal_bond * contacts.slenderness, self.normal_penalty)
+        shear = np.where(own, self.shear_bond * contacts.slenderness, self.shear_penalty)
         for law, index in self._by_law(contacts):
             if law.normal_stiffness is None:
                 continue
-            index = index[contacts.length[index] > 0]
+            index = index[own[index]]
             area = contacts.length[index] * self.thickness
             normal[index] = law.normal_stiffness * area
             shear[index] = (law.shear_stiffness or law.normal_stiffness) * area
-            own[index] = True
         return normal, shear, own
 
     def breaking(

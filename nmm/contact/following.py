@@ -89,9 +89,25 @@ class JointBook:
 
 
 def joint_book(
-    surface: Surface, joints: Joints, interface: Ints, bonded: Bools, stations: str
+    surface: Surface,
+    joints: Joints,
+    interface: Ints,
+    bonded: Bools,
+    distance: Floats,
+    stations: str,
 ) -> JointBook:
-    """Follow joints: ``interface`` and ``bonded`` (j,) of each, points at ``stations``."""
+    """Follow joints.
+
+    Parameters
+    ----------
+    surface, joints
+        Where the edges are at the start, and the stretches they share.
+    interface, bonded, distance
+        (j,) index of the interface, whether it is bonded, and the distance (m) between the middles
+        of the two elements across the joint.
+    stations
+        "corners" or "gauss".
+    """
     points = joint_points(surface, joints, stations)
     m = len(points)
     vertex, edge, joint = joint_ends(surface, joints)
@@ -106,6 +122,7 @@ def joint_book(
         gap=points.gap,
         slip=zeros,
         length=points.length,
+        slenderness=points.length / distance[points.joint],
         interface=interface[points.joint],
         key=-1 - np.arange(m),
         damage=np.where(held, 0.0, 1.0),
@@ -132,6 +149,7 @@ def searched_points(found: Contacts, interface: Ints) -> ContactPoints:
         gap=found.gap,
         slip=zeros,
         length=zeros,
+        slenderness=np.ones(m),
         interface=interface,
         key=found.key,
         damage=np.ones(m),

@@ -26,6 +26,9 @@ class ContactPoints:
         (m,) stretch of the shear spring at the start of the step (m).
     length
         (m,) tributary length (m); zero where a contact is a mere vertex.
+    slenderness
+        (m,) tributary length over the distance between the middles of the two elements: what the
+        penalty is multiplied by. 1 for a mere vertex.
     interface
         (m,) index among the scene's interfaces.
     key
@@ -44,6 +47,7 @@ class ContactPoints:
     gap: Floats
     slip: Floats
     length: Floats
+    slenderness: Floats
     interface: Ints
     key: Ints
     damage: Floats

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
+from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.bonds import Laws, break_bonds
@@ -23,7 +24,7 @@ from nmm.contact.following import (
     remember,
     searched_points,
 )
-from nmm.contact.joints import find_joints
+from nmm.contact.joints import Joints, find_joints
 from nmm.contact.memory import Memory
 from nmm.contact.narrow import Contacts, find_contacts, follow
 from nmm.contact.points import ContactPoints, concatenate, rows
@@ -119,6 +120,8 @@ class Contact(Effect):
             thickness=setup.model.thickness,
             normal_penalty=penalty,
             shear_penalty=penalty * method.shear_ratio,
+            normal_bond=method.bond_stiffness * unit,
+            shear_bond=method.bond_stiffness * unit * method.shear_ratio,
         )
         options: dict[str, Any] = dict(method.options)
         if method.enforcement == "penalty":
@@ -172,7 +175,7 @@ class Contact(Effect):
                 state=contacts.state,
                 normal_force=contacts.normal_force,
                 shear_force=contacts.shear_force,
-                compliant=own | (contacts.damage < 1),
+                compliant=own,
             )
             answer = self._enforcement.solve(problem, solver, self._memory)
             passes += answer.passes
@@ -208,6 +211,10 @@ class Contact(Effect):
         side = self._sides.at(contacts.edge_b, contacts.parameter_b)
         return side.place(state.frames, state.deformation)
 
+    def condition(self) -> float | None:
+        """Return nothing yet known of the system with springs."""
+        return None
+
     def energy(self, state: State) -> float:
         """Energy of the springs of the contacts as last committed (J)."""
         record = self.record
@@ -236,7 +243,15 @@ class Contact(Effect):
         wanted = makes[interface]
         joints = joints.take(wanted)
         bonded = np.array([law.bonded for law in self._laws.laws])[interface[wanted]]
-        return joint_book(surface, joints, interface[wanted], bonded, stations)
+        distance = self._distance(joints)
+        return joint_book(surface, joints, interface[wanted], bonded, distance, stations)
+
+    def _distance(self, joints: Joints) -> Floats:
+        """Return how far (j,) the middles of the elements beside joints lie apart, across them."""
+        manifold = self._model.manifold
+        middle = centroids(manifold.elements)[manifold.boundary.element]
+        apart = middle[joints.edge_a] - middle[joints.edge_b]
+        return np.abs(np.einsum("ij,ij->i", apart, joints.normal))
 
 
 def interface_law(item: Any) -> InterfaceLaw:

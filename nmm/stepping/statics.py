@@ -19,8 +19,9 @@ if TYPE_CHECKING:
     from nmm.contact.points import ContactPoints
 
 # Corrections for the turn of contacts and bodies end when they move nothing by more than this
-# share of the step's own motion.
+# share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain).
 SETTLED = 1e-8
+ROUNDING = 1e-13
 CORRECTIONS = 12
 
 # A structure whose points move by this share of its size in one increment has no equilibrium near.
@@ -101,7 +102,7 @@ def settle(stepper: Stepper, state: State, end: Instant) -> Settled:
             return Settled(replace(total, converged=False), contacts)
         contacts = stepper.accept(attempt)
         current = attempt.state
-        if stepper.small or attempt.motion <= SETTLED * total.motion:
+        if stepper.small or attempt.motion <= SETTLED * total.motion + ROUNDING * stepper.size:
             return Settled(total, contacts)
     sentence = f"the moved place is not in equilibrium after {CORRECTIONS} corrections"
     return Settled(replace(total, converged=False, sentence=sentence), contacts)
