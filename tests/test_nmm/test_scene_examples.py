@@ -80,6 +80,3 @@ def test_the_sliding_block_carries_the_way_it_must_go() -> None:
     x, y = (item.value for item in scene.references)
     # Stored with eight digits.
     assert [x, y] == pytest.approx([-way * np.sqrt(0.75), -way / 2], abs=1e-8)
-        pytest.approx(-way * np.sqrt(0.75), abs=1e-8),
-        pytest.approx(-way / 2, abs=1e-8),
-    )
