@@ -90,6 +90,7 @@ def affine(a: Floats, degree: int, matrix: Floats, shift: Floats) -> Floats:
     matrix, shift : (n, 2, 2), (n, 2)
         the map of each row; a single (2, 2) or (2,) serves all rows.
     """
+    matrix = np.broadcast_to(matrix, (*a.shape[:-1], 2, 2))
     out = _columns_first(a, degree).copy()
     moved = shift_coefficients(out, degree, shift[..., 0], shift[..., 1])
     return _rows_last(_linear(moved, degree, matrix))
@@ -120,7 +121,7 @@ def shift_moments(columns: Floats, degree: int, dx: Floats, dy: Floats) -> Float
 def _linear(columns: Floats, degree: int, matrix: Floats) -> Floats:
     """Coefficients (K, n) of p(matrix @ x): each grade is a form in u = m00 x + m01 y and v."""
     u, v = matrix[..., 0, :], matrix[..., 1, :]
-    out = np.empty((len(columns), *np.broadcast_shapes(columns.shape[1:], u.shape[:-1])))
+    out = np.empty_like(columns)
     power = [np.ones((1, *u.shape[:-1]))]
     for g in range(degree):
         power.append(_times_line(power[g], u))
@@ -136,8 +137,7 @@ def _linear(columns: Floats, degree: int, matrix: Floats) -> Floats:
 
 def _times_line(form: Floats, line: Floats) -> Floats:
     """A binary form (g + 1, n) times ``line[..., 0] x + line[..., 1] y``."""
-    shape = np.broadcast_shapes(form.shape[1:], line.shape[:-1])
-    out = np.zeros((len(form) + 1, *shape))
+    out = np.zeros((len(form) + 1, *form.shape[1:]))
     np.multiply(form, line[..., 0], out=out[:-1])
     out[1:] += form * line[..., 1]
     return out

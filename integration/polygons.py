@@ -12,6 +12,7 @@ import numpy.typing as npt
 import shapely
 
 from integration.arrays import Floats, Ints
+from integration.ragged import offsets, ranges, sums
 
 _TOPOLOGY = ("next_point", "ring_of_point", "polygon_of_ring", "polygon_of_point", "first_point")
 
@@ -62,8 +63,8 @@ class Polygons:
             )
         built = cls(
             np.concatenate([np.empty((0, 2)), *rings]),
-            _offsets([len(ring) for ring in rings]),
-            _offsets(counts),
+            offsets([len(ring) for ring in rings]),
+            offsets(counts),
         )
         _check_finite(built)
         return built
@@ -80,7 +81,7 @@ class Polygons:
         Raises
         ------
         ValueError
-            An empty geometry, or one that is not a single polygon.
+            An empty geometry, one that is not a single polygon, or a coordinate that is not finite.
         """
         geometries = np.atleast_1d(np.asarray(polygons, dtype=object))
         bad = (shapely.get_type_id(geometries) != 3) | shapely.is_empty(geometries)
@@ -95,11 +96,13 @@ class Polygons:
         counts = np.bincount(ring, minlength=len(rings))
         keep = np.ones(len(points), dtype=bool)
         keep[np.cumsum(counts) - 1] = False
-        return cls(
+        built = cls(
             points[keep],
-            _offsets(counts - 1),
-            _offsets(np.bincount(owner, minlength=len(geometries))),
+            offsets(counts - 1),
+            offsets(np.bincount(owner, minlength=len(geometries))),
         )
+        _check_finite(built)
+        return built
 
     def to_shapely(self) -> npt.NDArray[np.object_]:
         """The polygons as an array (N,) of shapely polygons."""
@@ -113,8 +116,8 @@ class Polygons:
         """All polygons of the parts, in order."""
         return cls(
             np.concatenate([np.empty((0, 2)), *(part.points for part in parts)]),
-            _offsets(np.concatenate([[], *(np.diff(part.ring_offsets) for part in parts)])),
-            _offsets(np.concatenate([[], *(np.diff(part.polygon_offsets) for part in parts)])),
+            offsets(np.concatenate([[], *(np.diff(part.ring_offsets) for part in parts)])),
+            offsets(np.concatenate([[], *(np.diff(part.polygon_offsets) for part in parts)])),
         )
 
     def __len__(self) -> int:
@@ -123,9 +126,9 @@ class Polygons:
     def take(self, indices: npt.ArrayLike) -> Polygons:
         """The polygons at ``indices`` (integers or a mask), in that order."""
         chosen = np.arange(len(self))[np.asarray(indices, dtype=_index_type(indices))]
-        rings, ring_counts = _ranges(self.polygon_offsets, chosen)
-        points, point_counts = _ranges(self.ring_offsets, rings)
-        return Polygons(self.points[points], _offsets(point_counts), _offsets(ring_counts))
+        rings, ring_counts = ranges(self.polygon_offsets, chosen)
+        points, point_counts = ranges(self.ring_offsets, rings)
+        return Polygons(self.points[points], offsets(point_counts), offsets(ring_counts))
 
     def with_points(self, points: Floats) -> Polygons:
         """The same rings with their vertices moved to ``points`` (P, 2)."""
@@ -188,7 +191,7 @@ class Polygons:
     @cached_property
     def areas(self) -> Floats:
         """(N,) area of each polygon, holes subtracted (read only)."""
-        return _read_only(_sums(np.abs(self.ring_areas) * self.ring_signs, self.polygon_offsets))
+        return _read_only(sums(np.abs(self.ring_areas) * self.ring_signs, self.polygon_offsets))
 
     @cached_property
     def centroids(self) -> Floats:
@@ -198,14 +201,14 @@ class Polygons:
         anchor = self.points[self.first_point]
         first = first + area[:, None] * (start - anchor[self.polygon_of_ring])
         first *= (np.sign(area) * self.ring_signs)[:, None]
-        first = _sums(first, self.polygon_offsets)
+        first = sums(first, self.polygon_offsets)
         flat = self.areas == 0.0
         with np.errstate(invalid="ignore", divide="ignore"):
             centroid = anchor + first / self.areas[:, None]
         if flat.any():
             vertices = np.diff(self.ring_offsets[self.polygon_offsets])[:, None]
             offset = self.points - anchor[self.polygon_of_point]
-            mean = anchor + _sums(offset, self.ring_offsets[self.polygon_offsets]) / vertices
+            mean = anchor + sums(offset, self.ring_offsets[self.polygon_offsets]) / vertices
             centroid[flat] = mean[flat]
         return _read_only(centroid)
 
@@ -221,11 +224,11 @@ class Polygons:
         x1, y1 = x[self.next_point], y[self.next_point]
         left, right = x * y1, x1 * y
         twice = left - right
-        area = 0.5 * _sums(twice, self.ring_offsets)
-        rounding = np.finfo(float).eps * _sums(np.abs(left) + np.abs(right), self.ring_offsets)
+        area = 0.5 * sums(twice, self.ring_offsets)
+        rounding = np.finfo(float).eps * sums(np.abs(left) + np.abs(right), self.ring_offsets)
         area[np.abs(area) <= rounding] = 0.0
-        sx = _sums(twice * (x + x1), self.ring_offsets)
-        sy = _sums(twice * (y + y1), self.ring_offsets)
+        sx = sums(twice * (x + x1), self.ring_offsets)
+        sy = sums(twice * (y + y1), self.ring_offsets)
         return area, np.stack([sx, sy], axis=1) / 6.0
 
 
@@ -246,24 +249,6 @@ def diameters(polygons: Polygons) -> Floats:
     low = np.minimum.reduceat(polygons.points, polygons.first_point, axis=0)
     high = np.maximum.reduceat(polygons.points, polygons.first_point, axis=0)
     return np.asarray(np.hypot(*(high - low).T))
-
-
-def _sums(values: Floats, offsets: Ints) -> Floats:
-    """Sums of rows between offsets; no range is empty."""
-    if len(offsets) == 1:
-        return np.zeros((0, *values.shape[1:]))
-    return np.add.reduceat(values, offsets[:-1], axis=0)
-
-
-def _offsets(counts: npt.ArrayLike) -> Ints:
-    return np.concatenate([[0], np.cumsum(np.asarray(counts, dtype=np.int64))]).astype(np.int64)
-
-
-def _ranges(offsets: Ints, chosen: Ints) -> tuple[Ints, Ints]:
-    """Indices covered by the chosen ranges, one after the other, and the length of each."""
-    counts = np.diff(offsets)[chosen]
-    begin = offsets[:-1][chosen] - (np.cumsum(counts) - counts)
-    return np.repeat(begin, counts) + np.arange(counts.sum()), counts
 
 
 def _index_type(indices: npt.ArrayLike) -> type:

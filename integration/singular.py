@@ -16,7 +16,10 @@ The area element is ``2 u^3 h^2 cosh(s) du ds``.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+import numpy.typing as npt
 
 from integration import gauss
 from integration.arrays import Floats, Ints
@@ -27,7 +30,21 @@ _LONGEST_PIECE = 1.0
 _FEWEST = 12
 
 
-def apex_rule(apex: Floats, start: Floats, end: Floats, order: int) -> PointRule:
+@dataclass(frozen=True, eq=False)
+class TipRule(PointRule):
+    """A point rule about tips.
+
+    Attributes
+    ----------
+    offsets : (Q, 2)
+        points relative to the tip of their owner, free of the rounding of ``points``: what to
+        evaluate singular functions with.
+    """
+
+    offsets: Floats
+
+
+def apex_rule(apex: Floats, start: Floats, end: Floats, order: int) -> TipRule:
     """Points on the triangles (apex, start, end) for integrands singular at the apex.
 
     Parameters
@@ -42,7 +59,7 @@ def apex_rule(apex: Floats, start: Floats, end: Floats, order: int) -> PointRule
 
     Returns
     -------
-    PointRule
+    TipRule
         ``owner`` is the triangle.
     """
     p, q, edge = start - apex, end - apex, end - start
@@ -62,15 +79,16 @@ def apex_rule(apex: Floats, start: Floats, end: Floats, order: int) -> PointRule
     on_edge = foot[piece, None] + (reach[piece, None] * np.sinh(s))[..., None] * along[piece, None]
     over_edge = (height * reach)[piece, None] * np.cosh(s) * ws
     u, wu = gauss.interval(order + 2)
-    points = apex[solid][piece, None, None] + (u**2)[:, None] * on_edge[:, :, None]
+    offsets = (u**2)[:, None] * on_edge[:, :, None]
+    points = apex[solid][piece, None, None] + offsets
     weights = over_edge[:, :, None] * (2.0 * u**3 * wu)
     owner = np.repeat(solid[piece], s.shape[1] * len(u))
-    return PointRule(points.reshape(-1, 2), weights.ravel(), owner)
+    return TipRule(points.reshape(-1, 2), weights.ravel(), owner, offsets.reshape(-1, 2))
 
 
 def tip_rule(
-    polygons: Polygons, tips: Floats, order: int, faces: Floats | None = None
-) -> PointRule:
+    polygons: Polygons, tips: npt.ArrayLike, order: int, faces: npt.ArrayLike | None = None
+) -> TipRule:
     """Points for integrals over polygons of functions singular at a tip of each.
 
     The tip may lie inside, on the boundary, in a hole or outside. Points lie inside the polygon
@@ -102,7 +120,7 @@ def tip_rule(
     sense = np.sign(polygons.ring_areas) * polygons.ring_signs
     rule = apex_rule(tip, start, end, order)
     weights = rule.weights * sense[polygons.ring_of_point[edge]][rule.owner]
-    return PointRule(rule.points, weights, owner[rule.owner])
+    return TipRule(rule.points, weights, owner[rule.owner], rule.offsets)
 
 
 def _arcsinh_difference(a: Floats, b: Floats, b_less_a: Floats) -> Floats:

@@ -1,0 +1,28 @@
+"""Ragged arrays: rows of one array in consecutive ranges between offsets."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from integration.arrays import Floats, Ints
+
+
+def offsets(counts: npt.ArrayLike) -> Ints:
+    """Offsets (n + 1,) of ranges of given lengths (n,)."""
+    ends = np.cumsum(np.asarray(counts, dtype=np.int64), dtype=np.int64)
+    return np.concatenate([np.zeros(1, dtype=np.int64), ends])
+
+
+def ranges(bounds: Ints, chosen: Ints) -> tuple[Ints, Ints]:
+    """Rows of the chosen ranges, one range after the other, and the length of each range."""
+    counts = np.diff(bounds)[chosen]
+    begin = bounds[:-1][chosen] - (np.cumsum(counts) - counts)
+    return np.repeat(begin, counts) + np.arange(counts.sum()), counts
+
+
+def sums(values: Floats, bounds: Ints) -> Floats:
+    """Sum of the rows of each range, none of which may be empty."""
+    if len(bounds) == 1:
+        return np.zeros((0, *values.shape[1:]))
+    return np.add.reduceat(values, bounds[:-1], axis=0)
