@@ -54,6 +54,18 @@ class Surface:
         """(n,) lengths of the edges (m)."""
         return np.asarray(np.hypot(*(self.end - self.start).T))
 
+    @cached_property
+    def thickness(self) -> Floats:
+        """(n,) twice the area over the perimeter of each edge's body (m): h for a thin strip."""
+        first = np.full(int(self.body.max(initial=-1)) + 1, -1)
+        first[self.body[::-1]] = np.arange(len(self))[::-1]
+        origin = self.start[first[self.body]]
+        a, b = self.start - origin, self.end - origin
+        twice = np.bincount(self.body, a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], len(first))
+        around = np.bincount(self.body, self.length, len(first))
+        size = np.divide(np.abs(twice), around, out=np.zeros(len(first)), where=around > 0.0)
+        return np.asarray(size[self.body])
+
     def moved(self, start: Floats, end: Floats) -> Surface:
         """Return the same rings with their edges elsewhere."""
         return Surface(start, end, self.body, self.next, self.previous)

@@ -1,0 +1,157 @@
+"""Compiled grid: all (vertex, edge) pairs within a distance, whatever the mixture of lengths."""
+
+import math
+
+import numba
+import numpy as np
+
+from integration.arrays import Floats, Ints
+
+_compiled = numba.njit(cache=True, nogil=True)
+
+
+@_compiled
+def _column(a, b, left, right, reach):  # type: ignore[no-untyped-def]
+    """Range of y that a segment inflated by ``reach`` may take over a column of the grid."""
+    if a[0] > b[0]:
+        a, b = b, a
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    low, high = a[1], b[1]
+    if dx > 0.0:
+        s0 = min(max((left - reach - a[0]) / dx, 0.0), 1.0)
+        s1 = min(max((right + reach - a[0]) / dx, 0.0), 1.0)
+        low, high = a[1] + s0 * dy, a[1] + s1 * dy
+    return min(low, high) - reach, max(low, high) + reach
+
+
+@_compiled
+def _entries(start, end, reaches, cell, rows, mask, count, edges, keys):  # type: ignore[no-untyped-def]
+    """Visit the cells of every edge: count them by bucket, or store them when ``edges`` has room.
+
+    A bucket holds several cells, so each entry keeps the key of its cell.
+    """
+    store = len(edges) > 0
+    for e in range(len(start)):
+        a, b, reach = start[e], end[e], reaches[e]
+        first = math.floor((min(a[0], b[0]) - reach) / cell)
+        last = math.floor((max(a[0], b[0]) + reach) / cell)
+        for i in range(first, last + 1):
+            low, high = _column(a, b, i * cell, (i + 1) * cell, reach)
+            for j in range(math.floor(low / cell), math.floor(high / cell) + 1):
+                bucket = _bucket(i, j, rows, mask)
+                if store:
+                    edges[count[bucket]] = e
+                    keys[count[bucket]] = _key(i, j)
+                count[bucket] += 1
+
+
+@_compiled
+def _key(i, j):  # type: ignore[no-untyped-def]
+    return (i << 32) ^ (j & 0xFFFFFFFF)
+
+
+@_compiled
+def _bucket(i, j, rows, mask):  # type: ignore[no-untyped-def]
+    """Cells in rows, wrapped around: neighbours stay neighbours, empty space costs nothing."""
+    return (i * rows + j) & mask
+
+
+@_compiled
+def _distance2(p, a, b):  # type: ignore[no-untyped-def]
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    px, py = p[0] - a[0], p[1] - a[1]
+    length2 = dx * dx + dy * dy
+    if length2 > 0.0:
+        s = min(max((px * dx + py * dy) / length2, 0.0), 1.0)
+        px -= s * dx
+        py -= s * dy
+    return px * px + py * py
+
+
+@_compiled
+def _search(  # type: ignore[no-untyped-def]
+    start, end, body, following, previous, reaches, within, cell, rows, offset, edges, keys
+):
+    """Test each vertex against the edges of its cell; rows come sorted by vertex, then edge."""
+    n = len(start)
+    mask = len(offset) - 2
+    vertex = np.empty(4 * n + 16, np.int64)
+    edge = np.empty(4 * n + 16, np.int64)
+    found = 0
+    for v in range(n):
+        p = start[v]
+        i, j = math.floor(p[0] / cell), math.floor(p[1] / cell)
+        key, bucket = _key(i, j), _bucket(i, j, rows, mask)
+        own, before, reach = body[v], previous[v], reaches[v]
+        for k in range(offset[bucket], offset[bucket + 1]):
+            if keys[k] != key:
+                continue
+            e = edges[k]
+            if body[e] == own and (not within or e in (v, before, following[v], previous[before])):
+                continue
+            distance = min(reach, reaches[e])
+            if _distance2(p, start[e], end[e]) > distance * distance:
+                continue
+            if found == len(vertex):
+                vertex = np.concatenate((vertex, np.empty_like(vertex)))
+                edge = np.concatenate((edge, np.empty_like(edge)))
+            vertex[found] = v
+            edge[found] = e
+            found += 1
+    return vertex[:found].copy(), edge[:found].copy()
+
+
+@_compiled
+def spread(now: Floats, then: Floats) -> float:
+    """Return the diagonal of the box of all displacements: no two points moved apart by more."""
+    low_x = high_x = low_y = high_y = 0.0
+    for k in range(len(now)):
+        x, y = now[k, 0] - then[k, 0], now[k, 1] - then[k, 1]
+        if k == 0:
+            low_x = high_x = x
+            low_y = high_y = y
+        low_x, high_x = min(low_x, x), max(high_x, x)
+        low_y, high_y = min(low_y, y), max(high_y, y)
+    return math.hypot(high_x - low_x, high_y - low_y)
+
+
+def pairs_by_grid(
+    start: Floats,
+    end: Floats,
+    body: Ints,
+    following: Ints,
+    previous: Ints,
+    distance: Floats,
+    within_bodies: bool,
+) -> tuple[Ints, Ints]:
+    """Return vertex and edge (m,) of all near pairs, sorted by vertex, then edge.
+
+    A pair is near within the smaller ``distance`` (n,) of its two members. Edges are entered in
+    every cell that they pass within their distance, and a vertex looks into its own cell only.
+    Cells share buckets where the grid is sparse; their size is the geometric mean of the edges, so
+    that neither many short edges share a cell nor long ones fill too many.
+    """
+    if not len(start):
+        return np.empty(0, np.int64), np.empty(0, np.int64)
+    origin = start.min(axis=0)
+    start, end = np.ascontiguousarray(start - origin), np.ascontiguousarray(end - origin)
+    length = np.hypot(*(end - start).T)
+    long = length[length > 0.0]
+    typical = float(np.exp(np.log(long).mean())) if len(long) else 1.0
+    # The second bound keeps the walk along very long edges at some tens of cells an edge.
+    cell = max(typical, float((length + distance).mean()) / 64.0)
+    reaches = distance * (1.0 + 1e-9) + 1e-12 * cell
+
+    mask = (1 << max(4, int(2 * len(start)).bit_length())) - 1
+    rows = int((start[:, 1].max() + reaches.max()) / cell) + 3
+    nothing = np.empty(0, np.int64)
+    count = np.zeros(mask + 1, np.int64)
+    _entries(start, end, reaches, cell, rows, mask, count, nothing, nothing)
+    offset = np.concatenate([[0], np.cumsum(count)])
+    edges, keys = np.empty(offset[-1], np.int64), np.empty(offset[-1], np.int64)
+    _entries(start, end, reaches, cell, rows, mask, offset[:-1].copy(), edges, keys)
+    pairs: tuple[Ints, Ints] = _search(
+        start, end, body, following, previous, reaches, within_bodies, cell, rows, offset,
+        edges, keys,
+    )  # fmt: skip
+    return pairs

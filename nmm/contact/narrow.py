@@ -1,0 +1,210 @@
+"""Narrow phase: which candidate pairs are contacts, with gap, normal and identity.
+
+Bodies meet where a vertex of one stands before an edge of the other (Shi 1988). The rules:
+
+Entrance
+    A vertex meets an edge only if both of its own edges leave the edge's solid, to first order and
+    within `ANGLE`. A reentrant vertex meets nothing.
+Least penetration
+    Where several edges of a convex part of one body, or the four edges at two near vertices, could
+    be entered, the line of the largest signed distance is the contact; the line of the last step
+    stays as long as it is not worse by more than `FLUSH`. With ``motion`` the distance is the
+    smallest over the step, so that a body passing along a surface is not held by the end of it.
+One contact a pair of vertices
+    Parallel edges make two contacts, at the two ends of their overlap; as the overlap shrinks
+    below `FLUSH` the two become one.
+Flush neighbours
+    A stretch of edge that a third body covers up to the edge's end is no entrance, and a vertex
+    whose sides are covered is seen together with the coverers as long as their union is convex. So
+    the vertices inside a floor of several blocks catch nothing.
+
+`DEPTH` and `FLUSH` are fractions of the thickness (twice the area over the perimeter) of the
+thinner of the two bodies.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact import narrow_arrays
+from nmm.contact.search import DEPTH
+from nmm.contact.surface import Surface
+
+# Angular tolerance (rad): Shi's three degrees; contacts between edges that turn further end.
+ANGLE = 0.05
+# Steps and gaps between neighbours below this fraction of their thickness count as flush.
+FLUSH = 1e-3
+
+VERTEX_EDGE = 0
+VERTEX_VERTEX = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """One row a contact point: a vertex (side a) before an edge of another body (side b).
+
+    Attributes
+    ----------
+    vertex, edge
+        (m,) indices in the surface; no pair occurs twice.
+    parameter
+        (m,) foot of the vertex on the edge as a fraction of it, clipped to [0, 1].
+    normal
+        (m, 2) outward from the edge, from side b to side a.
+    gap
+        (m,) signed distance of the vertex from the line of the edge (m), positive open.
+    kind
+        (m,) `VERTEX_EDGE` or `VERTEX_VERTEX`: at an end of the edge.
+    key
+        (m,) identity that stands as long as vertex and edge meet, see `pair_key`; rising.
+    body
+        (m,) body of the edge.
+    corner
+        (m,) the vertex at the nearer end of the edge.
+    """
+
+    vertex: Ints
+    edge: Ints
+    parameter: Floats
+    normal: Floats
+    gap: Floats
+    kind: Ints
+    key: Ints
+    body: Ints
+    corner: Ints
+
+    def __len__(self) -> int:
+        return len(self.vertex)
+
+    def take(self, index: Ints | Bools) -> Contacts:
+        """Return some of the contacts."""
+        return Contacts(*(getattr(self, part.name)[index] for part in fields(self)))
+
+
+def find_contacts(
+    surface: Surface,
+    vertex: Ints,
+    edge: Ints,
+    reach: float,
+    last: Contacts | None = None,
+    motion: Floats | None = None,
+    compiled: bool = True,
+) -> Contacts:
+    """Contacts among candidate pairs.
+
+    Parameters
+    ----------
+    surface
+        The edges where they are now.
+    vertex, edge
+        (m,) candidates, complete up to the reach, as `search.NeighbourList` gives them for a skin
+        of twice the reach or more.
+    reach
+        Largest gap of a contact (m): how far two points can approach each other in a step.
+    last
+        Contacts of the last step, preferred where two lines are equally good.
+    motion
+        (n, 2) what each vertex is expected to move in the step (m); chooses among the lines of
+        pairs that are still open.
+    compiled
+        False asks for the plain form that tests compare with.
+    """
+    rules = narrow_arrays.Rules(
+        reach=reach,
+        grain=1e-6 * reach + _rounding(surface),
+        rounding=_rounding(surface),
+        depth=DEPTH,
+        flush=FLUSH,
+        sine=float(np.sin(ANGLE)),
+    )
+    if motion is None:
+        motion = np.zeros_like(surface.start)
+    key = pair_key(surface, vertex, edge)
+    if len(key) and (key[1:] <= key[:-1]).any():
+        key = np.unique(key)
+        vertex, edge = key // len(surface), key % len(surface)
+    known = np.zeros(len(key), dtype=bool) if last is None else _among(key, last.key)
+    offset = np.searchsorted(vertex, np.arange(len(surface) + 1)).astype(np.int64)
+    pairs = narrow_arrays.Pairs(vertex, edge, offset)
+    kept, along, gap = narrow_arrays.select(surface, pairs, rules, known, motion)
+    rows = np.flatnonzero(kept)
+    return _contacts(surface, vertex[rows], edge[rows], along[rows], gap[rows], kept[rows] == 2)
+
+
+def follow(old: Contacts, new: Contacts) -> Ints:
+    """Predecessor (m,) of each new contact among the old ones, -1 where there is none.
+
+    The same vertex before the same edge; or else the vertex before another edge of the same body,
+    having slid around its corner; or else two vertices whose roles have changed.
+    """
+    found = np.full(len(new), -1, dtype=np.int64)
+    if not len(old):
+        return found
+    span = 1 + max(_top(old.vertex), _top(new.vertex), _top(old.body), _top(new.body))
+    span = max(span, 1 + max(_top(old.corner), _top(new.corner)))
+    # Roles change at corners only: elsewhere the swapped pair is another contact.
+    swapped = np.where(new.kind == VERTEX_VERTEX, new.vertex * span + new.corner, -1)
+    for was, now in (
+        (old.key, new.key),
+        (old.vertex * span + old.body, new.vertex * span + new.body),
+        (old.corner * span + old.vertex, swapped),
+    ):
+        free = np.ones(len(old), dtype=bool)
+        free[found[found >= 0]] = False
+        source, target = np.flatnonzero(free), np.flatnonzero(found < 0)
+        values, first = np.unique(was[source], return_index=True)
+        _, once = np.unique(now[target], return_index=True)  # a predecessor has one successor
+        target = target[once]
+        if not len(values) or not len(target):
+            break
+        at = np.minimum(np.searchsorted(values, now[target]), len(values) - 1)
+        hit = values[at] == now[target]
+        found[target[hit]] = source[first[at[hit]]]
+    return found
+
+
+def pair_key(surface: Surface, vertex: Ints, edge: Ints) -> Ints:
+    """Identity (m,) of pairs of a vertex and an edge: ``vertex * n + edge``."""
+    return vertex * len(surface) + edge
+
+
+def _contacts(
+    surface: Surface, v: Ints, e: Ints, along: Floats, gap: Floats, beyond: Bools
+) -> Contacts:
+    length = surface.length[e]
+    parameter = np.clip(along / length, 0.0, 1.0)
+    corner = np.where(parameter > 0.5, surface.next[e], e)
+    apart = np.hypot(*(surface.start[v] - surface.start[corner]).T)
+    near = apart <= FLUSH * np.minimum(surface.thickness[v], surface.thickness[e])
+    return Contacts(
+        vertex=v,
+        edge=e,
+        parameter=parameter,
+        normal=surface.normal[e],
+        gap=gap,
+        kind=np.where(beyond | near, VERTEX_VERTEX, VERTEX_EDGE),
+        key=pair_key(surface, v, e),
+        body=surface.body[e],
+        corner=corner,
+    )
+
+
+def _rounding(surface: Surface) -> float:
+    """Rounding of coordinates that have been turned and shifted once (m)."""
+    return float(8.0 * np.finfo(float).eps * np.abs(surface.start).max(initial=0.0))
+
+
+def _among(key: Ints, known: Ints) -> Bools:
+    """Which of the rising keys are known."""
+    if not len(known):
+        return np.zeros(len(key), dtype=bool)
+    known = np.sort(known)
+    at = np.minimum(np.searchsorted(known, key), len(known) - 1)
+    return np.asarray(known[at] == key)
+
+
+def _top(values: Ints) -> int:
+    return int(values.max(initial=-1))
