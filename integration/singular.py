@@ -3,7 +3,8 @@
 About the tip a polygon is the signed sum of the triangles that the tip spans with its edges
 (the fan of simplex integration), wherever the tip lies: outside parts of the triangles cancel.
 On one triangle, with the edge at distance h from the tip and e the coordinate along the edge from
-the foot of the tip, points are ``tip + u^2 (h n + e t)`` with ``e = h sinh(s)``:
+the foot of the tip, points are ``tip + u^2 (h n + e t)``, n and t normal to and along the
+edge, with ``e = h sinh(s)``:
 
 - r = u^2 in the radius (Duffy 1982 with a quadratic grading) turns the half powers of r of the
   Williams series into polynomials of u;
@@ -53,9 +54,9 @@ def apex_rule(apex: Floats, start: Floats, end: Floats, order: int) -> TipRule:
         corners of the triangles; a clockwise triangle gets negative weights, a flat one no points.
     order : int
         the integrand is a sum of ``r^(m/2) g_m(angle)`` with whole ``-3 <= m <= 2 order``, such
-        as a polynomial of this degree times ``1/r``. The radius is integrated exactly. For ``g``
-        of whole or half angles up to four turns the error was measured below 1e-13 of the
-        integral of the modulus, whatever the shape of the triangle, for orders up to 8.
+        as a polynomial of this degree times ``1/r``. The radius is integrated exactly. For
+        trigonometric ``g`` of half angles, up to degree six in the angle, the error was measured
+        below 1e-13 of the integral of the modulus for triangles of any shape and orders up to 8.
 
     Returns
     -------
