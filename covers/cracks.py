@@ -9,9 +9,8 @@ import numpy.typing as npt
 import shapely
 from scipy.spatial import cKDTree
 
+from covers.components import components, unique_rows
 from covers.domain import Segments
-from covers.half_edges import components
-from covers.lattice import unique_rows
 from integration.arrays import Floats, Ints
 
 
@@ -80,9 +79,9 @@ def _settled_points(
     loose = np.ones(len(points), dtype=bool)
     for targets in (boundary.start, vertices):  # corners of regions go before those of the mesh
         if len(targets):
-            distance, target = cKDTree(targets).query(places, distance_upper_bound=tolerance)
+            distance, nearest = cKDTree(targets).query(places, distance_upper_bound=tolerance)
             found = loose & np.isfinite(distance)
-            places[found] = targets[target[found]]
+            places[found] = targets[np.asarray(nearest)[found]]
             loose &= ~found
     places, loose = _clustered(places, loose, tolerance)
     for segments in (boundary, edges):
@@ -123,7 +122,7 @@ def _bent(cracks: Segments, stops: Floats, tolerance: float) -> Segments:
     """Segments led through all stops that they pass within the tolerance."""
     kept = (cracks.start != cracks.end).any(axis=1)
     cracks = cracks.take(kept)
-    segment, stop = shapely.STRtree(shapely.points(stops)).query(
+    segment, stop = shapely.STRtree(np.asarray(shapely.points(stops))).query(
         cracks.lines(), predicate="dwithin", distance=tolerance
     )
     start, along = cracks.start[segment], cracks.end[segment] - cracks.start[segment]

@@ -91,22 +91,16 @@ def domain_of(
     Raises
     ------
     ValueError
-        A region that is no valid polygon, or an overlap of regions glued together.
+        A region without area or that crosses itself, or an overlap of regions glued together.
     """
     polygons = regions if isinstance(regions, Polygons) else Polygons.from_shapely(regions)
     polygons = polygons.oriented()
-    shapes = polygons.to_shapely()
-    invalid = np.flatnonzero(~shapely.is_valid(shapes))
-    if len(invalid):
-        n = int(invalid[0])
-        raise ValueError(
-            f"region {n}: {shapely.is_valid_reason(shapes[n])}: a polygon that neither crosses nor "
-            "overlaps itself expected: split it there or correct the vertices"
-        )
+    shapes = _valid_shapes(polygons, rounding)
     group = np.arange(len(polygons)) if glue is None else np.asarray(glue, dtype=np.int64)
     if group.shape != (len(polygons),):
         raise ValueError(
-            f"glue: shape {group.shape}: ({len(polygons)},) expected: give one number for each region"
+            f"glue: shape {group.shape}: ({len(polygons)},) expected: "
+            "give one number for each region"
         )
     overlaps = _overlaps(shapes, rounding)
     glued = group[overlaps[:, 0]] == group[overlaps[:, 1]]
@@ -119,13 +113,33 @@ def domain_of(
     return Domain(polygons, shapes, group, _layers(len(polygons), overlaps))
 
 
+def _valid_shapes(polygons: Polygons, rounding: float) -> npt.NDArray[np.object_]:
+    """Regions as valid shapely polygons; what is invalid by rounding alone is mended."""
+    shapes = polygons.to_shapely()
+    flat = np.flatnonzero(polygons.areas <= rounding * shapely.length(shapes))
+    if len(flat):
+        raise ValueError(
+            f"region {flat[0]}: area {polygons.areas[flat[0]]:.3g}: a region wider than "
+            f"{rounding:.3g} m expected: correct its vertices or leave it out"
+        )
+    for n in np.flatnonzero(~np.asarray(shapely.is_valid(shapes))):  # few or none
+        mended = shapely.make_valid(shapes[n])
+        if abs(mended.area - polygons.areas[n]) > rounding * shapes[n].length:
+            raise ValueError(
+                f"region {n}: {shapely.is_valid_reason(shapes[n])}: a polygon that neither crosses "
+                "nor overlaps itself expected: split it there or correct the vertices"
+            )
+        shapes[n] = mended
+    return shapes
+
+
 def _overlaps(shapes: npt.NDArray[np.object_], rounding: float) -> Ints:
     """Pairs (n, 2) of regions that overlap in more than a strip of rounding."""
     one, two = shapely.STRtree(shapes).query(shapes, predicate="intersects")
     one, two = one[one < two], two[one < two]
-    area = shapely.area(shapely.intersection(shapes[one], shapes[two]))
+    area = np.asarray(shapely.area(shapely.intersection(shapes[one], shapes[two])))
     length = np.minimum(shapely.length(shapes[one]), shapely.length(shapes[two]))
-    return np.stack([one, two], axis=1)[area > rounding * length].astype(np.int64)
+    return np.asarray(np.stack([one, two], axis=1)[area > rounding * length], dtype=np.int64)
 
 
 def _layers(n: int, overlaps: Ints) -> Ints:

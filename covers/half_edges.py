@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
+from covers.components import components
 from integration.arrays import Floats, Ints
 
 
@@ -59,19 +58,6 @@ def half_edges(steps: Floats, edges: Ints) -> HalfEdges:
     previous[following] = np.arange(len(following))
     loop = components(len(origin), np.arange(len(origin)), following)
     return HalfEdges(origin, head, following, previous, loop, angle)
-
-
-def components(n: int, first: Ints, second: Ints) -> Ints:
-    """Connected component of each of ``n`` things, given pairs of connected ones.
-
-    Numbered in the order of their first members.
-    """
-    graph = csr_array((np.ones(len(first), dtype=np.int8), (first, second)), shape=(n, n))
-    label = connected_components(graph, directed=False)[1].astype(np.int64)
-    begin = np.unique(label, return_index=True)[1]
-    rank = np.empty(len(begin), dtype=np.int64)
-    rank[np.argsort(begin)] = np.arange(len(begin))
-    return rank[label]
 
 
 def walks(following: Ints, start: Ints, length: Ints) -> Ints:

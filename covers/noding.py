@@ -1,9 +1,10 @@
-"""Snap rounding: lines meet in common lattice points and nowhere else.
+"""Snapping: lines meet in common points and nowhere else.
 
-Iterated snap rounding after Hobby (1999) and Halperin and Packer (2002): a line that passes a
-lattice point in use within `NEAR` steps is bent to pass through it, crossings are rounded to
-lattice points, until nothing changes. In the end every point keeps more than `NEAR` steps from
-all lines that do not end in it, which makes angles about a point distinct in double precision.
+In the manner of iterated snap rounding (Hobby 1999; Halperin and Packer 2002): points within a
+step (`covers.resolution`) are one; a line that passes a point within `NEAR` steps is bent to pass
+through it; crossings become points; until nothing changes. In the end every point keeps more than
+`NEAR` steps from all lines that do not end in it, which makes angles about a point distinct in
+double precision. `NEAR` is less than the step, so that a bend always shortens a line.
 """
 
 from __future__ import annotations
@@ -12,8 +13,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
+from scipy.spatial import cKDTree
 
-from covers.lattice import Lattice, unique_rows
+from covers.resolution import Resolution, clusters
 from integration.arrays import Bools, Floats, Ints
 
 NEAR = 0.75
@@ -22,14 +24,12 @@ MAX_PASSES = 60
 
 @dataclass(frozen=True)
 class Lines:
-    """Pieces of lines between points of the lattice.
+    """Pieces of lines between points.
 
     Attributes
     ----------
-    steps : (V, 2)
-        whole numbers of lattice steps of each point.
-    points : (V, 2)
-        where the point really is, within a few steps of its lattice point, m.
+    steps, points : (V, 2)
+        points more than a step apart, in steps and in m.
     start, end : (n,)
         points of each piece, in the sense of the line that it comes from.
     source : (n,)
@@ -42,6 +42,21 @@ class Lines:
     end: Ints
     source: Ints
 
+    def with_points(self, steps: Floats, points: Floats) -> tuple[Lines, Ints]:
+        """More points, and the number of each: that of a known point within a step if any."""
+        distance, nearest = cKDTree(self.steps).query(steps, distance_upper_bound=1.0)
+        number = np.asarray(nearest, dtype=np.int64)
+        new = np.flatnonzero(np.isinf(distance))
+        if len(new):
+            first, cluster = clusters(steps[new])
+            number[new] = len(self.steps) + cluster
+            steps, points = steps[new[first]], points[new[first]]
+            all_steps = np.concatenate([self.steps, steps])
+            return replace(
+                self, steps=all_steps, points=np.concatenate([self.points, points])
+            ), number
+        return self, number
+
     def with_pieces(self, start: Ints, end: Ints, source: Ints) -> Lines:
         """The same points with more pieces."""
         return replace(
@@ -52,14 +67,14 @@ class Lines:
         )
 
 
-def lines_between(points: Floats, lattice: Lattice, start: Ints, end: Ints) -> Lines:
-    """Lines between points (n, 2); of points that share a lattice point the first remains."""
-    steps = lattice.steps(points)
-    first, vertex = unique_rows(steps)
+def lines_between(points: Floats, resolution: Resolution, start: Ints, end: Ints) -> Lines:
+    """Lines between points (n, 2); of points within a step the first remains."""
+    steps = resolution.steps(points)
+    first, vertex = clusters(steps)
     return Lines(steps[first], points[first], vertex[start], vertex[end], np.arange(len(start)))
 
 
-def node(lines: Lines, fresh: Bools, lattice: Lattice) -> Lines:
+def node(lines: Lines, fresh: Bools, resolution: Resolution) -> Lines:
     """Split lines at all points where they meet.
 
     Parameters
@@ -83,7 +98,7 @@ def node(lines: Lines, fresh: Bools, lattice: Lattice) -> Lines:
         is_fresh[edge[fresh]] = True
         if not is_fresh.any():
             return lines
-        lines, fresh = _split(lines, edges, edge, _meetings(lines.steps, edges, is_fresh), lattice)
+        lines, fresh = _split(lines, edges, edge, is_fresh, resolution)
     raise ValueError(
         f"lines: still meeting between points after {MAX_PASSES} passes: lines apart or crossing "
         "expected: remove cracks that lie on one another within rounding"
@@ -117,10 +132,9 @@ def _meetings(steps: Floats, edges: Ints, fresh: Bools) -> _Meetings:
     edge = np.concatenate([one, one, two, two])
     point = np.concatenate([edges[two].T.ravel(), edges[one].T.ravel()])
     near, parameter = _passes(steps, edges[edge], point)
-    touched = near.reshape(4, -1).any(axis=0)
-    share = (edges[one][:, :, None] == edges[two][:, None, :]).any(axis=(1, 2))
-    apart = np.flatnonzero(~touched & ~share)
-    one, two = one[apart], two[apart]
+    # Crossings wait until lines that run together are one: else each would have its own crossing.
+    share = (edges[one][:, :, None] == edges[two][:, None, :]).any(axis=(1, 2)) | near.any()
+    one, two = one[~share], two[~share]
     crosses, t, s = _crossings(
         *(steps[edges[side][:, end]] for side in (one, two) for end in (0, 1))
     )
@@ -173,14 +187,11 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _split(
-    lines: Lines, edges: Ints, edge: Ints, meetings: _Meetings, lattice: Lattice
+    lines: Lines, edges: Ints, edge: Ints, is_fresh: Bools, resolution: Resolution
 ) -> tuple[Lines, Bools]:
-    """Lines with edges split at the meetings, and which pieces are new."""
-    n = len(lines.steps)
-    steps = np.concatenate([lines.steps, np.rint(meetings.crossing)])
-    points = np.concatenate([lines.points, lattice.points(meetings.crossing)])
-    first, vertex = unique_rows(steps)
-    new = vertex[n:]
+    """Lines with edges split at their meetings, and which pieces may meet others again."""
+    meetings = _meetings(lines.steps, edges, is_fresh)
+    lines, new = lines.with_points(meetings.crossing, resolution.points(meetings.crossing))
     chain_start, chain_end, chain_edge = _chains(
         edges,
         np.concatenate([meetings.edge, meetings.first, meetings.second]),
@@ -196,8 +207,11 @@ def _split(
     forward = (lines.start == edges[edge, 0])[piece]
     start = np.where(forward, chain_start[link], chain_end[link])
     end = np.where(forward, chain_end[link], chain_start[link])
-    split = Lines(steps[first], points[first], start, end, lines.source[piece])
-    return split, (number > 1)[edge[piece]]
+    split = replace(lines, start=start, end=end, source=lines.source[piece])
+    fresh = number > 1
+    if len(meetings.edge):
+        fresh |= is_fresh  # its crossings have not been looked for
+    return split, fresh[edge[piece]]
 
 
 def _chains(edges: Ints, edge: Ints, parameter: Floats, point: Ints) -> tuple[Ints, Ints, Ints]:

@@ -36,8 +36,9 @@ def touched_cells(
     high = np.maximum(pieces[:, 0], pieces[:, 1]) + distance
     piece, cell = boxes.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
     candidates, row = np.unique(cell, return_inverse=True)
-    shapes = shapely.polygons(cover.vertices[cover.cell_vertices[candidates]])
-    near = shapely.dwithin(shapely.linestrings(pieces)[piece], shapes[row], distance)
+    shapes = np.asarray(shapely.polygons(cover.vertices[cover.cell_vertices[candidates]]))
+    chopped = np.asarray(shapely.linestrings(pieces))
+    near = np.asarray(shapely.dwithin(chopped[piece], shapes[row], distance))
     touched[cell[near]] = True
     return touched
 

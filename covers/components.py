@@ -1,0 +1,35 @@
+"""Connected components and groups, numbered in the order of their first members."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
+
+from integration.arrays import Floats, Ints
+
+
+def components(n: int, first: Ints, second: Ints) -> Ints:
+    """Connected component of each of ``n`` things, given pairs of connected ones."""
+    graph = csr_array((np.ones(len(first), dtype=np.int8), (first, second)), shape=(n, n))
+    label = connected_components(graph, directed=False)[1].astype(np.int64)
+    return by_first_occurrence(label, np.unique(label, return_index=True)[1])[1]
+
+
+def unique_rows(points: Floats) -> tuple[Ints, Ints]:
+    """First occurrence of each distinct row, in order of occurrence, and the row of each point."""
+    order = np.lexsort((points[:, 1], points[:, 0]))
+    ordered = points[order]
+    new = np.ones(len(points), dtype=bool)
+    new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    group = np.empty(len(points), dtype=np.int64)
+    group[order] = np.cumsum(new) - 1
+    return by_first_occurrence(group, order[new])  # the sort is stable: first means first
+
+
+def by_first_occurrence(group: Ints, first: Ints) -> tuple[Ints, Ints]:
+    """Groups renumbered in the order of their first members ``first``: first members, groups."""
+    order = np.argsort(first)
+    rank = np.empty(len(first), dtype=np.int64)
+    rank[order] = np.arange(len(first))
+    return first[order], rank[group]
