@@ -7,14 +7,19 @@ from integration.arrays import Floats
 from nmm.contact.problem import StepProblem
 
 
-def weights(problem: StepProblem) -> Floats:
+def weights(
+    problem: StepProblem, normal: Floats | None = None, shear: Floats | None = None
+) -> Floats:
     """(n,) inverse roots of the diagonal of matrix plus all contact springs.
 
     Forces on translations, rotations and strains become comparable: ``|weights * r|`` is
-    invariant under a change of the units of single unknowns.
+    invariant under a change of the units of single unknowns. ``normal`` and ``shear`` (m,) stand
+    in for the problem's stiffnesses.
     """
-    diagonal = problem.matrix.diagonal() + _squared(problem.normal_rows, problem.normal_stiffness)
-    diagonal += _squared(problem.tangent_rows, problem.shear_stiffness)
+    normal = problem.normal_stiffness if normal is None else normal
+    shear = problem.shear_stiffness if shear is None else shear
+    diagonal = problem.matrix.diagonal() + _squared(problem.normal_rows, normal)
+    diagonal += _squared(problem.tangent_rows, shear)
     return np.asarray(1.0 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0)))
 
 

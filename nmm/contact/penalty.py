@@ -7,13 +7,16 @@ from typing import ClassVar
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.balance import relative_residual, weights, with_springs
+from nmm.contact.answer import settled_answer
+from nmm.contact.balance import relative_residual, weights
 from nmm.contact.enforcement import Enforcement
 from nmm.contact.law import label, shear_bound
 from nmm.contact.memory import Memory
 from nmm.contact.passes import Springs, changes, first_springs, forces, next_springs, words
+from nmm.contact.pattern import SpringPattern
 from nmm.contact.problem import StepAnswer, StepProblem, Verdict
-from nmm.errors import SolveError
+from nmm.contact.springs import CutSprings
+from nmm.errors import FormulationError, SolveError
 from nmm.solvers.linear import LinearSolver
 
 REMEDY = "allow more passes, shorten the step or use the cone enforcement"
@@ -30,29 +33,52 @@ class Penalty(Enforcement):
 
     Attributes
     ----------
+    iteration
+        How states and forces are found. "open_close": Shi's passes and nothing else; they may
+        cycle, which the verdict reports. "settle": the same springs by one kept factor and, where
+        that stalls, the interior point (`nmm.contact.settle`); the answer is the same, the cost
+        a fraction.
     max_passes
-        Most passes a step (Shi: 6).
+        Most open-close passes a step (Shi: 6).
     tolerance
         Largest relative out-of-balance force (-) of an accepted step.
     """
 
     name: ClassVar[str] = "penalty"
+    iteration: str = "settle"
     max_passes: int = 20
     tolerance: float = 1e-8
+
+    def __post_init__(self) -> None:
+        if self.iteration not in ("settle", "open_close"):
+            raise FormulationError(
+                f'penalty enforcement: iteration = "{self.iteration}": expected "settle" or '
+                '"open_close"'
+            )
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
     ) -> StepAnswer:
-        """Iterate until states and friction stand still."""
+        """Find the forces of the springs."""
         problem.check()
-        return _OpenClose(self, problem, linear_solver).run()
+        memory = memory or Memory()
+        if self.iteration == "open_close":
+            return _OpenClose(self, problem, linear_solver, memory.pattern_of(problem)).run()
+        return settled_answer(CutSprings.of(problem), linear_solver, memory, self.tolerance)
 
 
 class _OpenClose:
     """One run of the iteration: the trail of states and what the last pass found."""
 
-    def __init__(self, options: Penalty, problem: StepProblem, linear: LinearSolver) -> None:
+    def __init__(
+        self,
+        options: Penalty,
+        problem: StepProblem,
+        linear: LinearSolver,
+        pattern: SpringPattern,
+    ) -> None:
         self.options, self.problem, self.linear = options, problem, linear
+        self.pattern = pattern
         self.weight = weights(problem)
         self.trail: list[Springs] = []
         self.increment = np.zeros_like(problem.force)
@@ -68,7 +94,7 @@ class _OpenClose:
             key = normal.tobytes() + shear.tobytes()
             try:
                 if factor is None or key != stiff:
-                    matrix = with_springs(self.problem, normal, shear)
+                    matrix = self.pattern.matrix(self.problem, normal, shear)
                     factor, stiff = self.linear.factorise(matrix), key
                     self.factorisations += 1
                 constant = _constant_forces(self.problem, springs, friction_from)

@@ -15,6 +15,7 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.errors import SolveError
+from nmm.interfaces.limits import Limits as Limits
 
 
 class State(IntEnum):
@@ -28,30 +29,6 @@ class State(IntEnum):
 
 
 OPEN, STICK, SLIDE, BONDED, BROKEN = State
-
-
-@dataclass(frozen=True)
-class Limits:
-    """Given numbers that no contact force of this step may exceed.
-
-    The admissible forces are ``N <= tension`` and ``|T| <= cohesion + friction * max(-N, 0)``;
-    a contact with ``tension == 0`` that is open carries nothing. Within a step the limits stand
-    (force at a limit, no softening); what breaks for good is for the interface law to decide
-    between two solutions. ``inf`` is allowed: the contact then never opens or slides.
-
-    Attributes
-    ----------
-    tension
-        (m,) largest pull (N), >= 0.
-    cohesion
-        (m,) shear resistance without compression (N), >= 0.
-    friction
-        (m,) tangent of the friction angle.
-    """
-
-    tension: Floats
-    cohesion: Floats
-    friction: Floats
 
 
 @dataclass(frozen=True)

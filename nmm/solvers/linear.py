@@ -65,7 +65,7 @@ class LinearSolver(ABC):
         return Factor.of(self, csc_array(matrix))
 
     def indefinite(self) -> "LinearSolver":
-        """Return the solver with settings for symmetric indefinite matrices."""
+        """Return the solver with settings for matrices that are not positive definite."""
         return self
 
     def deflated(self) -> Self:
@@ -143,6 +143,10 @@ class Factor:
     def apply(self, rhs: Floats) -> Floats:
         """Return one application of the factors without refinement, for preconditioning."""
         return np.asarray(self.scale * self.decomposition.solve(self.scale * rhs))
+
+    def refined(self, rhs: Floats) -> Floats:
+        """Return a solution with refinement that is not judged: for steps of an iteration."""
+        return self._refined(rhs)[0]
 
     def relative_residual(self, x: Floats, rhs: Floats) -> float:
         """``|rhs - matrix @ x| / |rhs|`` in scaled quantities."""

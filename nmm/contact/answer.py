@@ -1,0 +1,108 @@
+"""Answers and verdicts of the enforcements that settle cut springs."""
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.law import label
+from nmm.contact.memory import Memory
+from nmm.contact.problem import StepAnswer, StepProblem, Verdict
+from nmm.contact.settle import settle
+from nmm.contact.springs import CutSprings, Settled
+from nmm.errors import SolveError
+from nmm.solvers.linear import LinearSolver
+
+PASSES = 3
+"""Open-close passes after a failure, to see whether a part came free."""
+
+
+def settled_answer(
+    springs: CutSprings, linear: LinearSolver, memory: Memory, tolerance: float
+) -> StepAnswer:
+    """Settle ``springs`` and judge the outcome."""
+    try:
+        found = settle(springs, linear, memory, tolerance)
+    except SolveError as fault:
+        return singular_answer(springs, linear, fault)
+    return answer(springs, found, linear, judge(springs, found, linear, memory, tolerance))
+
+
+def answer(
+    springs: CutSprings, found: Settled, linear: LinearSolver, verdict: Verdict
+) -> StepAnswer:
+    """Answer with the forces of ``springs`` at what was found."""
+    problem = springs.problem
+    normal, shear = springs.forces(found.increment)
+    is_open, sliding = springs.states(found.increment)
+    return StepAnswer(
+        increment=found.increment,
+        normal_force=normal,
+        shear_force=shear,
+        gap=problem.gaps(found.increment),
+        slip=kept_slip(problem, shear),
+        state=label(problem, is_open, sliding),
+        passes=found.solves,
+        residual=found.size,
+        verdict=verdict,
+        factorisations=found.factorisations,
+        solver=linear.name,
+    )
+
+
+def kept_slip(problem: StepProblem, shear: Floats) -> Floats:
+    """Elastic part of the slip (m): what the shear springs carry."""
+    return shear / problem.shear_stiffness
+
+
+def judge(
+    springs: CutSprings, found: Settled, linear: LinearSolver, memory: Memory, tolerance: float
+) -> Verdict:
+    """Verdict on unknowns whose forces are admissible by construction."""
+    if found.size <= tolerance:
+        return Verdict(True, "converged", f"settled by {found.story}")
+    free = _free_part(springs, found, linear, memory)
+    if free is not None:
+        return free
+    worst = worst_contacts(springs, found.increment)
+    named = ", ".join(str(i) for i in worst[:5])
+    sentence = (
+        f"out of balance by {found.size:.1e} after {found.story}, most at contacts {named}; "
+        "shorten the step or soften the contacts"
+    )
+    return Verdict(False, "stalled", sentence, worst)
+
+
+def worst_contacts(springs: CutSprings, increment: Floats) -> tuple[int, ...]:
+    """Up to ten contacts on whose unknowns the out-of-balance force is largest."""
+    problem = springs.problem
+    rest = np.abs(springs.weight**2 * springs.defect(increment).force)
+    felt = abs(problem.normal_rows) @ rest + abs(problem.tangent_rows) @ rest
+    return tuple(int(i) for i in np.argsort(-felt)[:10])
+
+
+def singular_answer(springs: CutSprings, linear: LinearSolver, fault: SolveError) -> StepAnswer:
+    """Answer to a step in which a part is free to move."""
+    problem = springs.problem
+    found = Settled(np.zeros_like(problem.force), 1.0, 0, 1, "")
+    sentence = f"with all {problem.n_contacts} contacts acting: {fault}"
+    return answer(springs, found, linear, Verdict(False, "singular", sentence))
+
+
+def _free_part(
+    springs: CutSprings, found: Settled, linear: LinearSolver, memory: Memory
+) -> Verdict | None:
+    problem, increment = springs.problem, found.increment
+    pattern = memory.pattern_of(problem)
+    for _ in range(PASSES):
+        is_open, sliding = springs.states(increment)
+        normal = np.where(is_open, 0.0, springs.normal_stiffness)
+        shear = np.where(is_open | sliding, 0.0, springs.shear_stiffness)
+        try:
+            factor = linear.factorise(pattern.matrix(problem, normal, shear))
+            increment = increment - factor.solve(springs.defect(increment).force)
+        except SolveError as fault:
+            sentence = (
+                f"{int(is_open.sum())} of {problem.n_contacts} contacts open, "
+                f"{int((sliding & ~is_open).sum())} slide and nothing else holds a part: {fault}"
+            )
+            return Verdict(False, "singular", sentence)
+    return None

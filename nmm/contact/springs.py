@@ -1,0 +1,107 @@
+"""Contact forces as springs that a law cuts off: the equations every iterative solver works on."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from integration.arrays import Bools, Floats
+from nmm.contact.balance import weights
+from nmm.contact.law import project, shear_bound
+from nmm.contact.problem import StepProblem
+
+
+@dataclass(frozen=True)
+class CutSprings:
+    """Forces ``project(shift + stiffness * (gap, slip))`` of a problem.
+
+    With zero shift and the problem's stiffnesses this is the penalty (or the joint's own law);
+    with the multipliers of the last round as shift it is one round of the augmented Lagrangian.
+
+    Attributes
+    ----------
+    problem
+        The step.
+    normal_stiffness, shear_stiffness
+        (m,) N/m.
+    normal_shift, shear_shift
+        (m,) N.
+    """
+
+    problem: StepProblem
+    normal_stiffness: Floats
+    shear_stiffness: Floats
+    normal_shift: Floats
+    shear_shift: Floats
+
+    @classmethod
+    def of(cls, problem: StepProblem) -> "CutSprings":
+        """Springs with the problem's own stiffnesses."""
+        zero = np.zeros(problem.n_contacts)
+        return cls(problem, problem.normal_stiffness, problem.shear_stiffness, zero, zero)
+
+    @cached_property
+    def weight(self) -> Floats:
+        """(n,) weights of out-of-balance forces."""
+        return weights(self.problem, self.normal_stiffness, self.shear_stiffness)
+
+    def trial(self, increment: Floats) -> tuple[Floats, Floats]:
+        """Normal and shear force of uncut springs."""
+        normal = self.normal_stiffness * self.problem.gaps(increment) + self.normal_shift
+        return normal, self.shear_stiffness * self.problem.slips(increment) + self.shear_shift
+
+    def forces(self, increment: Floats) -> tuple[Floats, Floats]:
+        """Admissible forces."""
+        return project(*self.trial(increment), self.problem.limits)
+
+    def states(self, increment: Floats) -> tuple[Bools, Bools]:
+        """(m,) open contacts, (m,) closed contacts that slide."""
+        normal, shear = self.trial(increment)
+        is_open = normal > self.problem.limits.tension
+        bounded = np.minimum(normal, self.problem.limits.tension)
+        bound = shear_bound(bounded, is_open, self.problem.limits)
+        return is_open, np.abs(shear) > bound
+
+    def defect(self, increment: Floats) -> "Defect":
+        """Out-of-balance force of ``increment``."""
+        problem = self.problem
+        normal, shear = self.forces(increment)
+        inner = problem.matrix @ increment
+        contact = problem.normal_rows.T @ normal + problem.tangent_rows.T @ shear
+        force = inner + contact - problem.force
+        sizes = (np.linalg.norm(self.weight * part) for part in (inner, contact, problem.force))
+        size, rest = float(max(sizes)), float(np.linalg.norm(self.weight * force))
+        return Defect(force, rest / size if size > 0 else 0.0)
+
+
+@dataclass(frozen=True)
+class Defect:
+    """Out-of-balance force (n,) and its relative size."""
+
+    force: Floats
+    size: float
+
+
+@dataclass(frozen=True)
+class Settled:
+    """Where an iterative solver ended.
+
+    Attributes
+    ----------
+    increment
+        (n,) best unknowns.
+    size
+        Relative out-of-balance force there.
+    solves
+        Linear solves.
+    factorisations
+        Matrices factorised.
+    story
+        How, in words.
+    """
+
+    increment: Floats
+    size: float
+    solves: int
+    factorisations: int
+    story: str
