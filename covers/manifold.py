@@ -1,7 +1,7 @@
-"""The manifold: elements, physical covers, unknowns, boundary; the one approximation of the project.
+"""The manifold: elements, physical covers, unknowns, boundary: the one approximation.
 
-Displacement is ``u(x) = sum_i w_i(x) sum_j f_ij(x) d_ij`` over physical covers ``i`` (Shi 1991, 1997).
-DDA, finite elements, manifold and meshless formulations are manifolds made by different covers.
+Displacement is ``u(x) = sum_i w_i(x) sum_j f_ij(x) d_ij`` over physical covers ``i``
+(Shi 1991, 1997). DDA, finite elements, manifold and meshless formulations are manifolds made by different covers.
 """
 
 from dataclasses import dataclass
@@ -84,7 +84,7 @@ class Manifold:
         return group, index
 
     def rows(self, elements: Ints, points: Floats) -> Rows:
-        """Evaluation rows of the displacement at reference ``points`` (m, 2) in ``elements`` (m,)."""
+        """Evaluation rows of the displacement at ``points`` (m, 2) in ``elements`` (m,)."""
         return Rows(*self._stack(elements, points, "displacement_rows"))
 
     def gradient_rows(self, elements: Ints, points: Floats) -> tuple[Ints, Floats]:

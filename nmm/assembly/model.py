@@ -78,7 +78,7 @@ class Model:
 
     def mean_stress(self, deformation: Floats) -> Floats:
         """Mean elastic stress (E, 3) in body axes of the unknowns ``deformation``."""
-        return np.einsum("eij,ej->ei", self.elasticity, self.mean_strain(deformation))
+        return np.asarray(np.einsum("eij,ej->ei", self.elasticity, self.mean_strain(deformation)))
 
     def mean_strain(self, deformation: Floats) -> Floats:
         """Mean strain (E, 3) of the unknowns ``deformation``."""

@@ -1,7 +1,7 @@
 """Where material is now: a frame a body, and a small deformation carried in it.
 
-A point ``X`` of body ``b`` stands at ``x = c_b + R(theta_b) (X - Xc_b + T(X) q)``. Step unknowns are
-increments in the body's axes, ``delta x = R(theta_b) T(X) d``: the covers are carried with the
+A point ``X`` of body ``b`` stands at ``x = c_b + R(theta_b) (X - Xc_b + T(X) q)``. Step unknowns
+are increments in the body's axes, ``delta x = R(theta_b) T(X) d``: the covers are carried with the
 material, so that stiffness and mass are assembled once and a turned body keeps its size and its
 stress (MacLaughlin and Sitar 1996 name the growth of the linear update that this avoids).
 """
@@ -39,11 +39,11 @@ class Frames:
 
     def to_global(self, body: Ints, vectors: Floats) -> Floats:
         """Turn vectors (m, 2) from body axes to global axes."""
-        return np.einsum("mij,mj->mi", self.rotation[body], vectors)
+        return np.asarray(np.einsum("mij,mj->mi", self.rotation[body], vectors))
 
     def to_body(self, body: Ints, vectors: Floats) -> Floats:
         """Turn vectors (m, 2) from global axes to body axes."""
-        return np.einsum("mji,mj->mi", self.rotation[body], vectors)
+        return np.asarray(np.einsum("mji,mj->mi", self.rotation[body], vectors))
 
 
 @dataclass(frozen=True)
@@ -154,7 +154,7 @@ def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
     turned = np.einsum("bji,bj->bi", rotation_matrices(turn), mean[:, :2])
     change = np.zeros_like(mean)
     change[:, :2] = turned - mean[:, :2]
-    return rate + model.manifold.rigid_modes @ change.ravel()
+    return np.asarray(rate + model.manifold.rigid_modes @ change.ravel())
 
 
 def strain_only(model: Model, state: State, increment: Floats) -> State:

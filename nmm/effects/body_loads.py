@@ -59,4 +59,4 @@ class BodyLoads(Effect):
         return float(np.sum(volume[:, None] * mean * way))
 
     def _density(self, end: Instant) -> Floats:
-        return np.sum([load.factor(end) * load.density for load in self._loads], axis=0)
+        return np.asarray(np.sum([load.factor(end) * load.density for load in self._loads], axis=0))

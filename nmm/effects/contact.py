@@ -251,7 +251,7 @@ class Contact(Effect):
         manifold = self._model.manifold
         middle = centroids(manifold.elements)[manifold.boundary.element]
         apart = middle[joints.edge_a] - middle[joints.edge_b]
-        return np.abs(np.einsum("ij,ij->i", apart, joints.normal))
+        return np.asarray(np.abs(np.einsum("ij,ij->i", apart, joints.normal)))
 
 
 def interface_law(item: Any) -> InterfaceLaw:

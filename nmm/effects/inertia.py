@@ -35,7 +35,7 @@ class Inertia(Effect):
         if not spin.any():
             return np.zeros(self._model.manifold.n_unknowns)
         stretch = self._model.manifold.stretch_modes @ spin**2
-        return self.mass @ stretch
+        return np.asarray(self.mass @ stretch)
 
     def spin(self, state: State) -> Floats:
         """Return the mean rate of rotation (B,) of the bodies (rad/s)."""

@@ -1,9 +1,9 @@
 """Velocity of blocks at the start of a run."""
 
+from dataclasses import replace
 from typing import Self
 
 import numpy as np
-from dataclasses import replace
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model

@@ -40,7 +40,7 @@ class Load:
 
     def resultant(self, end: Instant) -> Floats:
         """Sum (2,) of the forces at an instant (N)."""
-        return self.factor(end) * self.force.sum(axis=0)
+        return np.asarray(self.factor(end) * self.force.sum(axis=0))
 
 
 class Loads(Effect):
@@ -83,10 +83,10 @@ class Loads(Effect):
 
     def scaled_resultant(self, factor: float) -> float:
         """Length of what the loads' sum gains from load factor 0 to ``factor`` (N)."""
-        gain = sum(
-            load.resultant(Instant(factor, factor)) - load.resultant(Instant(factor, 0.0))
-            for load in self.loads
-        )
+        gain = np.zeros(2)
+        for load in self.loads:
+            gain += load.resultant(Instant(factor, factor))
+            gain -= load.resultant(Instant(factor, 0.0))
         return float(np.hypot(*gain))
 
 

@@ -74,7 +74,7 @@ class Supports(Effect):
         """Return the springs' stiffness."""
         total = csc_array((self._n, self._n))
         for support in self._supports:  # a handful of supports
-            for axis in np.flatnonzero(support.held):
+            for axis in np.flatnonzero(support.held).tolist():
                 rows = self._rows(support, state, axis)
                 total = total + rows.T @ diags_array(support.stiffness) @ rows
         return csc_array(total)
@@ -84,7 +84,7 @@ class Supports(Effect):
         total = np.zeros(self._n)
         for number, support in enumerate(self._supports):
             pull = support.stiffness[:, None] * self._lag(number, state, end)
-            for axis in np.flatnonzero(support.held):
+            for axis in np.flatnonzero(support.held).tolist():
                 total += self._rows(support, state, axis).T @ pull[:, axis]
         return total
 

@@ -2,13 +2,10 @@
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from integration.arrays import Bools, Floats
+from nmm.interfaces.limits import Limits
 from nmm.registry import Registry
-
-if TYPE_CHECKING:
-    from nmm.contact.problem import Limits
 
 
 @dataclass(frozen=True)
@@ -43,8 +40,8 @@ class InterfaceLaw(ABC):
         return self.bonded or self.cohesion > 0 or self.normal_stiffness is not None
 
     @abstractmethod
-    def limits(self, length: Floats, damage: Floats, thickness: float) -> "Limits":
-        """Return the largest forces of contacts of tributary ``length`` (m,) and ``damage`` (m,)."""
+    def limits(self, length: Floats, damage: Floats, thickness: float) -> Limits:
+        """Return the largest forces of contacts with ``length`` and ``damage`` (m,)."""
 
     @abstractmethod
     def overload(

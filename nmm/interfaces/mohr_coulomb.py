@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.problem import Limits
 from nmm.interfaces.base import InterfaceLaw
+from nmm.interfaces.limits import Limits
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,7 @@
 """What a material law is to the rest of the program."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from integration.arrays import Floats
@@ -24,4 +25,6 @@ class Law(ABC):
         """Young's modulus (Pa): the unit in which penalties are given."""
 
 
-MATERIAL_LAWS = Registry[type[Law]]("material law", {"elastic": "nmm.materials.elastic:Elastic"})
+MATERIAL_LAWS = Registry[Callable[..., Law]](
+    "material law", {"elastic": "nmm.materials.elastic:Elastic"}
+)

@@ -11,7 +11,7 @@ from nmm.materials.base import MATERIAL_LAWS, Law
 
 if TYPE_CHECKING:
     from nmm.formulation import Cover, Formulation
-    from nmm.geometry.regions import Regions
+    from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
     from nmm.scene.solids import Material
 
@@ -57,5 +57,5 @@ def build_manifold(regions: "Regions", cover: "Cover") -> Manifold:
 
 def material_law(item: "Material") -> Law:
     """Return the law of a scene's material."""
-    kind = MATERIAL_LAWS.load(item.law)
-    return kind(item.young_modulus, item.poisson_ratio, **item.options)
+    constants = {"young_modulus": item.young_modulus, "poisson_ratio": item.poisson_ratio}
+    return MATERIAL_LAWS.load(item.law)(**constants, **item.options)

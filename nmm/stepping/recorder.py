@@ -152,7 +152,8 @@ class Recorder:
         from nmm.contact.problem import State as ContactState
 
         contact = self.stepper.plan.contact
-        assert attempt.solved is not None and contact is not None
+        assert attempt.solved is not None
+        assert contact is not None
         self.friction_loss += attempt.solved.loss
         self.penetration = max(self.penetration, -float(contacts.gap.min(initial=0.0)))
         counts = {s.name.lower(): int(np.sum(contacts.state == s)) for s in ContactState}

@@ -33,7 +33,7 @@ from nmm.stepping.verdict import FAILURE, RunVerdict
 
 if TYPE_CHECKING:
     from covers.manifold import Manifold
-    from nmm.geometry.regions import Regions
+    from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
 
 Progress = Callable[[float, str], None]
@@ -197,7 +197,7 @@ class Simulation:
         duration: float,
         progress: Progress,
     ) -> None:
-        """Let the failed structure move under the load it could not carry; frames alone are kept."""
+        """Let the failed structure move under the load it did not carry; only frames are kept."""
         from nmm.effects.inertia import Inertia
 
         quiet = Stepper(
@@ -241,7 +241,7 @@ class Simulation:
             sentence=verdict.sentence,
             steps=recorder.steps,
             passes=recorder.passes,
-            seconds={**stepper.seconds, "total": perf_counter() - self.begun},
+            seconds=_with_rest(stepper.seconds, perf_counter() - self.begun),
             effect_seconds=dict(stepper.plan.seconds),
             peak_memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
             equilibrium_residual=recorder.residual,
@@ -310,3 +310,8 @@ def _toml(model: "Scene | Formulation") -> str:
     import tomli_w
 
     return tomli_w.dumps(model.model_dump(mode="json", by_alias=True, exclude_none=True))
+
+
+def _with_rest(seconds: dict[str, float], total: float) -> dict[str, float]:
+    """Return seconds by phase with what no phase has counted, so that they sum to the total."""
+    return {**seconds, "rest": max(total - sum(seconds.values()), 0.0)}

@@ -79,7 +79,7 @@ def run_load(
             continue
         stepper.restore(start)
         if fine:
-            return state, _no_equilibrium(state, factor, found.attempt, schedule)
+            return state, _no_equilibrium(state, factor, found.attempt, schedule, stepper.size)
         increment /= 2
     return state, RunVerdict(CONVERGED, f"equilibrium at load factor {state.load_factor:.6g}")
 
@@ -94,16 +94,16 @@ class Settled:
 
 def settle(stepper: Stepper, state: State, end: Instant) -> Settled:
     """Find equilibrium in the moved place: solve, move, and correct until nothing moves."""
-    total, current, contacts = None, state, None
+    contacts: ContactPoints | None = None
+    total = attempt = stepper.attempt(state, end, None, worst_first=True)
     for _ in range(CORRECTIONS):
-        attempt = stepper.attempt(current, end, None, worst_first=True)
-        total = attempt if total is None else _joined(total, attempt)
         if not attempt.converged or total.motion > COLLAPSE * stepper.size:
             return Settled(replace(total, converged=False), contacts)
         contacts = stepper.accept(attempt)
-        current = attempt.state
         if stepper.small or attempt.motion <= SETTLED * total.motion + ROUNDING * stepper.size:
             return Settled(total, contacts)
+        attempt = stepper.attempt(attempt.state, end, None, worst_first=True)
+        total = _joined(total, attempt)
     sentence = f"the moved place is not in equilibrium after {CORRECTIONS} corrections"
     return Settled(replace(total, converged=False, sentence=sentence), contacts)
 
@@ -122,12 +122,12 @@ def _joined(first: Attempt, then: Attempt) -> Attempt:
 
 
 def _no_equilibrium(
-    state: State, factor: float, attempt: Attempt, schedule: LoadSchedule
+    state: State, factor: float, attempt: Attempt, schedule: LoadSchedule, size: float
 ) -> RunVerdict:
     held = state.load_factor
     reason = attempt.sentence
-    if attempt.converged or attempt.motion > 0:
-        reason = f"points move by {attempt.motion:.3g} m in the last increment ({reason})"
+    if attempt.motion > COLLAPSE * size:
+        reason = f"points move by more than {100 * COLLAPSE:.0f} % of the domain ({reason})"
     if not schedule.until_failure or held == 0:
         sentence = f"no equilibrium between load factors {held:.6g} and {factor:.6g}: {reason}"
         return RunVerdict(FAILED, sentence, held)

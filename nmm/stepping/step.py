@@ -90,7 +90,7 @@ class Stepper:
     def attempt(
         self, state: State, end: Instant, step: float | None, worst_first: bool = False
     ) -> Attempt:
-        """Solve the step from ``state`` to ``end``; ``step`` is its length in s, None is statics."""
+        """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics."""
         started = perf_counter()
         matrix, force = self._system(state, end, step)
         self._spend("assembly", started)

@@ -14,8 +14,8 @@ class RunVerdict:
     Attributes
     ----------
     code
-        "converged"; "failure_load" when a run until failure found it; "failed" when a step could not
-        be solved however short.
+        "converged"; "failure_load" when a run until failure found it; "failed" when a step could
+        not be solved however short.
     sentence
         The same in words, with place, number and remedy.
     load_factor, tolerance
