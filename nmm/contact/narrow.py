@@ -120,18 +120,25 @@ def find_contacts(
         flush=FLUSH,
         sine=float(np.sin(ANGLE)),
     )
-    if motion is None:
-        motion = np.zeros_like(surface.start)
-    key = pair_key(surface, vertex, edge)
-    if len(key) and (key[1:] <= key[:-1]).any():
-        key = np.unique(key)
-        vertex, edge = key // len(surface), key % len(surface)
-    known = np.zeros(len(key), dtype=bool) if last is None else _among(key, last.key)
-    offset = np.searchsorted(vertex, np.arange(len(surface) + 1)).astype(np.int64)
-    pairs = narrow_arrays.Pairs(vertex, edge, offset)
-    kept, along, gap = narrow_arrays.select(surface, pairs, rules, known, motion)
-    rows = np.flatnonzero(kept)
-    return _contacts(surface, vertex[rows], edge[rows], along[rows], gap[rows], kept[rows] == 2)
+    # Without edges there is nothing to number rows by.
+    if not compiled or not len(surface):
+        return _by_arrays(surface, vertex, edge, last, motion, rules)
+    # Compiled code is loaded by the first search, not by whoever names this module.
+    from nmm.contact.narrow_kernel import find
+
+    columns = find(
+        np.ascontiguousarray(surface.start),
+        np.ascontiguousarray(surface.end),
+        surface.body,
+        surface.next,
+        surface.previous,
+        vertex,
+        edge,
+        np.empty(0, np.int64) if last is None else last.key,
+        np.empty((0, 2)) if motion is None else np.ascontiguousarray(motion),
+        rules,
+    )
+    return Contacts(*columns)
 
 
 def follow(old: Contacts, new: Contacts) -> Ints:
@@ -171,6 +178,27 @@ def pair_key(surface: Surface, vertex: Ints, edge: Ints) -> Ints:
     return vertex * len(surface) + edge
 
 
+def _by_arrays(
+    surface: Surface,
+    vertex: Ints,
+    edge: Ints,
+    last: Contacts | None,
+    motion: Floats | None,
+    rules: narrow_arrays.Rules,
+) -> Contacts:
+    """Return the contacts by whole arrays."""
+    if motion is None:
+        motion = np.zeros_like(surface.start)
+    key = np.unique(pair_key(surface, vertex, edge))
+    vertex, edge = np.divmod(key, max(len(surface), 1))
+    known = np.zeros(len(key), dtype=bool) if last is None else np.isin(key, last.key)
+    offset = np.searchsorted(vertex, np.arange(len(surface) + 1)).astype(np.int64)
+    pairs = narrow_arrays.Pairs(vertex, edge, offset)
+    kept, along, gap = narrow_arrays.select(surface, pairs, rules, known, motion)
+    rows = np.flatnonzero(kept)
+    return _contacts(surface, vertex[rows], edge[rows], along[rows], gap[rows], kept[rows] == 2)
+
+
 def _contacts(
     surface: Surface, v: Ints, e: Ints, along: Floats, gap: Floats, beyond: Bools
 ) -> Contacts:
@@ -195,15 +223,6 @@ def _contacts(
 def _rounding(surface: Surface) -> float:
     """Rounding of coordinates that have been turned and shifted once (m)."""
     return float(8.0 * np.finfo(float).eps * np.abs(surface.start).max(initial=0.0))
-
-
-def _among(key: Ints, known: Ints) -> Bools:
-    """Which of the rising keys are known."""
-    if not len(known):
-        return np.zeros(len(key), dtype=bool)
-    known = np.sort(known)
-    at = np.minimum(np.searchsorted(known, key), len(known) - 1)
-    return np.asarray(known[at] == key)
 
 
 def _top(values: Ints) -> int:

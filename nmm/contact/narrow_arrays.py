@@ -7,6 +7,7 @@ direction in which one of the two edges at a vertex leaves it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,8 +18,7 @@ from nmm.contact.surface import Surface
 WALK = 4
 
 
-@dataclass(frozen=True)
-class Rules:
+class Rules(NamedTuple):
     """Numbers of the narrow phase, see `narrow`.
 
     Attributes
@@ -197,10 +197,21 @@ def _walk(
 
 
 def _leaves(surface: Surface, covers: Covers, v: Ints, e: Ints, rules: Rules) -> Bools:
-    """First-order entrance condition: both rays of the vertex leave the edge's solid."""
-    own, before = _rays(surface, covers, v, surface.body[e], rules)
+    """First-order entrance condition, for the vertex alone and with its flush neighbours."""
+    own, before = surface.direction[v], -surface.direction[surface.previous[v]]
+    alone = _outward(surface, e, own, before, rules)
+    merged = _rays(surface, covers, v, surface.body[e], rules)
+    return alone & _outward(surface, e, *merged, rules)
+
+
+def _outward(surface: Surface, e: Ints, own: Floats, before: Floats, rules: Rules) -> Bools:
+    """Whether both rays leave the edge's solid, and so does all between them."""
     normal = surface.normal[e]
-    return np.asarray(np.minimum(_dot(own, normal), _dot(before, normal)) >= -rules.sine)
+    out_own, out_before = _dot(own, normal), _dot(before, normal)
+    # Of two rays along the edge, those of a vertex of the far side run the other way about.
+    flat = np.maximum(out_own, out_before) <= rules.sine
+    back = flat & (_dot(own, surface.direction[e]) > 0.0)
+    return np.asarray((np.minimum(out_own, out_before) >= -rules.sine) & ~back)
 
 
 def _shielded(
