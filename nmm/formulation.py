@@ -11,7 +11,7 @@ from pydantic import Field
 
 from nmm.errors import FormulationError
 from nmm.scene.document import parse, read_text
-from nmm.scene.fields import Frozen, Length, Number, PartName, Time
+from nmm.scene.fields import Count, Frozen, Length, Number, PartName, Time
 
 _PART = 'a registered name or "module:Name"'
 
@@ -27,7 +27,7 @@ class Cover(_Part):
 
     type: PartName = Field(default="block", description=_PART, examples=["triangles"])
     functions: PartName = Field(default="rigid_strain", description=_PART, examples=["monomials"])
-    degree: int | None = Field(
+    degree: Count | None = Field(
         default=None, ge=0, description="a degree, an integer >= 0", examples=[1]
     )
     size: Length | None = Field(
@@ -46,12 +46,14 @@ class ContactMethod(_Part):
         default=1.0, gt=0, description="shear over normal penalty, > 0", examples=[1.0]
     )
     bond_stiffness: Number = Field(
-        default=1.0,
+        default=0.5,
         gt=0,
         description="a multiple of E / (distance of the blocks' middles), > 0: stiffness of joints",
-        examples=[1.0],
+        examples=[0.5],
     )
-    max_passes: int = Field(default=20, gt=0, description="a number of passes, > 0", examples=[20])
+    max_passes: Count = Field(
+        default=20, gt=0, description="a number of passes, > 0", examples=[20]
+    )
     joint_points: Literal["corners", "gauss"] = Field(
         default="corners", description='"corners" or "gauss"', examples=["corners"]
     )
@@ -70,8 +72,8 @@ class Integrator(_Part):
 class Rotation(Frozen):
     """How a step's rotation moves a body.
 
-    "exact" turns it; "linear" is the update of classical DDA, in which areas grow; "small" keeps all
-    bodies where they are (theory of small displacements); "auto" is small for statics without
+    "exact" turns it; "linear" is the update of classical DDA, in which areas grow; "small" keeps
+    all bodies where they are (theory of small displacements); "auto" is small for statics without
     contact and exact for all else.
     """
 

@@ -2,7 +2,8 @@
 
 # Eager, as the module `regions` would else hide the function of the same name.
 from nmm.geometry.blocks import Regions
-from nmm.geometry.joint_sets import Joints, cut
+from nmm.geometry.cutting import cut
+from nmm.geometry.joint_sets import Joints
 from nmm.geometry.regions import regions
 from nmm.geometry.voronoi import tessellate
 

@@ -23,9 +23,15 @@ def faces(lines: Sequence[Any] | Shapes) -> Shapes:
     return faces_and_loose_ends(lines)[0]
 
 
-def faces_and_loose_ends(lines: Sequence[Any] | Shapes) -> tuple[Shapes, Shapes]:
-    """Faces as `faces` gives them, and the pieces of lines that bound no face."""
-    noded = shapely.union_all(np.asarray(lines, dtype=object))
+def faces_and_loose_ends(
+    lines: Sequence[Any] | Shapes, grid: float | None = None
+) -> tuple[Shapes, Shapes]:
+    """Faces as `faces` gives them, and the pieces of lines that bound no face.
+
+    With a grid all vertices are rounded to its multiples (snap rounding, Hobby 1999), so that lines
+    that almost coincide become one, and no two faces overlap by rounding.
+    """
+    noded = shapely.union_all(np.asarray(lines, dtype=object), grid_size=grid)
     found, bridges, dangles, _ = shapely.polygonize_full([noded])
     loose = np.concatenate([shapely.get_parts(bridges), shapely.get_parts(dangles)])
     return shapely.get_parts(found), loose
@@ -43,40 +49,3 @@ def owners(points: Shapes, shapes: Shapes) -> Ints:
     index, shape = shapely.STRtree(shapes).query(points, predicate="within")
     owner[index] = shape
     return owner
-
-
-def absorb(candidates: Shapes, keep: Bools, group: Ints) -> tuple[Shapes, Ints]:
-    """Unite each face that is not kept with the neighbour that shares the longest border.
-
-    Parameters
-    ----------
-    candidates : (N,)
-        Faces that share their vertices.
-    keep : (N,)
-        Faces to keep.
-    group : (N,)
-        Only faces of one group are united.
-
-    Returns
-    -------
-    faces
-        The kept faces, in order, some of them larger.
-    index
-        Their positions in `candidates`.
-    """
-    found, keep = candidates.copy(), keep.copy()
-    alive = np.ones(len(found), dtype=bool)
-    # One after the other: a face that grew by one scrap may be the neighbour of the next.
-    for scrap in np.flatnonzero(~keep):
-        near = alive & (group == group[scrap]) & shapely.intersects(found[scrap], found)
-        near[scrap] = False
-        others = np.flatnonzero(near)
-        edges = shapely.boundary(found[others])
-        border = shapely.length(shapely.intersection(shapely.boundary(found[scrap]), edges))
-        if border.size and border.max() > 0.0:
-            home = others[int(np.argmax(border))]
-            found[home] = shapely.coverage_union(found[home], found[scrap])
-            alive[scrap] = False
-            keep[home] = True
-    index = np.flatnonzero(alive & keep)
-    return found[index], index

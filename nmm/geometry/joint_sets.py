@@ -1,4 +1,4 @@
-"""Statistical joint sets that cut regions into blocks.
+"""Statistical joint sets.
 
 A set is a family of parallel lines; dip, spacing and trace length are normally distributed, each
 line is a row of traces and gaps: the description used by UDEC (Itasca, `jset`) and in field
@@ -10,17 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 
-from integration.arrays import Floats, Ints
-from integration.polygons import Polygons
+from integration.arrays import Floats
 from nmm.errors import Fault, GeometryError
-from nmm.geometry.faces import Shapes, absorb, faces_and_loose_ends, owners
 
 # Smaller steps and traces would only be made by the tail of a wide normal distribution.
 _LEAST = 0.05  # of the mean
-_SCRAP = 1e-9  # of a region's area: faces between joints that almost coincide
-_REACH = 1e-6  # of the regions' extent
 _MOST_LINES = 100_000
 
 
@@ -81,12 +76,11 @@ class Joints:
         reach = 2 * half
         if self.persistence == 1 or self.trace is None:
             return np.stack([middle - reach * along, middle + reach * along], axis=1)
-        return np.concatenate(
-            [
-                point + direction * self._traces(reach, self.trace, generator)[:, :, None]
-                for point, direction in zip(middle, along, strict=True)  # a few lines
-            ]
-        )
+        rows = [
+            point + direction * self._traces(reach, self.trace, generator)[:, :, None]
+            for point, direction in zip(middle, along, strict=True)  # a few lines
+        ]
+        return np.concatenate([np.empty((0, 2, 2)), *rows])
 
     def _offsets(
         self, centre: Floats, half: float, across: Floats, generator: np.random.Generator
@@ -111,67 +105,6 @@ class Joints:
         ends = np.cumsum(traces + gaps) - reach - (trace + gap) * generator.random()
         pairs = np.stack([ends - traces - gaps, ends - gaps], axis=1)
         return np.asarray(pairs[(pairs[:, 1] > -reach) & (pairs[:, 0] < reach)])
-
-
-@dataclass(frozen=True)
-class Cut:
-    """Regions cut by joints.
-
-    Attributes
-    ----------
-    polygons
-        The blocks, those of one region together; neighbours share their vertices bit by bit.
-    region : (N,)
-        Region of each block.
-    cracks : (m, 2, 2)
-        Parts of joints that end inside a block.
-    """
-
-    polygons: Polygons
-    region: Ints
-    cracks: Floats
-
-
-def cut(regions: Polygons, joints: Floats) -> Cut:
-    """Cut regions by segments.
-
-    Joints that pass a vertex of a region, or end short of an edge, by less than 1e-6 of the extent
-    of all regions are drawn to it: blocks of that size are never meant.
-
-    Parameters
-    ----------
-    regions
-        Polygons that do not overlap.
-    joints : (m, 2, 2)
-        Segments, through one region or many.
-    """
-    shapes = regions.to_shapely()
-    reach = _REACH * float(np.hypot(*np.ptp(regions.points, axis=0)))
-    lines = shapely.linestrings(_longer(joints.reshape(-1, 2, 2), reach))
-    lines = shapely.snap(lines, shapely.MultiPoint(regions.points), reach)
-    found, loose = faces_and_loose_ends(np.concatenate([shapely.boundary(shapes), lines]))
-    owner = owners(shapely.point_on_surface(found), shapes)
-    found, owner = found[owner >= 0], owner[owner >= 0]
-    large = shapely.area(found) > _SCRAP * regions.areas[owner]
-    found, kept = absorb(found, large, owner)
-    owner = owner[kept]
-    order = np.argsort(owner, kind="stable")
-    cracks = _segments(loose)
-    cracks = cracks[np.hypot(*(cracks[:, 1] - cracks[:, 0]).T) > 2 * reach]
-    cracks = cracks[owners(shapely.points(cracks.mean(axis=1)), shapes) >= 0]
-    return Cut(Polygons.from_shapely(found[order]).oriented(), owner[order], cracks)
-
-
-def _longer(segments: Floats, by: float) -> Floats:
-    step = segments[:, 1] - segments[:, 0]
-    step = by * step / np.hypot(*step.T)[:, None]
-    return np.asarray(segments + np.stack([-step, step], axis=1))
-
-
-def _segments(lines: Shapes) -> Floats:
-    points, line = shapely.get_coordinates(lines, return_index=True)
-    follows = np.flatnonzero(line[1:] == line[:-1])
-    return np.stack([points[follows], points[follows + 1]], axis=1)
 
 
 def _positive(

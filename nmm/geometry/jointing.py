@@ -11,8 +11,9 @@ import shapely
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.geometry.blocks import Regions
+from nmm.geometry.cutting import cut
 from nmm.geometry.faces import owners
-from nmm.geometry.joint_sets import Joints, cut
+from nmm.geometry.joint_sets import Joints
 from nmm.geometry.seeds import seed_of
 from nmm.scene.model import Scene
 

@@ -10,7 +10,7 @@ from math import dist
 import numpy as np
 import shapely
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
 
 _FREE, _BOUNDARY, _FIXED = 0, 1, 2
@@ -29,7 +29,9 @@ def edge_lengths(polygons: Polygons) -> Floats:
     return np.asarray(np.hypot(unique[:, 0] - unique[:, 2], unique[:, 1] - unique[:, 3]))
 
 
-def collapse_short_edges(cells: Polygons, shortest: float, fixed: Floats) -> Polygons:
+def collapse_short_edges(
+    cells: Polygons, shortest: float, fixed: Floats, group: Ints | None = None
+) -> Polygons:
     """Cells without edges shorter than a length, as far as the constraints allow.
 
     Vertices shared by cells stay shared. Vertices inside move to the edge's midpoint; a vertex on
@@ -44,8 +46,11 @@ def collapse_short_edges(cells: Polygons, shortest: float, fixed: Floats) -> Pol
         Length below which an edge is collapsed.
     fixed : (F, 2)
         Points that stay where they are: corners, load and support points.
+    group : (N,)
+        Cells of different groups have a boundary between them, which is kept; default one group.
     """
-    mesh = _Mesh(cells, fixed)
+    groups = [0] * len(cells) if group is None else group.tolist()
+    mesh = _Mesh(cells, fixed, groups)
     # Shortest first, one after the other: a collapse changes the lengths of the edges around it.
     edges = {(min(edge), max(edge)) for edge in mesh.edges()}
     queue = [(dist(*mesh.ends(u, v)), u, v) for u, v in edges]
@@ -68,7 +73,7 @@ def collapse_short_edges(cells: Polygons, shortest: float, fixed: Floats) -> Pol
 class _Mesh:
     """Cells as rings of vertex numbers."""
 
-    def __init__(self, cells: Polygons, fixed: Floats) -> None:
+    def __init__(self, cells: Polygons, fixed: Floats, group: list[int]) -> None:
         cells = cells.oriented()
         points, number = np.unique(cells.points + 0.0, axis=0, return_inverse=True)
         self.points: list[tuple[float, float]] = [(x, y) for x, y in points.tolist()]
@@ -81,18 +86,25 @@ class _Mesh:
             for vertex in (vertex for ring in rings for vertex in ring):
                 self.cells[vertex].add(cell)
         self.kind = [_FREE] * len(points)
-        edges = set(self.edges())
-        for u, v in edges:
-            if (v, u) not in edges:
+        self.group = group
+        home = {
+            edge: group[cell]
+            for cell, rings in enumerate(self.rings)
+            for ring in rings
+            for edge in _ring_edges(ring)
+        }
+        for (u, v), here in home.items():
+            if home.get((v, u)) != here:
                 self.kind[u] = self.kind[v] = _BOUNDARY
         known = {tuple(point): vertex for vertex, point in enumerate(points.tolist())}
         for point in (fixed + 0.0).tolist():
-            self.kind[known[tuple(point)]] = _FIXED
+            if tuple(point) in known:
+                self.kind[known[tuple(point)]] = _FIXED
 
     def edges(self) -> Iterator[tuple[int, int]]:
         for rings in self.rings:
             for ring in rings:
-                yield from zip(ring, ring[1:] + ring[:1], strict=True)
+                yield from _ring_edges(ring)
 
     def ends(self, u: int, v: int) -> tuple[tuple[float, float], tuple[float, float]]:
         return self.points[u], self.points[v]
@@ -100,7 +112,7 @@ class _Mesh:
     def neighbours(self, vertex: int) -> set[int]:
         found = set()
         for ring in (ring for cell in self.cells[vertex] for ring in self.rings[cell]):
-            for u, v in zip(ring, ring[1:] + ring[:1], strict=True):
+            for u, v in _ring_edges(ring):
                 if vertex in (u, v):
                     found.add(u + v - vertex)
         return found
@@ -128,9 +140,13 @@ class _Mesh:
         return stay
 
     def _is_outer(self, u: int, v: int) -> bool:
-        common = self.cells[u] & self.cells[v]
-        rings = [ring for cell in common for ring in self.rings[cell]]
-        return sum(_adjacent(ring, u, v) for ring in rings) == 1
+        """Whether an edge has no second cell of the same group."""
+        sides = [
+            self.group[cell]
+            for cell in self.cells[u] & self.cells[v]
+            if any({u, v} == set(edge) for ring in self.rings[cell] for edge in _ring_edges(ring))
+        ]
+        return len(set(sides)) == len(sides)
 
     def _sound(self, trial: dict[int, _Rings]) -> bool:
         if any(len(ring) < 3 for rings in trial.values() for ring in rings):
@@ -147,12 +163,10 @@ class _Mesh:
         )
 
 
-def _adjacent(ring: list[int], u: int, v: int) -> bool:
-    return any({u, v} == {a, b} for a, b in zip(ring, ring[1:] + ring[:1], strict=True))
+def _ring_edges(ring: list[int]) -> Iterator[tuple[int, int]]:
+    return zip(ring, ring[1:] + ring[:1], strict=True)
 
 
 def _replaced(rings: _Rings, leave: int, stay: int) -> _Rings:
     changed = [[stay if vertex == leave else vertex for vertex in ring] for ring in rings]
-    return [
-        [a for a, b in zip(ring, ring[1:] + ring[:1], strict=True) if a != b] for ring in changed
-    ]
+    return [[a for a, b in _ring_edges(ring) if a != b] for ring in changed]

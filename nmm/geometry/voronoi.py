@@ -9,8 +9,9 @@ import shapely
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.errors import Fault, GeometryError
-from nmm.geometry.faces import Shapes, absorb, faces, inside
+from nmm.geometry.faces import Shapes, faces, inside
 from nmm.geometry.places import insert_vertices
+from nmm.geometry.scraps import absorb
 from nmm.geometry.short_edges import collapse_short_edges, edge_lengths
 
 

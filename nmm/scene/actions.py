@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 from typing import Annotated, Literal
 
@@ -139,8 +140,9 @@ def _scaled(value: object) -> object:
 
 
 def _until(value: object) -> object:
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    if value == "failure" or (number and float(value) > 0):  # type: ignore[arg-type]
+    if value == "failure":
+        return value
+    if isinstance(value, int | float) and not isinstance(value, bool) and 0 < value < math.inf:
         return value
     raise fault(repr(value), '"failure" or a load factor > 0', 'write until = "failure"')
 

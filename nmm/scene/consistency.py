@@ -33,11 +33,11 @@ def contradictions(data: object) -> list[Finding]:
 
 
 def _plain(data: object) -> object:
-    """Tables from tables that may hold models (a scene built in Python)."""
+    """Tables from tables that may hold models or None (a scene built in Python)."""
     if isinstance(data, BaseModel):
-        return data.model_dump(exclude_unset=True, by_alias=True)
+        return data.model_dump(exclude_unset=True, exclude_none=True, by_alias=True)
     if isinstance(data, Mapping):
-        return {key: _plain(value) for key, value in data.items()}
+        return {key: _plain(value) for key, value in data.items() if value is not None}
     if isinstance(data, list | tuple) and any(isinstance(item, BaseModel) for item in data):
         return [_plain(item) for item in data]
     return data

@@ -66,6 +66,10 @@ Acceleration = Annotated[float, quantity("m/s^2")]
 AngularVelocity = Annotated[float, quantity("rad/s")]
 AnyQuantity = Annotated[float, quantity("any")]
 
+# Strict: 1.5, "3" and true are no numbers of things, "yes" is no truth value.
+Count = Annotated[int, Field(strict=True)]
+Flag = Annotated[bool, Field(strict=True)]
+
 Point = Annotated[tuple[Length, Length], BeforeValidator(_listed)]
 Segment = Annotated[tuple[Point, Point], BeforeValidator(_listed)]
 Ring = Annotated[tuple[Point, ...], BeforeValidator(_listed), Field(min_length=3)]

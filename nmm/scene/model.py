@@ -29,7 +29,7 @@ from nmm.scene.actions import (
 )
 from nmm.scene.consistency import contradictions
 from nmm.scene.faults import Source
-from nmm.scene.fields import Frozen, Length, Time, example
+from nmm.scene.fields import Count, Frozen, Length, Time, example
 from nmm.scene.solids import Block, Interface, JointSet, Material, Tessellation
 
 
@@ -52,7 +52,7 @@ class Scene(Frozen):
     duration: Time | None = Field(
         default=None, gt=0, description="a duration in s, > 0", examples=example("s")
     )
-    seed: int = Field(default=0, ge=0, description="a seed, an integer >= 0", examples=[1])
+    seed: Count = Field(default=0, ge=0, description="a seed, an integer >= 0", examples=[1])
     materials: dict[str, Material] = Field(
         min_length=1, description="at least one table [materials.NAME]"
     )

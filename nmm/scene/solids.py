@@ -10,7 +10,9 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from nmm.scene.fields import (
     Angle,
     BlockName,
+    Count,
     Density,
+    Flag,
     Frozen,
     Length,
     Name,
@@ -79,7 +81,7 @@ class Interface(Frozen):
     tensile_strength: Stress = Field(
         default=0.0, ge=0, description="a tensile strength in Pa, >= 0", examples=["2.9 MPa"]
     )
-    bonded: bool = Field(default=False, description="true or false", examples=[True])
+    bonded: Flag = Field(default=False, description="true or false", examples=[True])
     normal_stiffness: SpringStiffness | None = Field(
         default=None, gt=0, description="a normal stiffness in Pa/m, > 0", examples=example("Pa/m")
     )
@@ -123,8 +125,8 @@ class Tessellation(Frozen):
         description="three or more points [x, y] in m", examples=[[[0, 0], [1, 0], [1, 1]]]
     )
     holes: tuple[Ring, ...] = Field(default=(), description="a list of rings of points [x, y] in m")
-    blocks: int = Field(gt=0, description="a number of blocks, > 0", examples=[130])
-    seed: int | None = Field(
+    blocks: Count = Field(gt=0, description="a number of blocks, > 0", examples=[130])
+    seed: Count | None = Field(
         default=None, ge=0, description="a seed, an integer >= 0", examples=[1]
     )
     shortest_edge: Number = Field(
@@ -134,7 +136,7 @@ class Tessellation(Frozen):
         description="a fraction of the mean edge length in [0, 1)",
         examples=[0.2],
     )
-    smoothing: int = Field(
+    smoothing: Count = Field(
         default=2, ge=0, description="a number of Lloyd iterations, >= 0", examples=[2]
     )
     keep: tuple[Point, ...] = Field(
@@ -185,7 +187,7 @@ class JointSet(Frozen):
     origin: Point | None = Field(
         default=None, description="a point [x, y] in m that one joint meets"
     )
-    seed: int | None = Field(
+    seed: Count | None = Field(
         default=None, ge=0, description="a seed, an integer >= 0", examples=[1]
     )
 

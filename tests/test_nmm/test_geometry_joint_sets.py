@@ -114,3 +114,34 @@ def test_every_region_is_cut_on_its_own_and_keeps_its_area() -> None:
 def test_a_spacing_far_below_the_region_is_refused() -> None:
     with pytest.raises(GeometryError, match="increase the spacing"):
         Joints(0.0, 1e-4).segments(LOW, HIGH, "bedding")
+
+
+def test_joints_that_almost_coincide_leave_neither_slivers_nor_short_edges() -> None:
+    sets = [Joints(angle, 0.2, spacing_scatter=0.02, seed=3) for angle in (0.1, 1.3)]
+    lines = np.concatenate([item.segments(UNIT.points[0], UNIT.points[2]) for item in sets])
+    single = cut(UNIT, lines).polygons
+    for shift in (1e-15, 1e-12, 1e-9, 1e-7):
+        double = cut(UNIT, np.concatenate([lines, lines + shift])).polygons
+        assert len(double) == len(single)
+        assert double.areas.sum() == pytest.approx(1.0, rel=1e-12)
+        edges = double.points[double.next_point] - double.points
+        assert np.hypot(*edges.T).min() > 1e-6
+
+
+def test_neighbouring_regions_share_the_joints_that_cross_their_border() -> None:
+    pair = Polygons.from_vertices([UNIT.points, UNIT.points + np.array([1.0, 0.0])])
+    lines = Joints(0.3, 0.15, 0.05, 0.02, seed=5).segments(LOW, np.array([2.0, 1.0]))
+    answer = cut(pair, lines)
+    assert np.bincount(answer.region, answer.polygons.areas) == pytest.approx([1.0, 1.0], rel=1e-12)
+    points = answer.polygons.points
+    owner = answer.region[answer.polygons.polygon_of_point]
+    left, right = (
+        {point.tobytes() for point in points[(owner == k) & (points[:, 0] == 1.0)]} for k in (0, 1)
+    )
+    assert left == right
+    assert len(left) > 5
+
+
+def test_a_set_without_a_joint_in_the_region_cuts_nothing() -> None:
+    far = Joints(0.0, 50.0, persistence=0.5, trace=1.0, origin=(0.0, 20.0))
+    assert len(cut(UNIT, far.segments(UNIT.points[0], UNIT.points[2])).polygons) == 1

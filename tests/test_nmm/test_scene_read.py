@@ -9,6 +9,8 @@ import pytest
 
 from nmm.errors import SceneError
 from nmm.scene import Scene, canonical_text, json_schema, parse_scene, read_scene, scene_hash
+from nmm.scene.actions import Gravity
+from nmm.scene.solids import Block, Material
 
 GOOD = """
 plane = "stress"
@@ -214,3 +216,20 @@ def test_a_history_goes_forward_in_time() -> None:
 
 def test_motion_after_failure_needs_densities() -> None:
     assert "density missing" in _line(GOOD + 'motion_after_failure = "5 ms"\n')
+
+
+def test_a_scene_built_in_python_is_checked_like_a_file() -> None:
+    rock = Material(young_modulus=1e9, poisson_ratio=0.2)
+    block = Block(material="rock", vertices=((0, 0), (1, 0), (0, 1)))
+    scene = Scene(plane="strain", materials={"rock": rock}, blocks=(block,), gravity=None)
+    assert scene.blocks[0].vertices[1] == (1.0, 0.0)
+    with pytest.raises(ValueError, match="a density in kg/m3"):
+        Scene(plane="strain", materials={"rock": rock}, blocks=(block,), gravity=Gravity())
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("bonded = true", 'bonded = "yes"'), ('until = "failure"', "until = inf")],
+)
+def test_values_of_another_kind_are_not_converted(old: str, new: str) -> None:
+    assert new.split(" = ")[1].strip('"') in _line(GOOD.replace(old, new))
