@@ -1,0 +1,22 @@
+"""Pictures of runs; the only package that imports matplotlib, and only when something is drawn.
+
+Each function takes a run in memory or a stored one, draws into `ax` or a figure of its own, saves
+it when `path` is given and returns the axes.
+"""
+
+from nmm.plots.blocks import blocks
+from nmm.plots.contact_forces import contact_forces
+from nmm.plots.curves import curve, history, overview
+from nmm.plots.deformed import deformed, failure_mode
+from nmm.plots.stress import stress
+
+__all__ = [
+    "blocks",
+    "contact_forces",
+    "curve",
+    "deformed",
+    "failure_mode",
+    "history",
+    "overview",
+    "stress",
+]

@@ -1,0 +1,132 @@
+"""Figures and axes: made without pyplot, so that no window system and no global state is needed."""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from integration.arrays import Floats
+from integration.polygons import Polygons
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+WIDTH = 7.0  # inches, about the text width of a page
+RESOLUTION = 200  # dots an inch
+SMALL = 8.5  # points
+BESIDE = 0.9  # inches of the width that labels take
+ABOVE = 0.75  # inches of a panel's height that title and labels take
+
+STYLE: Any = {
+    "font.size": 9.0,
+    "axes.linewidth": 0.6,
+    "axes.edgecolor": "#555555",
+    "axes.labelcolor": "#222222",
+    "xtick.color": "#555555",
+    "ytick.color": "#555555",
+    "xtick.labelcolor": "#222222",
+    "ytick.labelcolor": "#222222",
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+}
+
+PathLike = str | os.PathLike[str]
+
+
+def axes_grid(rows: int, columns: int, height: float) -> "list[Axes]":
+    """Return the axes of a new figure of so many rows and columns, row by row."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(WIDTH, height), layout="constrained")
+        return list(figure.subplots(rows, columns, squeeze=False).ravel())
+
+
+def fit_height(panels: "Sequence[Axes]", beside: float = BESIDE) -> None:
+    """Give the figure of stacked pictures of the plane the height that their limits ask for.
+
+    Parameters
+    ----------
+    panels
+        The axes, all of one figure.
+    beside
+        Inches that labels and a colour bar take of the width.
+    """
+    height = 0.0
+    for axes in panels:
+        (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+        height += float(np.clip((WIDTH - beside) * (high - low) / (right - left), 0.8, 8.0)) + ABOVE
+    panels[0].figure.figure.set_size_inches(WIDTH, height)
+
+
+def frame_plane(axes: "Axes", extent: Floats, title: str) -> None:
+    """Give a picture of the plane equal scales, limits with a margin, labels and a title.
+
+    Parameters
+    ----------
+    axes
+        The axes.
+    extent
+        (2, 2) lower left and upper right corner of what is drawn, m.
+    title
+        The title.
+    """
+    margin = 0.03 * float(np.max(extent[1] - extent[0]))
+    axes.set_aspect("equal")
+    axes.set_xlim(extent[0, 0] - margin, extent[1, 0] + margin)
+    axes.set_ylim(extent[0, 1] - margin, extent[1, 1] + margin)
+    frame(axes, "x  (m)", "y  (m)", title)
+
+
+def frame(axes: "Axes", x_text: str, y_text: str, title: str) -> None:
+    """Label axes and leave the right and upper line out."""
+    axes.set_xlabel(x_text)
+    axes.set_ylabel(y_text)
+    axes.set_title(title, loc="left", fontsize=10.0)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+
+
+def legend_below(axes: "Axes", handles: Sequence[Any]) -> None:
+    """Put a legend in one row below the axes, at the right of the axis label."""
+    from matplotlib.transforms import ScaledTranslation
+
+    if not handles:
+        return
+    down = ScaledTranslation(0, -19 / 72, axes.figure.figure.dpi_scale_trans)
+    axes.legend(
+        handles=handles,
+        ncols=len(handles),
+        loc="upper right",
+        bbox_to_anchor=(1.0, 0.0),
+        bbox_transform=axes.transAxes + down,
+        borderaxespad=0.0,
+        borderpad=0.0,
+        columnspacing=1.2,
+        handlelength=1.4,
+        frameon=False,
+        fontsize=SMALL,
+    )
+
+
+def extent_of(*points: Floats) -> Floats:
+    """(2, 2) lower left and upper right corner of all points."""
+    together = np.concatenate(points)
+    return np.stack([together.min(axis=0), together.max(axis=0)])
+
+
+def size_of(polygons: Polygons) -> float:
+    """Diagonal of the box around all polygons, m."""
+    return float(np.hypot(*np.diff(extent_of(polygons.points), axis=0)[0]))
+
+
+def save(axes: "Axes", path: PathLike | None) -> None:
+    """Write the figure of the axes when a path is given; folders are made when missing."""
+    if path is None:
+        return
+    target = Path(path)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    axes.figure.figure.savefig(target, dpi=RESOLUTION)

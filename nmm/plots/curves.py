@@ -1,0 +1,194 @@
+"""Curves of history columns: one against another, several against time, or a page of all."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.errors import NmmError
+from nmm.plots.canvas import SMALL, PathLike, axes_grid, frame, save
+from nmm.plots.units import label, prefixed, unit_of, words_of
+from nmm.results.sink import RunData
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+CYCLE = ("#1d4e89", "#c1121f", "#2a7f62", "#e08e0b", "#6a4c93", "#555555", "#4d9de0")
+ENERGIES = ("external_work", "strain_energy", "kinetic_energy", "contact_energy", "friction_loss")
+STATES = ("bonded", "stick", "slide", "open", "broken")
+
+
+def curve(
+    run: RunData,
+    x: str,
+    y: str = "load_factor",
+    *,
+    x_factor: float = 1.0,
+    y_factor: float = 1.0,
+    x_label: str | None = None,
+    y_label: str | None = None,
+    ax: "Axes | None" = None,
+    path: PathLike | None = None,
+) -> "Axes":
+    """Draw one history column against another, as in a load-displacement curve.
+
+    Parameters
+    ----------
+    run
+        A run in memory or a stored one.
+    x, y
+        Names of history columns.
+    x_factor, y_factor
+        Factors on the columns, such as -1 for a deflection positive downwards or the load in N
+        at load factor 1.
+    x_label, y_label
+        Axis labels with units; None takes the column's name and unit.
+    ax
+        Axes to draw into; a new figure when None.
+    path
+        File to save the figure in.
+
+    Raises
+    ------
+    NmmError
+        When the history has no such column.
+    """
+    axes = ax or axes_grid(1, 1, 4.2)[0]
+    x_values, x_text = _readable(run, x, x_factor, x_label)
+    y_values, y_text = _readable(run, y, y_factor, y_label)
+    dots = "o" if len(x_values) <= 60 else ""
+    axes.plot(x_values, y_values, color=CYCLE[0], linewidth=1.2, marker=dots, markersize=3.0)
+    _on_grid(axes, x_text, y_text, f"{words_of(y)} against {words_of(x)}")
+    save(axes, path)
+    return axes
+
+
+def history(
+    run: RunData,
+    columns: Sequence[str],
+    *,
+    x: str | None = None,
+    log: bool = False,
+    ax: "Axes | None" = None,
+    path: PathLike | None = None,
+) -> "Axes":
+    """Draw history columns of one unit against time, or the load factor of a static run.
+
+    Parameters
+    ----------
+    run
+        A run in memory or a stored one.
+    columns
+        Names of history columns that share their unit.
+    x
+        Column on the horizontal axis; None takes what grows: time, else step.
+    log
+        Logarithmic vertical axis; values that are not positive are left out.
+    ax
+        Axes to draw into; a new figure when None.
+    path
+        File to save the figure in.
+
+    Raises
+    ------
+    NmmError
+        When the history has no such column, or the columns differ in unit.
+    """
+    units = {unit_of(name) for name in columns}
+    if len(units) != 1:
+        raise NmmError(
+            f"history plot: columns {', '.join(columns)} have the units "
+            f"{', '.join(sorted(units)) or 'none'}: expected one: draw them apart"
+        )
+    axes = ax or axes_grid(1, 1, 4.2)[0]
+    x_values, x_text = _readable(run, x or _clock(run))
+    values = [_column(run, name) for name in columns]
+    factor, unit = prefixed(np.concatenate(values), units.pop())
+    for name, one, colour in zip(columns, values, CYCLE * len(columns), strict=False):
+        shown = factor * (np.where(one > 0, one, np.nan) if log else one)
+        axes.plot(x_values, shown, color=colour, linewidth=1.2, label=words_of(name))
+    if log:
+        axes.set_yscale("log")
+    one_name = words_of(columns[0]) if len(columns) == 1 else _common(columns)
+    _on_grid(axes, x_text, label(one_name, unit), one_name)
+    if len(columns) > 1:
+        axes.legend(loc="best", frameon=False, fontsize=SMALL)
+    save(axes, path)
+    return axes
+
+
+def overview(run: RunData, *, path: PathLike | None = None) -> "list[Axes]":
+    """Draw what a run's history says at a glance: load or energies, contacts, residual, passes.
+
+    Parameters
+    ----------
+    run
+        A run in memory or a stored one.
+    path
+        File to save the figure in.
+    """
+    known = run.history
+    groups: list[tuple[Sequence[str], bool]] = [
+        ([name for name in ENERGIES if _varies(known, name)], False),
+        (["load_factor"] if _varies(known, "load_factor") else [], False),
+        ([name for name in STATES if _varies(known, name)], False),
+        ([name for name in ("residual",) if _varies(known, name)], True),
+        ([name for name in ("penetration",) if _varies(known, name)], False),
+        ([name for name in ("passes",) if name in known], False),
+        ([name for name in known if name.startswith("monitor:") and _varies(known, name)], False),
+    ]
+    drawn = [(columns, log) for columns, log in groups if columns]
+    rows = (len(drawn) + 1) // 2
+    panels = axes_grid(max(rows, 1), 2, 2.5 * max(rows, 1))
+    for axes, (columns, log) in zip(panels, drawn, strict=False):
+        history(run, columns, log=log, ax=axes)
+    for axes in panels[len(drawn) :]:
+        axes.set_visible(False)
+    save(panels[0], path)
+    return panels[: len(drawn)]
+
+
+def _varies(known: Mapping[str, Floats], name: str) -> bool:
+    return name in known and bool(np.any(np.nan_to_num(known[name])))
+
+
+def _clock(run: RunData) -> str:
+    """Return the column that tells when: time where it grows, else the step."""
+    time = run.history.get("time")
+    if time is not None and len(time) > 1 and bool(np.all(np.diff(time) > 0)):
+        return "time"
+    return "step"
+
+
+def _column(run: RunData, name: str) -> Floats:
+    if name not in run.history:
+        raise NmmError(
+            f"history: column {name!r}: expected one of {', '.join(run.history) or 'none'}: "
+            "name a column of history.csv"
+        )
+    return run.history[name]
+
+
+def _readable(
+    run: RunData, name: str, factor: float = 1.0, text: str | None = None
+) -> tuple[Floats, str]:
+    """Return a column in a readable unit and its label; a label of the caller's keeps SI."""
+    values = factor * _column(run, name)
+    if text is not None:
+        return values, text
+    scale, unit = prefixed(values, unit_of(name))
+    return scale * values, label(words_of(name), unit)
+
+
+def _common(columns: Sequence[str]) -> str:
+    for names, words in ((ENERGIES, "energy"), (STATES, "contact points")):
+        if set(columns) <= set(names):
+            return words
+    return "displacement" if all(name.startswith("monitor:") for name in columns) else "value"
+
+
+def _on_grid(axes: "Axes", x_text: str, y_text: str, title: str) -> None:
+    axes.grid(True, color="#e6e6e6", linewidth=0.6)
+    axes.set_axisbelow(True)
+    frame(axes, x_text, y_text, title)
