@@ -1,7 +1,8 @@
 """The manifold: elements, physical covers, unknowns, boundary: the one approximation.
 
 Displacement is ``u(x) = sum_i w_i(x) sum_j f_ij(x) d_ij`` over physical covers ``i``
-(Shi 1991, 1997). DDA, finite elements, manifold and meshless formulations are manifolds made by different covers.
+(Shi 1991, 1997). DDA, finite elements, manifold and meshless formulations are manifolds made by
+different covers.
 """
 
 from dataclasses import dataclass

@@ -123,6 +123,12 @@ def material_points(manifold: Manifold, elements: Ints, points: Floats) -> Mater
     )
 
 
+def vertex_points(manifold: Manifold) -> MaterialPoints:
+    """Return the elements' vertices (P) as points that can be followed."""
+    elements = manifold.elements
+    return material_points(manifold, elements.polygon_of_point, elements.points)
+
+
 def move(model: Model, state: State, increment: Floats) -> State:
     """Return the state after the step unknowns ``increment``: rigid part exact, rest carried.
 

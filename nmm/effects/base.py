@@ -92,6 +92,10 @@ class Effect(ABC):
         """Energy (J) the effect stores."""
         raise NotImplementedError
 
+    def relaid(self, model: Model) -> "Effect":
+        """Return the effect on a model whose blocks were laid anew where they stand."""
+        raise NotImplementedError
+
     def begin(self, state: State) -> State:
         """Return the state at the start of the run as the effect changes it."""
         raise NotImplementedError

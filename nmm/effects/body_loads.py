@@ -44,6 +44,10 @@ class BodyLoads(Effect):
                 found.append(BodyLoad(density, load_factor(setup, load)))
         return cls(setup.model, found)
 
+    def relaid(self, model: Model) -> Effect:
+        """See `Effect.relaid`."""
+        return BodyLoads(model, self._loads)
+
     def force(self, state: State, end: Instant) -> Floats:
         """Return the loads in the bodies' axes."""
         density = self._density(end)

@@ -17,6 +17,7 @@ class Gravity(Effect):
 
     def __init__(self, model: Model, acceleration: Floats) -> None:
         self._model = model
+        self._acceleration = acceleration
         body = model.manifold.element_body
         weight = model.density[:, None] * acceleration
         self._body_of_element = body
@@ -31,6 +32,10 @@ class Gravity(Effect):
         """Build from ``[gravity]``."""
         assert setup.scene.gravity is not None
         return cls(setup.model, np.array(setup.scene.gravity.acceleration))
+
+    def relaid(self, model: Model) -> Effect:
+        """See `Effect.relaid`."""
+        return Gravity(model, self._acceleration)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the weight in the bodies' axes."""

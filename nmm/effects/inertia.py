@@ -15,24 +15,29 @@ class Inertia(Effect):
     """Centrifugal force ``rho omega^2 (X - Xc)`` in the turning axes of each body, and energy.
 
     The integrator adds the mass itself. In axes that turn with the body its own rotation would
-    otherwise leave no trace in the stress.
+    otherwise leave no trace in the stress. The classical update, whose axes never turn, has none.
     """
 
     name = "inertia"
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, axes_turn: bool = True) -> None:
         self._model = model
+        self._axes_turn = axes_turn
         self.mass: csc_array = model.mass
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from ``[inertia]``."""
-        return cls(setup.model)
+        return cls(setup.model, setup.formulation.rotation.update != "linear")
+
+    def relaid(self, model: Model) -> Effect:
+        """See `Effect.relaid`."""
+        return Inertia(model, self._axes_turn)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the centrifugal force of the rotation at the start of the step."""
         spin = self.spin(state)
-        if not spin.any():
+        if not (self._axes_turn and spin.any()):
             return np.zeros(self._model.manifold.n_unknowns)
         stretch = self._model.manifold.stretch_modes @ spin**2
         return np.asarray(self.mass @ stretch)

@@ -29,6 +29,10 @@ class InitialStress(Effect):
             stress[slice(None) if regions is None else regions[region]] = item.stress
         return cls(setup.model, stress)
 
+    def relaid(self, model: Model) -> Effect:
+        """See `Effect.relaid`."""
+        return InitialStress(model, self.stress)
+
     def force(self, state: State, end: Instant) -> Floats:
         """Return the constant internal force."""
         return self._force

@@ -34,6 +34,10 @@ class InitialVelocity(Effect):
             ]
         return cls(setup.model, motion)
 
+    def relaid(self, model: Model) -> Effect:
+        """See `Effect.relaid`."""
+        return self
+
     def begin(self, state: State) -> State:
         """Return the state with the velocities set."""
         return replace(state, velocity=self._model.manifold.rigid_modes @ self._motion.ravel())

@@ -4,6 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from covers.block_cover import block_manifold
+from covers.local_functions import FUNCTIONS, LocalFunctions
 from covers.manifold import Manifold
 from nmm.assembly.model import Model
 from nmm.errors import FormulationError
@@ -36,9 +38,14 @@ def build_model(scene: "Scene", formulation: "Formulation", regions: "Regions") 
 
 def build_manifold(regions: "Regions", cover: "Cover") -> Manifold:
     """Make the manifold that a formulation's ``[cover]`` names."""
-    from covers.block_cover import block_manifold
-    from covers.local_functions import FUNCTIONS
+    if cover.type != "block":
+        raise FormulationError(f"[cover] type: {cover.type}: expected block")
+    region = np.arange(len(regions.polygons), dtype=np.int64)
+    return block_manifold(regions.polygons, region, block_functions(cover))
 
+
+def block_functions(cover: "Cover") -> LocalFunctions:
+    """Return the local functions that ``[cover]`` names."""
     functions = FUNCTIONS.get(cover.functions)
     if functions is None:
         raise FormulationError(
@@ -48,11 +55,7 @@ def build_manifold(regions: "Regions", cover: "Cover") -> Manifold:
         raise FormulationError(
             '[cover] degree: not given: expected 0 to 3 with functions = "monomials": add degree'
         )
-    chosen = functions(cover.degree) if cover.degree is not None else functions(1)
-    if cover.type != "block":
-        raise FormulationError(f"[cover] type: {cover.type}: expected block")
-    region = np.arange(len(regions.polygons), dtype=np.int64)
-    return block_manifold(regions.polygons, region, chosen)
+    return functions(1 if cover.degree is None else cover.degree)
 
 
 def material_law(item: "Material") -> Law:

@@ -57,9 +57,9 @@ def run_in_time(
             recorder.frame(state, schedule.stage, contacts)
             return state, RunVerdict(FAILED, _failure(attempt, state, step))
         taken = attempt.state.time - state.time
-        contacts = stepper.accept(attempt)
+        after, contacts = stepper.accept(attempt)
         recorder.step(state, attempt, contacts)
-        state = attempt.state
+        state = after
         # After a cut the step grows back slowly: what made it fail is rarely over at once.
         step = min(schedule.step, 2 * taken) if taken < schedule.step else schedule.step
         share = (state.time - begin) / schedule.duration

@@ -1,7 +1,7 @@
 """Time integration of ``M a + internal = external`` over one step, in increments of displacement.
 
-Each integrator turns the dynamic step into ``(m M + s K) d = force + M p`` and says what the rates are
-afterwards. Contact forces act at the end of the step in all of them.
+Each integrator turns the dynamic step into ``(m M + s K) d = force + M p`` and says what
+the rates are afterwards. Contact forces act at the end of the step in all of them.
 """
 
 from abc import ABC, abstractmethod

@@ -114,7 +114,7 @@ class Recorder:
                 load_factor=state.load_factor,
                 stage=stage,
                 points=place,
-                displacement=place - manifold.elements.points,
+                displacement=place - stepper.reference,
                 velocity=state.frames.to_global(body, velocity),
                 stress=self.stress(state),
                 **self._contact_arrays(state, contacts),

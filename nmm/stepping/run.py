@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from covers.block_cover import block_manifold
 from integration.arrays import Floats
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State, initial_state
 from nmm.effects.base import Setup
-from nmm.errors import SceneError
+from nmm.errors import FormulationError, SceneError
 from nmm.formulation import Formulation, formulation_hash
 from nmm.geometry.regions import regions as build_regions
 from nmm.results.frame import Frame
@@ -22,11 +24,12 @@ from nmm.results.summary import Summary
 from nmm.results.tee import Frames, Tee
 from nmm.scene import scene_hash
 from nmm.solvers.linear import make_solver
-from nmm.stepping.build import build_model
+from nmm.stepping.build import block_functions, build_model
 from nmm.stepping.dynamics import Schedule, run_in_time
 from nmm.stepping.integrators import INTEGRATORS, Integrator
-from nmm.stepping.plan import compile_plan
+from nmm.stepping.plan import Plan, compile_plan
 from nmm.stepping.recorder import Monitor, Recorder, monitors
+from nmm.stepping.relay import Lay, check_relay
 from nmm.stepping.statics import LoadSchedule, run_load
 from nmm.stepping.step import Stepper, scaled_load
 from nmm.stepping.verdict import FAILURE, RunVerdict
@@ -275,6 +278,7 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
         _integrator(formulation),
         make_solver(formulation.solver.type, formulation.solver.options),
         small=_small(scene, formulation),
+        lay=_lay(formulation, model, plan),
     )
     stepper.seconds["covers"] = built - begun
     stepper.seconds["effects"] = perf_counter() - built
@@ -287,6 +291,20 @@ def _integrator(formulation: Formulation) -> Integrator:
     part = formulation.integrator
     kind = INTEGRATORS.load(part.type)
     return kind(kinetic_factor=part.kinetic_factor, **part.options)
+
+
+def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
+    """Return what lays blocks anew each step when the classical update is asked for."""
+    if formulation.rotation.update != "linear":
+        return None
+    check_relay(plan)
+    functions = block_functions(formulation.cover)
+    if formulation.cover.type != "block" or functions.degree > 1:
+        raise FormulationError(
+            '[rotation] update: "linear": it lays blocks of linear functions anew: expected '
+            'cover type "block" of degree 1: use update = "exact"'
+        )
+    return lambda polygons: block_manifold(polygons, model.manifold.element_region, functions)
 
 
 def _small(scene: "Scene", formulation: Formulation) -> bool:

@@ -99,7 +99,7 @@ def settle(stepper: Stepper, state: State, end: Instant) -> Settled:
     for _ in range(CORRECTIONS):
         if not attempt.converged or total.motion > COLLAPSE * stepper.size:
             return Settled(replace(total, converged=False), contacts)
-        contacts = stepper.accept(attempt)
+        _, contacts = stepper.accept(attempt)
         if stepper.small or attempt.motion <= SETTLED * total.motion + ROUNDING * stepper.size:
             return Settled(total, contacts)
         attempt = stepper.attempt(attempt.state, end, None, worst_first=True)

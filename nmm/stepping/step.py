@@ -9,12 +9,13 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, material_points, move, strain_only
+from nmm.assembly.motion import State, move, strain_only, vertex_points
 from nmm.effects.base import Instant
 from nmm.errors import SolveError
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.integrators import Integrator
 from nmm.stepping.plan import Plan
+from nmm.stepping.relay import Lay, relay
 
 if TYPE_CHECKING:
     from nmm.contact.points import ContactPoints
@@ -61,19 +62,24 @@ class Stepper:
     """Solves steps of one plan; owns factors and what contact remembers."""
 
     def __init__(
-        self, model: Model, plan: Plan, integrator: Integrator, solver: LinearSolver, small: bool
+        self,
+        model: Model,
+        plan: Plan,
+        integrator: Integrator,
+        solver: LinearSolver,
+        small: bool,
+        lay: Lay | None = None,
     ) -> None:
         self.model = model
         self.plan = plan
         self._integrator = integrator
         self.solver = solver
         self.small = small
+        self._lay = lay
         self.seconds: dict[str, float] = {}
-        manifold = model.manifold
-        self.vertices = material_points(
-            manifold, manifold.elements.polygon_of_point, manifold.elements.points
-        )
-        self._size = float(np.hypot(*np.ptp(manifold.elements.points, axis=0)))
+        self.reference = model.manifold.elements.points
+        self.vertices = vertex_points(model.manifold)
+        self._size = float(np.hypot(*np.ptp(self.reference, axis=0)))
         self._reach = FIRST_REACH * self._size
         self._factor: Factor | None = None
 
@@ -99,13 +105,19 @@ class Stepper:
         except SolveError as fault:
             return Attempt(False, str(fault), state, np.zeros_like(force), 0.0, np.nan, 1)
 
-    def accept(self, attempt: Attempt) -> "ContactPoints | None":
-        """Make an attempt the start of the next step; return its contacts as they are left."""
+    def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
+        """Make an attempt the start of the next step; return it with its contacts as left."""
         self._reach = max(2 * attempt.motion, FIRST_REACH * self._size)
-        contact = self.plan.contact
-        if contact is None or attempt.solved is None:
-            return None
-        return contact.commit(attempt.solved, attempt.state)
+        state, contact, contacts = attempt.state, self.plan.contact, None
+        if contact is not None and attempt.solved is not None:
+            contacts = contact.commit(attempt.solved, state)
+        if self._lay is not None:
+            place = self.place(state)
+            self.model, self.plan, state = relay(
+                self.model, self.plan, self._lay, state, attempt.increment, place
+            )
+            self.vertices = vertex_points(self.model.manifold)
+        return state, contacts
 
     def remember(self) -> "ContactRecord | None":
         """Return what contact knows now, for `restore`."""
@@ -195,7 +207,8 @@ class Stepper:
                 step,
             )
             after = replace(state, velocity=velocity, acceleration=acceleration)
-        moved = (strain_only if self.small else move)(self.model, after, increment)
+        still = self.small or self._lay is not None
+        moved = (strain_only if still else move)(self.model, after, increment)
         moved = replace(moved, time=end.time, load_factor=end.load_factor)
         way = self.place(moved) - self.place(state)
         motion = float(np.sqrt((way**2).sum(axis=1).max()))
