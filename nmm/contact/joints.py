@@ -165,19 +165,26 @@ def joint_ends(surface: Surface, joints: Joints) -> tuple[Ints, Ints, Ints]:
     """Vertex-edge pairs that stand at an end of a joint, with the joint: (vertex, edge, joint).
 
     Contact search reports them besides the joint's own points: a step that lets the joint carry
-    both drops contacts with these pairs.
+    both drops contacts with these pairs. Where two vertices meet at the end, their pairs with both
+    edges of each other count.
     """
-    j = np.arange(len(joints))
     a, b = joints.edge_a, joints.edge_b
-    pa, pb = joints.parameter_a, joints.parameter_b
-    found = [
-        (a, b, j, pa[:, 0] == 0.0),
-        (surface.next[a], b, j, pa[:, 1] == 1.0),
-        (b, a, j, pb[:, 1] == 0.0),
-        (surface.next[b], a, j, pb[:, 0] == 1.0),
-    ]
-    vertex, edge, joint = (np.concatenate([row[k][row[3]] for row in found]) for k in range(3))
-    return vertex, edge, joint
+    after_a, after_b = surface.next[a], surface.next[b]
+    start_a, end_a = joints.parameter_a[:, 0] == 0.0, joints.parameter_a[:, 1] == 1.0
+    end_b, start_b = joints.parameter_b[:, 0] == 1.0, joints.parameter_b[:, 1] == 0.0
+    found = (
+        (a, b, start_a),
+        (after_a, b, end_a),
+        (b, a, start_b),
+        (after_b, a, end_b),
+        (a, after_b, start_a & end_b),
+        (after_b, surface.previous[a], start_a & end_b),
+        (after_a, surface.previous[b], end_a & start_b),
+        (b, after_a, end_a & start_b),
+    )
+    vertex = np.concatenate([vertex[there] for vertex, _, there in found])
+    edge = np.concatenate([edge[there] for _, edge, there in found])
+    return vertex, edge, np.concatenate([np.flatnonzero(there) for _, _, there in found])
 
 
 def _pairs(surface: Surface, tolerance: float) -> tuple[Ints, Ints]:

@@ -24,7 +24,7 @@ thinner of the two bodies.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -139,6 +139,18 @@ def find_contacts(
         rules,
     )
     return Contacts(*columns)
+
+
+def remeasure(surface: Surface, contacts: Contacts) -> Contacts:
+    """Return the same contacts with foot, normal and gap where the surface is now."""
+    v, e = contacts.vertex, contacts.edge
+    along, gap = narrow_arrays.measure(surface, v, e)
+    return replace(
+        contacts,
+        parameter=np.clip(along / surface.length[e], 0.0, 1.0),
+        normal=surface.normal[e],
+        gap=gap,
+    )
 
 
 def follow(old: Contacts, new: Contacts) -> Ints:

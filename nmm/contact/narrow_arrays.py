@@ -74,7 +74,7 @@ def select(
     contacts before, ``motion`` (n, 2) is what each vertex is expected to move.
     """
     v, e = pairs.vertex, pairs.edge
-    along, gap = _measure(surface, v, e)
+    along, gap = measure(surface, v, e)
     covers = _covers(surface, v, e, along, gap, rules)
     length = surface.length[e]
     slop = 1e-9 * length + rules.rounding
@@ -90,21 +90,21 @@ def select(
     return np.maximum(kept, 0), along, gap
 
 
-def _dot(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1])
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-
-
-def _measure(surface: Surface, v: Ints, e: Ints) -> tuple[Floats, Floats]:
+def measure(surface: Surface, v: Ints, e: Ints) -> tuple[Floats, Floats]:
     """Foot along the edge and signed distance of its line, both from the nearer end."""
     p, t, length = surface.start[v], surface.direction[e], surface.length[e]
     from_start, from_end = p - surface.start[e], p - surface.end[e]
     first = _dot(from_start, t) <= 0.5 * length
     offset = np.where(first[:, None], from_start, from_end)
     return _dot(offset, t) + np.where(first, 0.0, length), -_cross(t, offset)
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    return np.asarray(a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1])
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 def _convex(surface: Surface, rules: Rules) -> Bools:
