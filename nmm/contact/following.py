@@ -6,10 +6,10 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.joints import Joints, joint_ends, joint_points
-from nmm.contact.narrow import Contacts, follow, pair_key
+from nmm.contact.narrow import Contacts, pair_key
 from nmm.contact.points import ContactPoints, concatenate
 from nmm.contact.problem import BONDED, BROKEN, OPEN, StepAnswer
-from nmm.contact.sides import Sides, tangents
+from nmm.contact.sides import tangents
 from nmm.contact.surface import Surface
 
 # A broken joint whose faces have slid by this share of its length is left to the search.
@@ -66,8 +66,9 @@ class JointBook:
         far = np.hypot(apart[:, 0], apart[:, 1]) > SLID * points.length
         lost = far & (points.damage >= 1)
         gone = np.isin(self.joint, self.joint[lost]) & (points.damage >= 1)
+        before = _turned(self.lost, surface)
         if not gone.any():
-            return replace(self, points=points)
+            return replace(self, points=points, lost=before)
         zero = np.zeros(int(gone.sum()))
         apart_now = replace(
             points.take(gone),
@@ -79,7 +80,7 @@ class JointBook:
             self,
             points=points.take(~gone),
             joint=self.joint[~gone],
-            lost=concatenate([self.lost, apart_now]),
+            lost=concatenate([before, apart_now]),
         )
 
     @property
@@ -179,16 +180,26 @@ def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> Conta
     )
 
 
-def answered(points: ContactPoints, answer: StepAnswer) -> ContactPoints:
-    """Return the points as an answer leaves them."""
+def answered(points: ContactPoints, answer: StepAnswer, bonded: Bools) -> ContactPoints:
+    """Return the points as an answer leaves them; ``bonded`` (m,) were held by a bond once."""
+    parted = bonded & points.is_joint & (answer.state == OPEN)
+    state = np.where(parted, int(BROKEN), answer.state)
     return replace(
         points,
         gap=answer.gap,
         slip=answer.slip,
-        state=np.where(points.damage < 1, int(BONDED), answer.state),
+        state=np.where(points.damage < 1, int(BONDED), state),
         normal_force=answer.normal_force,
         shear_force=answer.shear_force,
     )
+
+
+def _turned(points: ContactPoints, surface: Surface) -> ContactPoints:
+    """Return points with the normal and gap of the moved surface."""
+    normal = surface.normal[points.edge_b]
+    apart = _on(surface, points.edge_a, points.parameter_a)
+    apart = apart - _on(surface, points.edge_b, points.parameter_b)
+    return replace(points, normal=normal, gap=np.einsum("ij,ij->i", apart, normal))
 
 
 def _on(surface: Surface, edge: Ints, parameter: Floats) -> Floats:

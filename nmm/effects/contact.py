@@ -192,7 +192,8 @@ class Contact(Effect):
 
     def commit(self, solved: Solved, state: State) -> ContactPoints:
         """Keep the accepted contacts as the start of the next step, and return them."""
-        done = answered(solved.contacts, solved.answer)
+        bonded = np.array([law.bonded for law in self._laws.laws])[solved.contacts.interface]
+        done = answered(solved.contacts, solved.answer, bonded)
         surface = self._sides.surface(state.frames, state.deformation)
         self.record = ContactRecord(
             book=self.record.book.keep(done.take(done.is_joint), surface),
