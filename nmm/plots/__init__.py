@@ -6,7 +6,7 @@ it when `path` is given and returns the axes.
 
 from nmm.plots.blocks import blocks
 from nmm.plots.contact_forces import contact_forces
-from nmm.plots.curves import curve, history, overview
+from nmm.plots.curves import curve, history, load_displacement, overview
 from nmm.plots.deformed import deformed, failure_mode
 from nmm.plots.stress import stress
 
@@ -17,6 +17,7 @@ __all__ = [
     "deformed",
     "failure_mode",
     "history",
+    "load_displacement",
     "overview",
     "stress",
 ]

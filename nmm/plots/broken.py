@@ -1,19 +1,18 @@
 """Which parts of block edges carry a joint that broke or slides, found from the contact points."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
-from nmm.results.frame import ContactState, Frame
-
-MARKED = {ContactState.BROKEN: "broken", ContactState.SLIDE: "sliding"}
+from nmm.results.frame import ContactState, Frame, Topology
 
 
 @dataclass(frozen=True)
-class MarkedEdges:
+class EdgeParts:
     """Parts of edges.
 
     Attributes
@@ -22,14 +21,11 @@ class MarkedEdges:
         (n,) point at which the edge starts.
     begin, end
         (n,) the part as fractions of the edge.
-    state
-        (n,) `ContactState` of the contact point that marks it.
     """
 
     point: Ints
     begin: Floats
     end: Floats
-    state: Ints
 
     def on(self, polygons: Polygons) -> Floats:
         """(n, 2, 2) the parts as segments on polygons of the same topology."""
@@ -37,9 +33,64 @@ class MarkedEdges:
         edge = polygons.points[polygons.next_point[self.point]] - start
         return np.stack([start + self.begin[:, None] * edge, start + self.end[:, None] * edge], 1)
 
+    def take(self, chosen: Bools) -> "EdgeParts":
+        """Return the parts chosen by a mask."""
+        return EdgeParts(self.point[chosen], self.begin[chosen], self.end[chosen])
 
-def marked_edges(frame: Frame, polygons: Polygons) -> MarkedEdges:
-    """Return the parts of edges on both sides of contacts that are broken or slide.
+    def joined(self, other: "EdgeParts") -> "EdgeParts":
+        """Return the parts of both."""
+        return EdgeParts(
+            np.concatenate([self.point, other.point]),
+            np.concatenate([self.begin, other.begin]),
+            np.concatenate([self.end, other.end]),
+        )
+
+    def covered_by(self, other: "EdgeParts") -> Bools:
+        """(n,) whether the middle of a part lies in a part of the same edge of the other."""
+        middle = 0.5 * (self.begin + self.end)
+        order = np.argsort(other.point, kind="stable")
+        first = np.searchsorted(other.point[order], self.point, side="left")
+        last = np.searchsorted(other.point[order], self.point, side="right")
+        covered = np.zeros(len(middle), dtype=bool)
+        for step in range(int((last - first).max(initial=0))):  # as many as points an edge has
+            candidate = order[np.minimum(first + step, len(order) - 1)]
+            inside = (other.begin[candidate] <= middle) & (middle <= other.end[candidate])
+            covered |= (first + step < last) & inside
+        return covered
+
+
+def broken_parts(frames: Sequence[Frame], topology: Topology, frame: Frame) -> EdgeParts:
+    """Return where joints are broken: bonded when the run began and not in this frame.
+
+    Contact points that the frame itself calls broken are among them.
+    """
+    here = topology.elements.with_points(frame.points)
+    marked = edge_parts(frame, here, ContactState.BROKEN)
+    first = _first_with_bonds(frames)
+    if first is None or first.topology != frame.topology:
+        return marked
+    bonded = edge_parts(first, topology.elements.with_points(first.points), ContactState.BONDED)
+    intact = bonded.covered_by(edge_parts(frame, here, ContactState.BONDED))
+    lost = bonded.take(~intact)
+    return lost.joined(marked.take(~marked.covered_by(lost)))
+
+
+def sliding_parts(topology: Topology, frame: Frame) -> EdgeParts:
+    """Return where contacts slide in this frame."""
+    here = topology.elements.with_points(frame.points)
+    return edge_parts(frame, here, ContactState.SLIDE)
+
+
+def _first_with_bonds(frames: Sequence[Frame]) -> Frame | None:
+    """Return the first frame that has contact points, if any of them is bonded."""
+    for frame in frames[:3]:  # a run may store its start before the first contact solution
+        if len(frame.contact_state):
+            return frame if ContactState.BONDED in frame.contact_state else None
+    return None
+
+
+def edge_parts(frame: Frame, polygons: Polygons, state: ContactState) -> EdgeParts:
+    """Return the parts of edges on both sides of the contact points in a state.
 
     Parameters
     ----------
@@ -47,16 +98,17 @@ def marked_edges(frame: Frame, polygons: Polygons) -> MarkedEdges:
         The frame; its contact points lie on the edges, or a gap away from them.
     polygons
         The elements at the points of the frame.
+    state
+        State of the contact points that count.
     """
     import shapely
 
-    contact = np.flatnonzero(np.isin(frame.contact_state, list(MARKED)))
+    contact = np.flatnonzero(frame.contact_state == state)
     start = polygons.points
     end = start[polygons.next_point]
     reach = 0.02 * frame.contact_length[contact] + 1.5 * np.abs(frame.contact_gap[contact])
     edges: Any = shapely.linestrings(np.stack([start, end], axis=1))
-    tree = shapely.STRtree(edges)
-    found, edge = tree.query(
+    found, edge = shapely.STRtree(edges).query(
         shapely.points(frame.contact_position[contact]), predicate="dwithin", distance=reach
     )
     contact = contact[found]
@@ -68,12 +120,8 @@ def marked_edges(frame: Frame, polygons: Polygons) -> MarkedEdges:
     half = frame.contact_length[contact]
     parallel = (off_normal < 0.05) & (foot > -0.5 * half) & (foot < length + 0.5 * half)
     begin, finish = _part(foot, length, half)
-    return MarkedEdges(
-        point=edge[parallel].astype(np.int64),
-        begin=(begin / length)[parallel],
-        end=(finish / length)[parallel],
-        state=frame.contact_state[contact[parallel]],
-    )
+    parts = EdgeParts(edge.astype(np.int64), begin / length, finish / length)
+    return parts.take(parallel)
 
 
 def _part(foot: Floats, length: Floats, tributary: Floats) -> tuple[Floats, Floats]:

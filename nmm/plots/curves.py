@@ -15,7 +15,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 CYCLE = ("#1d4e89", "#c1121f", "#2a7f62", "#e08e0b", "#6a4c93", "#555555", "#4d9de0")
-ENERGIES = ("external_work", "strain_energy", "kinetic_energy", "contact_energy", "friction_loss")
+ENERGIES = (
+    "external_work",
+    "strain_energy",
+    "kinetic_energy",
+    "contact_energy",
+    "support_energy",
+    "friction_loss",
+)
 STATES = ("bonded", "stick", "slide", "open", "broken")
 
 
@@ -62,6 +69,43 @@ def curve(
     _on_grid(axes, x_text, y_text, f"{words_of(y)} against {words_of(x)}")
     save(axes, path)
     return axes
+
+
+def load_displacement(
+    run: RunData,
+    monitor: str | None = None,
+    *,
+    ax: "Axes | None" = None,
+    path: PathLike | None = None,
+) -> "Axes":
+    """Draw the load factor against the displacement component of a monitor that moved most.
+
+    Parameters
+    ----------
+    run
+        A run in memory or a stored one.
+    monitor
+        Name of the monitor; None takes all into account.
+    ax
+        Axes to draw into; a new figure when None.
+    path
+        File to save the figure in.
+
+    Raises
+    ------
+    NmmError
+        When the run watched no such point.
+    """
+    family = "monitor" if monitor is None else f"monitor:{monitor}"
+    columns = _family(run.history, family)
+    if not columns:
+        raise NmmError(
+            f"load-displacement plot: {family}: expected a displacement in the history that is not "
+            "zero: add [[monitors]] to the scene"
+        )
+    column = max(columns, key=lambda name: float(np.nanmax(np.abs(run.history[name]))))
+    last = run.history[column][np.isfinite(run.history[column])][-1]
+    return curve(run, column, x_factor=float(np.copysign(1.0, last)), ax=ax, path=path)
 
 
 def history(
@@ -128,15 +172,16 @@ def overview(run: RunData, *, path: PathLike | None = None) -> "list[Axes]":
     path
         File to save the figure in.
     """
-    known = run.history
+    known, clock = run.history, _clock(run)
     groups: list[tuple[Sequence[str], bool]] = [
         ([name for name in ENERGIES if _varies(known, name)], False),
-        (["load_factor"] if _varies(known, "load_factor") else [], False),
+        ([name for name in ("load_factor",) if _varies(known, name) and name != clock], False),
         ([name for name in STATES if _varies(known, name)], False),
         ([name for name in ("residual",) if _varies(known, name)], True),
         ([name for name in ("penetration",) if _varies(known, name)], False),
         ([name for name in ("passes",) if name in known], False),
-        ([name for name in known if name.startswith("monitor:") and _varies(known, name)], False),
+        (_family(known, "monitor"), False),
+        (_family(known, "reaction"), False),
     ]
     drawn = [(columns, log) for columns, log in groups if columns]
     rows = (len(drawn) + 1) // 2
@@ -153,12 +198,16 @@ def _varies(known: Mapping[str, Floats], name: str) -> bool:
     return name in known and bool(np.any(np.nan_to_num(known[name])))
 
 
+def _family(known: Mapping[str, Floats], family: str) -> list[str]:
+    return [name for name in known if name.startswith(f"{family}:") and _varies(known, name)]
+
+
 def _clock(run: RunData) -> str:
-    """Return the column that tells when: time where it grows, else the step."""
-    time = run.history.get("time")
-    if time is not None and len(time) > 1 and bool(np.all(np.diff(time) > 0)):
-        return "time"
-    return "step"
+    """Return the column that tells when: the load factor in statics, else time, else the step."""
+    time, factor = run.history.get("time"), run.history.get("load_factor")
+    if time is None or len(time) < 2 or not bool(np.all(np.diff(time) > 0)):
+        return "step"
+    return "load_factor" if factor is not None and np.array_equal(time, factor) else "time"
 
 
 def _column(run: RunData, name: str) -> Floats:
@@ -185,7 +234,8 @@ def _common(columns: Sequence[str]) -> str:
     for names, words in ((ENERGIES, "energy"), (STATES, "contact points")):
         if set(columns) <= set(names):
             return words
-    return "displacement" if all(name.startswith("monitor:") for name in columns) else "value"
+    families = {name.partition(":")[0] for name in columns}
+    return {"monitor": "displacement", "reaction": "reactions"}.get(families.pop(), "value")
 
 
 def _on_grid(axes: "Axes", x_text: str, y_text: str, title: str) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.polygons import Polygons
 from nmm.plots.blocks import block_count, blocks, material_handles
-from nmm.plots.broken import MARKED, marked_edges
+from nmm.plots.broken import broken_parts, sliding_parts
 from nmm.plots.canvas import (
     PathLike,
     axes_grid,
@@ -19,7 +19,7 @@ from nmm.plots.canvas import (
     size_of,
 )
 from nmm.plots.shapes import draw_blocks, line_width
-from nmm.results.frame import ContactState, Frame, Topology
+from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
 
 if TYPE_CHECKING:
@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 
     from nmm.scene import Scene
 
-COLOURS = {ContactState.BROKEN: "#c1121f", ContactState.SLIDE: "#e08e0b"}
+BROKEN = ("broken joint", "#c1121f")
+SLIDING = ("sliding contact", "#e08e0b")
 SHARE = 0.05  # of the scene's size that the largest displacement takes when nothing else is asked
 
 
@@ -65,7 +66,7 @@ def deformed(
     extent = extent_of(polygons.points, topology.elements.points)
     axes = ax or axes_grid(1, 1, 4.0)[0]
     draw_blocks(axes, topology, polygons)
-    marked = _draw_marks(axes, shown, topology, polygons)
+    marked = _draw_marks(axes, run, shown, topology, polygons)
     frame_plane(axes, extent, f"{title}, {moment(shown)}, displacements ×{factor:g}")
     legend_below(axes, [*material_handles(topology), *marked])
     if ax is None:
@@ -119,23 +120,24 @@ def moment(frame: Frame) -> str:
 
 
 def _draw_marks(
-    axes: "Axes", frame: Frame, topology: Topology, polygons: Polygons
+    axes: "Axes", run: RunData, frame: Frame, topology: Topology, polygons: Polygons
 ) -> "list[Line2D]":
     """Draw failed joints over both edges; return legend entries of the kinds drawn."""
     from matplotlib.collections import LineCollection
     from matplotlib.lines import Line2D
 
-    marks = marked_edges(frame, topology.elements.with_points(frame.points))
-    parts = marks.on(polygons)
+    broken = broken_parts(run.frames, topology, frame)
+    sliding = sliding_parts(topology, frame)
+    kinds = {SLIDING: sliding.take(~sliding.covered_by(broken)), BROKEN: broken}
+    width = 0.9 + line_width(topology)
     entries = []
-    for state, name in reversed(MARKED.items()):  # broken over sliding
-        lines = parts[marks.state == state]
-        if len(lines):
-            colour, width = COLOURS[state], 0.9 + line_width(topology)
+    for (name, colour), parts in kinds.items():
+        if len(parts.point):
+            lines = list(parts.on(polygons))
             axes.add_collection(
-                LineCollection(list(lines), colors=colour, linewidths=width, capstyle="round")
+                LineCollection(lines, colors=colour, linewidths=width, capstyle="round")
             )
-            entries.append(Line2D([], [], color=colour, linewidth=width, label=f"{name} joint"))
+            entries.append(Line2D([], [], color=colour, linewidth=width, label=name))
     return entries
 
 

@@ -14,23 +14,29 @@ UNITS = {
     "kinetic_energy": "J",
     "strain_energy": "J",
     "contact_energy": "J",
+    "support_energy": "J",
     "external_work": "J",
     "friction_loss": "J",
 }
 """Units of history columns; columns not named here are pure numbers."""
 
+FAMILIES = {"monitor": "m", "reaction": "N"}
+"""Units of columns such as `monitor:tip:uy`, by what stands before the first colon."""
+
 
 def unit_of(column: str) -> str:
     """Return the SI unit of a history column, empty for a pure number."""
-    return "m" if column.startswith("monitor:") else UNITS.get(column, "")
+    family, colon, _ = column.partition(":")
+    return FAMILIES.get(family, "") if colon else UNITS.get(column, "")
 
 
 def words_of(column: str) -> str:
     """Return a history column's name as words: `monitor:tip:uy` becomes "uy of tip"."""
-    if column.startswith("monitor:"):
-        name, _, component = column.removeprefix("monitor:").rpartition(":")
-        return f"{component} of {name}"
-    return column.replace("_", " ")
+    family, colon, rest = column.partition(":")
+    if not colon:
+        return column.replace("_", " ")
+    name, _, component = rest.rpartition(":")
+    return f"{component} of {name}" if family == "monitor" else f"{family} {component} of {name}"
 
 
 def prefixed(values: Floats, unit: str) -> tuple[float, str]:

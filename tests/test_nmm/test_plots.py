@@ -9,8 +9,8 @@ import shapely
 from integration.polygons import Polygons
 from nmm import parse_scene, plots
 from nmm.errors import NmmError
-from nmm.plots.broken import marked_edges
-from nmm.plots.deformed import COLOURS, visible
+from nmm.plots.broken import broken_parts, edge_parts
+from nmm.plots.deformed import BROKEN, visible
 from nmm.plots.shapes import fill, outlines
 from nmm.plots.stress import measure
 from nmm.plots.units import prefixed, words_of
@@ -120,7 +120,7 @@ def test_supports_and_loads_are_drawn_inside_the_limits(memory_run):
 
 def test_the_crack_is_marked_on_both_its_faces(memory_run):
     axes = plots.deformed(memory_run, magnification=1.0)
-    marks = lines_of_colour(axes, COLOURS[ContactState.BROKEN])
+    marks = lines_of_colour(axes, BROKEN[1])
     length = shapely.union_all(shapely.linestrings(np.round(marks, 12))).length
     frame = memory_run.frames[-1]
     crack = frame.contact_length[frame.contact_state == ContactState.BROKEN].sum()
@@ -130,7 +130,7 @@ def test_the_crack_is_marked_on_both_its_faces(memory_run):
 
 def test_nothing_is_marked_before_failure(memory_run):
     axes = plots.deformed(memory_run, frame=0)
-    assert not lines_of_colour(axes, COLOURS[ContactState.BROKEN])
+    assert not lines_of_colour(axes, BROKEN[1])
 
 
 def two_squares(state, position, length):
@@ -170,7 +170,7 @@ def two_squares(state, position, length):
 )
 def test_a_contact_point_marks_its_part_of_the_joint(y, expected):
     elements, frame = two_squares(ContactState.SLIDE, [1.0, y], 0.5)
-    parts = marked_edges(frame, elements).on(elements)
+    parts = edge_parts(frame, elements, ContactState.SLIDE).on(elements)
     assert len(parts) == 2
     for part in parts:
         assert part[:, 0] == pytest.approx([1.0, 1.0])
@@ -178,9 +178,21 @@ def test_a_contact_point_marks_its_part_of_the_joint(y, expected):
 
 
 @pytest.mark.parametrize("state", [ContactState.OPEN, ContactState.STICK, ContactState.BONDED])
-def test_sound_joints_are_not_marked(state):
+def test_contacts_that_never_held_are_not_broken(state):
     elements, frame = two_squares(state, [1.0, 0.0], 0.5)
-    assert len(marked_edges(frame, elements).point) == 0
+    topology = Topology(elements, np.arange(2), np.zeros(2, dtype=np.int64), ("rock",))
+    assert len(broken_parts([frame], topology, frame).point) == 0
+
+
+def test_a_bond_that_is_no_longer_among_the_contacts_is_broken():
+    elements, bonded = two_squares(ContactState.BONDED, [1.0, 0.0], 0.5)
+    topology = Topology(elements, np.arange(2), np.zeros(2, dtype=np.int64), ("rock",))
+    gone = {name: value[:0] for name, value in vars(bonded).items() if name.startswith("contact_")}
+    later = replace(bonded, index=1, **gone)
+    parts = broken_parts([later, bonded, later], topology, later).on(elements)
+    assert len(parts) == 2
+    for part in parts:
+        assert sorted(part[:, 1]) == pytest.approx([0.0, 0.5])
 
 
 def test_the_magnification_makes_small_displacements_visible(memory_run):
@@ -276,3 +288,11 @@ def test_seconds_are_not_gathered_to_kiloseconds():
 
 def test_a_monitor_is_named_in_words():
     assert words_of("monitor:tip:ux") == "ux of tip"
+
+
+def test_load_against_displacement_takes_what_moved_most(memory_run):
+    x, y = plots.load_displacement(memory_run).lines[0].get_data()
+    assert x[-1] > 0  # downwards counts as positive when the point went down
+    assert np.array_equal(y, memory_run.history["load_factor"])
+    with pytest.raises(NmmError, match="monitor:roof: expected a displacement"):
+        plots.load_displacement(memory_run, "roof")
