@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
+import shapely
 
 from covers.base import Cover
 from covers.closures import closed_faces
@@ -243,7 +244,7 @@ def _assembled(
     elements = Polygons.concatenate([part.elements for part in pieces])
     cell = np.concatenate([part.cell for part in pieces])
     region = np.concatenate([part.region for part in pieces])
-    _check_covered(domain, elements, region, pieces)
+    _check_covered(domain, elements, region, pieces, resolution)
     first = np.cumsum([0] + [len(part.cell) for part in pieces])[:-1]
     joins = Joins(
         np.concatenate([layer.joins.first + n for layer, n in zip(layers, first, strict=True)]),
@@ -273,11 +274,14 @@ def _assembled(
     )
 
 
-def _check_covered(domain: Domain, elements: Polygons, region: Ints, pieces: list[Pieces]) -> None:
+def _check_covered(
+    domain: Domain, elements: Polygons, region: Ints, pieces: list[Pieces], resolution: Resolution
+) -> None:
     wanted = domain.regions.areas
     found = np.bincount(region, elements.areas, minlength=len(domain))
     lost = sum(part.lost_area for part in pieces)
-    short = np.abs(found - wanted) > UNCOVERED * wanted + lost
+    rounding = TOUCH * resolution.step * np.asarray(shapely.length(domain.shapes))
+    short = np.abs(found - wanted) > UNCOVERED * wanted + rounding + lost
     if short.any():
         n = int(np.flatnonzero(short)[0])
         raise ValueError(
