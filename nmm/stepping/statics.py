@@ -24,6 +24,9 @@ SETTLED = 1e-8
 ROUNDING = 1e-13
 CORRECTIONS = 12
 
+# A load increment that was cut to this share of the largest is not cut further.
+SMALLEST = 2.0**-30
+
 # A structure whose points move by this share of its size in one increment has no equilibrium near.
 COLLAPSE = 0.05
 
@@ -66,7 +69,7 @@ def run_load(
     increment = min(schedule.increment, schedule.target)
     while state.load_factor < schedule.target * (1 - 1e-12):
         factor = min(state.load_factor + increment, schedule.target)
-        fine = increment <= schedule.tolerance * factor
+        fine = increment <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
         start, bonds = stepper.remember(), stepper.broken_bonds
         found = settle(stepper, state, Instant(factor, factor))
         broke = stepper.broken_bonds > bonds

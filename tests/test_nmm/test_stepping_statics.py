@@ -1,0 +1,132 @@
+"""Statics: equilibrium, load control to failure, honest ends."""
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.formulation import Formulation
+
+BAR = """
+plane = "stress"
+thickness = 0.5
+[materials.steel]
+young_modulus = 1000.0
+poisson_ratio = 0.3
+[[blocks]]
+material = "steel"
+vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[supports]]
+name = "left"
+segment = [[0, 0], [0, 1]]
+fix = ["x"]
+[[supports]]
+name = "pin"
+point = [0, 0]
+fix = ["y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[2, 0], [2, 1]]
+traction = [1.0, 0]
+[[monitors]]
+name = "tip"
+point = [2, 1]
+"""
+
+# Two blocks bonded on their shared edge of 1 m, pulled apart.
+BOND = """
+plane = "stress"
+[materials.rock]
+young_modulus = 1e9
+poisson_ratio = 0.0
+[interfaces.bond]
+bonded = true
+friction_angle = "30 deg"
+cohesion = 2e6
+tensile_strength = 1e6
+[[blocks]]
+name = "held"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "pulled"
+material = "rock"
+vertices = [[1, 0], [2, 0], [2, 1], [1, 1]]
+[[supports]]
+name = "held"
+block = "held"
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[2, 0], [2, 1]]
+traction = [1e6, 0]
+[contact]
+[loading]
+until = "failure"
+"""
+
+
+def test_bar_in_tension_has_the_closed_form_stress_and_stretch() -> None:
+    run = nmm.run(nmm.parse_scene(BAR))
+    np.testing.assert_allclose(run.stress, [[1.0, 0.0, 0.0]], atol=1e-12)
+    # L sigma / E, and the support's springs: 1000 E t at each of the edge's Gauss points.
+    stretch = run.history["monitor:tip:ux"][-1]
+    assert stretch == pytest.approx(2e-3, rel=2e-4)
+    assert run.history["monitor:tip:uy"][-1] == pytest.approx(-0.3e-3, rel=1e-9)
+    assert run.history["reaction:left:x"][-1] == pytest.approx(-0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize("increment", [0.07, 0.3, 5.0])
+def test_failure_load_of_a_bond_does_not_depend_on_the_increment(increment: float) -> None:
+    formulation = Formulation.model_validate({"loading": {"increment": increment}})
+    run = nmm.run(nmm.parse_scene(BOND), formulation)
+    assert run.summary.status == "failure_load"
+    # f_t A = 1e6 N at factor 1; the bracket is 0.5 % wide and lies below the strength.
+    assert run.summary.failure_load is not None
+    assert 0.995e6 <= run.summary.failure_load <= 1e6
+    assert run.summary.failure_tolerance is not None
+    assert run.summary.failure_tolerance <= 0.00505
+
+
+def test_a_bond_under_shear_fails_by_mohr_coulomb() -> None:
+    # Pressure 1 MPa and cohesion 2 MPa: tau = 2 + 1 tan 30 = 2.577 MPa; the shear acts through the
+    # joint's middle, so that no moment loads one spring more than the other.
+    text = BOND.replace("traction = [1e6, 0]", "traction = [-1e6, 0]").replace(
+        'until = "failure"', 'until = "failure"\nscaled = ["slip"]'
+    )
+    text += """
+[[loads]]
+name = "slip"
+kind = "point"
+point = [1.0, 0.5]
+block = "pulled"
+force = [0, -1e6]
+"""
+    run = nmm.run(nmm.parse_scene(text), None)
+    assert run.summary.failure_factor == pytest.approx(2 + np.tan(np.pi / 6), rel=0.006)
+
+
+def test_a_structure_without_support_is_refused_by_the_solution_not_answered() -> None:
+    text = BAR.replace('fix = ["y"]', 'fix = ["x"]')
+    text += '[[loads]]\nname="up"\nkind="point"\npoint=[2,1]\nforce=[0,1.0]\n'
+    run = nmm.run(nmm.parse_scene(text))
+    assert run.summary.status == "failed"
+    assert "singular" in run.summary.sentence
+    assert len(run.history) == 0
+
+
+def test_unnamed_effects_are_neither_built_nor_imported() -> None:
+    import subprocess
+    import sys
+
+    code = (
+        "import nmm, sys\n"
+        f"run = nmm.run(nmm.parse_scene('''{BAR}'''))\n"
+        "assert sorted(run.stepper.plan.effects) == ['loads', 'supports']\n"
+        "bad = [m for m in sys.modules if m.startswith('nmm.contact') or m in ("
+        "'nmm.effects.contact', 'nmm.effects.gravity', 'nmm.effects.inertia', 'numba',"
+        "'matplotlib')]\n"
+        "assert not bad, bad\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
