@@ -7,9 +7,9 @@ from typing import Self
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import cKDTree
 
 from covers.base import Cover
+from covers.discs import discs_of_cells
 from covers.kernels import kernel
 from covers.regular_nets import grid_cells, grid_vertices, regular_net
 from integration.arrays import Floats, Ints
@@ -120,7 +120,7 @@ class MovingLeastSquares(Cover):
             than the basis has functions.
         """
         _check_options(degree, kernel)
-        patches = _discs_of_cells(nodes, radius, vertices[cell_vertices])
+        patches = discs_of_cells(nodes, radius, vertices[cell_vertices])
         middle = vertices[cell_vertices].mean(axis=1)
         away = np.linalg.norm(nodes[patches] - middle[:, None], axis=2)
         held = ((away < radius[patches]) & (patches >= 0)).sum(axis=1)
@@ -214,34 +214,6 @@ def _solve(moment: Floats, change: Floats) -> tuple[Floats, Floats]:
         return c, np.asarray(np.linalg.solve(moment, right), dtype=float)
     except np.linalg.LinAlgError:
         return np.full(moment.shape[:2], np.nan), np.zeros((*moment.shape[:2], 2))
-
-
-def _discs_of_cells(nodes: Floats, radius: Floats, corners: Floats) -> Ints:
-    """Patches (C, k) whose open disc meets each cell, filled up with -1."""
-    middle = corners.mean(axis=1)
-    reach = np.linalg.norm(corners - middle[:, None], axis=2).max(axis=1)
-    found = cKDTree(nodes).query_ball_point(
-        middle, reach + radius.max(initial=0.0), return_sorted=True
-    )
-    cell = np.repeat(np.arange(len(corners)), [len(row) for row in found])
-    node = np.concatenate([np.empty(0, dtype=np.int64), *map(np.asarray, found)]).astype(np.int64)
-    meets = _distance(corners[cell], nodes[node]) < radius[node] * (1 - 1e-12)
-    cell, node = cell[meets], node[meets]
-    number = np.bincount(cell, minlength=len(corners))
-    place = np.arange(len(cell)) - np.repeat(np.cumsum(number) - number, number)
-    patches = np.full((len(corners), number.max(initial=0)), -1, dtype=np.int64)
-    patches[cell, place] = node
-    return patches
-
-
-def _distance(corners: Floats, points: Floats) -> Floats:
-    """Distance (m,) from points to convex counter-clockwise cells (m, v, 2), zero inside."""
-    side = np.roll(corners, -1, axis=1) - corners
-    away = points[:, None] - corners
-    along = np.clip((away * side).sum(axis=2) / (side**2).sum(axis=2), 0.0, 1.0)
-    to_side = np.linalg.norm(away - along[..., None] * side, axis=2).min(axis=1)
-    inside = (side[..., 0] * away[..., 1] - side[..., 1] * away[..., 0] >= 0).all(axis=1)
-    return np.where(inside, 0.0, to_side)
 
 
 def _check_options(degree: int, name: str) -> None:

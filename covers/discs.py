@@ -1,0 +1,36 @@
+"""Which discs meet which cells."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from integration.arrays import Floats, Ints
+
+
+def discs_of_cells(nodes: Floats, radius: Floats, corners: Floats) -> Ints:
+    """Patches (C, k) whose open disc meets each cell, filled up with -1."""
+    middle = corners.mean(axis=1)
+    reach = np.linalg.norm(corners - middle[:, None], axis=2).max(axis=1)
+    found = cKDTree(nodes).query_ball_point(
+        middle, reach + radius.max(initial=0.0), return_sorted=True
+    )
+    cell = np.repeat(np.arange(len(corners)), [len(row) for row in found])
+    node = np.concatenate([np.empty(0, dtype=np.int64), *map(np.asarray, found)]).astype(np.int64)
+    meets = _distance(corners[cell], nodes[node]) < radius[node] * (1 - 1e-12)
+    cell, node = cell[meets], node[meets]
+    number = np.bincount(cell, minlength=len(corners))
+    place = np.arange(len(cell)) - np.repeat(np.cumsum(number) - number, number)
+    patches = np.full((len(corners), number.max(initial=0)), -1, dtype=np.int64)
+    patches[cell, place] = node
+    return patches
+
+
+def _distance(corners: Floats, points: Floats) -> Floats:
+    """Distance (m,) from points to convex counter-clockwise cells (m, v, 2), zero inside."""
+    side = np.roll(corners, -1, axis=1) - corners
+    away = points[:, None] - corners
+    along = np.clip((away * side).sum(axis=2) / (side**2).sum(axis=2), 0.0, 1.0)
+    to_side = np.linalg.norm(away - along[..., None] * side, axis=2).min(axis=1)
+    inside = (side[..., 0] * away[..., 1] - side[..., 1] * away[..., 0] >= 0).all(axis=1)
+    return np.where(inside, 0.0, to_side)
