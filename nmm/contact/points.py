@@ -7,7 +7,7 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import Frames
-from nmm.contact.sides import Sides, tangents
+from nmm.contact.sides import Sides
 
 
 @dataclass(frozen=True)
@@ -78,15 +78,28 @@ def concatenate(parts: list[ContactPoints]) -> ContactPoints:
 def rows(
     contacts: ContactPoints, sides: Sides, frames: Frames, n_unknowns: int
 ) -> tuple[csr_array, csr_array]:
-    """Return the normal and tangent rows (m, n_unknowns): ``gap += N d``, ``slip += T d``."""
-    a = sides.at(contacts.edge_a, contacts.parameter_a)
-    b = sides.at(contacts.edge_b, contacts.parameter_b)
-    columns = np.concatenate([a.rows.unknowns, b.rows.unknowns], axis=1)
-    offsets = np.arange(len(contacts) + 1) * columns.shape[1]
+    """Return the normal and tangent rows (m, n_unknowns): ``gap += N d``, ``slip += T d``.
 
-    def along(direction: Floats) -> csr_array:
-        values = np.concatenate([a.along(frames, direction), -b.along(frames, direction)], axis=1)
-        shape = (len(contacts), n_unknowns)
-        return csr_array((values.ravel(), columns.ravel(), offsets), shape=shape)
+    Both have the same sorted pattern.
+    """
+    from nmm.contact.rows import side_rows
 
-    return along(contacts.normal), along(tangents(contacts.normal))
+    columns, *values = side_rows(
+        sides.start.rows.unknowns,
+        sides.start.rows.values,
+        sides.end.rows.values,
+        frames.rotation,
+        sides.start.body,
+        (contacts.edge_a, contacts.edge_b),
+        (contacts.parameter_a, contacts.parameter_b),
+        contacts.normal,
+    )
+    offsets = np.arange(len(contacts) + 1, dtype=np.int32) * np.int32(columns.shape[1])
+    shape = (len(contacts), n_unknowns)
+    normal, tangent = (
+        csr_array((value.ravel(), columns.ravel(), offsets), shape=shape) for value in values
+    )
+    if sides.repeats:
+        for part in (normal, tangent):
+            part.sum_duplicates()
+    return normal, tangent

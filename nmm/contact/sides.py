@@ -27,13 +27,19 @@ class Sides:
     def surface(self, frames: Frames, deformation: Floats) -> Surface:
         """Return the edges where they are now."""
         edges = self.manifold.boundary
+        start = self.start.place(frames, deformation)
         return Surface(
-            start=self.start.place(frames, deformation),
-            end=self.end.place(frames, deformation),
+            start=start,
+            end=start[edges.next],
             body=edges.body,
             next=edges.next,
             previous=edges.previous,
         )
+
+    @property
+    def repeats(self) -> bool:
+        """Whether one row may name an unknown twice: padded rows, or both sides in one body."""
+        return len(self.manifold.groups) > 1 or len(self.manifold.elements) > self.manifold.n_bodies
 
     def at(self, edge: Ints, parameter: Floats) -> MaterialPoints:
         """Return the points (m,) at ``parameter`` on ``edge``."""

@@ -6,7 +6,7 @@ other contacts are found by search as bodies move. Both are contact points of on
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -39,6 +39,8 @@ from nmm.solvers.linear import LinearSolver
 
 NONE = -1
 
+Breaking = Literal["all", "worst", "stop"]
+
 
 @dataclass(frozen=True)
 class Solved:
@@ -54,12 +56,15 @@ class Solved:
         Linear systems solved.
     loss
         Energy lost to friction and broken springs (J).
+    stopped
+        Whether a bond could not hold and the step was given up for it.
     """
 
     contacts: ContactPoints
     answer: StepAnswer
     passes: int
     loss: float
+    stopped: bool = False
 
 
 @dataclass(frozen=True)
@@ -106,6 +111,7 @@ class Contact(Effect):
         surface = self._sides.surface(start.frames, start.deformation)
         self._neighbours: NeighbourList | None = None
         self._last: Contacts | None = None
+        self._known: tuple[State, Surface] | None = None
         self.record = ContactRecord(self._follow_joints(surface, stations))
         self._unbonded = self.record.book.broken
 
@@ -137,7 +143,7 @@ class Contact(Effect):
 
     def candidates(self, state: State, reach: float) -> ContactPoints:
         """Return the contact points of a step in which no point moves further than ``reach``."""
-        surface = self._sides.surface(state.frames, state.deformation)
+        surface = self._surface(state)
         record = self.record
         joints = record.book.now(surface)
         found = self._search(surface, 2 * reach)
@@ -154,9 +160,13 @@ class Contact(Effect):
         matrix: csc_array,
         force: Floats,
         solver: LinearSolver,
-        worst_first: bool,
+        breaking: Breaking = "all",
     ) -> Solved:
-        """Solve one step; bonds that cannot hold break and the step is solved again."""
+        """Solve one step; bonds that cannot hold break and the step is solved again.
+
+        ``breaking`` says which break at a time: "all", the "worst" alone, or "stop": none, the step
+        ends there and is no equilibrium.
+        """
         n_unknowns = self._model.manifold.n_unknowns
         normal_rows, tangent_rows = rows(contacts, self._sides, state.frames, n_unknowns)
         normal, shear, own = self._laws.springs(contacts)
@@ -181,11 +191,13 @@ class Contact(Effect):
             passes += answer.passes
             broken = np.zeros(len(contacts), dtype=bool)
             if answer.verdict.converged:
-                broken, _ = self._laws.breaking(contacts, answer, worst_first)
+                broken, _ = self._laws.breaking(contacts, answer, breaking == "worst")
             if not broken.any():
                 slid = problem.slips(answer.increment) - answer.slip
                 loss += float(np.abs(answer.shear_force * slid).sum())
                 return Solved(contacts, answer, passes, loss)
+            if breaking == "stop":
+                return Solved(contacts, answer, passes, loss, stopped=True)
             elastic = answer.normal_force**2 / normal + answer.shear_force**2 / shear
             loss += float(elastic[broken].sum()) / 2
             contacts = break_bonds(contacts, broken)
@@ -194,7 +206,7 @@ class Contact(Effect):
         """Keep the accepted contacts as the start of the next step, and return them."""
         bonded = np.array([law.bonded for law in self._laws.laws])[solved.contacts.interface]
         done = answered(solved.contacts, solved.answer, bonded)
-        surface = self._sides.surface(state.frames, state.deformation)
+        surface = self._surface(state)
         self.record = ContactRecord(
             book=self.record.book.keep(done.take(done.is_joint), surface),
             found=self._last,
@@ -224,6 +236,12 @@ class Contact(Effect):
         normal, shear, _ = self._laws.springs(points)
         elastic = points.normal_force**2 / normal + points.shear_force**2 / shear
         return float(elastic.sum() / 2)
+
+    def _surface(self, state: State) -> Surface:
+        """Edges of a state; those of the last one asked for are kept."""
+        if self._known is None or self._known[0] is not state:
+            self._known = state, self._sides.surface(state.frames, state.deformation)
+        return self._known[1]
 
     def _search(self, surface: Surface, reach: float) -> Contacts:
         if self._neighbours is None or self._neighbours.skin < 2 * reach:

@@ -1,10 +1,11 @@
 """Weight: a constant acceleration of all mass."""
 
+from functools import cached_property
 from typing import Self
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
@@ -20,8 +21,6 @@ class Gravity(Effect):
         self._acceleration = acceleration
         body = model.manifold.element_body
         weight = model.density[:, None] * acceleration
-        self._body_of_element = body
-        self._density = weight
         total = weight * (model.element_area * model.thickness)[:, None]
         self._weight = np.stack(
             [np.bincount(body, total[:, i], minlength=model.manifold.n_bodies) for i in (0, 1)], 1
@@ -39,7 +38,18 @@ class Gravity(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the weight in the bodies' axes."""
-        return self._model.body_load(state.frames.to_body(self._body_of_element, self._density))
+        body, along_x, along_y = self._unit
+        bodies = np.arange(self._model.manifold.n_bodies)
+        down = state.frames.to_body(bodies, np.tile(self._acceleration, (len(bodies), 1)))
+        return np.asarray(along_x * down[body, 0] + along_y * down[body, 1])
+
+    @cached_property
+    def _unit(self) -> tuple[Ints, Floats, Floats]:
+        """Body (n,) of each unknown, loads (n,) of unit accelerations along the body's axes."""
+        manifold, density = self._model.manifold, self._model.density[:, None]
+        along_x, along_y = (self._model.body_load(density * axis) for axis in np.eye(2))
+        body = np.repeat(manifold.cover_body, np.diff(manifold.cover_offset))
+        return body, along_x, along_y
 
     def work(self, before: State, after: State) -> float:
         """Weight times the motion of the centres of mass."""

@@ -6,12 +6,13 @@ the held directions alone. Its force is read from the whole distance, so nothing
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse import csc_array
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, at_point, on_block, on_segment
 from nmm.effects.base import Effect, Instant, Setup, factor_of
@@ -60,6 +61,7 @@ class Supports(Effect):
     def __init__(self, supports: list[Support], n_unknowns: int, state: State) -> None:
         self._supports = supports
         self._n = n_unknowns
+        self._stood: tuple[Floats, csc_array] | None = None
         self._anchors = [
             support.place.points.place(state.frames, state.deformation) for support in supports
         ]
@@ -71,21 +73,23 @@ class Supports(Effect):
         return cls(found, setup.model.manifold.n_unknowns, setup.start)
 
     def matrix(self, state: State) -> csc_array:
-        """Return the springs' stiffness."""
-        total = csc_array((self._n, self._n))
-        for support in self._supports:  # a handful of supports
-            for axis in np.flatnonzero(support.held).tolist():
-                rows = self._rows(support, state, axis)
-                total = total + rows.T @ diags_array(support.stiffness) @ rows
-        return csc_array(total)
+        """Return the springs' stiffness, the same object as long as no held body turns."""
+        angle = np.concatenate([state.frames.angle[body] for body in self._turning])
+        if self._stood is None or not np.array_equal(self._stood[0], angle):
+            parts = [_stiffness(support, state) for support in self._supports]
+            row, column, value = (np.concatenate(part) for part in zip(*parts, strict=True))
+            total = csc_array((value, (row, column)), shape=(self._n, self._n))
+            self._stood = angle, total
+        return self._stood[1]
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the springs' pull at the start of the step towards the places at its end."""
         total = np.zeros(self._n)
         for number, support in enumerate(self._supports):
-            pull = support.stiffness[:, None] * self._lag(number, state, end)
-            for axis in np.flatnonzero(support.held).tolist():
-                total += self._rows(support, state, axis).T @ pull[:, axis]
+            points = support.place.points
+            pull = support.stiffness[:, None] * support.held * self._lag(number, state, end)
+            local = points.along(state.frames, pull)
+            total += np.bincount(points.rows.unknowns.ravel(), local.ravel(), minlength=self._n)
         return total
 
     def energy(self, state: State) -> float:
@@ -109,13 +113,28 @@ class Supports(Effect):
         place = support.place.points.place(state.frames, state.deformation)
         return self._anchors[number] + support.displacement(end) - place
 
-    def _rows(self, support: Support, state: State, axis: int) -> csr_array:
-        points = support.place.points
-        directions = np.tile(AXES[axis], (len(support.place), 1))
-        values = points.along(state.frames, directions)
-        offsets = np.arange(len(values) + 1) * values.shape[1]
-        shape = (len(values), self._n)
-        return csr_array((values.ravel(), points.rows.unknowns.ravel(), offsets), shape=shape)
+    @cached_property
+    def _turning(self) -> list[Ints]:
+        """Bodies whose rotation changes the stiffness: springs alike in x and y do not turn."""
+        none = [np.zeros(0, dtype=np.int64)]
+        return none + [np.unique(s.place.points.body) for s in self._supports if not s.held.all()]
+
+
+def _stiffness(support: Support, state: State) -> tuple[Ints, Ints, Floats]:
+    """Rows, columns and values of a support's stiffness."""
+    points = support.place.points
+    unknowns = points.rows.unknowns
+    m, size = unknowns.shape
+    total = np.zeros((m, size, size))
+    if support.held.all():
+        values = points.rows.values
+        total = np.einsum("mca,m,mcb->mab", values, support.stiffness, values)
+    else:
+        for axis in np.flatnonzero(support.held).tolist():
+            rows = points.along(state.frames, np.tile(AXES[axis], (m, 1)))
+            total += np.einsum("ma,m,mb->mab", rows, support.stiffness, rows)
+    row = np.repeat(unknowns[:, :, None], size, axis=2)
+    return row.ravel(), np.swapaxes(row, 1, 2).ravel(), total.ravel()
 
 
 def _support(setup: Setup, support: "SceneSupport") -> Support:

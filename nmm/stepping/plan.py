@@ -72,10 +72,13 @@ class Plan:
         In the order of the table.
     seconds
         Wall-clock seconds by effect.
+    sums
+        The last sum of matrices with its parts: parts that stay need not be added again.
     """
 
     effects: dict[str, Effect]
     seconds: dict[str, float] = field(default_factory=dict)
+    sums: dict[str, tuple[list[csc_array], csc_array]] = field(default_factory=dict)
 
     def joined(self, effect: Effect) -> "Plan":
         """Return the plan with one effect more."""
@@ -95,10 +98,16 @@ class Plan:
         return total
 
     def matrix(self, state: State, base: csc_array) -> csc_array:
-        """Return ``base`` with all effects' matrices added."""
-        for effect in self._with("matrix"):
-            base = base + self._timed(effect.name, partial(effect.matrix, state))
-        return csc_array(base)
+        """Return ``base`` with all effects' matrices added; the same sum of the same parts."""
+        added = (
+            self._timed(effect.name, partial(effect.matrix, state))
+            for effect in self._with("matrix")
+        )
+        parts = [base, *added]
+        kept = self.sums.get("matrix")
+        if kept is None or not _are(kept[0], parts):
+            kept = self.sums["matrix"] = parts, csc_array(sum(parts[1:], start=base))
+        return kept[1]
 
     def work(self, before: State, after: State) -> float:
         """Return the work of all applied forces (J)."""
@@ -146,6 +155,10 @@ class Plan:
         result = call()
         self.spend(name, perf_counter() - start)
         return result
+
+
+def _are(some: list[csc_array], others: list[csc_array]) -> bool:
+    return len(some) == len(others) and all(a is b for a, b in zip(some, others, strict=True))
 
 
 def compile_plan(setup: Setup) -> Plan:

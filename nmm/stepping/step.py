@@ -1,6 +1,7 @@
 """One step: assemble what is constant in it, solve, judge. Nothing is kept unless accepted."""
 
 from dataclasses import dataclass, replace
+from operator import is_not
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -19,7 +20,7 @@ from nmm.stepping.relay import Lay, relay
 
 if TYPE_CHECKING:
     from nmm.contact.points import ContactPoints
-    from nmm.effects.contact import ContactRecord, Solved
+    from nmm.effects.contact import Breaking, ContactRecord, Solved
 
 # Contacts are sought as far as points can move in a step. The first step has no motion to go by
 # and looks this far, in sizes of the domain; a step that moves further is solved again.
@@ -82,6 +83,8 @@ class Stepper:
         self._size = float(np.hypot(*np.ptp(self.reference, axis=0)))
         self._reach = FIRST_REACH * self._size
         self._factor: Factor | None = None
+        self._kept: tuple[tuple[float, float], tuple[csc_array, csc_array], csc_array] | None = None
+        self._places: list[tuple[State, Floats]] = []
 
     @property
     def size(self) -> float:
@@ -94,14 +97,14 @@ class Stepper:
         return self._factor
 
     def attempt(
-        self, state: State, end: Instant, step: float | None, worst_first: bool = False
+        self, state: State, end: Instant, step: float | None, breaking: "Breaking" = "all"
     ) -> Attempt:
         """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics."""
         started = perf_counter()
         matrix, force = self._system(state, end, step)
         self._spend("assembly", started)
         try:
-            return self._solve(state, end, step, matrix, force, worst_first)
+            return self._solve(state, end, step, matrix, force, breaking)
         except SolveError as fault:
             return Attempt(False, str(fault), state, np.zeros_like(force), 0.0, np.nan, 1)
 
@@ -117,6 +120,7 @@ class Stepper:
                 self.model, self.plan, self._lay, state, attempt.increment, place
             )
             self.vertices = vertex_points(self.model.manifold)
+            self._places = []
         return state, contacts
 
     def remember(self) -> "ContactRecord | None":
@@ -145,8 +149,17 @@ class Stepper:
             force = weight * force + (1 - weight) * earlier
         velocity = integrator.kinetic_factor * state.velocity
         momentum = integrator.momentum(velocity, state.acceleration, step)
-        base = weight * self.model.stiffness + integrator.mass_factor(step) * inertia.mass
-        return self.plan.matrix(state, csc_array(base)), force + inertia.mass @ momentum
+        base = self._base(weight, integrator.mass_factor(step), inertia.mass)
+        return self.plan.matrix(state, base), force + inertia.mass @ momentum
+
+    def _base(self, weight: float, mass_factor: float, mass: csc_array) -> csc_array:
+        """Return elasticity and inertia, the same object as long as the step's length stays."""
+        parts, factors = (self.model.stiffness, mass), (weight, mass_factor)
+        kept = self._kept
+        if kept is None or kept[0] != factors or any(map(is_not, kept[1], parts)):
+            kept = factors, parts, csc_array(weight * self.model.stiffness + mass_factor * mass)
+            self._kept = kept
+        return kept[2]
 
     def _solve(
         self,
@@ -155,7 +168,7 @@ class Stepper:
         step: float | None,
         matrix: csc_array,
         force: Floats,
-        worst_first: bool,
+        breaking: "Breaking",
     ) -> Attempt:
         if self.plan.contact is None:
             return self._solve_alone(state, end, step, matrix, force)
@@ -165,18 +178,16 @@ class Stepper:
             contacts = self.plan.contact.candidates(state, reach)
             self._spend("search", started)
             started = perf_counter()
-            solved = self.plan.contact.solve(
-                contacts, state, matrix, force, self.solver, worst_first
-            )
+            solved = self.plan.contact.solve(contacts, state, matrix, force, self.solver, breaking)
             self._spend("solve", started)
             passes += solved.passes
             verdict = solved.answer.verdict
             result = self._result(state, end, step, solved.answer.increment)
             far = result.motion
-            if far <= reach or not verdict.converged or far > self._size:
+            if far <= reach or solved.stopped or not verdict.converged or far > self._size:
                 return replace(
                     result,
-                    converged=verdict.converged and far <= self._size,
+                    converged=verdict.converged and far <= self._size and not solved.stopped,
                     sentence=verdict.sentence,
                     residual=solved.answer.residual,
                     passes=passes,
@@ -217,7 +228,12 @@ class Stepper:
 
     def place(self, state: State) -> Floats:
         """Return where the elements' vertices are (P, 2)."""
-        return self.vertices.place(state.frames, state.deformation)
+        for known, place in self._places:
+            if known is state:
+                return place
+        place = self.vertices.place(state.frames, state.deformation)
+        self._places = [*self._places[-1:], (state, place)]
+        return place
 
     def condition(self, state: State) -> float | None:
         """Estimate the condition number of the last system, springs of contact included."""
