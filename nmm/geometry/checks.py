@@ -86,9 +86,9 @@ def _hole_faults(
 
 
 def overlap_faults(
-    polygons: Polygons, group: Ints, name: Sequence[str], place: Sequence[str]
+    polygons: Polygons, group: Ints, name: Sequence[str], place: Callable[[int], str]
 ) -> list[Fault]:
-    """Blocks of different groups that cover the same ground.
+    """Blocks of different groups that cover the same ground; `place` names a group.
 
     Blocks of one group share a region and cannot overlap. An overlap of less than `OVERLAP` of the
     smaller block's area is what rounded coordinates leave and passes.
@@ -107,11 +107,13 @@ def overlap_faults(
             inner, outer = (a, b) if polygons.areas[a] < polygons.areas[b] else (b, a)
             value = f'"{name[inner]}" lies inside "{name[outer]}"'
             remedy = "move it, or cut a hole into the other block"
-            faults.append(Fault(place[inner], value, "blocks that do not overlap", remedy))
+            faults.append(
+                Fault(place(int(group[inner])), value, "blocks that do not overlap", remedy)
+            )
         else:
             value = f'"{name[b]}" overlaps "{name[a]}" by {common[pair]:.3g} m2'
             remedy = "move one of them or share the edge"
-            faults.append(Fault(place[b], value, "blocks that do not overlap", remedy))
+            faults.append(Fault(place(int(group[b])), value, "blocks that do not overlap", remedy))
     return faults
 
 

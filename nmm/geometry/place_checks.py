@@ -14,6 +14,7 @@ from nmm.geometry.places import edges_on, polygons_at, tolerance
 from nmm.scene.actions import Load, Monitor, Support
 from nmm.scene.model import Scene
 
+_Finding = tuple[str, str, str]  # value, expected, remedy
 _COVERED = 1e-6  # of a loaded segment's length
 
 
@@ -24,21 +25,21 @@ def place_faults(scene: Scene, whole: Regions) -> list[Fault]:
     items += [("loads", k, item) for k, item in enumerate(scene.loads)]
     items += [("monitors", k, item) for k, item in enumerate(scene.monitors)]
     found = [
-        fault
+        Fault(scene.source.place(key, index), *finding)
         for key, index, item in items
-        for fault in _faults(item, whole, scene.source.place(key, index))
+        for finding in _findings(item, whole)
     ]
     return [*found, *_named_pieces(scene, whole)]
 
 
-def _faults(item: Support | Load | Monitor, whole: Regions, place: str) -> Iterator[Fault]:
+def _findings(item: Support | Load | Monitor, whole: Regions) -> Iterator[_Finding]:
     chosen = whole.select(item.block)
     if not len(chosen):
-        yield _no_block(item.block, place)
+        yield _no_block(item.block)
     elif item.point is not None:
-        yield from _point_faults(item, whole, chosen, place)
+        yield from _point_findings(item, whole, chosen)
     elif not isinstance(item, Monitor) and item.segment is not None:
-        yield from _segment_faults(item, whole, chosen, place)
+        yield from _segment_findings(item, whole, chosen)
 
 
 def _named_pieces(scene: Scene, whole: Regions) -> Iterator[Fault]:
@@ -50,17 +51,17 @@ def _named_pieces(scene: Scene, whole: Regions) -> Iterator[Fault]:
     for key, blocks in named.items():
         for index, block in enumerate(blocks):
             if not len(whole.select(block)):
-                yield _no_block(block, scene.source.place(key, index))
+                yield Fault(scene.source.place(key, index), *_no_block(block))
 
 
-def _no_block(block: str | None, place: str) -> Fault:
+def _no_block(block: str | None) -> _Finding:
     remedy = "name the whole block, or a piece that exists"
-    return Fault(place, f'"{block}"', "the name of a block or of a piece", remedy)
+    return f'"{block}"', "the name of a block or of a piece", remedy
 
 
-def _point_faults(
-    item: Support | Load | Monitor, whole: Regions, chosen: Ints, place: str
-) -> Iterator[Fault]:
+def _point_findings(
+    item: Support | Load | Monitor, whole: Regions, chosen: Ints
+) -> Iterator[_Finding]:
     point = np.asarray(item.point)
     polygons = whole.polygons.take(chosen)
     if len(polygons_at(polygons, point, tolerance(whole.polygons.points))):
@@ -68,28 +69,26 @@ def _point_faults(
     away = shapely.distance(polygons.to_shapely(), shapely.Point(point))
     nearest = whole.name[chosen[int(np.argmin(away))]]
     value = f'point {point.tolist()} is {away.min():.3g} m away from the nearest block "{nearest}"'
-    yield Fault(place, value, "a point of a block", "correct the point or the block")
+    yield value, "a point of a block", "correct the point or the block"
 
 
-def _segment_faults(
-    item: Support | Load, whole: Regions, chosen: Ints, place: str
-) -> Iterator[Fault]:
+def _segment_findings(item: Support | Load, whole: Regions, chosen: Ints) -> Iterator[_Finding]:
     polygons = whole.polygons.take(chosen)
     segment: Floats = np.asarray(item.segment)
     length = float(np.hypot(*(segment[1] - segment[0])))
     within = tolerance(whole.polygons.points)
     if length <= within:
-        yield Fault(place, f"segment of length {length:.3g} m", "a length", "correct its ends")
+        yield f"segment of length {length:.3g} m", "a length", "correct its ends"
         return
     end = polygons.points[polygons.next_point]
     covered = float(edges_on(polygons.points, end, segment, within).lengths.sum()) / length
     if covered == 0:
         value = f"segment {segment.tolist()} lies on no edge"
-        yield Fault(place, value, "a segment on edges of blocks", "correct its ends")
+        yield value, "a segment on edges of blocks", "correct its ends"
     elif isinstance(item, Load) and covered < 1 - _COVERED:
         value = f"{covered:.3%} of the segment lies on edges"
         remedy = "shorten it to the edges, so that the whole load acts"
-        yield Fault(place, value, "all of a loaded segment", remedy)
+        yield value, "all of a loaded segment", remedy
     elif isinstance(item, Load) and covered > 1 + _COVERED:
         value = "the segment lies on edges of both sides of a joint"
-        yield Fault(place, value, "edges of one side", "name the loaded block by block = ...")
+        yield value, "edges of one side", "name the loaded block by block = ..."

@@ -40,8 +40,7 @@ def regions(scene: Scene) -> Regions:
         outline = outlines.take([len(scene.blocks) + index]).oriented()
         parts.append(_tessellated(scene, index, outline))
     whole = jointed(scene, joined(parts))
-    places = [scene.source.place(*_path(scene, int(index))) for index in whole.source]
-    faults = overlap_faults(whole.polygons, whole.source, whole.name, places)
+    faults = overlap_faults(whole.polygons, whole.source, whole.name, partial(_place, scene))
     _refuse([*faults, *place_faults(scene, whole)])
     return whole
 
@@ -54,6 +53,10 @@ def _refuse(faults: list[Fault]) -> None:
 def _path(scene: Scene, index: int) -> tuple[str, int]:
     count = len(scene.blocks)
     return ("blocks", index) if index < count else ("tessellations", index - count)
+
+
+def _place(scene: Scene, index: int) -> str:
+    return scene.source.place(*_path(scene, index))
 
 
 def _outlines(scene: Scene) -> Polygons:

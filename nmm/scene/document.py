@@ -11,7 +11,6 @@ from pydantic import BaseModel, ValidationError
 
 from nmm.errors import Fault, NmmError
 from nmm.scene.faults import Source, report
-from nmm.scene.lines import line_numbers
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -45,7 +44,7 @@ def parse(text: str, model: type[Model], place: str, error: type[NmmError]) -> t
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as cause:
         raise error(_syntax(str(cause), place)) from None
-    source = Source(place, line_numbers(text))
+    source = Source(place, text)
     return build(data, model, source, error), source
 
 

@@ -5,25 +5,31 @@ from __future__ import annotations
 import difflib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from nmm.errors import Fault
-from nmm.scene.lines import Path
+from nmm.scene.lines import Path, line_numbers
 
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """Where a model was read: file name and line numbers of its keys.
+    """Where a model was read: file name and TOML text, scanned for line numbers when first asked.
 
     Two sources are always equal, so that equal scenes from different files compare equal.
     """
 
     name: str = "scene"
-    lines: Mapping[Path, int] = field(default_factory=dict)
+    text: str = ""
+
+    @cached_property
+    def lines(self) -> dict[Path, int]:
+        """Line of each key path."""
+        return line_numbers(self.text)
 
     def place(self, *path: str | int) -> str:
         """`file:line: dotted.path`; the line is that of the nearest key that is in the file."""
