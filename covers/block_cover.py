@@ -5,7 +5,7 @@ import numpy as np
 from covers.boundary import ring_edges
 from covers.local_functions import LocalFunctions
 from covers.manifold import Manifold
-from covers.polynomial_groups import PhysicalCovers, Weights, polynomial_group
+from covers.polynomial_groups import PhysicalCovers, Shapes, Weights, polynomial_group
 from covers.rigid_modes import rigid_modes, stretch_modes
 from integration.arrays import Ints
 from integration.polygons import Polygons, areas, centroids, diameters
@@ -29,19 +29,12 @@ def block_manifold(polygons: Polygons, regions: Ints, functions: LocalFunctions)
     blocks = np.arange(n, dtype=np.int64)
     centre, size = centroids(polygons), diameters(polygons)
     length = np.ones(n) if functions.physical_length else size / 2
-    covers = PhysicalCovers(patch=blocks, body=blocks, centre=centre, length=length)
     offset = np.arange(n + 1, dtype=np.int64) * functions.n_unknowns
-    group = polynomial_group(
-        blocks,
-        polygons,
-        blocks[:, None],
-        Weights(0, np.ones((n, 1, 1))),
-        functions,
-        covers,
-        offset,
-        origin=centre,
-        scale=size / 2,
-    )
+    covers = PhysicalCovers(blocks, blocks, centre, np.eye(2) / length[:, None, None], offset[:-1])
+    shapes = Shapes(blocks, blocks, blocks, centre, np.eye(2) / (size / 2)[:, None, None])
+    weights = Weights(0, np.ones((n, 1, 1)))
+    group = polynomial_group(shapes, polygons, blocks[:, None], weights, [functions], covers)
+    modes = ((functions,), np.zeros(n, dtype=np.int64), covers, int(offset[-1]), centre)
     return Manifold(
         elements=polygons,
         element_body=blocks,
@@ -51,8 +44,8 @@ def block_manifold(polygons: Polygons, regions: Ints, functions: LocalFunctions)
         cover_patch=blocks,
         cover_body=blocks,
         boundary=ring_edges(polygons, blocks),
-        rigid_modes=rigid_modes(functions, covers, offset, centre),
-        stretch_modes=stretch_modes(functions, covers, offset, centre),
+        rigid_modes=rigid_modes(*modes),
+        stretch_modes=stretch_modes(*modes),
         body_centroid=centre,
         body_area=areas(polygons),
     )

@@ -17,6 +17,9 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from integration.monomials import count, differentiate, evaluate, exponents
 
+# Points evaluated at once.
+CHUNK = 8192
+
 
 @dataclass(frozen=True)
 class ElementGroup(ABC):
@@ -31,11 +34,20 @@ class ElementGroup(ABC):
     combination
         (2S, L) how unknowns combine the scalar functions; None is the identity, function major
         and component minor.
+    shape
+        (n,) the distinct shape of each element: congruent elements share one, and integrals are
+        given once for each of the d shapes.
     """
 
     elements: Ints
     unknowns: Ints
     combination: Floats | None
+    shape: Ints
+
+    @property
+    def n_shapes(self) -> int:
+        """Number d of distinct shapes."""
+        return int(self.shape.max(initial=-1)) + 1
 
     @abstractmethod
     def values(self, index: Ints, points: Floats) -> Floats:
@@ -47,19 +59,19 @@ class ElementGroup(ABC):
 
     @abstractmethod
     def products(self) -> Floats:
-        """Integrals of ``phi_s phi_t`` (n, S, S)."""
+        """Integrals of ``phi_s phi_t`` (d, S, S)."""
 
     @abstractmethod
     def gradient_products(self) -> Floats:
-        """Integrals (n, 3, S, S) of ``s_x t_x``, ``s_x t_y``, ``s_y t_y``."""
+        """Integrals (d, 3, S, S) of ``s_x t_x``, ``s_x t_y``, ``s_y t_y``."""
 
     @abstractmethod
     def integrals(self) -> Floats:
-        """Integrals of ``phi_s`` (n, S)."""
+        """Integrals of ``phi_s`` (d, S)."""
 
     @abstractmethod
     def gradient_integrals(self) -> Floats:
-        """Integrals of the gradient of ``phi_s`` (n, S, 2)."""
+        """Integrals of the gradient of ``phi_s`` (d, S, 2)."""
 
     def displacement_rows(self, index: Ints, points: Floats) -> Floats:
         """``T`` (m, 2, L) at reference points."""
@@ -79,7 +91,7 @@ class ElementGroup(ABC):
             rows[:, :, 1, 1::2] = scalars
             return rows
         by_component = self.combination.reshape(n_scalars, 2, -1)
-        return np.einsum("mrs,scl->mrcl", scalars, by_component, optimize=True)
+        return np.asarray(np.einsum("mrs,scl->mrcl", scalars, by_component, optimize=True))
 
 
 @dataclass(frozen=True)
@@ -91,17 +103,17 @@ class PolynomialGroup(ElementGroup):
     degree
         Degree of the polynomials.
     table
-        (n, S, K) coefficients over the monomials of ``(x - origin) / scale``.
-    origin, scale
-        (n, 2) and (n,) the elements' local coordinates.
+        (d, S, K) coefficients over the monomials of ``matrix (x - origin)``.
+    origin, matrix
+        (n, 2) and (d, 2, 2) the elements' local coordinates.
     moments
-        (n, count(2 degree)) integrals of the monomials over the elements.
+        (d, count(2 degree)) integrals of the monomials over the elements.
     """
 
     degree: int
     table: Floats
     origin: Floats
-    scale: Floats
+    matrix: Floats
     moments: Floats
 
     def values(self, index: Ints, points: Floats) -> Floats:
@@ -134,25 +146,30 @@ class PolynomialGroup(ElementGroup):
 
     @cached_property
     def _derivatives(self) -> tuple[Floats, Floats]:
-        n, n_scalars, _ = self.table.shape
-        flat = self.table.reshape(n * n_scalars, -1)
+        local = [differentiate(self.table, self.degree, axis) for axis in (0, 1)]
         x, y = (
-            differentiate(flat, self.degree, axis).reshape(n, n_scalars, -1)
-            / self.scale[:, None, None]
+            self.matrix[:, 0, axis, None, None] * local[0]
+            + self.matrix[:, 1, axis, None, None] * local[1]
             for axis in (0, 1)
         )
         return x, y
 
     def _evaluate(self, table: Floats, degree: int, index: Ints, points: Floats) -> Floats:
-        xi = (points - self.origin[index]) / self.scale[index, None]
-        return np.einsum("msk,mk->ms", table[index], evaluate(xi, degree))
+        shape = self.shape[index]
+        xi = np.einsum("mij,mj->mi", self.matrix[shape], points - self.origin[index])
+        out = np.empty((len(index), table.shape[1]))
+        for begin in range(0, len(index), CHUNK):  # rows of tables are large: a chunk at a time
+            part = slice(begin, begin + CHUNK)
+            monomials = evaluate(xi[part], degree)
+            out[part] = np.einsum("msk,mk->ms", table[shape[part]], monomials)
+        return out
 
     def _integrate(self, table: Floats) -> Floats:
         return np.einsum("nsk,nk->ns", table, self.moments[:, : table.shape[2]])
 
     def _contract(self, left: Floats, right: Floats, degree: int) -> Floats:
         gram = self.moments[:, product_index(degree)]
-        return left @ gram @ np.swapaxes(right, 1, 2)
+        return np.asarray(left @ gram @ np.swapaxes(right, 1, 2))
 
 
 def product_index(degree: int) -> Ints:
@@ -162,7 +179,7 @@ def product_index(degree: int) -> Ints:
     order = total.sum(axis=2)
     # Graded order: count(order - 1) monomials come before, then descending powers of x.
     before = order * (order + 1) // 2
-    return before + total[:, :, 1]
+    return np.asarray(before + total[:, :, 1])
 
 
 def n_monomials(degree: int) -> int:

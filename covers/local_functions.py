@@ -1,12 +1,12 @@
 """Local functions of a physical cover: scalar monomials and how unknowns combine them.
 
-On a physical cover with centre ``c`` and length ``s`` the displacement is
+On a physical cover with centre ``c`` and matrix ``M`` the displacement is
 
-    u(x) = sum_s f_s(xi) a_s,   xi = (x - c) / s,   a = C d,
+    u(x) = sum_s f_s(xi) a_s,   xi = M (x - c),   a = C d,
 
 with ``f_s`` all monomials up to ``degree``, ``a_s`` a vector of two components and ``d`` the
-cover's unknowns. ``C`` (`combination`) is the identity for plain polynomials; DDA's block basis is
-a particular ``C`` over the linear monomials (Shi 1988), so that nothing downstream asks which it is.
+cover's unknowns. ``C`` (`combination`) is the identity for plain polynomials; DDA's block basis
+is a particular ``C`` over the linear monomials (Shi 1988): nothing downstream asks which it is.
 """
 
 from dataclasses import dataclass
@@ -14,6 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
+from covers.small_matrices import inverses
 from integration.arrays import Floats
 from integration.monomials import count
 
@@ -33,7 +34,7 @@ class LocalFunctions:
     def __post_init__(self) -> None:
         if self.degree not in (0, 1, 2, 3):
             raise ValueError(
-                f"local functions: degree = {self.degree}: expected 0, 1, 2 or 3: choose one of them"
+                f"local functions: degree = {self.degree}: 0, 1, 2 or 3 expected: choose one"
             )
 
     @property
@@ -48,7 +49,7 @@ class LocalFunctions:
 
     @property
     def physical_length(self) -> bool:
-        """Whether ``s = 1``: the unknowns have the units of displacement and strain."""
+        """Whether ``M = I``: the unknowns have the units of displacement and strain."""
         return False
 
     @cached_property
@@ -56,7 +57,7 @@ class LocalFunctions:
         """The matrix ``C`` (2 n_functions, n_unknowns); None is the identity."""
         return None
 
-    def linear_field(self, value: Floats, gradient: Floats, length: Floats) -> Floats:
+    def linear_field(self, value: Floats, gradient: Floats, matrix: Floats) -> Floats:
         """Return the unknowns of ``u = value + gradient (x - c)`` on each cover.
 
         Parameters
@@ -65,8 +66,8 @@ class LocalFunctions:
             (n, 2) the field at the centres.
         gradient
             (n, 2, 2) ``gradient[:, i, j] = d u_i / d x_j``.
-        length
-            (n,) the scale ``s`` of each cover.
+        matrix
+            (n, 2, 2) the matrix ``M`` of each cover.
 
         Returns
         -------
@@ -75,8 +76,7 @@ class LocalFunctions:
         coefficients = np.zeros((len(value), self.n_functions, 2))
         coefficients[:, 0] = value
         if self.degree >= 1:
-            coefficients[:, 1] = gradient[:, :, 0] * length[:, None]
-            coefficients[:, 2] = gradient[:, :, 1] * length[:, None]
+            coefficients[:, 1:3] = np.swapaxes(gradient @ inverses(matrix), 1, 2)
         flat = coefficients.reshape(len(value), -1)
         if self.combination is None:
             return flat

@@ -45,6 +45,12 @@ class Manifold:
         (n_unknowns, B) unknowns of the field ``X - Xc`` of each body.
     body_centroid, body_area
         (B, 2) and (B,).
+    dependent
+        Number of functions known to depend on the others; above zero the system is singular and
+        displacements are unique all the same (`covers.dependence`).
+    fitted, enriched
+        Number of covers whose coordinates fit what a cut has left of them, and of those that
+        carry singular functions.
     """
 
     elements: Polygons
@@ -59,6 +65,9 @@ class Manifold:
     stretch_modes: csc_array
     body_centroid: Floats
     body_area: Floats
+    dependent: int = 0
+    fitted: int = 0
+    enriched: int = 0
 
     @property
     def n_unknowns(self) -> int:

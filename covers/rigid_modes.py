@@ -1,5 +1,7 @@
 """Unknowns of the rigid motions of each body."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.sparse import csc_array
 
@@ -7,46 +9,67 @@ from covers.local_functions import LocalFunctions
 from covers.polynomial_groups import PhysicalCovers
 from integration.arrays import Floats, Ints
 
+STILL, TURN = np.zeros((2, 2)), np.array([[0.0, -1.0], [1.0, 0.0]])
+
 
 def rigid_modes(
-    functions: LocalFunctions, covers: PhysicalCovers, offset: Ints, body_centroid: Floats
+    functions: Sequence[LocalFunctions],
+    which: Ints,
+    covers: PhysicalCovers,
+    n_unknowns: int,
+    body_centroid: Floats,
 ) -> csc_array:
     """Return the unknowns (n_unknowns, 3 B) of translation x, y and linear rotation of each body.
 
     The rotation is about the body's centroid. It is exact when the local functions hold the
     linear field, or when the weights reproduce linear fields from the values at the centres.
+
+    Parameters
+    ----------
+    functions, which
+        Local functions, and which of them each cover (C,) has.
     """
-    still, turn = np.zeros((2, 2)), np.array([[0.0, -1.0], [1.0, 0.0]])
-    fields = [(np.array([1.0, 0.0]), still), (np.array([0.0, 1.0]), still), (np.zeros(2), turn)]
-    return _modes(fields, functions, covers, offset, body_centroid)
+    fields = [(np.array([1.0, 0.0]), STILL), (np.array([0.0, 1.0]), STILL), (np.zeros(2), TURN)]
+    return _modes(fields, functions, which, covers, n_unknowns, body_centroid)
 
 
 def stretch_modes(
-    functions: LocalFunctions, covers: PhysicalCovers, offset: Ints, body_centroid: Floats
+    functions: Sequence[LocalFunctions],
+    which: Ints,
+    covers: PhysicalCovers,
+    n_unknowns: int,
+    body_centroid: Floats,
 ) -> csc_array:
     """Return the unknowns (n_unknowns, B) of the field ``X - Xc`` of each body."""
-    return _modes([(np.zeros(2), np.eye(2))], functions, covers, offset, body_centroid)
+    fields = [(np.zeros(2), np.eye(2))]
+    return _modes(fields, functions, which, covers, n_unknowns, body_centroid)
 
 
 def _modes(
     fields: list[tuple[Floats, Floats]],
-    functions: LocalFunctions,
+    functions: Sequence[LocalFunctions],
+    which: Ints,
     covers: PhysicalCovers,
-    offset: Ints,
+    n_unknowns: int,
     body_centroid: Floats,
 ) -> csc_array:
     """Unknowns of linear fields ``value + gradient (X - Xc)`` of each body, a column each."""
-    n, kinds = len(covers.body), len(fields)
-    arm = covers.centre - body_centroid[covers.body]
-    unknowns = [
-        functions.linear_field(
-            value + arm @ gradient.T, np.broadcast_to(gradient, (n, 2, 2)), covers.length
-        )
-        for value, gradient in fields
-    ]
-    values = np.stack(unknowns, axis=2)
-    rows = (offset[:n, None] + np.arange(functions.n_unknowns))[:, :, None]
-    columns = kinds * covers.body[:, None, None] + np.arange(kinds)
-    rows, columns = np.broadcast_arrays(rows, columns)
-    shape = (int(offset[-1]), kinds * len(body_centroid))
-    return csc_array((values.ravel(), (rows.ravel(), columns.ravel())), shape=shape)
+    kinds = len(fields)
+    total = csc_array((n_unknowns, kinds * len(body_centroid)))
+    for number, item in enumerate(functions):  # a handful of kinds of covers
+        index = np.flatnonzero(which == number)
+        arm = covers.centre[index] - body_centroid[covers.body[index]]
+        still = (len(index), 2, 2)
+        unknowns = [
+            item.linear_field(
+                value + arm @ gradient.T, np.broadcast_to(gradient, still), covers.matrix[index]
+            )
+            for value, gradient in fields
+        ]
+        values = np.stack(unknowns, axis=2)
+        rows = (covers.first_unknown[index, None] + np.arange(item.n_unknowns))[:, :, None]
+        columns = kinds * covers.body[index, None, None] + np.arange(kinds)
+        rows, columns = np.broadcast_arrays(rows, columns)
+        part = (values.ravel(), (rows.ravel(), columns.ravel()))
+        total = total + csc_array(part, shape=total.shape)
+    return total

@@ -3,20 +3,20 @@
 import numpy as np
 
 from covers.element_groups import ElementGroup
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 
 
-def stiffness(group: ElementGroup, elasticity: Floats) -> Floats:
-    """Integral of ``B^T D B`` (n, L, L) per unit thickness.
+def stiffness(group: ElementGroup, shape: Ints, elasticity: Floats) -> Floats:
+    """Integral of ``B^T D B`` (m, L, L) per unit thickness.
 
     Parameters
     ----------
     group
-        n elements.
-    elasticity
-        (n, 3, 3) stress from strain (xx, yy, 2 xy).
+        The elements.
+    shape, elasticity
+        (m,) and (m, 3, 3) shapes of the group with stress from strain (xx, yy, 2 xy).
     """
-    xx, xy, yy = np.moveaxis(group.gradient_products(), 1, 0)
+    xx, xy, yy = np.moveaxis(_taken(group.gradient_products(), shape), 1, 0)
     yx = np.swapaxes(xy, 1, 2)
     d = elasticity[:, :, :, None, None]
     uu = d[:, 0, 0] * xx + d[:, 0, 2] * xy + d[:, 2, 0] * yx + d[:, 2, 2] * yy
@@ -31,9 +31,9 @@ def stiffness(group: ElementGroup, elasticity: Floats) -> Floats:
     return _combine_both(group, full.reshape(n, 2 * size, 2 * size))
 
 
-def mass(group: ElementGroup, density: Floats) -> Floats:
-    """Integral of ``rho T^T T`` (n, L, L) per unit thickness; ``density`` (n,)."""
-    scalar = group.products() * density[:, None, None]
+def mass(group: ElementGroup, shape: Ints, density: Floats) -> Floats:
+    """Integral of ``rho T^T T`` (m, L, L) per unit thickness; shapes and ``density`` (m,)."""
+    scalar = _taken(group.products(), shape) * density[:, None, None]
     n, size, _ = scalar.shape
     full = np.zeros((n, size, 2, size, 2))
     full[:, :, 0, :, 0] = scalar
@@ -43,19 +43,19 @@ def mass(group: ElementGroup, density: Floats) -> Floats:
 
 def body_load(group: ElementGroup, load: Floats) -> Floats:
     """Integral of ``T^T b`` (n, L) for a force density ``b`` (n, 2) constant on each element."""
-    full = group.integrals()[:, :, None] * load[:, None, :]
+    full = group.integrals()[group.shape][:, :, None] * load[:, None, :]
     return _combine(group, full.reshape(len(full), -1))
 
 
 def stress_load(group: ElementGroup, stress: Floats) -> Floats:
     """Integral of ``B^T sigma`` (n, L) for a stress (n, 3) constant on each element."""
     tensor = stress[:, [[0, 2], [2, 1]]]
-    full = np.einsum("nsj,ncj->nsc", group.gradient_integrals(), tensor)
+    full = np.einsum("nsj,ncj->nsc", group.gradient_integrals()[group.shape], tensor)
     return _combine(group, full.reshape(len(full), -1))
 
 
 def mean_strain_rows(group: ElementGroup) -> Floats:
-    """Rows (n, 3, L) of the integral of the strain over each element."""
+    """Rows (d, 3, L) of the integral of the strain over an element of each shape."""
     gradient = group.gradient_integrals()
     n, size, _ = gradient.shape
     full = np.zeros((n, 3, size, 2))
@@ -65,6 +65,11 @@ def mean_strain_rows(group: ElementGroup) -> Floats:
     full[:, 2, :, 1] = gradient[:, :, 0]
     rows = full.reshape(n, 3, 2 * size)
     return rows if group.combination is None else rows @ group.combination
+
+
+def _taken(values: Floats, index: Ints) -> Floats:
+    same = len(index) == len(values) and np.array_equal(index, np.arange(len(values)))
+    return values if same else values[index]
 
 
 def _combine(group: ElementGroup, full: Floats) -> Floats:

@@ -9,9 +9,10 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from covers.element_groups import ElementGroup
 from covers.manifold import Manifold
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from integration.polygons import areas
 from nmm.assembly import element_matrices
+from nmm.assembly.blocks import Part, assemble
 
 
 @dataclass(frozen=True)
@@ -41,16 +42,12 @@ class Model:
     @cached_property
     def stiffness(self) -> csc_array:
         """Elastic stiffness (n_unknowns, n_unknowns)."""
-        return self._matrix(
-            lambda g: element_matrices.stiffness(g, self.thickness * self.elasticity[g.elements])
-        )
+        return self._matrix(element_matrices.stiffness, self.thickness * self.elasticity)
 
     @cached_property
     def mass(self) -> csc_array:
         """Consistent mass."""
-        return self._matrix(
-            lambda g: element_matrices.mass(g, self.thickness * self.density[g.elements])
-        )
+        return self._matrix(element_matrices.mass, self.thickness * self.density)
 
     @cached_property
     def rigid_projection(self) -> csr_array:
@@ -59,7 +56,7 @@ class Model:
         The mean is the area-weighted least-squares fit of a rigid motion about the centroid.
         """
         modes = self.manifold.rigid_modes
-        unit = self._matrix(lambda g: element_matrices.mass(g, np.ones(len(g.elements))))
+        unit = self._matrix(element_matrices.mass, np.ones(len(self.density)))
         weighted = (unit @ modes).T.tocsr()
         norm = (weighted @ modes).diagonal()
         return csr_array(diags_array(1 / norm) @ weighted)
@@ -85,7 +82,7 @@ class Model:
         strain = np.empty((len(self.density), 3))
         for group, rows in zip(self.manifold.groups, self._strain_rows, strict=True):
             local = deformation[group.unknowns]
-            strain[group.elements] = np.einsum("nil,nl->ni", rows, local)
+            strain[group.elements] = np.einsum("nil,nl->ni", rows[group.shape], local)
         return strain / self.element_area[:, None]
 
     @cached_property
@@ -97,16 +94,16 @@ class Model:
     def _strain_rows(self) -> list[Floats]:
         return [element_matrices.mean_strain_rows(group) for group in self.manifold.groups]
 
-    def _matrix(self, element: Callable[[ElementGroup], Floats]) -> csc_array:
-        n = self.manifold.n_unknowns
-        total = csc_array((n, n))
+    def _matrix(
+        self, element: Callable[[ElementGroup, Ints, Floats], Floats], material: Floats
+    ) -> csc_array:
+        """Sum element matrices; congruent elements of equal ``material`` (E, ...) share one."""
+        parts = []
         for group in self.manifold.groups:  # a handful of groups
-            values = element(group)
-            rows = np.repeat(group.unknowns[:, :, None], values.shape[2], axis=2)
-            columns = np.repeat(group.unknowns[:, None, :], values.shape[1], axis=1)
-            part = csc_array((values.ravel(), (rows.ravel(), columns.ravel())), shape=(n, n))
-            total = total + part
-        return total
+            shape, first, kind = _kinds(group.shape, material[group.elements])
+            matrices = element(group, shape, material[group.elements[first]])
+            parts.append(Part(group.unknowns, matrices, kind))
+        return assemble(parts, self.manifold.n_unknowns, self.manifold.cover_offset)
 
     def _vector(self, element: Callable[[ElementGroup], Floats]) -> Floats:
         total = np.zeros(self.manifold.n_unknowns)
@@ -115,3 +112,13 @@ class Model:
                 group.unknowns.ravel(), element(group).ravel(), minlength=len(total)
             )
         return total
+
+
+def _kinds(shape: Ints, material: Floats) -> tuple[Ints, Ints, Ints]:
+    """Shape (m,) and first element (m,) of each kind of element, and the kind (n,) of each."""
+    _, first = np.unique(shape, return_index=True)
+    if np.array_equal(material[first][shape], material):
+        return np.arange(len(first)), first, shape
+    rows = np.column_stack([shape, material.reshape(len(shape), -1)])
+    _, first, kind = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    return shape[first], first, kind.ravel()

@@ -1,0 +1,367 @@
+"""The manifold of a cut cover: elements grouped by the shape of their approximation."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.base import Cover
+from covers.cut_cells import CutCells
+from covers.dependence import dependent_functions
+from covers.element_groups import ElementGroup
+from covers.enrichment import EnrichedFields, Enrichment, enriched_covers
+from covers.local_functions import LocalFunctions
+from covers.manifold import Manifold
+from covers.polynomial_groups import (
+    PhysicalCovers,
+    Shapes,
+    Weights,
+    combined,
+    polynomial_group,
+    unknowns_of,
+)
+from covers.quadrature_groups import QuadratureGroup
+from covers.rigid_modes import rigid_modes, stretch_modes
+from covers.small_matrices import inverses
+from covers.weighted_fields import WeightedFields
+from covers.whitening import Frames, cover_frames, element_frames, element_spread
+from integration.arrays import Bools, Floats, Ints
+from integration.monomials import affine
+from integration.polygons import Polygons, diameters
+from integration.rules import PointRule, polygon_rule
+from integration.singular import tip_rule
+
+# Elements nearer to a singular point than this many of their diameters are integrated about it.
+NEAR_TIP = 2.0
+# Degree beyond that of the polynomials to which functions that are none are integrated.
+RATIONAL, SINGULAR = 4, 8
+
+
+@dataclass(frozen=True)
+class Kinds:
+    """Local functions of covers.
+
+    Attributes
+    ----------
+    functions
+        The different ones.
+    which
+        (C,) which of them each physical cover has.
+    """
+
+    functions: tuple[LocalFunctions, ...]
+    which: Ints
+
+
+def mesh_manifold(
+    cover: Cover,
+    cut: CutCells,
+    functions: LocalFunctions | Kinds,
+    enrichments: Sequence[Enrichment] = (),
+) -> Manifold:
+    """Build the manifold of a cut mathematical cover.
+
+    Cells that no line cuts are congruent in regular nets and share their integrals. Elements and
+    covers that a cut touches get coordinates that fit what is left of them (`covers.whitening`),
+    so that the conditioning does not depend on the cut.
+
+    Parameters
+    ----------
+    cover, cut
+        The mathematical cover and what `covers.cutting.cut` made of it.
+    functions
+        Local functions of all physical covers, or `Kinds` that vary from cover to cover.
+    enrichments
+        Singular points whose functions the covers about them carry too.
+    """
+    kinds = functions if isinstance(functions, Kinds) else _uniform(functions, cut.n_covers)
+    builder = _Builder.of(cover, cut, kinds, tuple(enrichments))
+    n_unknowns = int(builder.offset[-1])
+    body_area, body_centroid = _bodies(cut)
+    modes = (kinds.functions, kinds.which, builder.covers, n_unknowns, body_centroid)
+    return Manifold(
+        elements=cut.elements,
+        element_body=cut.element_body,
+        element_region=cut.element_region,
+        groups=tuple(builder.groups()),
+        cover_offset=builder.offset,
+        cover_patch=cut.cover_patch,
+        cover_body=cut.cover_body,
+        boundary=cut.boundary,
+        rigid_modes=rigid_modes(*modes),
+        stretch_modes=stretch_modes(*modes),
+        body_centroid=body_centroid,
+        body_area=body_area,
+        dependent=dependent_functions(cover, cut, kinds.functions, kinds.which),
+        fitted=int(builder.fitted.sum()),
+        enriched=int((builder.enriched >= 0).sum()),
+    )
+
+
+def _uniform(functions: LocalFunctions, n: int) -> Kinds:
+    return Kinds((functions,), np.zeros(n, dtype=np.int64))
+
+
+def _bodies(cut: CutCells) -> tuple[Floats, Floats]:
+    area, centroid = cut.elements.areas, cut.elements.centroids
+    total = np.bincount(cut.element_body, area, minlength=cut.n_bodies)
+    first = [np.bincount(cut.element_body, area * c, minlength=cut.n_bodies) for c in centroid.T]
+    return np.asarray(total), np.asarray(np.stack(first, axis=1) / total[:, None])
+
+
+@dataclass(frozen=True)
+class _Builder:
+    """What all groups are made from."""
+
+    cover: Cover
+    cut: CutCells
+    kinds: Kinds
+    enrichments: tuple[Enrichment, ...]
+    covers: PhysicalCovers
+    offset: Ints
+    fitted: Bools
+    enriched: Ints
+    centre: Floats
+    matrix: Floats
+
+    @classmethod
+    def of(
+        cls, cover: Cover, cut: CutCells, kinds: Kinds, enrichments: tuple[Enrichment, ...]
+    ) -> "_Builder":
+        enriched = enriched_covers(cut, cover.patch_centre, enrichments)
+        size = np.array([item.n_unknowns for item in kinds.functions])[kinds.which]
+        if enrichments:
+            extra = np.array([item.functions.number for item in enrichments])
+            size = size + np.where(enriched >= 0, extra[enriched], 0)
+        offset = np.concatenate([[0], np.cumsum(size)])
+        frames, parts = _element_frames(cut)
+        fitted = _fitted(cut, kinds)
+        centre, matrix = _cover_frames(cover, cut, kinds, fitted, parts, frames)
+        covers = PhysicalCovers(cut.cover_patch, cut.cover_body, centre, matrix, offset[:-1])
+        return cls(
+            cover,
+            cut,
+            kinds,
+            enrichments,
+            covers,
+            offset,
+            fitted,
+            enriched,
+            *_all(cut, frames, parts),
+        )
+
+    def groups(self) -> Iterator[ElementGroup]:
+        """One group for each pattern of local functions among the covers of elements."""
+        for elements, slots, codes in self._patterns():
+            functions = [self.kinds.functions[code // 2] for code in codes]
+            n_enriched = int(np.sum(codes % 2))
+            active = np.take_along_axis(self.cut.covers[elements], slots, axis=1)
+            if n_enriched:
+                yield self._enriched(elements, slots, active, functions, n_enriched)
+            elif self.cover.weight_degree is None:
+                yield self._rational(elements, slots, active, functions)
+            else:
+                yield self._polynomial(elements, slots, active, functions)
+
+    def _patterns(self) -> Iterator[tuple[Ints, Ints, Ints]]:
+        """Elements (n,), their active slots (n, k), enriched ones first, and the codes (k,)."""
+        covers = self.cut.covers
+        none = 2 * len(self.kinds.functions)
+        code = 2 * self.kinds.which + (self.enriched >= 0)
+        codes = np.where(covers >= 0, code[covers], none)
+        # Enriched slots first, then by functions, inactive ones last; equal ones stay in order.
+        rank = np.where(codes == none, none, codes - none * (codes % 2))
+        slots = np.argsort(rank, axis=1, kind="stable")
+        codes = np.take_along_axis(codes, slots, axis=1)
+        if (codes == codes[0]).all():
+            distinct, pattern = codes[:1], np.zeros(len(codes), dtype=np.int64)
+        else:
+            distinct, pattern = np.unique(codes, axis=0, return_inverse=True)
+            pattern = pattern.ravel()
+        for number, row in enumerate(distinct):  # a handful of patterns
+            k = int((row < none).sum())
+            elements = np.flatnonzero(pattern == number)
+            yield elements, slots[elements, :k], row[:k]
+
+    def _polynomial(
+        self, elements: Ints, slots: Ints, active: Ints, functions: list[LocalFunctions]
+    ) -> ElementGroup:
+        shapes = self._shapes(elements, active)
+        first = elements[shapes.first]
+        size = 2 / diameters(self.cut.elements.take(first))
+        cells = self.cut.element_cell[first]
+        table, degree = self.cover.weight_tables(cells, shapes.origin[shapes.first], 1 / size)
+        table = np.take_along_axis(table, slots[shapes.first, :, None], axis=1)
+        d, k, n_monomials = table.shape
+        # From (x - origin) size to the element's own coordinates.
+        back = inverses(shapes.matrix) * size[:, None, None]
+        still = np.zeros((d * k, 2))
+        fitted = affine(table.reshape(d * k, -1), degree, np.repeat(back, k, axis=0), still)
+        return polynomial_group(
+            shapes,
+            self.cut.elements.take(first),
+            active,
+            Weights(degree, fitted.reshape(d, k, n_monomials)),
+            functions,
+            self.covers,
+        )
+
+    def _shapes(self, elements: Ints, active: Ints) -> Shapes:
+        """Congruent whole cells share a shape when all their covers are whole too."""
+        cut = self.cut
+        alike = cut.element_whole[elements] & ~self.fitted[active].any(axis=1)
+        known = self.cover.cell_shape[cut.element_cell[elements]]
+        alike &= (known >= 0) & (np.ptp(self.cover.patch_size) == 0)
+        key = np.where(
+            alike, known, self.cover.cell_shape.max(initial=0) + 1 + np.arange(len(known))
+        )
+        _, first, shape = np.unique(key, return_index=True, return_inverse=True)
+        corner = cut.elements.points[cut.elements.first_point[elements]]
+        source = elements[first]
+        origin = np.where(
+            alike[:, None],
+            corner + (self.centre[source] - corner[first])[shape],
+            self.centre[elements],
+        )
+        return Shapes(elements, shape, first, origin, self.matrix[source])
+
+    def _rational(
+        self, elements: Ints, slots: Ints, active: Ints, functions: list[LocalFunctions]
+    ) -> ElementGroup:
+        degree = max(item.degree for item in functions)
+        order = 2 * (self.cover.precision + degree) + RATIONAL
+        return QuadratureGroup(
+            elements=elements,
+            unknowns=unknowns_of(functions, self.covers, active),
+            combination=combined(functions),
+            shape=np.arange(len(elements)),
+            fields=self._fields(elements, slots, active, functions),
+            rule=polygon_rule(self.cut.elements.take(elements), order),
+        )
+
+    def _enriched(
+        self,
+        elements: Ints,
+        slots: Ints,
+        active: Ints,
+        functions: list[LocalFunctions],
+        n_enriched: int,
+    ) -> ElementGroup:
+        which = self.enriched[active[:, :n_enriched]]
+        number = self.enrichments[0].functions.number
+        base = combined(functions)
+        polynomial = unknowns_of(functions, self.covers, active)
+        last = self.offset[active[:, :n_enriched] + 1] - number
+        singular = (last[:, :, None] + np.arange(number)).reshape(len(elements), -1)
+        total = polynomial.shape[1]
+        rows = total if base is None else len(base)
+        vectors = number * n_enriched
+        # Two scalar functions, of the x and the y component, make one vector function.
+        combination = np.zeros((rows + 4 * vectors, total + vectors))
+        combination[:rows, :total] = np.eye(rows) if base is None else base
+        vector = np.arange(vectors)
+        combination[rows + 4 * vector, total + vector] = 1.0
+        combination[rows + 4 * vector + 3, total + vector] = 1.0
+        return QuadratureGroup(
+            elements=elements,
+            unknowns=np.concatenate([polynomial, singular], axis=1),
+            combination=combination,
+            shape=np.arange(len(elements)),
+            fields=EnrichedFields(
+                self._fields(elements, slots, active, functions),
+                n_enriched,
+                self.enrichments,
+                which,
+                self._side(elements, which),
+            ),
+            rule=self._singular_rule(elements, which[:, 0], functions),
+        )
+
+    def _fields(
+        self, elements: Ints, slots: Ints, active: Ints, functions: list[LocalFunctions]
+    ) -> WeightedFields:
+        cells = self.cut.element_cell[elements]
+        return WeightedFields(self.cover, cells, slots, active, tuple(functions), self.covers)
+
+    def _side(self, elements: Ints, which: Ints) -> Floats:
+        """Side of the bisector (n, k) on which the elements lie."""
+        points = np.array([item.point for item in self.enrichments])[which]
+        ahead = np.array([item.direction for item in self.enrichments])[which]
+        away = self.cut.elements.centroids[elements][:, None] - points
+        left = ahead[..., 0] * away[..., 1] - ahead[..., 1] * away[..., 0]
+        return np.where(left >= 0, 1.0, -1.0)
+
+    def _singular_rule(
+        self, elements: Ints, which: Ints, functions: list[LocalFunctions]
+    ) -> PointRule:
+        """About the singular point where it is near, by Gauss points elsewhere."""
+        polygons = self.cut.elements.take(elements)
+        degree = max(item.degree for item in functions) + (self.cover.weight_degree or 2)
+        tips = np.array([item.point for item in self.enrichments])[which]
+        size = diameters(polygons)
+        near = np.hypot(*(polygons.centroids - tips).T) < NEAR_TIP * size
+        near_rule = tip_rule(polygons.take(np.flatnonzero(near)), tips[near], 2 * degree + 2)
+        far_rule = polygon_rule(polygons.take(np.flatnonzero(~near)), 2 * degree + SINGULAR)
+        return _joined(near_rule, np.flatnonzero(near), far_rule, np.flatnonzero(~near))
+
+
+def _joined(first: PointRule, its: Ints, second: PointRule, others: Ints) -> PointRule:
+    owner = np.concatenate([its[first.owner], others[second.owner]])
+    order = np.argsort(owner, kind="stable")
+    points = np.concatenate([first.points, second.points])[order]
+    return PointRule(points, np.concatenate([first.weights, second.weights])[order], owner[order])
+
+
+def _element_frames(cut: CutCells) -> tuple[Frames, Ints]:
+    """Coordinates of the elements that are not whole cells, and which those are."""
+    parts = np.flatnonzero(~cut.element_whole)
+    if not len(parts):
+        return Frames(np.zeros((0, 2)), np.zeros((0, 2, 2))), parts
+    return element_frames(cut.elements.take(parts)), parts
+
+
+def _all(cut: CutCells, frames: Frames, parts: Ints) -> tuple[Floats, Floats]:
+    """Centre (E, 2) and matrix (E, 2, 2) of all elements."""
+    centre = cut.elements.centroids.copy()
+    matrix = np.eye(2) * (2 / diameters(cut.elements))[:, None, None]
+    centre[parts], matrix[parts] = frames.centre, frames.matrix
+    return centre, matrix
+
+
+def _fitted(cut: CutCells, kinds: Kinds) -> Bools:
+    """Covers (C,) whose coordinates are fitted: touched by a cut, with polynomials to fit."""
+    touched = np.zeros(cut.n_covers + 1, dtype=bool)
+    touched[cut.covers[~cut.element_whole]] = True
+    able = [item.degree > 0 and not item.physical_length for item in kinds.functions]
+    return np.asarray(touched[:-1] & np.array(able)[kinds.which])
+
+
+def _cover_frames(
+    cover: Cover, cut: CutCells, kinds: Kinds, fitted: Bools, parts: Ints, frames: Frames
+) -> tuple[Floats, Floats]:
+    """Centre (C, 2) and matrix (C, 2, 2): of the patch, or fitted to what is left of it."""
+    centre = cover.patch_centre[cut.cover_patch].copy()
+    physical = np.array([item.physical_length for item in kinds.functions])[kinds.which]
+    size = np.where(physical, 1.0, cover.patch_size[cut.cover_patch])
+    matrix = np.eye(2) / size[:, None, None]
+    if fitted.any():
+        element, slot = np.nonzero((cut.covers >= 0) & fitted[cut.covers])
+        number = np.cumsum(fitted) - 1
+        own = np.unique(element)
+        place = np.zeros(len(cut.elements), dtype=np.int64)
+        place[own] = np.arange(len(own))
+        polygons = cut.elements.take(own)
+        spread = element_spread(polygons, _some(cut, polygons, own, parts, frames))
+        found = cover_frames(
+            spread, place[element], number[cut.covers[element, slot]], int(fitted.sum())
+        )
+        centre[fitted], matrix[fitted] = found.centre, found.matrix
+    return centre, matrix
+
+
+def _some(cut: CutCells, polygons: Polygons, own: Ints, parts: Ints, frames: Frames) -> Frames:
+    """Frames of some elements: their own when they are parts of cells, those of squares else."""
+    matrix = np.eye(2) * (2 / diameters(polygons))[:, None, None]
+    mine = np.isin(own, parts)
+    matrix[mine] = frames.matrix[np.searchsorted(parts, own[mine])]
+    return Frames(polygons.centroids, matrix)

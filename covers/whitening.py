@@ -1,0 +1,91 @@
+"""Local coordinates that fit what a cut has left of elements and covers.
+
+A cover of which a cut leaves a sliver has polynomials that are nearly dependent in coordinates
+scaled by the cell. In ``xi = Sigma^-1/2 (x - c) / 2``, with centroid ``c`` and covariance ``Sigma``
+of what is left, they are as independent as on a square, whatever the shape: the space is the same
+and the conditioning bounded (Schweitzer 2011 states why local coordinates suffice).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.small_matrices import inverses
+from integration.arrays import Floats, Ints
+from integration.moments import moments
+from integration.polygons import Polygons, diameters
+
+# Correlations above this, after the principal axes were taken out, are rounding.
+CORRELATED = 0.99
+
+
+@dataclass(frozen=True)
+class Frames:
+    """Coordinates ``matrix (x - centre)``: (n, 2) and (n, 2, 2)."""
+
+    centre: Floats
+    matrix: Floats
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Area (n,), centroid (n, 2) and a root ``F`` (n, 2, 2) of the covariance ``F F^T``."""
+
+    area: Floats
+    centre: Floats
+    root: Floats
+
+
+def element_frames(polygons: Polygons) -> Frames:
+    """Coordinates along the principal axes, between -1 and 1 over each polygon."""
+    centre = polygons.centroids
+    second = moments(polygons, 2, scale=diameters(polygons))[:, [[3, 4], [4, 5]]]
+    axes = np.swapaxes(np.linalg.eigh(second / second.max(axis=(1, 2), keepdims=True))[1], 1, 2)
+    owner = polygons.polygon_of_point
+    turned = np.einsum("pij,pj->pi", axes[owner], polygons.points - centre[owner])
+    half = np.maximum.reduceat(np.abs(turned), polygons.first_point, axis=0)
+    return Frames(centre, axes / half[:, :, None])
+
+
+def element_spread(polygons: Polygons, frames: Frames) -> Spread:
+    """Covariances as roots, which keep their figures for needles."""
+    owner = polygons.polygon_of_point
+    away = polygons.points - frames.centre[owner]
+    local = polygons.with_points(np.einsum("pij,pj->pi", frames.matrix[owner], away))
+    found = moments(local, 2)
+    root = np.linalg.cholesky(found[:, [[3, 4], [4, 5]]] / found[:, 0, None, None])
+    return Spread(polygons.areas, polygons.centroids, inverses(frames.matrix) @ root)
+
+
+def cover_frames(parts: Spread, element: Ints, cover: Ints, n_covers: int) -> Frames:
+    """Whitened coordinates of covers from pairs (p,) of an element and a cover it belongs to."""
+    area, root = parts.area[element], parts.root[element]
+    total = np.bincount(cover, area, minlength=n_covers)
+    share = area / total[cover]
+    centre = _sums(share[:, None] * parts.centre[element], cover, n_covers)
+    away = parts.centre[element] - centre[cover]
+    axes = np.swapaxes(np.linalg.eigh(_covariance(share, away, root, cover, n_covers))[1], 1, 2)
+    # The axes are exact to rounding, the small variance is not: take it again along the axes.
+    turned = np.einsum("pij,pj->pi", axes[cover], away)
+    covariance = _covariance(share, turned, axes[cover] @ root, cover, n_covers)
+    deviation = np.sqrt(np.stack([covariance[:, 0, 0], covariance[:, 1, 1]], axis=1))
+    correlation = covariance[:, 0, 1] / deviation.prod(axis=1)
+    whitening = _root_of_inverse(np.where(np.abs(correlation) < CORRELATED, correlation, 0.0))
+    return Frames(centre, whitening @ (axes / deviation[:, :, None]) / 2)
+
+
+def _covariance(share: Floats, away: Floats, root: Floats, cover: Ints, n: int) -> Floats:
+    inner = away[:, :, None] * away[:, None, :] + root @ np.swapaxes(root, 1, 2)
+    return _sums((share[:, None, None] * inner).reshape(-1, 4), cover, n).reshape(n, 2, 2)
+
+
+def _sums(values: Floats, cover: Ints, n: int) -> Floats:
+    columns = [np.bincount(cover, column, minlength=n) for column in values.T]
+    return np.stack(columns, axis=1)
+
+
+def _root_of_inverse(correlation: Floats) -> Floats:
+    """``C^-1/2`` of ``C = [[1, r], [r, 1]]``."""
+    plus, minus = 1 / np.sqrt(1 + correlation), 1 / np.sqrt(1 - correlation)
+    same, other = (plus + minus) / 2, (plus - minus) / 2
+    return np.stack([np.stack([same, other], -1), np.stack([other, same], -1)], -2)
