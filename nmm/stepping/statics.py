@@ -17,6 +17,7 @@ from nmm.stepping.verdict import CONVERGED, FAILED, FAILURE, RunVerdict
 
 if TYPE_CHECKING:
     from nmm.contact.points import ContactPoints
+    from nmm.effects.contact import Breaking
 
 # Corrections for the turn of contacts and bodies end when they move nothing by more than this
 # share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain).
@@ -71,9 +72,10 @@ def run_load(
         factor = min(state.load_factor + increment, schedule.target)
         fine = increment <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
         start, bonds = stepper.remember(), stepper.broken_bonds
-        found = settle(stepper, state, Instant(factor, factor))
+        # A bond that breaks in a coarse increment is no news yet: the increment is cut first.
+        found = settle(stepper, state, Instant(factor, factor), "worst" if fine else "stop")
         broke = stepper.broken_bonds > bonds
-        if found.attempt.converged and (fine or not broke):
+        if found.attempt.converged:
             recorder.step(state, found.attempt, found.contacts)
             state = found.attempt.state
             recorder.frame(state, "load", found.contacts)
@@ -95,17 +97,17 @@ class Settled:
     contacts: "ContactPoints | None"
 
 
-def settle(stepper: Stepper, state: State, end: Instant) -> Settled:
+def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> Settled:
     """Find equilibrium in the moved place: solve, move, and correct until nothing moves."""
     contacts: ContactPoints | None = None
-    total = attempt = stepper.attempt(state, end, None, worst_first=True)
+    total = attempt = stepper.attempt(state, end, None, breaking)
     for _ in range(CORRECTIONS):
         if not attempt.converged or total.motion > COLLAPSE * stepper.size:
             return Settled(replace(total, converged=False), contacts)
         _, contacts = stepper.accept(attempt)
         if stepper.small or attempt.motion <= SETTLED * total.motion + ROUNDING * stepper.size:
             return Settled(total, contacts)
-        attempt = stepper.attempt(attempt.state, end, None, worst_first=True)
+        attempt = stepper.attempt(attempt.state, end, None, breaking)
         total = _joined(total, attempt)
     sentence = f"the moved place is not in equilibrium after {CORRECTIONS} corrections"
     return Settled(replace(total, converged=False, sentence=sentence), contacts)
