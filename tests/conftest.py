@@ -126,6 +126,12 @@ def made_up_run(sink, blocks=40, frames=4):
 
 
 @pytest.fixture(scope="session")
+def write_run():
+    """The function that writes a made-up run into a sink."""
+    return made_up_run
+
+
+@pytest.fixture(scope="session")
 def memory_run():
     """A made-up run of 40 Voronoi blocks and 4 frames in memory."""
     from nmm.results import MemorySink

@@ -40,6 +40,7 @@ ROOMS = (
     "study",
     "verification",
     "shipped",
+    "terminal",
     "cli",
     "testing",
 )

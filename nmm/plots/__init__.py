@@ -8,6 +8,7 @@ from nmm.plots.blocks import blocks
 from nmm.plots.contact_forces import contact_forces
 from nmm.plots.curves import curve, history, load_displacement, overview
 from nmm.plots.deformed import deformed, failure_mode
+from nmm.plots.gallery import draw_all
 from nmm.plots.stress import stress
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "contact_forces",
     "curve",
     "deformed",
+    "draw_all",
     "failure_mode",
     "history",
     "load_displacement",

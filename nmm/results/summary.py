@@ -51,8 +51,8 @@ class Summary:
     condition_estimate
         Estimated 1-norm condition number of the last system matrix.
     failure_load, failure_factor, failure_tolerance
-        Largest load in N carried by the scaled loads, its load factor, and the half width of the
-        load factor's bracket relative to the factor.
+        Largest sum of the scaled loads (N) found in equilibrium, its load factor, and how far
+        above it, relative to it, the smallest load was found that is not.
     largest_contacts
         Largest number of contact points in each state at one step.
     versions, seed, scene_hash, formulation_hash
@@ -142,7 +142,7 @@ def failure_line(summary: Summary) -> str | None:
         parts.append(f"load factor {summary.failure_factor:.5g}")
     text = "failure load " + ", ".join(parts)
     if summary.failure_tolerance is not None:
-        text += f", bracketed within ±{100 * summary.failure_tolerance:.2g} %"
+        text += f"; none {100 * summary.failure_tolerance:.2g} % above it is in equilibrium"
     return text
 
 

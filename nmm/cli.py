@@ -1,0 +1,277 @@
+"""The verbs of the command line. What they need is imported inside them, so that help is fast."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from nmm.terminal import (
+    FAILED,
+    console,
+    faults_told,
+    progress_bar,
+    tell_faults,
+    tell_files,
+    tell_next,
+    tell_run,
+)
+
+if TYPE_CHECKING:
+    from nmm.formulation import Formulation
+    from nmm.results.sink import RunData
+    from nmm.scene import Scene
+
+app = typer.Typer(
+    help="Numerical manifold method in 2D: blocks, joints, contact and fracture.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+SceneFile = Annotated[Path, typer.Argument(help="Scene file, TOML.", metavar="SCENE")]
+FormulationFile = Annotated[
+    Path | None, typer.Option("--formulation", "-f", help="Formulation file, TOML.")
+]
+Out = Annotated[Path | None, typer.Option("--out", "-o", help="Folder of the run.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print the verdict only.")]
+
+DEMO = "kitoh_beam/kitoh_130.toml"
+RUNS = Path("runs")
+
+CALLED_BY = {
+    "loads": "[[loads]]",
+    "body loads": '[[loads]] of kind "body"',
+    "supports": "[[supports]]",
+    "initial velocity": "[[initial_velocities]]",
+    "initial stress": "[[initial_stresses]]",
+}
+"""How a scene names an effect, where that is not `[effect]`."""
+
+
+@app.callback(invoke_without_command=True)
+def main(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and exit.", is_eager=True)
+    ] = False,
+) -> None:
+    """Numerical manifold method in 2D: blocks, joints, contact and fracture."""
+    if version:
+        import nmm
+
+        typer.echo(f"nmm {nmm.__version__}")
+        raise typer.Exit
+
+
+@app.command()
+def run(
+    scene: SceneFile,
+    formulation: FormulationFile = None,
+    out: Out = None,
+    quiet: Quiet = False,
+) -> None:
+    """Run a scene; write its folder with pictures and ParaView files."""
+    with faults_told():
+        _run(scene, formulation, out or _free(RUNS / scene.stem), quiet)
+
+
+@app.command()
+def demo(out: Out = None, quiet: Quiet = False) -> None:
+    """Break a concrete beam in four-point bending and draw it."""
+    from nmm.shipped import example
+
+    with faults_told():
+        _run(example(DEMO), None, out or RUNS / "demo", quiet)
+
+
+@app.command()
+def check(scene: SceneFile, formulation: FormulationFile = None) -> None:
+    """Name every fault of a scene; exit code 1 if there is one."""
+    from nmm.errors import NmmError
+
+    faults: list[str] = []
+    for read, place in ((_check_scene, scene), (_read_formulation, formulation)):
+        try:
+            read(place)
+        except NmmError as error:
+            faults += [str(fault) for fault in error.faults]
+    tell_faults(faults)
+    if faults:
+        typer.echo(f"{len(faults)} fault{'s' * (len(faults) > 1)}", err=True)
+        raise typer.Exit(1)
+    typer.secho("no faults", fg="green")
+    tell_next(f"nmm explain {scene}", f"nmm run {scene}")
+
+
+@app.command()
+def explain(scene: SceneFile, formulation: FormulationFile = None) -> None:
+    """Say what a scene simulates and what it does not, and how large it is."""
+    with faults_told():
+        _explain(scene, formulation)
+
+
+@app.command()
+def new(
+    name: Annotated[str, typer.Argument(help="Name of the scene; NAME.toml is written.")],
+) -> None:
+    """Write a commented scene to start from."""
+    from nmm.errors import NmmError
+    from nmm.shipped import starter
+
+    path = Path(name).with_suffix(".toml")
+    with faults_told():
+        if path.exists():
+            raise NmmError(f"{path}: exists: expected a new name: choose another one")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(starter(), encoding="utf-8")
+    typer.echo(path)
+    tell_next(f"nmm check {path}", f"nmm run {path}")
+
+
+@app.command()
+def plot(
+    run: Annotated[Path, typer.Argument(help="Folder of a run.", metavar="RUN")],
+    frame: Annotated[
+        int | None, typer.Option(help="Number of the frame, from the end when negative.")
+    ] = None,
+    magnification: Annotated[float | None, typer.Option(help="Factor on displacements.")] = None,
+    component: Annotated[
+        str, typer.Option(help="Stress drawn: mises, xx, yy, xy, major, minor.")
+    ] = "mises",
+) -> None:
+    """Draw a run again, whole or one frame of it; a run that was stopped can be drawn too."""
+    from nmm.results import read_run
+    from nmm.scene import parse_scene
+
+    with faults_told():
+        stored = read_run(run)
+        scene = parse_scene(stored.scene, str(run / "scene.toml")) if stored.scene else None
+        _frame_exists(frame, len(stored.frames))
+        tell_files(_draw(stored, run, scene, frame, magnification, component))
+
+
+def _run(place: Path, formulation: Path | None, out: Path, quiet: bool) -> None:
+    import nmm
+    from nmm.results.summary import render
+
+    scene = nmm.read_scene(place)
+    chosen = _read_formulation(formulation)
+    try:
+        with progress_bar(quiet) as progress:
+            done = nmm.run(scene, chosen, out=out, progress=progress)
+    except KeyboardInterrupt:
+        typer.secho(f"stopped; what was written can be drawn: nmm plot {out}", err=True)
+        raise typer.Exit(130) from None
+    files = [*_draw(done, out, scene), *_paraview(done, out)]
+    tell_run(scene, done)
+    if not quiet:
+        console().print(render(done.summary))
+        tell_files([out, *files])
+        tell_next(f"nmm plot {out} --frame 0", f"paraview {out / 'paraview' / 'blocks.pvd'}")
+    if done.summary.status == FAILED:
+        raise typer.Exit(2)
+
+
+def _explain(place: Path, formulation: Path | None) -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    import nmm
+    from nmm.formulation import Formulation
+    from nmm.stepping.plan import called_for
+    from nmm.stepping.run import prepare
+
+    scene = nmm.read_scene(place)
+    chosen = _read_formulation(formulation) or scene.formulation or Formulation()
+    prepared = prepare(scene, chosen)
+    manifold = prepared.stepper.model.manifold
+    effects = Table(title=scene.title, title_justify="left", show_header=False)
+    for name, named in called_for(scene).items():
+        key = CALLED_BY.get(name, f"[{name}]")
+        effects.add_row(
+            name,
+            "simulated" if named else f"not simulated: the scene has no {escape(key)}",
+            style=None if named else "dim",
+        )
+    out = console()
+    out.print(effects)
+    for line in _sizes(scene, chosen, len(prepared.regions), len(manifold.elements)):
+        out.print(line, highlight=False)
+    out.print(f"unknowns: {manifold.n_unknowns:,}", highlight=False)
+    tell_next(f"nmm run {place}")
+
+
+def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) -> Iterator[str]:
+    """Yield the lines that say what kind of run it is."""
+    dynamic = scene.inertia is not None
+    yield f"run: {'dynamic' if dynamic else 'static'}, plane {scene.plane}"
+    if dynamic:
+        yield f"integrator: {chosen.integrator.type}, step {chosen.integrator.step:g} s"
+        yield f"duration: {scene.duration:g} s"
+    elif scene.loading is not None:
+        yield f"loading: until {scene.loading.until}, increment {chosen.loading.increment:g}"
+    if scene.contact is not None:
+        yield f"contact: {chosen.contact.enforcement}"
+    yield f"cover: {chosen.cover.type}, {chosen.cover.functions}"
+    yield f"blocks: {blocks:,}"
+    yield f"elements: {elements:,}"
+
+
+def _check_scene(place: Path | None) -> None:
+    import nmm
+    from nmm.geometry import regions
+
+    if place is not None:
+        regions(nmm.read_scene(place))
+
+
+def _read_formulation(place: Path | None) -> "Formulation | None":
+    if place is None:
+        return None
+    import nmm
+
+    return nmm.read_formulation(place)
+
+
+def _draw(
+    run: "RunData",
+    folder: Path,
+    scene: "Scene | None",
+    frame: int | None = None,
+    magnification: float | None = None,
+    component: str = "mises",
+) -> list[Path]:
+    from nmm.plots import draw_all
+    from nmm.results.files import PICTURES
+
+    return draw_all(
+        run,
+        folder / PICTURES,
+        scene=scene,
+        frame=frame,
+        magnification=magnification,
+        component=component,
+    )
+
+
+def _paraview(run: "RunData", folder: Path) -> list[Path]:
+    from nmm.results.files import PARAVIEW
+    from nmm.results.paraview import write_paraview
+
+    return write_paraview(run, folder / PARAVIEW)
+
+
+def _frame_exists(frame: int | None, count: int) -> None:
+    from nmm.errors import NmmError
+
+    if frame is not None and not -count <= frame < count:
+        raise NmmError(f"--frame {frame}: expected {-count} to {count - 1}: the run has {count}")
+
+
+def _free(path: Path) -> Path:
+    """Return the path, with a number behind it when there is something of that name."""
+    number, free = 1, path
+    while free.exists():
+        number += 1
+        free = path.with_name(f"{path.name}-{number}")
+    return free

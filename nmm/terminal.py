@@ -1,0 +1,89 @@
+"""What the command line prints: verdicts, faults, files, progress."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from nmm.errors import NmmError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from nmm.scene import Scene
+    from nmm.stepping.run import Progress, Run
+
+FAILED = "failed"
+
+
+@contextmanager
+def faults_told() -> Iterator[None]:
+    """Print the faults of an error one a line and leave with exit code 1."""
+    try:
+        yield
+    except NmmError as error:
+        tell_faults([str(fault) for fault in error.faults])
+        raise typer.Exit(1) from None
+
+
+def tell_faults(faults: Sequence[str]) -> None:
+    """Print faults to the error stream, one a line."""
+    for fault in faults:
+        typer.secho(fault, fg="red", err=True)
+
+
+def tell_run(scene: "Scene", done: "Run") -> None:
+    """Print verdict, failure load and comparison with the references of the scene."""
+    from nmm.results.references import compare
+    from nmm.results.summary import failure_line
+
+    out = console()
+    failed = done.summary.status == FAILED
+    out.print(done.summary.sentence, style="red" if failed else "green", highlight=False)
+    if (line := failure_line(done.summary)) is not None:
+        out.print(line, style="bold", highlight=False)
+    for one in compare(done.summary, done.history, scene.references):
+        found = "not found" if one.found is None else f"{one.found:.6g}"
+        verdict = "within" if one.holds else "outside"
+        out.print(
+            f"{one.quantity} {found}, reference {one.expected:.6g} ({100 * one.deviation:+.2f} %, "
+            f"{verdict} the tolerance of {100 * one.tolerance:g} %): {one.source}",
+            style=None if one.holds else "yellow",
+            highlight=False,
+        )
+
+
+def tell_files(files: Sequence[Path]) -> None:
+    """Print every path written, one a line."""
+    for file in files:
+        typer.echo(file)
+
+
+def tell_next(*commands: str) -> None:
+    """Print what to try next."""
+    typer.secho("next: " + "   or: ".join(commands), dim=True)
+
+
+@contextmanager
+def progress_bar(quiet: bool) -> "Iterator[Progress]":
+    """Show a progress bar while the run goes, unless quiet or not in a terminal."""
+    out = console()
+    if quiet or not out.is_terminal:
+        yield lambda fraction, text: None
+        return
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    share, words = TextColumn("{task.percentage:3.0f} %"), TextColumn("{task.description}")
+    columns = (BarColumn(), share, TimeElapsedColumn(), words)
+    with Progress(*columns, console=out, transient=True) as bar:
+        task = bar.add_task("preparing", total=1.0)
+        yield lambda fraction, text: bar.update(task, completed=fraction, description=text)
+
+
+def console() -> "Console":
+    """Return the console; long lines are left to the terminal, so that paths can be copied."""
+    from rich.console import Console
+
+    return Console(soft_wrap=True)
