@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike
 
 from covers.base import Cover
 from covers.bspline import BSplines
-from covers.cutting import CutCells, cut
+from covers.cut_cells import CutCells
+from covers.cutting import cut
 from covers.moving_least_squares import MovingLeastSquares
 from covers.quads import Quads
 from covers.triangles import Triangles
