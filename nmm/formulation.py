@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from nmm.errors import FormulationError
 from nmm.scene.document import parse, read_text
-from nmm.scene.fields import Count, Frozen, Length, Number, PartName, Time
+from nmm.scene.fields import Angle, Count, Frozen, Length, Number, PartName, Point, Time
 
 _PART = 'a registered name or "module:Name"'
 
@@ -22,8 +23,26 @@ class _Part(Frozen):
     options: dict[str, Any] = Field(default={}, description="a table of options of the part")
 
 
+class Enrichment(Frozen):
+    """Singular functions on the covers about all crack tips, and about corners that are named."""
+
+    radius: Length = Field(
+        default=0.0,
+        ge=0,
+        description="a radius in m, >= 0: covers that are nearer to the point carry the functions; "
+        "those that touch it always do",
+        examples=[0.2],
+    )
+    corners: tuple[Point, ...] = Field(
+        default=(), description="a list of re-entrant corners [x, y] in m", examples=[[[0, 0]]]
+    )
+
+
 class Cover(_Part):
-    """Physical covers and their local functions: block = DDA, meshes = manifold."""
+    """Physical covers and their local functions: block = DDA, meshes = manifold.
+
+    A mesh has local functions "monomials" of degree 1 unless others are named.
+    """
 
     type: PartName = Field(default="block", description=_PART, examples=["triangles"])
     functions: PartName = Field(default="rigid_strain", description=_PART, examples=["monomials"])
@@ -33,6 +52,24 @@ class Cover(_Part):
     size: Length | None = Field(
         default=None, gt=0, description="a cover size in m, > 0", examples=[0.1]
     )
+    angle: Angle = Field(default=0.0, description="a turn of the mesh in rad", examples=["17 deg"])
+    shift: tuple[Number, Number] = Field(
+        default=(0.0, 0.0),
+        description="a displacement of the mesh in fractions of a cell",
+        examples=[[0.3, 0.2]],
+    )
+    enrichment: Enrichment | None = Field(default=None, description="a table [cover.enrichment]")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _mesh(cls, data: Any) -> Any:
+        """Meshes carry polynomials unless something else is asked for."""
+        if not isinstance(data, Mapping) or data.get("type", "block") == "block":
+            return data
+        plain = {"functions": "monomials"} if "functions" not in data else {}
+        monomials = data.get("functions", "monomials") == "monomials"
+        degree = {"degree": 1} if monomials and data.get("degree") is None else {}
+        return {**data, **plain, **degree}
 
 
 class ContactMethod(_Part):

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
+from covers.cut_cells import CutCells
 from covers.element_groups import ElementGroup
 from covers.manifold import Manifold
 from integration.arrays import Floats, Ints
@@ -31,6 +32,8 @@ class Model:
         (E,) Young's modulus (Pa), the unit of penalties.
     thickness
         Out-of-plane thickness (m).
+    cut
+        How the cut left a mathematical cover; None for blocks.
     """
 
     manifold: Manifold
@@ -38,6 +41,7 @@ class Model:
     density: Floats
     modulus: Floats
     thickness: float
+    cut: CutCells | None = None
 
     @cached_property
     def stiffness(self) -> csc_array:

@@ -19,6 +19,13 @@ class Law(ABC):
         ``plane`` is "stress" or "strain".
         """
 
+    def kolosov(self, plane: str) -> float:
+        """Return Kolosov's constant of singular fields; laws that have none give that of nu = 0.
+
+        ``(3 - nu) / (1 + nu)`` in plane stress, ``3 - 4 nu`` in plane strain.
+        """
+        return 3.0
+
     @property
     @abstractmethod
     def modulus(self) -> float:

@@ -30,6 +30,11 @@ class Elastic(Law):
             e, nu = e / (1 - nu**2), nu / (1 - nu)
         return e / (1 - nu**2) * np.array([[1, nu, 0], [nu, 1, 0], [0, 0, (1 - nu) / 2]])
 
+    def kolosov(self, plane: str) -> float:
+        """Return ``(3 - nu) / (1 + nu)`` in plane stress, ``3 - 4 nu`` in plane strain."""
+        nu = self.poisson_ratio
+        return 3 - 4 * nu if plane == "strain" else (3 - nu) / (1 + nu)
+
     @property
     def modulus(self) -> float:
         """Young's modulus (Pa)."""

@@ -18,7 +18,7 @@ Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
 Tables = Mapping[str, Any]
 
 _SOLIDS = ("blocks", "tessellations")
-_NAMED = ("joint_sets", "supports", "loads", "monitors")
+_NAMED = ("joint_sets", "cracks", "supports", "loads", "monitors")
 _AT_BLOCKS = ("supports", "loads", "monitors")
 _ON_BLOCKS = ("initial_velocities", "initial_stresses", "joint_sets")
 

@@ -30,7 +30,7 @@ from nmm.scene.actions import (
 from nmm.scene.consistency import contradictions
 from nmm.scene.faults import Source
 from nmm.scene.fields import Count, Frozen, Length, Time, example
-from nmm.scene.solids import Block, Interface, JointSet, Material, Tessellation
+from nmm.scene.solids import Block, Crack, Interface, JointSet, Material, Tessellation
 
 
 class Scene(Frozen):
@@ -62,6 +62,7 @@ class Scene(Frozen):
         default=(), description="tables [[tessellations]]"
     )
     joint_sets: tuple[JointSet, ...] = Field(default=(), description="tables [[joint_sets]]")
+    cracks: tuple[Crack, ...] = Field(default=(), description="tables [[cracks]]")
     supports: tuple[Support, ...] = Field(default=(), description="tables [[supports]]")
     loads: tuple[Load, ...] = Field(default=(), description="tables [[loads]]")
     gravity: Gravity | None = Field(default=None, description="a table [gravity]")

@@ -116,6 +116,15 @@ class Block(Frozen):
     holes: tuple[Ring, ...] = Field(default=(), description="a list of rings of points [x, y] in m")
 
 
+class Crack(Frozen):
+    """A crack that is there from the start: a polyline that may end inside blocks."""
+
+    name: Name = Field(description='a name without "." and ":"', examples=["notch"])
+    points: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(
+        description="two or more points [x, y] in m", examples=[[[0, 0], [0.5, 0]]]
+    )
+
+
 class Tessellation(Frozen):
     """A region filled with Voronoi blocks, named `name.0`, `name.1`, ..."""
 

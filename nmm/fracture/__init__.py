@@ -1,0 +1,1 @@
+"""Cracks: stress intensity, corners."""

@@ -1,0 +1,155 @@
+"""From the formulation's ``[cover]`` to a manifold: blocks for DDA, meshes for all else."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from covers.block_cover import block_manifold
+from covers.local_functions import FUNCTIONS, LocalFunctions
+from covers.manifold import Manifold
+from integration.arrays import Floats
+from nmm.errors import FormulationError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from covers.cut_cells import CutCells
+    from covers.enrichment import Enrichment
+    from nmm.formulation import Cover
+    from nmm.geometry.blocks import Regions
+
+
+@dataclass(frozen=True)
+class Covering:
+    """A manifold and, for covers that are cut, how the cut left them."""
+
+    manifold: Manifold
+    cut: "CutCells | None" = None
+
+
+def cover_regions(
+    regions: "Regions",
+    cover: "Cover",
+    cracks: "Sequence[Floats]" = (),
+    kappa: Floats | None = None,
+) -> Covering:
+    """Make the manifold that a formulation's ``[cover]`` names.
+
+    Parameters
+    ----------
+    regions
+        Blocks and the cracks that joint sets leave in them.
+    cover
+        The table.
+    cracks
+        Polylines (n, 2) of the scene.
+    kappa
+        Kolosov's constant of each region, for singular functions.
+
+    Raises
+    ------
+    FormulationError
+        A cover that cannot be made, or one that cannot hold cracks.
+    """
+    lines = [*cracks, *np.asarray(regions.cracks)]
+    functions = local_functions(cover)
+    if cover.type == "block":
+        if lines:
+            raise FormulationError(
+                f'[cover] type: "block": {len(lines)} cracks end inside blocks: expected a cover '
+                'that cracks can cut: use type = "triangles" with a size'
+            )
+        region = np.arange(len(regions.polygons), dtype=np.int64)
+        return Covering(block_manifold(regions.polygons, region, functions))
+    return _mesh(regions, cover, functions, lines, kappa)
+
+
+def local_functions(cover: "Cover") -> LocalFunctions:
+    """Return the local functions that ``[cover]`` names."""
+    functions = FUNCTIONS.get(cover.functions)
+    if functions is None:
+        raise FormulationError(
+            f"[cover] functions: {cover.functions}: expected one of {', '.join(FUNCTIONS)}"
+        )
+    if cover.functions == "monomials" and cover.degree is None:
+        raise FormulationError(
+            '[cover] degree: not given: expected 0 to 3 with functions = "monomials": add degree'
+        )
+    try:
+        return functions(1 if cover.degree is None else cover.degree)
+    except ValueError as fault:
+        raise FormulationError(f"[cover] {fault}") from fault
+
+
+def _mesh(
+    regions: "Regions",
+    cover: "Cover",
+    functions: LocalFunctions,
+    lines: "Sequence[Floats]",
+    kappa: Floats | None,
+) -> Covering:
+    from covers.cutting import cut
+    from covers.mesh_manifold import mesh_manifold
+    from covers.registry import cover_class
+
+    if cover.size is None:
+        raise FormulationError(
+            f'[cover] size: not given: expected the size of a cell in m with type = "{cover.type}"'
+        )
+    points = regions.polygons.points
+    bounds = np.stack([points.min(axis=0), points.max(axis=0)])
+    options: dict[str, Any] = dict(cover.options)
+    try:
+        kind: Any = cover_class(cover.type)
+        laid = kind.regular(bounds, cover.size, angle=cover.angle, shift=cover.shift, **options)
+        pieces = cut(laid, regions.polygons, lines)
+    except (ValueError, TypeError, ImportError) as fault:
+        raise FormulationError(f"[cover] {fault}") from fault
+    extra = [] if cover.enrichment is None else _enrichments(pieces, cover, kappa)
+    return Covering(mesh_manifold(laid, pieces, functions, extra), pieces)
+
+
+def _enrichments(cut: "CutCells", cover: "Cover", kappa: Floats | None) -> "list[Enrichment]":
+    """Crack-tip functions at all tips of cracks, corner functions at the corners named."""
+    from covers.corner_functions import corner_functions
+    from covers.crack_tip_functions import crack_tip_functions
+    from covers.enrichment import Enrichment
+    from nmm.fracture.corners import corner_at
+
+    assert cover.enrichment is not None
+    assert cover.size is not None
+    constant = np.full(int(cut.element_region.max()) + 1, 2.0) if kappa is None else kappa
+    found = []
+    for number in range(len(cut.tips)):  # a handful of tips
+        element = cut.tips.element[number]
+        functions = crack_tip_functions(float(constant[cut.element_region[element]]), cover.size)
+        found.append(
+            Enrichment(
+                functions,
+                cut.tips.point[number],
+                cut.tips.direction[number],
+                cover.enrichment.radius,
+                int(cut.element_body[element]),
+            )
+        )
+    for point in cover.enrichment.corners:
+        corner = corner_at(cut.boundary, np.array(point))
+        functions = corner_functions(
+            corner.angle, float(constant[cut.element_region[corner.element]]), cover.size
+        )
+        found.append(
+            Enrichment(
+                functions,
+                np.array(point),
+                corner.direction,
+                cover.enrichment.radius,
+                int(cut.element_body[corner.element]),
+            )
+        )
+    if len({item.functions.number for item in found}) > 1:
+        raise FormulationError(
+            "[cover.enrichment]: points with different numbers of singular modes: expected one "
+            "number: enrich crack tips, or corners of one angle"
+        )
+    return found
