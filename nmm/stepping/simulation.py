@@ -1,0 +1,250 @@
+"""A scene and a formulation, compiled: geometry, covers, effects, solver; ready to run."""
+
+import resource
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from covers.block_cover import block_manifold
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State, initial_state
+from nmm.effects.base import Setup
+from nmm.errors import FormulationError, SceneError
+from nmm.formulation import Formulation, formulation_hash
+from nmm.geometry.regions import regions as build_regions
+from nmm.results.run_folder import RunFolder
+from nmm.results.sink import Sink
+from nmm.results.summary import Summary
+from nmm.results.tee import Frames, Tee
+from nmm.scene import scene_hash
+from nmm.solvers.linear import make_solver
+from nmm.stepping.build import block_functions, build_model
+from nmm.stepping.dynamics import Schedule, run_in_time
+from nmm.stepping.integrators import INTEGRATORS, Integrator
+from nmm.stepping.plan import Plan, compile_plan
+from nmm.stepping.recorder import Monitor, Recorder, monitors
+from nmm.stepping.relay import Lay, check_relay
+from nmm.stepping.statics import LoadSchedule, run_load
+from nmm.stepping.step import Stepper, scaled_load
+from nmm.stepping.verdict import FAILURE, RunVerdict
+
+if TYPE_CHECKING:
+    from nmm.geometry.blocks import Regions
+    from nmm.scene.model import Scene
+
+Progress = Callable[[float, str], None]
+
+# Frames of a dynamic run; the first and the last state are among them.
+FRAMES = 60
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """A scene and a formulation, compiled and ready to run.
+
+    Attributes
+    ----------
+    scene, formulation, regions
+        What is run.
+    stepper
+        Model, effects and solver.
+    start
+        State at the start.
+    monitors
+        Points whose displacement is recorded.
+    begun
+        When the preparation began, for the seconds of the summary.
+    """
+
+    scene: "Scene"
+    formulation: Formulation
+    regions: "Regions"
+    stepper: Stepper
+    start: State
+    monitors: list[Monitor]
+    begun: float
+
+    def folder(self, path: Path) -> RunFolder:
+        """Return the run folder at ``path`` with scene and formulation as run."""
+        return RunFolder(
+            path,
+            scene=_toml(self.scene),
+            formulation=_toml(self.formulation),
+            summary=self._identity(),
+        )
+
+    def run(self, sinks: list[Sink], progress: Progress) -> State:
+        """Run to the end, or to the step that cannot be solved; return the last state."""
+        sink = Tee(sinks)
+        sink.begin(
+            self.stepper.model.manifold.elements,
+            self.stepper.model.manifold.element_region,
+            list(self.scene.materials),
+            region_material=self.regions.material,
+            region_names=self.regions.name,
+        )
+        recorder = Recorder(self.stepper, sink, self.monitors)
+        recorder.frame(self.start, "load" if self.scene.inertia is None else "dynamic", None)
+        state, verdict = self._advance(recorder, progress)
+        summary = self._summary(recorder, state, verdict)
+        sink.finish(summary)
+        return state
+
+    def _advance(self, recorder: Recorder, progress: Progress) -> tuple[State, RunVerdict]:
+        stepper, scene = self.stepper, self.scene
+        if scene.inertia is not None:
+            assert scene.duration is not None
+            step = self.formulation.integrator.step
+            times = Schedule(scene.duration, step, FRAMES)
+            return run_in_time(stepper, recorder, self.start, times, progress)
+        state, verdict = run_load(stepper, recorder, self.start, self._load_schedule(), progress)
+        loading = scene.loading
+        if verdict.code == FAILURE and loading is not None and loading.motion_after_failure:
+            self._show_failure(recorder, state, verdict, loading.motion_after_failure, progress)
+        return state, verdict
+
+    def _show_failure(
+        self,
+        recorder: Recorder,
+        state: State,
+        verdict: RunVerdict,
+        duration: float,
+        progress: Progress,
+    ) -> None:
+        """Let the failed structure move under the load it did not carry; only frames are kept."""
+        from nmm.effects.inertia import Inertia
+
+        quiet = Stepper(
+            self.stepper.model,
+            self.stepper.plan.joined(Inertia(self.stepper.model)),
+            _integrator(self.formulation),
+            self.stepper.solver,
+            small=False,
+        )
+        factor = (verdict.load_factor or 0.0) * (1 + 2 * (verdict.tolerance or 0.0))
+        times = Schedule(duration, self.formulation.integrator.step, FRAMES // 2, factor, "failure")
+        moving = replace(recorder, stepper=quiet, sink=Frames(recorder.sink))
+        run_in_time(quiet, moving, replace(state, load_factor=factor), times, progress)
+
+    def _load_schedule(self) -> LoadSchedule:
+        loading, steps = self.scene.loading, self.formulation.loading
+        if loading is None:
+            return LoadSchedule(1.0, False, 1.0, steps.tolerance)
+        until = loading.until == "failure"
+        target = loading.maximum_factor or (np.inf if until else float(loading.until))
+        return LoadSchedule(target, until, steps.increment, steps.tolerance)
+
+    def _identity(self) -> Summary:
+        seeds = [item.seed for item in self.scene.tessellations if item.seed is not None]
+        return Summary(
+            title=self.scene.title,
+            blocks=len(self.regions.polygons),
+            elements=len(self.stepper.model.manifold.elements),
+            unknowns=self.stepper.model.manifold.n_unknowns,
+            seed=seeds[0] if seeds else self.scene.seed,
+            scene_hash=scene_hash(self.scene),
+            formulation_hash=formulation_hash(self.formulation),
+        )
+
+    def _summary(self, recorder: Recorder, state: State, verdict: RunVerdict) -> Summary:
+        stepper = self.stepper
+        load = None if verdict.load_factor is None else scaled_load(stepper, verdict.load_factor)
+        return replace(
+            self._identity(),
+            status=verdict.code,
+            sentence=verdict.sentence,
+            steps=recorder.steps,
+            passes=recorder.passes,
+            seconds=_with_rest(stepper.seconds, perf_counter() - self.begun),
+            effect_seconds=dict(stepper.plan.seconds),
+            peak_memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
+            equilibrium_residual=recorder.residual,
+            largest_penetration=recorder.penetration,
+            energy_balance=recorder.energy_balance if self.scene.inertia is not None else None,
+            condition_estimate=stepper.condition(state),
+            failure_load=load,
+            failure_factor=verdict.load_factor,
+            failure_tolerance=verdict.tolerance,
+            largest_contacts=dict(recorder.largest),
+        )
+
+
+def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
+    """Build geometry, covers, effects and solver of a run."""
+    begun = perf_counter()
+    regions = build_regions(scene)
+    _check(scene, formulation)
+    model = build_model(scene, formulation, regions)
+    built = perf_counter()
+    start = initial_state(model.manifold)
+    if scene.inertia is not None:
+        start = replace(start, load_factor=1.0)
+    setup = Setup(
+        scene, formulation, model, tuple(regions.name), np.asarray(regions.material), start
+    )
+    plan = compile_plan(setup)
+    stepper = Stepper(
+        model,
+        plan,
+        _integrator(formulation),
+        make_solver(formulation.solver.type, formulation.solver.options),
+        small=_small(scene, formulation),
+        lay=_lay(formulation, model, plan),
+    )
+    stepper.seconds["covers"] = built - begun
+    stepper.seconds["effects"] = perf_counter() - built
+    return Simulation(
+        scene, formulation, regions, stepper, plan.begin(start), monitors(setup), begun
+    )
+
+
+def _integrator(formulation: Formulation) -> Integrator:
+    part = formulation.integrator
+    kind = INTEGRATORS.load(part.type)
+    return kind(kinetic_factor=part.kinetic_factor, **part.options)
+
+
+def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
+    """Return what lays blocks anew each step when the classical update is asked for."""
+    if formulation.rotation.update != "linear":
+        return None
+    check_relay(plan)
+    functions = block_functions(formulation.cover)
+    if formulation.cover.type != "block" or functions.degree > 1:
+        raise FormulationError(
+            '[rotation] update: "linear": it lays blocks of linear functions anew: expected '
+            'cover type "block" of degree 1: use update = "exact"'
+        )
+    return lambda polygons: block_manifold(polygons, model.manifold.element_region, functions)
+
+
+def _small(scene: "Scene", formulation: Formulation) -> bool:
+    """Whether bodies' axes stay: asked for, or statics of bodies that nothing touches."""
+    update = formulation.rotation.update
+    return update == "small" or (
+        update == "auto" and scene.inertia is None and scene.contact is None
+    )
+
+
+def _check(scene: "Scene", formulation: Formulation) -> None:
+    """Refuse what cannot be run together."""
+    if scene.inertia is not None and scene.loading is not None:
+        raise SceneError(
+            "[loading]: named together with [inertia]: expected one of them: [loading] raises "
+            "loads in statics; give a dynamic load a history instead"
+        )
+
+
+def _toml(model: "Scene | Formulation") -> str:
+    import tomli_w
+
+    return tomli_w.dumps(model.model_dump(mode="json", by_alias=True, exclude_none=True))
+
+
+def _with_rest(seconds: dict[str, float], total: float) -> dict[str, float]:
+    """Return seconds by phase with what no phase has counted, so that they sum to the total."""
+    return {**seconds, "rest": max(total - sum(seconds.values()), 0.0)}
