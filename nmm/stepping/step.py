@@ -14,7 +14,7 @@ from nmm.assembly.motion import State, move, strain_only, vertex_points
 from nmm.effects.base import Instant
 from nmm.errors import SolveError
 from nmm.solvers.linear import Factor, LinearSolver
-from nmm.stepping.integrators import Integrator
+from nmm.stepping.integrators import Integrator, Shi
 from nmm.stepping.plan import Plan
 from nmm.stepping.relay import Lay, relay
 
@@ -74,6 +74,8 @@ class Stepper:
         self.model = model
         self.plan = plan
         self._integrator = integrator
+        self._starter = Shi(kinetic_factor=integrator.kinetic_factor)
+        self._begun = False
         self.solver = solver
         self.small = small
         self._lay = lay
@@ -83,7 +85,7 @@ class Stepper:
         self._size = float(np.hypot(*np.ptp(self.reference, axis=0)))
         self._reach = FIRST_REACH * self._size
         self._factor: Factor | None = None
-        self._kept: tuple[tuple[float, float], tuple[csc_array, csc_array], csc_array] | None = None
+        self._kept: tuple[float, tuple[csc_array, csc_array], csc_array] | None = None
         self._places: list[tuple[State, Floats]] = []
 
     @property
@@ -111,6 +113,7 @@ class Stepper:
     def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
         """Make an attempt the start of the next step; return it with its contacts as left."""
         self._reach = max(2 * attempt.motion, FIRST_REACH * self._size)
+        self._begun = True
         state, contact, contacts = attempt.state, self.plan.contact, None
         if contact is not None and attempt.solved is not None:
             contacts = contact.commit(attempt.solved, state)
@@ -137,27 +140,39 @@ class Stepper:
         """Number of joint points whose bond is broken."""
         return 0 if self.plan.contact is None else self.plan.contact.broken_bonds
 
+    @property
+    def _rule(self) -> Integrator:
+        """The integrator of the step.
+
+        The first step is Shi's: no acceleration is known at its start, least of all of bodies in
+        contact. Its error of the velocity, once of order 2 in the step, leaves orders as they are.
+        """
+        return self._integrator if self._begun else self._starter
+
     def _system(self, state: State, end: Instant, step: float | None) -> tuple[csc_array, Floats]:
         force = self.plan.force(state, end) - self.model.stiffness @ state.deformation
         inertia = self.plan.inertia
         if step is None or inertia is None:
             return self.plan.matrix(state, self.model.stiffness), force
-        integrator, weight = self._integrator, self._integrator.end_weight
+        integrator, weight = self._rule, self._rule.end_weight
         if weight < 1:
             now = Instant(state.time, state.load_factor)
             earlier = self.plan.force(state, now) - self.model.stiffness @ state.deformation
             force = weight * force + (1 - weight) * earlier
         velocity = integrator.kinetic_factor * state.velocity
         momentum = integrator.momentum(velocity, state.acceleration, step)
-        base = self._base(weight, integrator.mass_factor(step), inertia.mass)
-        return self.plan.matrix(state, base), force + inertia.mass @ momentum
+        base = self._base(integrator.mass_factor(step) / weight, inertia.mass)
+        matrix = self.plan.matrix(state, base)
+        if weight < 1:
+            matrix = csc_array(weight * matrix)
+        return matrix, force + inertia.mass @ momentum
 
-    def _base(self, weight: float, mass_factor: float, mass: csc_array) -> csc_array:
+    def _base(self, mass_factor: float, mass: csc_array) -> csc_array:
         """Return elasticity and inertia, the same object as long as the step's length stays."""
-        parts, factors = (self.model.stiffness, mass), (weight, mass_factor)
+        parts = (self.model.stiffness, mass)
         kept = self._kept
-        if kept is None or kept[0] != factors or any(map(is_not, kept[1], parts)):
-            kept = factors, parts, csc_array(weight * self.model.stiffness + mass_factor * mass)
+        if kept is None or kept[0] != mass_factor or any(map(is_not, kept[1], parts)):
+            kept = mass_factor, parts, csc_array(self.model.stiffness + mass_factor * mass)
             self._kept = kept
         return kept[2]
 
@@ -211,9 +226,9 @@ class Stepper:
         started = perf_counter()
         after = state
         if step is not None:
-            velocity, acceleration = self._integrator.rates(
+            velocity, acceleration = self._rule.rates(
                 increment,
-                self._integrator.kinetic_factor * state.velocity,
+                self._rule.kinetic_factor * state.velocity,
                 state.acceleration,
                 step,
             )
