@@ -1,0 +1,144 @@
+"""One mass on one spring: what the integrators damp, stretch, and how fast they converge."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.verification import text
+from nmm.verification.base import Case, Check, Checks, SceneCase
+from nmm.verification.reading import way
+
+if TYPE_CHECKING:
+    from nmm.stepping.run import Run
+
+# Omega: spectral radius and period elongation of Shi's rule, printed digits.
+SHI = {
+    0.05: (0.99937559, 2.863e-4),
+    0.1: (0.99750934, 1.1436e-3),
+    0.5: (0.94280904, 2.734e-2),
+    1.0: (0.81649658, 9.681e-2),
+}
+ROUNDING = "rounding of the fit of a recurrence to the displacements"
+
+
+def recurrence(u: Floats, omega: float) -> tuple[float, float]:
+    """Return spectral radius and period elongation of ``u[n+1] = a u[n] + b u[n-1]``.
+
+    Parameters
+    ----------
+    u
+        Displacements at equal steps.
+    omega
+        Angular frequency times step (rad).
+    """
+    a, b = np.linalg.lstsq(np.column_stack([u[1:-1], u[:-2]]), u[2:], rcond=None)[0]
+    radius = float(np.sqrt(-b))
+    return radius, float(omega / np.arccos(a / (2 * radius)) - 1)
+
+
+def oscillator(integrator: str, step: float, duration: float, options: str = "") -> str:
+    """Scene of a block of 1 kg on a spring of 1000 E = 1e6 N/m, thrown with 1 m/s."""
+    return text.scene(
+        f'title = "Oscillator"\nplane = "stress"\nduration = {duration!r}\n[inertia]\n'
+        f'[formulation.integrator]\ntype = "{integrator}"\nstep = {step!r}\n{options}',
+        [
+            text.material("mass", modulus=1e3, density=1.0),
+            text.block("block", "mass", text.rectangle((-0.5, -0.5), (0.5, 0.5))),
+            '[[supports]]\nname = "spring"\npoint = [0, 0]\nfix = ["x"]\n',
+            '[[initial_velocities]]\nblock = "block"\nvelocity = [1, 0]\n',
+            text.monitor("middle", (0, 0), "block"),
+        ],
+    )
+
+
+FREQUENCY = 1e3
+"""Angular frequency of `oscillator` (rad/s)."""
+
+
+@dataclass(frozen=True)
+class SpringBlock(SceneCase):
+    """A rigid block thrown against the spring of its support: Shi's exact numerical damping."""
+
+    name: ClassVar[str] = "B9 damping"
+    title: ClassVar[str] = "Numerical damping and period of one oscillator"
+    source: ClassVar[str] = "Eigenvalues of the step: rho = 1 / sqrt(1 + Omega^2 / 2) (Shi)"
+    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    omega: float = 0.1
+    integrator: str = "shi"
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return the tabulated frequencies with Shi's rule, and Newmark's without damping."""
+        return [*(cls(omega) for omega in SHI), cls(0.1, "newmark"), cls(1.0, "newmark")]
+
+    @property
+    def variant(self) -> str:
+        """Integrator and frequency times step."""
+        return f"{self.integrator}, Omega {self.omega}"
+
+    def scene(self) -> str:
+        """Return the oscillator for 40 steps."""
+        step = self.omega / FREQUENCY
+        return oscillator(self.integrator, step, 40 * step)
+
+    def measure(self, run: "Run") -> Checks:
+        """Fit the recurrence of an oscillator to the displacements."""
+        radius, elongation = recurrence(way(run, "middle")[:, 0], self.omega)
+        if self.integrator == "newmark":
+            return {"spectral radius": Check(radius, 1.0, 1e-10, ROUNDING)}
+        expected, longer = SHI[self.omega]
+        exact = float(1 / np.sqrt(1 + self.omega**2 / 2))
+        return {
+            "spectral radius": Check(radius, exact, 1e-10, ROUNDING),
+            "spectral radius, printed": Check(radius, expected, 1e-8, "printed digits"),
+            "period elongation": Check(elongation, longer, 3e-4, "printed digits"),
+        }
+
+
+@dataclass(frozen=True)
+class Order(Case):
+    """Error of the oscillator at a fixed time over three halvings of the step."""
+
+    name: ClassVar[str] = "B9 order"
+    title: ClassVar[str] = "Order of the time integrators"
+    source: ClassVar[str] = "u = (v / omega) sin(omega t)"
+    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    integrator: str = "shi"
+    options: str = ""
+    order: float = 1.0
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return every integrator."""
+        return [
+            cls("shi"),
+            cls("newmark", "beta = 0.25, gamma = 0.5", 2.0),
+            cls("generalized_alpha", "rho_inf = 0.8", 2.0),
+            cls("generalized_alpha", "rho_inf = 0.0", 2.0),
+        ]
+
+    @property
+    def variant(self) -> str:
+        """The integrator and its options."""
+        return f"{self.integrator} {self.options}".rstrip()
+
+    def checks(self, formulation: str) -> Checks:
+        """Measure the slope of the error between 64 and 512 steps."""
+        steps = np.array([64, 128, 256, 512])
+        slope = -np.polyfit(np.log(steps), np.log([self._error(int(n)) for n in steps]), 1)[0]
+        reason = "terms of the next order, a step of 1.3/64 over the first"
+        return {"order": Check(float(slope), self.order, 0.05, reason, scale=1.0)}
+
+    def _error(self, steps: int) -> float:
+        from nmm.scene import parse_scene
+        from nmm.stepping.run import run
+        from nmm.verification.formulations import chosen
+
+        duration = 1.3 / FREQUENCY
+        options = f"options = {{ {self.options} }}\n"
+        scene = parse_scene(oscillator(self.integrator, duration / steps, duration, options))
+        done = run(scene, chosen("rigid", scene.formulation))
+        return float(abs(way(done, "middle")[-1, 0] * FREQUENCY - np.sin(1.3)))

@@ -1,0 +1,65 @@
+"""What benchmarks read off runs."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from integration.arrays import Floats
+from integration.polygons import areas
+
+if TYPE_CHECKING:
+    from nmm.stepping.run import Run
+
+
+def way(run: "Run", monitor: str) -> Floats:
+    """Displacement (steps, 2) of a monitor (m)."""
+    columns = [run.history[f"monitor:{monitor}:u{axis}"] for axis in "xy"]
+    return np.stack(columns, axis=1)
+
+
+def last_way(run: "Run", monitor: str) -> Floats:
+    """Displacement (2,) of a monitor at the end (m)."""
+    return np.asarray(way(run, monitor)[-1])
+
+
+def rates(run: "Run") -> Floats:
+    """Velocity of the centroid and rate of rotation (B, 3) of the bodies at the end, in space."""
+    state, model = run.state, run.stepper.model
+    mean = np.asarray(model.rigid_projection @ state.velocity).reshape(-1, 3)
+    bodies = np.arange(len(mean))
+    return np.column_stack([state.frames.to_global(bodies, mean[:, :2]), mean[:, 2]])
+
+
+def momentum(run: "Run") -> Floats:
+    """Momentum x, y (N s) and angular momentum about the origin (N m s) of all bodies (3,)."""
+    state, model = run.state, run.stepper.model
+    forces = np.asarray(model.mass @ state.velocity)
+    modes = np.asarray((model.manifold.rigid_modes.T @ forces).reshape(-1, 3))
+    bodies = np.arange(len(modes))
+    linear = state.frames.to_global(bodies, modes[:, :2])
+    arm = state.frames.centre
+    spin = modes[:, 2] + arm[:, 0] * linear[:, 1] - arm[:, 1] * linear[:, 0]
+    return np.array([*linear.sum(axis=0), spin.sum()])
+
+
+def masses(run: "Run") -> Floats:
+    """Mass (B,) of the bodies (kg), one element each."""
+    model = run.stepper.model
+    return np.asarray(areas(model.manifold.elements) * model.density * model.thickness)
+
+
+def joint_force(run: "Run", point: Floats, normal: Floats) -> Floats:
+    """Resultant normal and shear force (2,) of the contacts on a line, at the end (N).
+
+    The line goes through ``point`` with the unit ``normal``; contacts count that lie on it within
+    1e-3 of the domain and face along it. Tension and anticlockwise shear are positive.
+    """
+    frame = run.frames[-1]
+    near = np.abs((frame.contact_position - point) @ normal) < 1e-3 * run.stepper.size
+    along = np.abs(frame.contact_normal @ normal) > 0.99
+    return np.asarray(frame.contact_force[near & along].sum(axis=0))
+
+
+def converged(run: "Run") -> bool:
+    """Whether the run came to its end."""
+    return run.summary.status == "converged"

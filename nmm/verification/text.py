@@ -1,0 +1,65 @@
+"""Pieces of scene files that benchmarks share."""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from integration.arrays import Floats
+
+G = 9.81
+"""Acceleration of gravity in all benchmarks (m/s2)."""
+
+Corner = tuple[float, float]
+
+
+def rectangle(low: Corner, high: Corner) -> Floats:
+    """Corners (4, 2) of a rectangle, counter-clockwise from its lower left."""
+    (a, b), (c, d) = low, high
+    return np.array([(a, b), (c, b), (c, d), (a, d)])
+
+
+def turned(points: Floats, angle: float) -> Floats:
+    """Return points turned about the origin by an angle in radians."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.asarray(points @ np.array([[c, s], [-s, c]]))
+
+
+def block(name: str, material: str, vertices: Sequence[Corner] | Floats) -> str:
+    """Table of a block; vertices are written so that they are read back to the last digit."""
+    return (
+        f'[[blocks]]\nname = "{name}"\nmaterial = "{material}"\n'
+        f"vertices = {np.asarray(vertices, dtype=float).tolist()}\n"
+    )
+
+
+def material(
+    name: str, modulus: float = 20e9, poisson: float = 0.2, density: float | None = 2600.0
+) -> str:
+    """Table of an elastic material; stiff rock by default: E / (rho g H) is 8e5 at 1 m."""
+    weight = "" if density is None else f"density = {density!r}\n"
+    return f"[materials.{name}]\nyoung_modulus = {modulus!r}\npoisson_ratio = {poisson!r}\n{weight}"
+
+
+def interface(
+    name: str, friction: float, between: tuple[str, str] | None = None, **more: float | bool
+) -> str:
+    """Table of an interface; ``friction`` is its angle in degrees."""
+    pair = "" if between is None else f'between = ["{between[0]}", "{between[1]}"]\n'
+    rest = "".join(f"{key} = {str(value).lower()}\n" for key, value in more.items())
+    return f'[interfaces.{name}]\nfriction_angle = "{friction!r} deg"\n{pair}{rest}'
+
+
+def held(name: str) -> str:
+    """Table of a support that holds a whole block."""
+    return f'[[supports]]\nname = "hold {name}"\nblock = "{name}"\nfix = ["x", "y"]\n'
+
+
+def monitor(name: str, point: Corner | Floats, block: str) -> str:
+    """Table of a monitor."""
+    where = [float(value) for value in point]
+    return f'[[monitors]]\nname = "{name}"\npoint = {where}\nblock = "{block}"\n'
+
+
+def scene(head: str, tables: Iterable[str]) -> str:
+    """Return a whole scene file."""
+    return "\n".join([head, *tables])
