@@ -27,11 +27,17 @@ class Place:
         (m,) the elements they lie in.
     weight
         (m,) 1 / number of points for a point; length (m) for a segment.
+    position
+        (m, 2) where they lie in the reference place.
+    normal
+        (m, 2) outward normals of the boundary in the reference place; None at a point.
     """
 
     points: MaterialPoints
     elements: Ints
     weight: Floats
+    position: Floats
+    normal: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.weight)
@@ -54,7 +60,7 @@ def at_point(manifold: Manifold, point: Floats, regions: Bools | None = None) ->
     elements = found[first]
     points = np.tile(point, (len(elements), 1))
     weight = np.full(len(elements), 1 / max(len(elements), 1))
-    return Place(material_points(manifold, elements, points), elements, weight)
+    return Place(material_points(manifold, elements, points), elements, weight, points)
 
 
 def on_segment(
@@ -78,20 +84,37 @@ def on_segment(
         touching &= regions[manifold.element_region[edges.element]]
     index = np.flatnonzero(touching)
     start, end = a + low[index, None] * t, a + high[index, None] * t
-    points, weight = segment_rule(start, end, order)
-    elements = np.repeat(edges.element[index], weight.shape[1])
-    flat = points.reshape(-1, 2)
-    return Place(material_points(manifold, elements, flat), elements, weight.ravel())
+    return _gauss(manifold, index, start, end, order)
 
 
 def on_block(manifold: Manifold, regions: Bools, order: int = 4) -> Place:
     """Return Gauss points on all boundary edges of the chosen regions."""
     edges = manifold.boundary
-    index = np.flatnonzero(regions[manifold.element_region[edges.element]])
-    points, weight = segment_rule(edges.start[index], edges.end[index], order)
-    elements = np.repeat(edges.element[index], weight.shape[1])
+    return on_edges(manifold, regions[manifold.element_region[edges.element]], order)
+
+
+def on_edges(manifold: Manifold, chosen: Bools, order: int = 4) -> Place:
+    """Return Gauss points on chosen edges (n,) of the boundary."""
+    edges, index = manifold.boundary, np.flatnonzero(chosen)
+    return _gauss(manifold, index, edges.start[index], edges.end[index], order)
+
+
+def _gauss(manifold: Manifold, edge: Ints, start: Floats, end: Floats, order: int) -> Place:
+    """Gauss points on parts of boundary edges."""
+    edges = manifold.boundary
+    points, weight = segment_rule(start, end, order)
+    q = weight.shape[1]
+    elements = np.repeat(edges.element[edge], q)
+    along = edges.end[edge] - edges.start[edge]
+    normal = np.stack([along[:, 1], -along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
     flat = points.reshape(-1, 2)
-    return Place(material_points(manifold, elements, flat), elements, weight.ravel())
+    return Place(
+        material_points(manifold, elements, flat),
+        elements,
+        weight.ravel(),
+        flat,
+        np.repeat(normal, q, axis=0),
+    )
 
 
 def _size(manifold: Manifold) -> float:

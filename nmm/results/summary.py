@@ -36,8 +36,10 @@ class Summary:
     ----------
     status, sentence
         Code of the verdict ("running", "converged", ...) and the sentence that explains it.
-    blocks, elements, unknowns, steps, passes
-        Counts; passes are contact passes summed over steps.
+    blocks, elements, covers, unknowns, steps, passes
+        Counts; covers are physical covers, passes are contact passes summed over steps.
+    cures
+        What was done about dependent functions and small cuts, and on how many of them.
     seconds, effect_seconds
         Wall-clock seconds by phase and by effect.
     peak_memory
@@ -64,7 +66,9 @@ class Summary:
     title: str = ""
     blocks: int = 0
     elements: int = 0
+    covers: int = 0
     unknowns: int = 0
+    cures: Mapping[str, int] = field(default_factory=dict)
     steps: int = 0
     passes: int = 0
     seconds: Mapping[str, float] = field(default_factory=dict)
@@ -152,6 +156,7 @@ def rows(summary: Summary) -> list[tuple[str, str]]:
         ("blocks", f"{summary.blocks:,}"),
         ("elements", f"{summary.elements:,}"),
         ("unknowns", f"{summary.unknowns:,}"),
+        ("cures", _counts(summary.cures)),
         ("steps", f"{summary.steps:,}"),
         ("contact passes", f"{summary.passes:,}"),
         ("failure load", _or_none(summary.failure_load, _newton)),

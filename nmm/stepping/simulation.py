@@ -21,8 +21,8 @@ from nmm.results.sink import Sink
 from nmm.results.summary import Summary
 from nmm.results.tee import Frames, Tee
 from nmm.scene import scene_hash
-from nmm.solvers.linear import make_solver
 from nmm.stepping.build import block_functions, build_model
+from nmm.stepping.cures import cures, solver_for
 from nmm.stepping.dynamics import Schedule, run_in_time
 from nmm.stepping.integrators import INTEGRATORS, Integrator
 from nmm.stepping.plan import Plan, compile_plan
@@ -144,7 +144,9 @@ class Simulation:
             title=self.scene.title,
             blocks=len(self.regions.polygons),
             elements=len(self.stepper.model.manifold.elements),
+            covers=self.stepper.model.manifold.n_covers,
             unknowns=self.stepper.model.manifold.n_unknowns,
+            cures=cures(self.stepper.model.manifold, self.stepper.solver),
             seed=seeds[0] if seeds else self.scene.seed,
             scene_hash=scene_hash(self.scene),
             formulation_hash=formulation_hash(self.formulation),
@@ -191,7 +193,7 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
         model,
         plan,
         _integrator(formulation),
-        make_solver(formulation.solver.type, formulation.solver.options),
+        solver_for(model.manifold, formulation.solver),
         small=_small(scene, formulation),
         lay=_lay(formulation, model, plan),
     )
