@@ -69,6 +69,27 @@ def _distance2(p, a, b):  # type: ignore[no-untyped-def]
 
 
 @_compiled
+def _apart(start, end, following, previous, v, e):  # type: ignore[no-untyped-def]
+    """Whether vertex and edge of one body can meet: across a reentrant corner at the nearest."""
+    before = previous[v]
+    if e in (v, before):
+        return False
+    if e == following[v]:
+        return _reentrant(start[v], end[v], end[e])
+    if e == previous[before]:
+        return _reentrant(start[e], end[e], start[v])
+    return True
+
+
+@_compiled
+def _reentrant(a, b, c):  # type: ignore[no-untyped-def]
+    """Whether a corner turns to the right, or straight back as the tip of a slit does."""
+    ux, uy, wx, wy = b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]
+    turn, size = ux * wy - uy * wx, math.sqrt((ux * ux + uy * uy) * (wx * wx + wy * wy))
+    return turn <= 1e-9 * size and (turn < 0.0 or ux * wx + uy * wy < 0.0)
+
+
+@_compiled
 def _search(  # type: ignore[no-untyped-def]
     start, end, body, following, previous, reaches, within, cell, rows, offset, edges, keys
 ):
@@ -82,12 +103,12 @@ def _search(  # type: ignore[no-untyped-def]
         p = start[v]
         i, j = math.floor(p[0] / cell), math.floor(p[1] / cell)
         key, bucket = _key(i, j), _bucket(i, j, rows, mask)
-        own, before, reach = body[v], previous[v], reaches[v]
+        own, reach = body[v], reaches[v]
         for k in range(offset[bucket], offset[bucket + 1]):
             if keys[k] != key:
                 continue
             e = edges[k]
-            if body[e] == own and (not within or e in (v, before, following[v], previous[before])):
+            if body[e] == own and not (within and _apart(start, end, following, previous, v, e)):
                 continue
             distance = min(reach, reaches[e])
             if _distance2(p, start[e], end[e]) > distance * distance:

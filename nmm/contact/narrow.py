@@ -217,8 +217,9 @@ def _contacts(
     length = surface.length[e]
     parameter = np.clip(along / length, 0.0, 1.0)
     corner = np.where(parameter > 0.5, surface.next[e], e)
-    apart = np.hypot(*(surface.start[v] - surface.start[corner]).T)
-    near = apart <= FLUSH * np.minimum(surface.thickness[v], surface.thickness[e])
+    beside = np.minimum(np.abs(along), np.abs(length - along))
+    thinner = np.minimum(surface.thickness[v], surface.thickness[e])
+    near = beside <= FLUSH * thinner + _rounding(surface)
     return Contacts(
         vertex=v,
         edge=e,

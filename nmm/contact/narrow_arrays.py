@@ -77,9 +77,12 @@ def select(
     along, gap = measure(surface, v, e)
     covers = _covers(surface, v, e, along, gap, rules)
     length = surface.length[e]
-    slop = 1e-9 * length + rules.rounding
+    # A contact stays a little beyond the end of its edge, lest two vertices take turns.
+    slop = np.where(last, _flush(surface, v, e, rules), 1e-9 * length + rules.rounding)
     interior = (along >= -slop) & (along <= length + slop)
-    depth = rules.depth * _thinner(surface, v, e)
+    # In one body the far face of a thin neck looks like a face that is overlapped.
+    trusted = last | (surface.body[v] != surface.body[e])
+    depth = np.where(trusted, rules.depth, rules.flush) * _thinner(surface, v, e)
     usable = _convex(surface, rules)[v] & (gap >= -depth) & (gap <= rules.reach)
     usable &= _leaves(surface, covers, v, e, rules)
     usable &= ~_shielded(surface, covers, e, along, surface.body[v], rules)
@@ -327,7 +330,9 @@ def _pair_rule(
     picked = lines[best, np.arange(len(v))]
     chosen = normal[best, np.arange(len(v))]
     agree = np.einsum("kij,ij->ki", normal, chosen) >= 1.0 - 2.0 * rules.sine**2
-    merged = np.hypot(*offset.T) <= _flush(surface, v, w, rules)
+    # Contacts that are one above the other are one, however wide the gap.
+    beside = np.abs(_cross(chosen, offset))
+    merged = beside <= _flush(surface, v, w, rules)
     drop = standing & (~agree | merged) & (lines != picked)
 
     longest = np.stack([surface.length[k] for k in (v, before[v], w, before[w])]).max(axis=0)

@@ -234,7 +234,7 @@ def _inside(shape, one, other, rules):  # type: ignore[no-untyped-def]
 
 
 @_compiled
-def _judge(shape, v, edge, low, high, s, gap, state, rules):  # type: ignore[no-untyped-def]
+def _judge(shape, v, edge, low, high, s, gap, known, state, rules):  # type: ignore[no-untyped-def]
     """Enter for each row of a vertex whether the foot is inside and the edge can be entered."""
     p = shape.link[v, PREVIOUS]
     ox, oy = shape.real[v, TX], shape.real[v, TY]
@@ -242,13 +242,17 @@ def _judge(shape, v, edge, low, high, s, gap, state, rules):  # type: ignore[no-
     covered = shape.link[v, OWN] >= 0 or shape.link[v, BEFORE] >= 0
     for k in range(low, high):
         e = edge[k]
-        slop = 1e-9 * shape.real[e, LENGTH] + rules.rounding
+        # A contact stays a little beyond the end of its edge, lest two vertices take turns.
+        slop = rules.rounding
+        slop += rules.flush * _thinner(shape, v, e) if known[k] else 1e-9 * shape.real[e, LENGTH]
         state[k] = 0
         if s[k] >= -slop and s[k] <= shape.real[e, LENGTH] + slop:
             state[k] = _INTERIOR
         if not shape.link[v, CONVEX] or gap[k] > rules.reach:
             continue
-        if gap[k] < -rules.depth * _thinner(shape, v, e):
+        # In one body the far face of a thin neck looks like a face that is overlapped.
+        trusted = known[k] or shape.link[v, BODY] != shape.link[e, BODY]
+        if gap[k] < -(rules.depth if trusted else rules.flush) * _thinner(shape, v, e):
             continue
         if not _leaves(shape, e, ox, oy, bx, by, rules):
             continue
@@ -346,7 +350,9 @@ def _pair(shape, v, w, edge, offset, state, rank, kept, final, rules):  # type: 
         best = _best(lines, standing, rank)
         if best < 0:
             return
-        merged = apart <= rules.flush * thin + rules.rounding
+        # Contacts that are one above the other are one, however wide the gap.
+        beside = abs(dx * shape.real[on[best], TX] + dy * shape.real[on[best], TY])
+        merged = beside <= rules.flush * thin + rules.rounding
         for i in range(4):
             if i == best or not standing[i]:
                 continue
@@ -377,6 +383,21 @@ def _pair(shape, v, w, edge, offset, state, rank, kept, final, rules):  # type: 
 
 
 @_compiled
+def _known(edge, offset, last):  # type: ignore[no-untyped-def]
+    """Which rows were contacts before; both lists rise, so one walk along them tells."""
+    n = len(offset) - 1
+    known = np.zeros(len(edge), np.bool_)
+    at = 0
+    for v in range(n):
+        for k in range(offset[v], offset[v + 1]):
+            key = v * n + edge[k]
+            while at < len(last) and last[at] < key:
+                at += 1
+            known[k] = at < len(last) and last[at] == key
+    return known
+
+
+@_compiled
 def select(shape, vertex, edge, offset, last, motion, rules):  # type: ignore[no-untyped-def]
     """Return the kept rows, and kept, along and gap of all rows, as `narrow_arrays.select`.
 
@@ -391,18 +412,13 @@ def select(shape, vertex, edge, offset, last, motion, rules):  # type: ignore[no
         _cover(shape, v, edge, low, high, s, gap, rules)
     state, kept = np.empty(m, np.int8), np.empty(m, np.int8)
     rank = np.empty(m)
-    at = 0
+    known = _known(edge, offset, last)
     for v in range(n):
         low, high = offset[v], offset[v + 1]
-        _judge(shape, v, edge, low, high, s, gap, state, rules)
+        _judge(shape, v, edge, low, high, s, gap, known, state, rules)
         for k in range(low, high):
-            if not state[k] & _USABLE:
-                continue
-            key = v * n + edge[k]
-            while at < len(last) and last[at] < key:
-                at += 1
-            known = at < len(last) and last[at] == key
-            rank[k] = _rank(shape, motion, v, edge[k], s[k], gap[k], known, rules)
+            if state[k] & _USABLE:
+                rank[k] = _rank(shape, motion, v, edge[k], s[k], gap[k], known[k], rules)
         _dominate(shape, edge, low, high, gap, state, rank, kept, rules)
     final = kept.copy()
     for k in range(m):
@@ -429,10 +445,8 @@ def describe(shape, vertex, edge, rows, final, s, gap, rules):  # type: ignore[n
         parameter[i] = min(max(s[k] / shape.real[x, LENGTH], 0.0), 1.0)
         normal[i, 0], normal[i, 1] = shape.real[x, TY], -shape.real[x, TX]
         corner[i] = shape.link[x, NEXT] if parameter[i] > 0.5 else x
-        dx = shape.real[v[i], SX] - shape.real[corner[i], SX]
-        dy = shape.real[v[i], SY] - shape.real[corner[i], SY]
-        flush = rules.flush * _thinner(shape, v[i], x)
-        near = dx * dx + dy * dy <= flush * flush
+        beside = min(abs(s[k]), abs(shape.real[x, LENGTH] - s[k]))
+        near = beside <= rules.flush * _thinner(shape, v[i], x) + rules.rounding
         kind[i] = 1 if near or final[k] == 2 else 0
     return v, e, parameter, normal, distance, kind, key, body, corner
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from nmm.contact.surface import Surface
 
 # Vertices are followed into another body by this fraction of the thinner body's thickness.
@@ -25,8 +25,8 @@ def near_pairs(
         The largest distance (m) of a vertex from the segment; an array (n,) gives one to each
         vertex and edge, and the smaller of the two counts.
     within_bodies
-        Also pairs of one body, as the faces of a crack in it: all but the edges at the vertex and
-        those that share an end with them.
+        Also pairs of one body, as the faces of a crack in it: all but the edges at the vertex, and
+        those that share an end with them at a corner that is not reentrant.
     """
     # Compiled code is loaded by the first search, not by whoever names this module.
     from nmm.contact.grid import pairs_by_grid
@@ -52,11 +52,22 @@ def near_pairs_by_tree(
     vertex, edge = tree.query(points, predicate="dwithin", distance=distance).astype(np.int64)
     keep = surface.body[vertex] != surface.body[edge]
     if within_bodies:
-        before, after = surface.previous, surface.next
-        close = (edge == vertex) | (edge == before[vertex]) | (edge == after[vertex])
-        keep |= ~close & (edge != before[before[vertex]])
+        keep |= _apart(surface, vertex, edge)
     order = np.lexsort((edge[keep], vertex[keep]))
     return vertex[keep][order], edge[keep][order]
+
+
+def _apart(surface: Surface, vertex: Ints, edge: Ints) -> Bools:
+    """Pairs of which vertex and edge can meet: across a reentrant corner at the nearest."""
+    before, after = surface.previous, surface.next
+    u = surface.direction[before]
+    turn = u[:, 0] * surface.direction[:, 1] - u[:, 1] * surface.direction[:, 0]
+    back = (u * surface.direction).sum(axis=1) < 0.0
+    reentrant = (turn <= 1e-9) & ((turn < 0.0) | back)
+    close = (edge == vertex) | (edge == before[vertex])
+    close |= (edge == after[vertex]) & ~reentrant[after[vertex]]
+    close |= (edge == before[before[vertex]]) & ~reentrant[before[vertex]]
+    return np.asarray(~close)
 
 
 class NeighbourList:

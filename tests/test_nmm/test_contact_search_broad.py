@@ -102,9 +102,8 @@ def test_faces_of_a_crack_are_paired_on_request_but_not_the_edges_at_the_vertex(
     surface = polygon_surface(Polygons.from_vertices([slit]))
     assert as_set(near_pairs(surface, 0.05)) == set()
     pairs = as_set(near_pairs(surface, 0.05, within_bodies=True))
-    # Vertices 2 and 4 are the mouths; 3-4 and 2-3 share the tip with their own edges; 4-5 and 1-2
-    # are the outer edges beside the opposite mouth.
-    assert pairs == {(2, 4), (4, 1)}
+    # Vertices 2 and 4 are the mouths: each meets the opposite face and the edge beyond its mouth.
+    assert pairs == {(2, 3), (2, 4), (4, 2), (4, 1)}
     assert as_set(near_pairs_by_tree(surface, 0.05, within_bodies=True)) == pairs
 
 
