@@ -137,7 +137,9 @@ def _overlaps(shapes: npt.NDArray[np.object_], rounding: float) -> Ints:
     """Pairs (n, 2) of regions that overlap in more than a strip of rounding."""
     one, two = shapely.STRtree(shapes).query(shapes, predicate="intersects")
     one, two = one[one < two], two[one < two]
-    area = np.asarray(shapely.area(shapely.intersection(shapes[one], shapes[two])))
+    # On a grid: without one GEOS may give a whole polygon for two that touch up to rounding.
+    common = shapely.intersection(shapes[one], shapes[two], grid_size=rounding)
+    area = np.asarray(shapely.area(common))
     length = np.minimum(shapely.length(shapes[one]), shapely.length(shapes[two]))
     return np.asarray(np.stack([one, two], axis=1)[area > rounding * length], dtype=np.int64)
 

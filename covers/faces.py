@@ -90,13 +90,7 @@ class Faces:
 
 
 def faces_of(lines: Lines, sources: Sources, cells: Cells) -> Faces:
-    """Return the faces between noded lines.
-
-    Raises
-    ------
-    ValueError
-        A boundary with material on both sides of a face: it is thinner than rounding.
-    """
+    """Return the faces between noded lines."""
     edges, edge = undirected(lines.start, lines.end)
     half = half_edges(lines.steps, edges)
     along = 2 * edge + (lines.start != edges[edge, 0])
@@ -115,16 +109,26 @@ def faces_of(lines: Lines, sources: Sources, cells: Cells) -> Faces:
     closure = np.ones(len(edges), dtype=bool)
     closure[edge[kind >= 0]] = False
 
-    left = np.full(2 * len(edges), -1, dtype=np.int64)
-    left[along[kind == BOUNDARY]] = owner[kind == BOUNDARY]
-    twin = left.reshape(-1, 2)[:, ::-1].ravel()
-    left[(left == twin) & (left >= 0)] = -1  # a strip of no width
+    rim = kind == BOUNDARY
+    left = _material_on_the_left(len(edges), along[rim], owner[rim])
 
     cell = _cells_of_loops(half, on_mesh, side, cells.touched)
-    region = _regions_of_loops(half, left, cell, cells.region)
+    length = np.hypot(*(lines.steps[half.head] - lines.steps[half.origin]).T)
+    region = _regions_of_loops(half, length, left, cell, cells.region)
     return Faces(
         lines.steps, lines.points, edges, half, on_mesh, crack, closure, side, cell, region
     )
+
+
+def _material_on_the_left(n: int, along: Ints, region: Ints) -> Ints:
+    """Region (2 n,) whose boundary runs along each half-edge more often than back, or -1."""
+    regions = int(region.max(initial=0)) + 1
+    key, group = np.unique((along // 2) * regions + region, return_inverse=True)
+    net = np.bincount(group, 1.0 - 2.0 * (along % 2), minlength=len(key))
+    left = np.full(2 * n, -1, dtype=np.int64)
+    runs = net != 0
+    left[2 * (key[runs] // regions) + (net[runs] < 0)] = key[runs] % regions
+    return left
 
 
 def _cells_of_loops(half: HalfEdges, on_mesh: Bools, side: Ints, touched: Bools) -> Ints:
@@ -138,24 +142,31 @@ def _cells_of_loops(half: HalfEdges, on_mesh: Bools, side: Ints, touched: Bools)
     return cell[patch]
 
 
-def _regions_of_loops(half: HalfEdges, left: Ints, cell: Ints, cell_region: Ints) -> Ints:
+def _regions_of_loops(
+    half: HalfEdges, length: Floats, left: Ints, cell: Ints, cell_region: Ints
+) -> Ints:
     """Region of each loop: faces that meet off all boundaries lie in one region or outside."""
     right = left.reshape(-1, 2)[:, ::-1].ravel()
     free = (left[0::2] < 0) & (left[1::2] < 0)
     part = components(half.n_loops, half.loop[0::2][free], half.loop[1::2][free])
-    unknown = -2
-    region = np.full(half.n_loops, unknown, dtype=np.int64)
-    outside = (left < 0) & (right >= 0)
-    region[part[half.loop[outside]]] = -1
-    inside = left >= 0
-    crossed = region[part[half.loop[inside]]] == -1
-    if crossed.any():
-        number = int(left[inside][np.flatnonzero(crossed)[0]])
-        raise ValueError(
-            f"region {number}: a part thinner than rounding changes its inside: parts wider than "
-            "1e-13 of the model expected: simplify its boundary"
-        )
-    region[part[half.loop[inside]]] = left[inside]
-    held = np.flatnonzero((region[part] == unknown) & (cell >= 0))
-    region[part[held]] = cell_region[cell[held]]
-    return np.where(region[part] == unknown, -1, region[part])
+    claim = np.flatnonzero((left >= 0) | (right >= 0))
+    known, region = _longest_claims(part[half.loop[claim]], left[claim], length[claim])
+    of_part = np.full(half.n_loops, -2, dtype=np.int64)
+    of_part[known] = region
+    held = np.flatnonzero((of_part[part] == -2) & (cell >= 0))
+    of_part[part[held]] = cell_region[cell[held]]
+    return np.maximum(of_part[part], -1)
+
+
+def _longest_claims(part: Ints, region: Ints, length: Floats) -> tuple[Ints, Ints]:
+    """For each part the region that most of its boundary belongs to, -1 for the outside.
+
+    The boundary of a part is of one mind but for places of the size of rounding, where snapping
+    may have turned a corner inside out.
+    """
+    regions = int(region.max(initial=-1)) + 2
+    key, group = np.unique(part * regions + region + 1, return_inverse=True)
+    total = np.bincount(group, length, minlength=len(key))
+    order = np.lexsort((-total, key // regions))
+    parts, first = np.unique(key[order] // regions, return_index=True)
+    return parts, key[order[first]] % regions - 1

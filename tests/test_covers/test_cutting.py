@@ -297,6 +297,40 @@ def test_regions_that_share_a_corner_with_a_long_edge_meet_without_gap_or_overla
     assert cut(cover, polygons, glue=[0, 0, 0]).n_bodies == 1
 
 
+def test_regions_that_touch_up_to_rounding_do_not_count_as_overlapping():
+    """GEOS gives the whole first polygon as the intersection of the two but for a grid."""
+    rings = [
+        [[0.6909469195456848, 0.4338043068500317], [0.932820625140881, 6.796473625767257e-17],
+         [1, -4.631026479705913e-17], [0.9999999999999999, 1], [0.5159956156621635, 1]],
+        [[0.3752565305114259, 0.9999999999999999], [-9.185984640721849e-17, 1],
+         [7.215333888029294e-17, 3.4816391118732005e-17],
+         [0.8249900251925482, -2.846475654610694e-17],
+         [0.932820625140881, 5.3619835644014803e-17]],
+    ]  # fmt: skip
+    result = cut(Triangles.regular([[0, 0], [1, 1]], 0.3, angle=1), Polygons.from_vertices(rings))
+    edges = result.boundary
+    shared = np.hypot(*(edges.end - edges.start)[edges.opposite >= 0].T).sum()
+    along = np.hypot(0.932820625140881 - 0.6909469195456848, 0.4338043068500317)
+    assert shared == pytest.approx(2 * along, rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_clusters_of_vertices_of_the_size_of_rounding_do_not_turn_a_region_inside_out(seed):
+    random = np.random.default_rng(seed)
+    cover = Triangles.regular([[-0.2, -0.2], [1.2, 1.2]], 0.3, angle=0.5)
+    away = 10.0 ** random.uniform(-16, -9)
+    corners = np.array([[0, 0.1], [0.5, 0], [1, 0.3], [0.6, 0.5], [0.9, 1], [0.2, 0.8]])
+    near = cover.vertices[
+        [np.argmin(np.hypot(*(cover.vertices - corner).T)) for corner in corners[::2]]
+    ]
+    corners[::2] = near
+    ring = np.repeat(corners, 3, axis=0) + random.uniform(-away, away, (18, 2))
+    block = Polygons.from_vertices([ring])
+    result = cut(cover, block)
+    assert result.elements.areas.sum() == pytest.approx(block.areas[0], rel=1e-12)
+    assert result.n_bodies == 1
+
+
 def test_overlapping_regions_are_cut_apart_from_one_another():
     shapes = [shapely.box(0, 0, 2, 2), shapely.box(1.5, 1.5, 3, 3), shapely.box(0.5, 0.5, 1, 1)]
     result = cut(CELLS, regions(*shapes))
