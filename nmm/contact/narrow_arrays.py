@@ -127,7 +127,10 @@ def _flush(surface: Surface, one: Ints, other: Ints, rules: Rules) -> Floats:
 
 
 def _covers(surface: Surface, v: Ints, e: Ints, along: Floats, gap: Floats, rules: Rules) -> Covers:
-    """Find, for both edges at each vertex, the nearest flush opposite edge of another body."""
+    """Find, for both edges at each vertex, the flush opposite edge that runs along them furthest.
+
+    A corner pressed into the joint between two bodies is flush with both for its own depth only.
+    """
     cosine = np.sqrt(1.0 - rules.sine**2)
     other = surface.body[v] != surface.body[e]
     flush = _flush(surface, v, e, rules)
@@ -139,7 +142,7 @@ def _covers(surface: Surface, v: Ints, e: Ints, along: Floats, gap: Floats, rule
         close = other & opposite & (np.abs(gap) <= flush)
         close &= (beside > flush) & (beside <= surface.length[e] + flush)
         rows = np.flatnonzero(close)
-        rows = rows[np.lexsort((e[rows], np.abs(gap[rows]), v[rows]))]
+        rows = rows[np.lexsort((e[rows], -beside[rows], v[rows]))]
         vertex, first = np.unique(v[rows], return_index=True)
         cover = np.full(len(surface), -1, dtype=np.int64)
         cover[vertex] = e[rows[first]]

@@ -106,21 +106,20 @@ def _measure(shape, v, e):  # type: ignore[no-untyped-def]
 def _cover(shape, v, edge, low, high, s, gap, rules):  # type: ignore[no-untyped-def]
     """Enter the flush covers of both edges at a vertex."""
     cosine = math.sqrt(1.0 - rules.sine * rules.sine)
-    best_own = best_before = np.inf
+    best_own = best_before = 0.0
     for k in range(low, high):
         e = edge[k]
         if shape.link[e, BODY] == shape.link[v, BODY]:
             continue
         flush = rules.flush * _thinner(shape, v, e) + rules.rounding
-        off = abs(gap[k])
         length = shape.real[e, LENGTH]
-        if off > flush or s[k] < -flush or s[k] > length + flush:
+        if abs(gap[k]) > flush or s[k] < -flush or s[k] > length + flush:
             continue
-        p = shape.link[v, PREVIOUS]
-        if off < best_own and s[k] > flush and _dot(shape, v, e) <= -cosine:
-            shape.link[v, OWN], best_own = e, off
-        if off < best_before and length - s[k] > flush and _dot(shape, p, e) <= -cosine:
-            shape.link[v, BEFORE], best_before = e, off
+        p, back = shape.link[v, PREVIOUS], length - s[k]
+        if s[k] > max(best_own, flush) and _dot(shape, v, e) <= -cosine:
+            shape.link[v, OWN], best_own = e, s[k]
+        if back > max(best_before, flush) and _dot(shape, p, e) <= -cosine:
+            shape.link[v, BEFORE], best_before = e, back
 
 
 @_compiled
