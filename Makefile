@@ -31,7 +31,7 @@ verify: .venv/.dev
 	$(PY) -m pytest -m slow --durations=0
 
 bench: .venv/.dev
-	@set -e; for script in benchmarks/bench_*.py; do echo "== $$script"; $(PY) $$script; done
+	@set -e; for script in benchmarks/*.py; do echo "== $$script"; $(PY) $$script; done
 
 docs: .venv/.docs
 	$(PY) -m sphinx -q -W --keep-going docs docs/_build

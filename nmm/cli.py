@@ -1,5 +1,6 @@
 """The verbs of the command line. What they need is imported inside them, so that help is fast."""
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -154,6 +155,7 @@ def _run(place: Path, formulation: Path | None, out: Path, quiet: bool) -> None:
     import nmm
     from nmm.results.summary import render
 
+    _import_beside(place)
     scene = nmm.read_scene(place)
     chosen = _read_formulation(formulation)
     try:
@@ -179,8 +181,9 @@ def _explain(place: Path, formulation: Path | None) -> None:
     import nmm
     from nmm.formulation import Formulation
     from nmm.stepping.plan import called_for
-    from nmm.stepping.run import prepare
+    from nmm.stepping.simulation import prepare
 
+    _import_beside(place)
     scene = nmm.read_scene(place)
     chosen = _read_formulation(formulation) or scene.formulation or Formulation()
     prepared = prepare(scene, chosen)
@@ -266,6 +269,11 @@ def _frame_exists(frame: int | None, count: int) -> None:
 
     if frame is not None and not -count <= frame < count:
         raise NmmError(f"--frame {frame}: expected {-count} to {count - 1}: the run has {count}")
+
+
+def _import_beside(scene: Path) -> None:
+    """Let a scene name parts of modules in its own folder, behind all that is installed."""
+    sys.path.append(str(scene.resolve().parent))
 
 
 def _free(path: Path) -> Path:

@@ -21,8 +21,8 @@ class Registry(Generic[Part]):
     Attributes
     ----------
     kind
-        What the parts are, in words ("integrator"); packages offer more under the entry point
-        group ``nmm.<kind>``.
+        What the parts are, in words ("material law"); packages offer more under the entry point
+        group ``nmm.<kind>``, blanks as underscores.
     table
         Built-in names and the ``module:Name`` they stand for.
     """
@@ -60,4 +60,7 @@ class Registry(Generic[Part]):
             ) from fault
 
     def _installed(self) -> dict[str, str]:
-        return {entry.name: entry.value for entry in entry_points(group=f"nmm.{self.kind}")}
+        return {
+            entry.name: entry.value
+            for entry in entry_points(group=f"nmm.{self.kind.replace(' ', '_')}")
+        }

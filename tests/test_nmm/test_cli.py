@@ -148,6 +148,16 @@ def test_explain_says_what_is_not_simulated(scene):
     assert "unknowns: 12" in result.stdout  # two blocks of six
 
 
+def test_a_scene_may_name_a_law_of_a_module_beside_it(scene, tmp_path):
+    (tmp_path / "my_laws.py").write_text(
+        "from nmm.materials.elastic import Elastic\nclass Mine(Elastic):\n    pass\n"
+    )
+    path = tmp_path / "a.toml"
+    path.write_text(starter().replace("[materials.rock]", '[materials.rock]\nlaw = "my_laws:Mine"'))
+    result = call("explain", path)
+    assert result.exit_code == 0, result.output
+
+
 def test_new_writes_a_scene_that_is_sound_and_refuses_to_replace_one(tmp_path):
     path = tmp_path / "slope.toml"
     assert call("new", tmp_path / "slope").exit_code == 0

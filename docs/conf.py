@@ -1,0 +1,14 @@
+from importlib.metadata import version
+
+project = "nmm"
+copyright = "the nmm authors"
+release = version("nmm-framework")
+extensions = ["myst_parser", "sphinx.ext.mathjax"]
+myst_enable_extensions = ["dollarmath", "deflist"]
+myst_heading_anchors = 3
+suppress_warnings = [
+    "myst.xref_missing"
+]  # links to files outside docs/ serve readers of the source
+exclude_patterns = ["_build"]
+html_theme = "furo"
+html_title = f"nmm {release}"

@@ -1,0 +1,89 @@
+"""What the manual shows works as it stands there."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nmm import parse_scene
+from nmm.geometry import regions
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def blocks(path, language):
+    """Fenced blocks of one language in a page."""
+    return re.findall(rf"^```{language}\n(.*?)^```", (ROOT / path).read_text(), re.M | re.S)
+
+
+def test_the_first_scene_of_the_readme_is_sound():
+    (text,) = blocks("README.md", "toml")
+    assert len(regions(parse_scene(text))) == 2
+
+
+def test_the_python_of_the_readme_runs(tmp_path, monkeypatch, capsys):
+    (scene,) = blocks("README.md", "toml")
+    (code,) = blocks("README.md", "python")
+    monkeypatch.chdir(tmp_path)
+    Path("slope.toml").write_text(scene.replace('"0.5 s"', '"5 ms"'))
+    exec(code, {})
+    assert "0.005" in capsys.readouterr().out
+    assert Path("slope.png").stat().st_size > 10_000
+
+
+def test_the_law_of_the_manual_acts_in_a_scene(tmp_path, monkeypatch):
+    (code,) = blocks("docs/extending.md", "python")
+    (material,) = blocks("docs/extending.md", "toml")
+    (tmp_path / "orthotropic.py").write_text(code)
+    monkeypatch.syspath_prepend(tmp_path)
+    scene = parse_scene(
+        'title = "board"\nplane = "stress"\n'
+        + material
+        + """
+[[blocks]]
+material = "wood"
+vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[supports]]
+name = "bottom"
+segment = [[0, 0], [2, 0]]
+fix = ["y"]
+[[supports]]
+name = "corner"
+point = [0, 0]
+fix = ["x"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[2, 1], [0, 1]]
+traction = [0, "1 MPa"]
+[[monitors]]
+name = "top"
+point = [2, 1]
+"""
+    )
+    import nmm
+
+    uy = nmm.run(scene).history["monitor:top:uy"][-1]
+    # stress / modulus along y x height; supports are springs stiffer than the block by 1e5 at least
+    assert uy == pytest.approx(1e6 / (0.05 * 11e9) * 1.0, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    "page", ["README.md", *sorted(p.name for p in (ROOT / "docs").glob("*.md"))]
+)
+def test_links_of_a_page_lead_to_files(page):
+    path = ROOT / page if page == "README.md" else ROOT / "docs" / page
+    links = re.findall(r"\]\(([^)#:]+\.md)\)", path.read_text())
+    missing = [link for link in links if not (path.parent / link).exists()]
+    assert not missing
+
+
+def test_every_column_of_a_run_is_in_the_manual():
+    import nmm
+
+    (scene,) = blocks("README.md", "toml")
+    run = nmm.run(parse_scene(scene.replace('"0.5 s"', '"2 ms"')))
+    text = (ROOT / "docs/results.md").read_text()
+    columns = [name for name in run.history if ":" not in name]
+    assert np.all([f"`{name}`" in text for name in columns]), columns
