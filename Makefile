@@ -31,7 +31,8 @@ verify: .venv/.dev
 	$(PY) -m pytest -m slow --durations=0
 
 bench: .venv/.dev
-	@set -e; for script in benchmarks/*.py; do echo "== $$script"; $(PY) $$script; done
+	@set -e; for script in $$(grep -l __main__ benchmarks/*.py); do \
+	  echo "== $$script"; $(PY) $$script; done
 
 docs: .venv/.docs
 	$(PY) -m sphinx -q -W --keep-going docs docs/_build
