@@ -72,6 +72,26 @@ class Cover(_Part):
         return {**data, **plain, **degree}
 
 
+class SupportMethod(Frozen):
+    """How supports along edges are imposed; points are held by springs."""
+
+    method: Literal["auto", "penalty", "nitsche", "lagrange"] = Field(
+        default="auto",
+        description='"auto", "penalty", "nitsche" or "lagrange"; auto is springs for blocks and '
+        "Nitsche's method for meshes",
+        examples=["nitsche"],
+    )
+    stiffness: Number | None = Field(
+        default=None, gt=0, description="a spring in E / size of a cell, > 0", examples=[1e4]
+    )
+    gamma: Number | None = Field(
+        default=None, gt=0, description="Nitsche's penalty in (lambda + 2 mu) / size, > 0"
+    )
+    ghost: Number = Field(
+        default=0.5, ge=0, description="a ghost term in (lambda + 2 mu) / size^2, >= 0"
+    )
+
+
 class ContactMethod(_Part):
     """Enforcement of contact and joint conditions."""
 
@@ -141,6 +161,7 @@ class Formulation(Frozen):
 
     title: str = Field(default="", description="a title", examples=["DDA"])
     cover: Cover = Field(default=Cover(), description="a table [cover]")
+    supports: SupportMethod = Field(default=SupportMethod(), description="a table [supports]")
     contact: ContactMethod = Field(default=ContactMethod(), description="a table [contact]")
     integrator: Integrator = Field(default=Integrator(), description="a table [integrator]")
     rotation: Rotation = Field(default=Rotation(), description="a table [rotation]")

@@ -1,56 +1,46 @@
-"""Supports: points, edges or blocks held, or driven along a given displacement, by stiff springs.
+"""Supports: points, edges or blocks held, or driven along a given displacement.
 
-The spring is Shi's fixed point (1988): ``p`` times the distance from where the point should be, in
-the held directions alone. Its force is read from the whole distance, so nothing drifts over steps.
+Whatever the method, the force is read from the whole distance to where points should be, so that
+nothing drifts over steps.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
+from covers.ghost import ghost
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, at_point, on_block, on_segment
 from nmm.effects.base import Effect, Instant, Setup, factor_of
-from nmm.errors import GeometryError
+from nmm.effects.support_methods import (
+    Multipliers,
+    Nitsche,
+    Springs,
+    Support,
+    multiplier_basis,
+    traction_rows,
+)
+from nmm.errors import FormulationError, GeometryError
 
 if TYPE_CHECKING:
-    from nmm.scene.actions import Support as SceneSupport
+    from collections.abc import Callable
 
-# (x, y) in which a support may hold a point.
-AXES = np.eye(2)
+    from nmm.formulation import SupportMethod
+    from nmm.scene.actions import Support as SceneSupport
 
 # Spring of a support in Young's moduli times thickness: Shi's 10 to 1000, at the stiff end.
 STIFFNESS = 1000.0
-
-
-@dataclass(frozen=True)
-class Support:
-    """One support.
-
-    Attributes
-    ----------
-    name
-        As the scene calls it.
-    place
-        The points held.
-    stiffness
-        (m,) of the spring at each point (N/m).
-    held
-        (2,) whether x and y are held.
-    displacement
-        From the instant to the prescribed displacement (2,) in m.
-    """
-
-    name: str
-    place: Place
-    stiffness: Floats
-    held: Bools
-    displacement: Callable[[Instant], Floats]
+# Spring along edges of a mesh, in Young's moduli over the size of a cell.
+EDGE_STIFFNESS = 1e4
+# Nitsche's penalty in (lambda + 2 mu) / h by degree of the local functions, and the ghost term in
+# (lambda + 2 mu) / h^2: measured to keep the matrix positive down to cuts of 1e-6 of a cell.
+GAMMA = {0: 20.0, 1: 20.0, 2: 60.0, 3: 120.0}
+GHOST = 0.5
 
 
 class Supports(Effect):
@@ -73,92 +63,187 @@ class Supports(Effect):
         return cls(found, setup.model.manifold.n_unknowns, setup.start)
 
     def matrix(self, state: State) -> csc_array:
-        """Return the springs' stiffness, the same object as long as no held body turns."""
+        """Return the supports' stiffness, the same object as long as no held body turns."""
         angle = np.concatenate([state.frames.angle[body] for body in self._turning])
         if self._stood is None or not np.array_equal(self._stood[0], angle):
-            parts = [_stiffness(support, state) for support in self._supports]
+            parts = [support.stiffness(state) for support in self._supports]
             row, column, value = (np.concatenate(part) for part in zip(*parts, strict=True))
             total = csc_array((value, (row, column)), shape=(self._n, self._n))
             self._stood = angle, total
         return self._stood[1]
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the springs' pull at the start of the step towards the places at its end."""
+        """Return the pull at the start of the step towards the places at its end."""
         total = np.zeros(self._n)
         for number, support in enumerate(self._supports):
-            points = support.place.points
-            pull = support.stiffness[:, None] * support.held * self._lag(number, state, end)
-            local = points.along(state.frames, pull)
-            total += np.bincount(points.rows.unknowns.ravel(), local.ravel(), minlength=self._n)
+            total += support.pull(state, self._lag(number, state, end), self._n)
         return total
+
+    def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
+        """Conditions ``rows @ d = sides`` on the step's unknowns; None without multipliers."""
+        from scipy.sparse import vstack
+
+        found = [
+            support.border(state, self._lag(number, state, end), self._n)
+            for number, support in enumerate(self._supports)
+            if isinstance(support, Multipliers)
+        ]
+        if not found:
+            return None
+        return csr_array(vstack([rows for rows, _ in found])), np.concatenate(
+            [side for _, side in found]
+        )
+
+    def keep(self, multipliers: Floats) -> None:
+        """Remember the multipliers of the last solution, for reactions."""
+        for support in self._supports:
+            if isinstance(support, Multipliers):
+                size = int(support.held.sum()) * support.basis.shape[1]
+                support.found["traction"] = multipliers[:size]
+                multipliers = multipliers[size:]
 
     def energy(self, state: State) -> float:
         """Energy of the springs as they stand in ``state``, with places of its own instant."""
         now = Instant(state.time, state.load_factor)
-        return 0.5 * sum(
-            float(np.sum(s.stiffness[:, None] * s.held * self._lag(i, state, now) ** 2))
-            for i, s in enumerate(self._supports)
-        )
+        return sum(s.energy(self._lag(i, state, now)) for i, s in enumerate(self._supports))
 
     def reactions(self, state: State) -> dict[str, Floats]:
         """Return the force (2,) in N that each support exerts on the bodies."""
         now = Instant(state.time, state.load_factor)
         return {
-            s.name: np.sum(s.stiffness[:, None] * s.held * self._lag(i, state, now), axis=0)
+            s.name: s.reaction(state, self._lag(i, state, now))
             for i, s in enumerate(self._supports)
         }
 
     def _lag(self, number: int, state: State, end: Instant) -> Floats:
         support = self._supports[number]
         place = support.place.points.place(state.frames, state.deformation)
-        return self._anchors[number] + support.displacement(end) - place
+        return np.asarray(self._anchors[number] + support.displacement(end) - place)
 
     @cached_property
     def _turning(self) -> list[Ints]:
         """Bodies whose rotation changes the stiffness: springs alike in x and y do not turn."""
         none = [np.zeros(0, dtype=np.int64)]
-        return none + [np.unique(s.place.points.body) for s in self._supports if not s.held.all()]
+        return none + [np.unique(s.place.points.body) for s in self._supports if s.turns]
 
 
-def _stiffness(support: Support, state: State) -> tuple[Ints, Ints, Floats]:
-    """Rows, columns and values of a support's stiffness."""
-    points = support.place.points
-    unknowns = points.rows.unknowns
-    m, size = unknowns.shape
-    total = np.zeros((m, size, size))
-    if support.held.all():
-        values = points.rows.values
-        total = np.einsum("mca,m,mcb->mab", values, support.stiffness, values)
-    else:
-        for axis in np.flatnonzero(support.held).tolist():
-            rows = points.along(state.frames, np.tile(AXES[axis], (m, 1)))
-            total += np.einsum("ma,m,mb->mab", rows, support.stiffness, rows)
-    row = np.repeat(unknowns[:, :, None], size, axis=2)
-    return row.ravel(), np.swapaxes(row, 1, 2).ravel(), total.ravel()
+@dataclass(frozen=True)
+class Method:
+    """How edges are held.
+
+    Attributes
+    ----------
+    kind
+        "penalty", "nitsche" or "lagrange".
+    size
+        Size of the mesh's cells (m); None for blocks.
+    degree
+        Degree of the local functions.
+    stiffness
+        Spring in Young's moduli over the size of a cell; None is the default.
+    gamma, ghost
+        Nitsche's penalty and ghost term; None is the default of the degree.
+    """
+
+    kind: str
+    size: float | None
+    degree: int
+    stiffness: float | None = None
+    gamma: float | None = None
+    ghost: float = GHOST
+
+    @property
+    def order(self) -> int:
+        """Degree of polynomials to integrate along edges."""
+        return 2 * (self.degree + 2)
+
+    def hold(
+        self,
+        model: Model,
+        place: Place,
+        displacement: "Callable[[Instant], Floats]",
+        held: tuple[bool, bool] = (True, True),
+        name: str = "edge",
+    ) -> Support:
+        """Hold Gauss points of an edge; ``displacement`` may differ from point to point."""
+        assert self.size is not None
+        axes: Bools = np.array(held)
+        weight = place.weight * model.thickness
+        if self.kind == "penalty":
+            factor = EDGE_STIFFNESS if self.stiffness is None else self.stiffness
+            spring = factor * model.modulus[place.elements] / self.size * weight
+            return Springs(name, place, axes, displacement, spring)
+        if self.kind == "lagrange":
+            basis = multiplier_basis(place, self.size, self.degree)
+            return Multipliers(name, place, axes, displacement, weight, basis)
+        hard = model.elasticity[:, :2, :2].max(axis=(1, 2))
+        gamma = GAMMA[min(self.degree, 3)] if self.gamma is None else self.gamma
+        tie = ghost(
+            model.manifold,
+            self._cut(model, place),
+            self.ghost * model.thickness * hard / self.size**2,
+            self.degree + 1,
+        )
+        penalty = gamma * hard[place.elements] / self.size
+        traction = traction_rows(model, place)
+        return Nitsche(name, place, axes, displacement, weight, penalty, traction, tie)
+
+    def _cut(self, model: Model, place: Place) -> Ints:
+        """Elements on the edge that a cut has left."""
+        elements = np.unique(place.elements)
+        return elements if model.cut is None else elements[~model.cut.element_whole[elements]]
+
+
+def method_of(part: "SupportMethod", size: float | None, degree: int, mesh: bool) -> Method:
+    """Return the method that a formulation names; "auto" is springs for blocks, else Nitsche's."""
+    kind = part.method
+    if kind == "auto":
+        kind = "nitsche" if mesh else "penalty"
+    if kind != "penalty" and not mesh:
+        raise FormulationError(
+            f'[supports] method: "{kind}": for covers of meshes: expected "penalty" with type = '
+            '"block": change the method or the cover'
+        )
+    return Method(kind, size, degree, part.stiffness, part.gamma, part.ghost)
 
 
 def _support(setup: Setup, support: "SceneSupport") -> Support:
+    cover = setup.formulation.cover
+    mesh = cover.type != "block"
+    method = method_of(setup.formulation.supports, cover.size, cover.degree or 0, mesh)
+    if method.kind == "lagrange" and setup.scene.contact is not None:
+        raise FormulationError(
+            '[supports] method: "lagrange": in a scene with [contact]: expected "nitsche" or '
+            '"penalty": change the method'
+        )
+    place = _place(setup, support, method.order if mesh else 4)
+    to = np.array(support.displacement)
+    held = ("x" in support.fix, "y" in support.fix)
+
+    def displacement(end: Instant) -> Floats:
+        return np.asarray(to * factor_of(support.history, end.time))
+
+    if mesh and support.point is None:
+        return method.hold(setup.model, place, displacement, held, support.name)
+    share = place.weight / place.weight.sum()
+    spring = STIFFNESS * setup.model.modulus[place.elements] * setup.model.thickness * share
+    spring = spring * (len(place) if support.point is None else 1)
+    return Springs(support.name, place, np.array(held), displacement, spring)
+
+
+def _place(setup: Setup, support: "SceneSupport", order: int) -> Place:
     manifold, regions = setup.model.manifold, setup.regions(support.block)
     if support.point is not None:
         place = at_point(manifold, np.array(support.point), regions)
     elif support.segment is not None:
-        place = on_segment(manifold, np.array(support.segment), regions)
+        place = on_segment(manifold, np.array(support.segment), regions, order)
     else:
         assert regions is not None or support.block == "all"
         everything = np.ones(len(setup.region_name), dtype=bool)
-        place = on_block(manifold, everything if regions is None else regions)
+        place = on_block(manifold, everything if regions is None else regions, order)
     if not len(place):
         raise GeometryError(
             f"support {support.name}: {support.point or support.segment or support.block}: "
             "expected a place on the material: move it onto a block or onto the edge of one"
         )
-    share = place.weight / place.weight.sum()
-    spring = STIFFNESS * setup.model.modulus[place.elements] * setup.model.thickness * share
-    to = np.array(support.displacement)
-    return Support(
-        name=support.name,
-        place=place,
-        stiffness=spring * (len(place) if support.point is None else 1),
-        held=np.array(["x" in support.fix, "y" in support.fix]),
-        displacement=lambda end: to * factor_of(support.history, end.time),
-    )
+    return place

@@ -11,7 +11,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
@@ -108,6 +108,10 @@ class Plan:
         if kept is None or not _are(kept[0], parts):
             kept = self.sums["matrix"] = parts, csc_array(sum(parts[1:], start=base))
         return kept[1]
+
+    def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
+        """Return conditions on the step's unknowns that multipliers hold, None without any."""
+        return None if self.supports is None else self.supports.border(state, end)
 
     def work(self, before: State, after: State) -> float:
         """Return the work of all applied forces (J)."""

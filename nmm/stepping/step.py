@@ -13,6 +13,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State, move, strain_only, vertex_points
 from nmm.effects.base import Instant
 from nmm.errors import SolveError
+from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.integrators import Integrator, Shi
 from nmm.stepping.plan import Plan
@@ -214,10 +215,18 @@ class Stepper:
         self, state: State, end: Instant, step: float | None, matrix: csc_array, force: Floats
     ) -> Attempt:
         started = perf_counter()
+        border = self.plan.border(state, end)
+        n, solver = len(force), self.solver
+        if border is not None:
+            matrix = bordered(matrix, border[0])
+            force, solver = np.concatenate([force, border[1]]), solver.indefinite()
         if self._factor is None or not _same(self._factor.matrix, matrix):
-            self._factor = self.solver.factorise(matrix)
+            self._factor = solver.factorise(matrix)
         increment = self._factor.solve(force)
         residual = self._factor.relative_residual(increment, force)
+        if border is not None and self.plan.supports is not None:
+            self.plan.supports.keep(increment[n:])
+            increment = increment[:n]
         self._spend("solve", started)
         result = self._result(state, end, step, increment)
         return replace(result, residual=residual)

@@ -1,0 +1,73 @@
+"""Ghost stabilisation: small cut elements follow the fields of their neighbours."""
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from covers.manifold import Manifold
+from covers.rows import Rows
+from integration.arrays import Bools, Floats, Ints
+from integration.rules import polygon_rule
+
+
+def neighbours(manifold: Manifold, elements: Ints) -> tuple[Ints, Ints]:
+    """Pairs of elements, one of them among ``elements``, that share an edge within a body."""
+    polygons = manifold.elements
+    points, owner = polygons.points + 0.0, polygons.polygon_of_point
+    _, vertex = np.unique(points, axis=0, return_inverse=True)
+    vertex = vertex.ravel()
+    start, end = vertex, vertex[polygons.next_point]
+    n = int(vertex.max(initial=0)) + 1
+    forward, backward = start * n + end, end * n + start
+    order = np.argsort(forward)
+    place = np.minimum(np.searchsorted(forward[order], backward), len(order) - 1)
+    other = order[place]
+    shared = forward[other] == backward
+    mine = np.zeros(len(polygons), dtype=bool)
+    mine[elements] = True
+    first, second = owner, owner[other]
+    kept = shared & (mine[first] | mine[second]) & ~_parted(manifold, start, end, vertex, n)
+    kept &= (first < second) & (manifold.element_body[first] == manifold.element_body[second])
+    return first[kept], second[kept]
+
+
+def _parted(manifold: Manifold, start: Ints, end: Ints, vertex: Ints, n: int) -> Bools:
+    """Edges of elements that are faces of cracks or other boundaries."""
+    edges, polygons = manifold.boundary, manifold.elements
+    table = {tuple(p): v for p, v in zip((polygons.points + 0.0).tolist(), vertex, strict=True)}
+    first = [table.get(tuple(p), -1) for p in (edges.start + 0.0).tolist()]
+    last = [table.get(tuple(p), -1) for p in (edges.end + 0.0).tolist()]
+    keys = np.array(first, dtype=np.int64) * n + np.array(last, dtype=np.int64)
+    return np.isin(start * n + end, keys)
+
+
+def ghost(manifold: Manifold, elements: Ints, weight: Floats, degree: int) -> csc_array:
+    """Matrix of ``sum over pairs of int |E u_1 - E u_2|^2`` over both elements of each pair.
+
+    ``E`` continues the polynomials of an element; the form vanishes for polynomials over both, so
+    that it keeps the order of the approximation (Burman 2010; Lehrenfeld and Olshanskii 2019).
+
+    Parameters
+    ----------
+    elements
+        Elements to stabilise: pairs are they and their neighbours.
+    weight
+        (E,) factor of the form by element; that of the first of a pair serves.
+    degree
+        Degree of the displacements.
+    """
+    n = manifold.n_unknowns
+    first, second = neighbours(manifold, elements)
+    if not len(first):
+        return csc_array((n, n))
+    pair = np.tile(np.arange(len(first)), 2)
+    rule = polygon_rule(manifold.elements.take(np.concatenate([first, second])), 2 * degree)
+    pair = pair[rule.owner]
+    factor = rule.weights * weight[first[pair]]
+    one = manifold.rows(first[pair], rule.points)
+    two = manifold.rows(second[pair], rule.points)
+    jump = Rows(
+        np.concatenate([one.unknowns, two.unknowns], axis=1),
+        np.concatenate([one.values, -two.values], axis=2),
+    ).matrix(n)
+    weighted = jump.multiply(np.repeat(factor, 2)[:, None])
+    return csc_array(jump.T @ weighted)
