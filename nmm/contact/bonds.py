@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -49,19 +50,91 @@ class Laws:
             friction[index] = limits.friction
         return Limits(tension, cohesion, friction)
 
-    def springs(self, contacts: ContactPoints) -> tuple[Floats, Floats, Bools]:
-        """Return normal and shear stiffness (N/m) and which are the joints' own."""
+    def springs(
+        self, contacts: ContactPoints, opened: Bools | None = None
+    ) -> tuple[Floats, Floats, Bools]:
+        """Return normal and shear stiffness (N/m) and which are the joints' own.
+
+        Bonds that soften have what is left of their normal stiffness where they are ``opened``
+        (m,), by default where the gap is positive.
+        """
         own = contacts.is_joint
         normal = np.where(own, self.normal_bond * contacts.slenderness, self.normal_penalty)
         shear = np.where(own, self.shear_bond * contacts.slenderness, self.shear_penalty)
         for law, index in self._by_law(contacts):
-            if law.normal_stiffness is None:
-                continue
             index = index[own[index]]
             area = contacts.length[index] * self.thickness
-            normal[index] = law.normal_stiffness * area
-            shear[index] = (law.shear_stiffness or law.normal_stiffness) * area
+            if law.normal_stiffness is not None:
+                normal[index] = law.normal_stiffness * area
+                shear[index] = (law.shear_stiffness or law.normal_stiffness) * area
+            if law.softens:
+                damage = contacts.damage[index]
+                away = (contacts.gap > 0 if opened is None else opened)[index] & (damage < 1)
+                share = law.secant(damage, normal[index] / area)
+                normal[index] *= np.where(away, share, 1.0)
         return normal, shear, own
+
+    def energy(self, contacts: ContactPoints) -> float:
+        """Energy (J) that comes back when the contacts are unloaded."""
+        normal, shear, _ = self.springs(contacts)
+        acts = (contacts.normal_force != 0) | (contacts.shear_force != 0)
+        stretch = np.where(contacts.damage < 1, contacts.gap, np.minimum(contacts.gap, 0.0))
+        elastic = normal * stretch**2 + shear * contacts.slip**2
+        return float(elastic[acts].sum() / 2)
+
+    def softening(self, contacts: ContactPoints) -> Bools:
+        """Return which contacts are bonds that lose their strength by and by."""
+        soft = np.array([law.softens for law in self.laws])
+        named: Bools = soft[contacts.interface] & (contacts.interface >= 0)
+        held: Bools = contacts.is_joint & (contacts.damage < 1)
+        return named & held
+
+    def damaged(
+        self, contacts: ContactPoints, opening: Floats, sliding: Floats, stiffness: Floats
+    ) -> Floats:
+        """Return the damage (m,) of bonds that soften after an opening and a sliding (m,).
+
+        ``stiffness`` (m,) is that of the whole bonds (N/m); see `InterfaceLaw.damaged`.
+        """
+        damage = contacts.damage.copy()
+        soft = self.softening(contacts)
+        for law, index in self._by_law(contacts):
+            if law.softens:
+                index = index[soft[index]]
+                area = contacts.length[index] * self.thickness
+                damage[index] = law.damaged(
+                    damage[index],
+                    opening[index],
+                    np.abs(sliding[index]),
+                    stiffness[index] / area,
+                )
+        return damage
+
+    def lift(self, contacts: ContactPoints, worn: Floats) -> Floats:
+        """Return by how much faces that have slid by ``worn`` (m,) ride up on each other (m)."""
+        rise = np.zeros(len(contacts))
+        for law, index in self._by_law(contacts):
+            if law.dilation_angle:
+                way = np.minimum(worn[index], law.dilation_slip)
+                rise[index] = np.tan(law.dilation_angle) * way
+        return rise
+
+    @cached_property
+    def dilates(self) -> bool:
+        """Whether any law has a dilation angle."""
+        return any(law.dilation_angle for law in self.laws)
+
+    @cached_property
+    def damps(self) -> bool:
+        """Whether any law has damping."""
+        return any(law.damping for law in self.laws)
+
+    def damping(self, contacts: ContactPoints) -> Floats:
+        """Return the share (m,) of critical damping of each contact."""
+        share = np.zeros(len(contacts))
+        for law, index in self._by_law(contacts):
+            share[index] = law.damping
+        return share
 
     def breaking(
         self, contacts: ContactPoints, answer: StepAnswer, worst_only: bool

@@ -56,7 +56,7 @@ class JointBook:
             p,
             normal=normal,
             gap=np.einsum("ij,ij->i", apart, normal),
-            slip=np.where(held, stretch, p.slip),
+            slip=np.where(held, stretch - p.slid, p.slip),
         )
 
     def keep(self, points: ContactPoints, surface: Surface) -> "JointBook":
@@ -130,6 +130,8 @@ def joint_book(
         state=np.where(held, int(BONDED), int(OPEN)),
         normal_force=zeros,
         shear_force=zeros,
+        slid=zeros,
+        worn=zeros,
     )
     pairs = pair_key(surface, vertex, edge)
     return JointBook(
@@ -157,6 +159,8 @@ def searched_points(found: Contacts, interface: Ints) -> ContactPoints:
         state=np.full(m, int(OPEN)),
         normal_force=zeros,
         shear_force=zeros,
+        slid=zeros,
+        worn=zeros,
     )
 
 
@@ -166,10 +170,8 @@ def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> Conta
     source = np.where(known, predecessor, 0)
 
     def kept(name: str) -> Floats:
-        values = getattr(old, name)
-        return (
-            np.where(known, values[source], getattr(new, name)) if len(old) else getattr(new, name)
-        )
+        first: Floats = getattr(new, name)
+        return np.where(known, getattr(old, name)[source], first) if len(old) else first
 
     return replace(
         new,
@@ -177,11 +179,17 @@ def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> Conta
         state=kept("state").astype(np.int64),
         normal_force=kept("normal_force"),
         shear_force=kept("shear_force"),
+        worn=kept("worn"),
     )
 
 
-def answered(points: ContactPoints, answer: StepAnswer, bonded: Bools) -> ContactPoints:
-    """Return the points as an answer leaves them; ``bonded`` (m,) were held by a bond once."""
+def answered(
+    points: ContactPoints, answer: StepAnswer, bonded: Bools, sliding: Floats
+) -> ContactPoints:
+    """Return the points as an answer leaves them.
+
+    ``bonded`` (m,) were held by a bond once; ``sliding`` (m,) is how far each slid under load (m).
+    """
     parted = bonded & points.is_joint & (answer.state == OPEN)
     state = np.where(parted, int(BROKEN), answer.state)
     return replace(
@@ -191,6 +199,8 @@ def answered(points: ContactPoints, answer: StepAnswer, bonded: Bools) -> Contac
         state=np.where(points.damage < 1, int(BONDED), state),
         normal_force=answer.normal_force,
         shear_force=answer.shear_force,
+        slid=points.slid + np.where(points.is_joint, sliding, 0.0),
+        worn=points.worn + np.abs(sliding),
     )
 
 

@@ -37,6 +37,10 @@ class ContactPoints:
         (m,) of the bond: 0 intact, 1 broken or never bonded.
     state, normal_force, shear_force
         (m,) what the last step left, the warm start of this one.
+    slid
+        (m,) part of the stretch of a bond that is no longer elastic (m).
+    worn
+        (m,) way slid under load, back and forth added (m).
     """
 
     edge_a: Ints
@@ -54,13 +58,15 @@ class ContactPoints:
     state: Ints
     normal_force: Floats
     shear_force: Floats
+    slid: Floats
+    worn: Floats
 
     def __len__(self) -> int:
         return len(self.gap)
 
     def take(self, index: Ints | Bools) -> "ContactPoints":
         """Return some of the contacts."""
-        return ContactPoints(*(getattr(self, part.name)[index] for part in fields(self)))
+        return ContactPoints(*(getattr(self, name)[index] for name in PARTS))
 
     @property
     def is_joint(self) -> Bools:
@@ -68,10 +74,13 @@ class ContactPoints:
         return self.key < 0
 
 
+PARTS = tuple(part.name for part in fields(ContactPoints))
+
+
 def concatenate(parts: list[ContactPoints]) -> ContactPoints:
     """Join contact points."""
     return ContactPoints(
-        *(np.concatenate([getattr(p, part.name) for p in parts]) for part in fields(ContactPoints))
+        *(np.concatenate([getattr(part, name) for part in parts]) for name in PARTS)
     )
 
 

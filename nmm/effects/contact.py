@@ -5,17 +5,18 @@ other contacts are found by search as bodies move. Both are contact points of on
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, Self
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.bonds import Laws, break_bonds
+from nmm.contact.dashpots import Dashpots, meeting_mass
 from nmm.contact.enforcement import Enforcement, make_enforcement
 from nmm.contact.following import (
     JointBook,
@@ -32,12 +33,32 @@ from nmm.contact.problem import StepAnswer, StepProblem
 from nmm.contact.search import NeighbourList
 from nmm.contact.sides import sides
 from nmm.contact.surface import Surface
+from nmm.contact.turns import Turns, slid_under_load
 from nmm.effects.base import Effect, Setup
 from nmm.errors import SceneError
 from nmm.interfaces.base import INTERFACE_LAWS, InterfaceLaw
+from nmm.interfaces.restitution import damping_of
 from nmm.solvers.linear import LinearSolver
 
 NONE = -1
+
+# Keys of a scene's interface that every law has, and those that a law need not know.
+ALWAYS = (
+    "friction_angle",
+    "cohesion",
+    "tensile_strength",
+    "bonded",
+    "normal_stiffness",
+    "shear_stiffness",
+    "fracture_energy",
+)
+WHERE_GIVEN = (
+    "shear_fracture_energy",
+    "residual_friction_angle",
+    "dilation_angle",
+    "dilation_slip",
+    "damping",
+)
 
 Breaking = Literal["all", "worst", "stop"]
 
@@ -58,6 +79,8 @@ class Solved:
         Energy lost to friction and broken springs (J).
     stopped
         Whether a bond could not hold and the step was given up for it.
+    sliding
+        (m,) how far contacts slid under load (m); empty when the step is not accepted.
     """
 
     contacts: ContactPoints
@@ -65,6 +88,7 @@ class Solved:
     passes: int
     loss: float
     stopped: bool = False
+    sliding: Floats = field(default_factory=lambda: np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -161,51 +185,63 @@ class Contact(Effect):
         force: Floats,
         solver: LinearSolver,
         breaking: Breaking = "all",
+        step: float | None = None,
     ) -> Solved:
         """Solve one step; bonds that cannot hold break and the step is solved again.
 
         ``breaking`` says which break at a time: "all", the "worst" alone, or "stop": none, the step
-        ends there and is no equilibrium.
+        ends there and is no equilibrium. ``step`` is its length (s), None in statics.
         """
         n_unknowns = self._model.manifold.n_unknowns
         normal_rows, tangent_rows = rows(contacts, self._sides, state.frames, n_unknowns)
-        normal, shear, own = self._laws.springs(contacts)
+        turns = Turns(self._laws, contacts)
         passes, loss = 0, 0.0
         while True:
+            normal, shear, own = self._laws.springs(turns.start, turns.opened)
+            dashpots = self._dashpots(turns.start, normal, normal_rows, step)
+            shift = turns.lift + dashpots.lag
             problem = StepProblem(
                 matrix=matrix,
                 force=force,
                 normal_rows=normal_rows,
                 tangent_rows=tangent_rows,
-                gap=contacts.gap,
+                gap=contacts.gap - shift,
                 slip=contacts.slip,
-                normal_stiffness=normal,
+                normal_stiffness=normal + dashpots.stiffness,
                 shear_stiffness=shear,
-                limits=self._laws.limits(contacts),
+                limits=self._laws.limits(turns.contacts),
                 state=contacts.state,
                 normal_force=contacts.normal_force,
                 shear_force=contacts.shear_force,
-                compliant=own,
+                compliant=own | (dashpots.stiffness > 0),
             )
             answer = self._enforcement.solve(problem, solver, self._memory)
             passes += answer.passes
-            broken = np.zeros(len(contacts), dtype=bool)
-            if answer.verdict.converged:
-                broken, _ = self._laws.breaking(contacts, answer, breaking == "worst")
+            if not answer.verdict.converged:
+                return Solved(turns.contacts, answer, passes, loss)
+            answer = replace(answer, gap=answer.gap + shift)
+            sliding = slid_under_load(problem, answer)
+            fault = turns.settled(answer, sliding)
+            if fault is not None:
+                return Solved(turns.contacts, replace(answer, verdict=fault), passes, loss)
+            if not turns.done:
+                continue
+            broken, _ = self._laws.breaking(turns.contacts, answer, breaking == "worst")
             if not broken.any():
-                slid = problem.slips(answer.increment) - answer.slip
-                loss += float(np.abs(answer.shear_force * slid).sum())
-                return Solved(contacts, answer, passes, loss)
+                loss += turns.loss(answer, sliding)
+                loss += dashpots.loss(contacts.gap, answer.gap, answer.normal_force)
+                return Solved(turns.contacts, answer, passes, loss, sliding=sliding)
             if breaking == "stop":
-                return Solved(contacts, answer, passes, loss, stopped=True)
+                return Solved(turns.contacts, answer, passes, loss, stopped=True)
             elastic = answer.normal_force**2 / normal + answer.shear_force**2 / shear
             loss += float(elastic[broken].sum()) / 2
             contacts = break_bonds(contacts, broken)
+            turns = Turns(self._laws, contacts)
 
     def commit(self, solved: Solved, state: State) -> ContactPoints:
         """Keep the accepted contacts as the start of the next step, and return them."""
         bonded = np.array([law.bonded for law in self._laws.laws])[solved.contacts.interface]
-        done = answered(solved.contacts, solved.answer, bonded)
+        done = answered(solved.contacts, solved.answer, bonded, solved.sliding)
         surface = self._surface(state)
         self.record = ContactRecord(
             book=self.record.book.keep(done.take(done.is_joint), surface),
@@ -233,9 +269,18 @@ class Contact(Effect):
         record = self.record
         known = [] if record.known is None else [record.known]
         points = concatenate([record.book.points, *known])
-        normal, shear, _ = self._laws.springs(points)
-        elastic = points.normal_force**2 / normal + points.shear_force**2 / shear
-        return float(elastic.sum() / 2)
+        return self._laws.energy(points)
+
+    def _dashpots(
+        self, contacts: ContactPoints, normal: Floats, rows: csr_array, step: float | None
+    ) -> Dashpots:
+        """Return the dampers of a step; a share of critical damping of the masses that meet."""
+        if step is None or not self._laws.damps:
+            return Dashpots(np.zeros(len(contacts)), np.zeros(len(contacts)))
+        modes, mass = self._model.manifold.rigid_modes, self._model.mass
+        critical = 2 * np.sqrt(normal * meeting_mass(rows, modes, mass))
+        coefficient = self._laws.damping(contacts) * critical
+        return Dashpots.of(coefficient, step, normal, contacts.gap)
 
     def _surface(self, state: State) -> Surface:
         """Edges of a state; those of the last one asked for are kept."""
@@ -274,18 +319,16 @@ class Contact(Effect):
 
 
 def interface_law(item: Any) -> InterfaceLaw:
-    """Return the law of a scene's interface."""
-    kind = INTERFACE_LAWS.load(item.law)
-    names = (
-        "friction_angle",
-        "cohesion",
-        "tensile_strength",
-        "bonded",
-        "normal_stiffness",
-        "shear_stiffness",
-        "fracture_energy",
-    )
-    return kind(**{name: getattr(item, name) for name in names}, **item.options)
+    """Return the law of a scene's interface: with a fracture energy the common one softens."""
+    softens = item.law == "mohr_coulomb" and item.fracture_energy is not None
+    kind = INTERFACE_LAWS.load("linear_softening" if softens else item.law)
+    given = {name: getattr(item, name) for name in ALWAYS}
+    for name in WHERE_GIVEN:
+        if getattr(item, name) is not None:
+            given[name] = getattr(item, name)
+    if item.restitution is not None:
+        given["damping"] = damping_of(item.restitution)
+    return kind(**given, **item.options)
 
 
 def _interface_of_regions(setup: Setup) -> Ints:

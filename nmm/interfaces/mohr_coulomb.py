@@ -24,7 +24,7 @@ class MohrCoulomb(InterfaceLaw):
         return Limits(
             tension=np.where(intact, np.inf, 0.0),
             cohesion=np.where(intact, np.inf, kept),
-            friction=np.full(len(length), np.tan(self.friction_angle)),
+            friction=self.friction(damage),
         )
 
     def overload(

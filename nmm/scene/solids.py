@@ -91,6 +91,26 @@ class Interface(Frozen):
     fracture_energy: SurfaceEnergy | None = Field(
         default=None, gt=0, description="a fracture energy in J/m2, > 0", examples=example("J/m^2")
     )
+    shear_fracture_energy: SurfaceEnergy | None = Field(
+        default=None, gt=0, description="a fracture energy in J/m2, > 0", examples=example("J/m^2")
+    )
+    residual_friction_angle: Annotated[Angle, AfterValidator(_friction)] | None = Field(
+        default=None,
+        description="a friction angle in [0, pi/2) rad of broken bonds",
+        examples=example("rad"),
+    )
+    dilation_angle: Annotated[Angle, AfterValidator(_friction)] | None = Field(
+        default=None, description="a dilation angle in [0, pi/2) rad", examples=example("rad")
+    )
+    dilation_slip: Length | None = Field(
+        default=None, gt=0, description="a way slid in m, > 0", examples=["5 mm"]
+    )
+    damping: Number | None = Field(
+        default=None, ge=0, description="a share of critical damping, >= 0", examples=[0.1]
+    )
+    restitution: Number | None = Field(
+        default=None, gt=0, le=1, description="a coefficient in (0, 1]", examples=[0.5]
+    )
     options: dict[str, Any] = Field(
         default={}, description="a table of options of a law of one's own"
     )

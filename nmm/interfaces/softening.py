@@ -1,0 +1,122 @@
+"""Bonds that lose their strength by and by, over an opening that the fracture energy fixes."""
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.errors import SceneError
+from nmm.interfaces.limits import Limits
+from nmm.interfaces.mohr_coulomb import MohrCoulomb
+
+
+@dataclass(frozen=True)
+class Softening(MohrCoulomb):
+    """Base of cohesive laws (Hillerborg, Modeer and Petersson 1976).
+
+    Tensile strength and cohesion fall together, by the share ``g``, as the crack opens by ``w`` or
+    slides by ``s``; damage is ``w`` (or ``s``) over the width at which nothing is left. What the
+    elastic spring of the bond stretches comes on top of ``w``, so that the area under
+    force-opening is the fracture energy whatever the spring. An opened bond that closes goes back
+    to the origin on its secant, pressed it has its whole stiffness again; a slid one keeps its
+    slip. With the bond, friction passes from its peak to its residual angle.
+    """
+
+    softens: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        if not self.bonded or not self.fracture_energy or not self.tensile_strength:
+            raise SceneError(
+                f"interface law {type(self).__name__}: bonded {self.bonded}, fracture_energy "
+                f"{self.fracture_energy}, tensile_strength {self.tensile_strength}: expected "
+                "bonded = true and both above zero: give them, or take law = 'mohr_coulomb'"
+            )
+
+    @property
+    @abstractmethod
+    def curve(self) -> tuple[Floats, Floats]:
+        """Crack widths in units of fracture energy over strength, and share of strength there."""
+
+    def limits(self, length: Floats, damage: Floats, thickness: float) -> Limits:
+        """Return what is left of the strength."""
+        left, area = self._left(damage), length * thickness
+        intact, residual = np.tan(self.friction_angle), np.tan(self._residual_angle)
+        return Limits(
+            tension=left * self.tensile_strength * area,
+            cohesion=left * self.cohesion * area,
+            friction=left * intact + (1 - left) * residual,
+        )
+
+    def overload(
+        self, normal_force: Floats, shear_force: Floats, length: Floats, thickness: float
+    ) -> Floats:
+        """Return zeros: nothing breaks at once."""
+        return np.zeros(len(length))
+
+    def secant(self, damage: Floats, stiffness: Floats) -> Floats:
+        """See `InterfaceLaw.secant`: force over opening, in units of the elastic spring."""
+        width = damage * self._widths[-1]
+        left = self._left(damage) * self.tensile_strength
+        return np.asarray(left / (left + stiffness * width))
+
+    def damaged(
+        self, damage: Floats, opening: Floats, sliding: Floats, stiffness: Floats
+    ) -> Floats:
+        """See `InterfaceLaw.damaged`; the width of a crack is its opening less the elastic part.
+
+        Raises
+        ------
+        SceneError
+            When the bond's spring is so soft that its force would fall at a standstill.
+        """
+        share = self.curve[1]
+        opening_at = self._widths + np.outer(self.tensile_strength / stiffness, share)
+        span = np.diff(opening_at, axis=1)
+        if (span <= 0).any():
+            least = self.tensile_strength * np.max(-np.diff(share) / np.diff(self._widths))
+            raise SceneError(
+                f"interface law {type(self).__name__}: normal stiffness {stiffness.min():.4g} Pa/m "
+                f"of a bond: expected above {least:.4g} Pa/m, as its strength and fracture energy "
+                "ask for: give the interface a normal_stiffness, or raise bond_stiffness"
+            )
+        passed = np.clip((opening[:, None] - opening_at[:, :-1]) / span, 0.0, 1.0)
+        width = passed @ np.diff(self._widths)
+        slid = sliding / self._slip_width if self.cohesion else np.zeros_like(sliding)
+        return np.asarray(np.clip(np.maximum(width / self._widths[-1], damage + slid), damage, 1.0))
+
+    @property
+    def _widths(self) -> Floats:
+        assert self.fracture_energy is not None
+        return np.asarray(self.curve[0] * self.fracture_energy / self.tensile_strength)
+
+    @property
+    def _slip_width(self) -> float:
+        energy = self.shear_fracture_energy or self.fracture_energy
+        assert energy is not None
+        return float(self.curve[0][-1] * energy / self.cohesion)
+
+    def _left(self, damage: Floats) -> Floats:
+        widths, share = self.curve
+        return np.asarray(np.interp(damage * widths[-1], widths, share))
+
+
+@dataclass(frozen=True)
+class LinearSoftening(Softening):
+    """Strength falls linearly to zero at ``w = 2 GF / ft``."""
+
+    @property
+    def curve(self) -> tuple[Floats, Floats]:
+        """See `Softening.curve`."""
+        return np.array([0.0, 2.0]), np.array([1.0, 0.0])
+
+
+@dataclass(frozen=True)
+class BilinearSoftening(Softening):
+    """To a third at ``0.8 GF / ft``, to zero at ``3.6 GF / ft`` (Petersson 1981)."""
+
+    @property
+    def curve(self) -> tuple[Floats, Floats]:
+        """See `Softening.curve`."""
+        return np.array([0.0, 0.8, 3.6]), np.array([1.0, 1 / 3, 0.0])
