@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.search import DEPTH, near_pairs
+from nmm.contact.rules import DEPTH, cross
+from nmm.contact.search import near_pairs
 from nmm.contact.surface import Surface
 
 
@@ -45,7 +46,7 @@ def find_crossings(
 ) -> Crossings:
     """Find the vertices that crossed an edge while all points moved straight and evenly.
 
-    A vertex crosses an edge where it comes deeper than `search.DEPTH` of the thinner body's
+    A vertex crosses an edge where it comes deeper than `rules.DEPTH` of the thinner body's
     thickness, over the edge itself: less is the penetration that enforcement allows and search
     finds again, and a vertex that leaves over the end of the edge has not crossed.
 
@@ -70,8 +71,8 @@ def find_crossings(
     edge0, edge1 = before.end[e] - before.start[e], after.end[e] - after.start[e]
     offset0, offset1 = before.start[v] - before.start[e], after.start[v] - after.start[e]
     # Twice the area, positive inside: c0 + c1 t + c2 t^2.
-    c0, both = _cross(edge0, offset0), _cross(edge1 - edge0, offset1 - offset0)
-    c1 = _cross(edge0, offset1 - offset0) + _cross(edge1 - edge0, offset0)
+    c0, both = cross(edge0, offset0), cross(edge1 - edge0, offset1 - offset0)
+    c1 = cross(edge0, offset1 - offset0) + cross(edge1 - edge0, offset0)
     allowed = DEPTH * np.minimum(before.thickness[v], before.thickness[e]) * before.length[e]
     deep = _first_root(c0 - allowed, c1, both)
     touch = np.where(c0 < 0.0, _first_root(c0, c1, both), deep)
@@ -95,12 +96,8 @@ def _can_meet(before: Surface, after: Surface, v: Ints, e: Ints) -> Bools:
     """Pairs of which neither the sum of motions nor the start excludes a crossing."""
     moved = np.hypot(*(after.start - before.start).T)
     relative = moved[v] + np.maximum(moved[e], moved[before.next[e]])
-    gap = -_cross(before.direction[e], before.start[v] - before.start[e])
+    gap = -cross(before.direction[e], before.start[v] - before.start[e])
     return np.asarray(gap <= relative)
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 def _first_root(c0: Floats, c1: Floats, c2: Floats) -> Floats:

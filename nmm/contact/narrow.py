@@ -18,8 +18,8 @@ Flush neighbours
     whose sides are covered is seen together with the coverers as long as their union is convex. So
     the vertices inside a floor of several blocks catch nothing.
 
-`DEPTH` and `FLUSH` are fractions of the thickness (twice the area over the perimeter) of the
-thinner of the two bodies.
+`ANGLE`, `DEPTH` and `FLUSH` stand in `rules`; the last two are fractions of the thickness (twice
+the area over the perimeter) of the thinner of the two bodies.
 """
 
 from __future__ import annotations
@@ -30,13 +30,8 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact import narrow_arrays
-from nmm.contact.search import DEPTH
+from nmm.contact.rules import Rules, flush_distance, measure, rules_of
 from nmm.contact.surface import Surface
-
-# Angular tolerance (rad): Shi's three degrees; contacts between edges that turn further end.
-ANGLE = 0.05
-# Steps and gaps between neighbours below this fraction of their thickness count as flush.
-FLUSH = 1e-3
 
 VERTEX_EDGE = 0
 VERTEX_VERTEX = 1
@@ -112,14 +107,7 @@ def find_contacts(
     compiled
         False asks for the plain form that tests compare with.
     """
-    rules = narrow_arrays.Rules(
-        reach=reach,
-        grain=1e-6 * reach + _rounding(surface),
-        rounding=_rounding(surface),
-        depth=DEPTH,
-        flush=FLUSH,
-        sine=float(np.sin(ANGLE)),
-    )
+    rules = rules_of(surface, reach)
     # Without edges there is nothing to number rows by.
     if not compiled or not len(surface):
         return _by_arrays(surface, vertex, edge, last, motion, rules)
@@ -144,7 +132,7 @@ def find_contacts(
 def remeasure(surface: Surface, contacts: Contacts) -> Contacts:
     """Return the same contacts with foot, normal and gap where the surface is now."""
     v, e = contacts.vertex, contacts.edge
-    along, gap = narrow_arrays.measure(surface, v, e)
+    along, gap = measure(surface, v, e)
     return replace(
         contacts,
         parameter=np.clip(along / surface.length[e], 0.0, 1.0),
@@ -196,7 +184,7 @@ def _by_arrays(
     edge: Ints,
     last: Contacts | None,
     motion: Floats | None,
-    rules: narrow_arrays.Rules,
+    rules: Rules,
 ) -> Contacts:
     """Return the contacts by whole arrays."""
     if motion is None:
@@ -208,18 +196,18 @@ def _by_arrays(
     pairs = narrow_arrays.Pairs(vertex, edge, offset)
     kept, along, gap = narrow_arrays.select(surface, pairs, rules, known, motion)
     rows = np.flatnonzero(kept)
-    return _contacts(surface, vertex[rows], edge[rows], along[rows], gap[rows], kept[rows] == 2)
+    parts = (vertex[rows], edge[rows], along[rows], gap[rows], kept[rows] == 2)
+    return _contacts(surface, *parts, rules)
 
 
 def _contacts(
-    surface: Surface, v: Ints, e: Ints, along: Floats, gap: Floats, beyond: Bools
+    surface: Surface, v: Ints, e: Ints, along: Floats, gap: Floats, beyond: Bools, rules: Rules
 ) -> Contacts:
     length = surface.length[e]
     parameter = np.clip(along / length, 0.0, 1.0)
     corner = np.where(parameter > 0.5, surface.next[e], e)
     beside = np.minimum(np.abs(along), np.abs(length - along))
-    thinner = np.minimum(surface.thickness[v], surface.thickness[e])
-    near = beside <= FLUSH * thinner + _rounding(surface)
+    near = beside <= flush_distance(surface, v, e, rules)
     return Contacts(
         vertex=v,
         edge=e,
@@ -231,11 +219,6 @@ def _contacts(
         body=surface.body[e],
         corner=corner,
     )
-
-
-def _rounding(surface: Surface) -> float:
-    """Rounding of coordinates that have been turned and shifted once (m)."""
-    return float(8.0 * np.finfo(float).eps * np.abs(surface.start).max(initial=0.0))
 
 
 def _top(values: Ints) -> int:

@@ -1,7 +1,8 @@
 """Narrow phase, compiled: the rules of `narrow_arrays`, one vertex after the other.
 
 Numba's functions are written for the machine: no row leaves the cache between its tests, and the
-names are those of the array form, which the tests hold equal to this one.
+names are those of the array form, which the tests hold equal to this one. One file holds them all
+because numba's cache does not see changes to what a file imports.
 """
 
 import math
@@ -11,7 +12,8 @@ import numba
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.contact.narrow_arrays import WALK, Rules
+from nmm.contact.flush import WALK
+from nmm.contact.rules import Rules
 
 _compiled = numba.njit(cache=True, nogil=True)
 
@@ -21,7 +23,7 @@ _INTERIOR, _USABLE = 1, 2
 # Columns of Shape.real: start, end and unit direction, length of the edge, thickness of its body.
 SX, SY, EX, EY, TX, TY, LENGTH, THICK = range(8)
 # Columns of Shape.link: body, neighbours in the ring, whether the vertex is convex, and the flush
-# covers of its two edges (narrow_arrays.Covers).
+# covers of its two edges (flush.Covers).
 BODY, NEXT, PREVIOUS, CONVEX, OWN, BEFORE = range(6)
 
 

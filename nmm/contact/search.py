@@ -6,10 +6,8 @@ import numpy as np
 import shapely
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.contact.rules import DEPTH
 from nmm.contact.surface import Surface
-
-# Vertices are followed into another body by this fraction of the thinner body's thickness.
-DEPTH = 0.1
 
 
 def near_pairs(
@@ -75,7 +73,7 @@ class NeighbourList:
 
     Built, the list holds all pairs of a vertex and an edge within the skin; it is built anew once
     two points may have moved apart by half the skin (Verlet 1967). So `update` misses no gap up to
-    half the skin, and no vertex that is in another body by less than `DEPTH` of the thinner
+    half the skin, and no vertex that is in another body by less than `rules.DEPTH` of the thinner
     body's thickness.
 
     Parameters
