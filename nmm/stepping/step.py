@@ -194,7 +194,9 @@ class Stepper:
             contacts = self.plan.contact.candidates(state, reach)
             self._spend("search", started)
             started = perf_counter()
-            solved = self.plan.contact.solve(contacts, state, matrix, force, self.solver, breaking)
+            solved = self.plan.contact.solve(
+                contacts, state, matrix, force, self.solver, breaking, step
+            )
             self._spend("solve", started)
             passes += solved.passes
             verdict = solved.answer.verdict
