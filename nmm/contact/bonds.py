@@ -84,10 +84,10 @@ class Laws:
 
     def softening(self, contacts: ContactPoints) -> Bools:
         """Return which contacts are bonds that lose their strength by and by."""
-        soft = np.array([law.softens for law in self.laws])
-        named: Bools = soft[contacts.interface] & (contacts.interface >= 0)
-        held: Bools = contacts.is_joint & (contacts.damage < 1)
-        return named & held
+        soft: Bools = np.zeros(len(contacts), dtype=bool)
+        for law, index in self._by_law(contacts):
+            soft[index] = law.softens
+        return np.logical_and.reduce([soft, contacts.is_joint, contacts.damage < 1])
 
     def damaged(
         self, contacts: ContactPoints, opening: Floats, sliding: Floats, stiffness: Floats
