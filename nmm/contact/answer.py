@@ -5,7 +5,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.contact.law import label
 from nmm.contact.memory import Memory
-from nmm.contact.problem import StepAnswer, StepProblem, Verdict
+from nmm.contact.problem import StepAnswer, Verdict
 from nmm.contact.settle import settle
 from nmm.contact.springs import CutSprings, Settled
 from nmm.errors import SolveError
@@ -23,14 +23,12 @@ def settled_answer(
         found = settle(springs, linear, memory, tolerance)
     except SolveError as fault:
         return singular_answer(springs, linear, fault)
-    return answer(springs, found, linear, judge(springs, found, linear, memory, tolerance))
+    return answer(found, linear, judge(found, linear, memory, tolerance))
 
 
-def answer(
-    springs: CutSprings, found: Settled, linear: LinearSolver, verdict: Verdict
-) -> StepAnswer:
-    """Answer with the forces of ``springs`` at what was found."""
-    problem = springs.problem
+def answer(found: Settled, linear: LinearSolver, verdict: Verdict) -> StepAnswer:
+    """Answer with the forces of the springs at what was found."""
+    springs, problem = found.springs, found.springs.problem
     normal, shear = springs.forces(found.increment)
     is_open, sliding = springs.states(found.increment)
     return StepAnswer(
@@ -38,7 +36,7 @@ def answer(
         normal_force=normal,
         shear_force=shear,
         gap=problem.gaps(found.increment),
-        slip=kept_slip(problem, shear),
+        slip=kept_slip(found, shear),
         state=label(problem, is_open, sliding),
         passes=found.solves,
         residual=found.size,
@@ -48,18 +46,17 @@ def answer(
     )
 
 
-def kept_slip(problem: StepProblem, shear: Floats) -> Floats:
-    """Elastic part of the slip (m): what the shear springs carry."""
-    return shear / problem.shear_stiffness
+def kept_slip(found: Settled, shear: Floats) -> Floats:
+    """(m,) slip that the shear springs carry (m): what remains of the slip of exact contacts."""
+    return (shear - found.springs.shear_shift) / found.springs.shear_stiffness
 
 
-def judge(
-    springs: CutSprings, found: Settled, linear: LinearSolver, memory: Memory, tolerance: float
-) -> Verdict:
+def judge(found: Settled, linear: LinearSolver, memory: Memory, tolerance: float) -> Verdict:
     """Verdict on unknowns whose forces are admissible by construction."""
+    springs = found.springs
     if found.size <= tolerance:
         return Verdict(True, "converged", f"settled by {found.story}")
-    free = _free_part(springs, found, linear, memory)
+    free = free_part(found, linear, memory)
     if free is not None:
         return free
     worst = worst_contacts(springs, found.increment)
@@ -82,15 +79,15 @@ def worst_contacts(springs: CutSprings, increment: Floats) -> tuple[int, ...]:
 def singular_answer(springs: CutSprings, linear: LinearSolver, fault: SolveError) -> StepAnswer:
     """Answer to a step in which a part is free to move."""
     problem = springs.problem
-    found = Settled(np.zeros_like(problem.force), 1.0, 0, 1, "")
+    found = Settled(springs, np.zeros_like(problem.force), 1.0, 0, 1, "")
     sentence = f"with all {problem.n_contacts} contacts acting: {fault}"
-    return answer(springs, found, linear, Verdict(False, "singular", sentence))
+    return answer(found, linear, Verdict(False, "singular", sentence))
 
 
-def _free_part(
-    springs: CutSprings, found: Settled, linear: LinearSolver, memory: Memory
-) -> Verdict | None:
-    problem, increment = springs.problem, found.increment
+def free_part(found: Settled, linear: LinearSolver, memory: Memory) -> Verdict | None:
+    """Verdict "singular" when open-close passes from what was found set a part free."""
+    springs, increment = found.springs, found.increment
+    problem = springs.problem
     pattern = memory.pattern_of(problem)
     for _ in range(PASSES):
         is_open, sliding = springs.states(increment)

@@ -22,6 +22,8 @@ from nmm.solvers.linear import Factor, LinearSolver
 
 NEAR = 0.99
 """Part of the way to the boundary that a step may take."""
+SOFT = 1e-6
+"""Compliance left to exact contacts in the matrix, as a part of their spring's."""
 
 
 @dataclass(frozen=True)
@@ -49,35 +51,53 @@ class Point:
 
 
 class InteriorPoint:
-    """One run of the method on ``springs``."""
+    """One run of the method on ``springs``.
 
-    def __init__(self, springs: CutSprings, pattern: SpringPattern, linear: LinearSolver) -> None:
+    Contacts marked ``exact`` obey ``gap >= 0`` and a sharp bound instead of a spring. Their spring
+    only measures how far force and gap are from the law, and a part ``SOFT`` of its compliance
+    regularises the matrix (Friedlander, Orban 2012), so that redundant contacts do no harm.
+    """
+
+    def __init__(
+        self,
+        springs: CutSprings,
+        pattern: SpringPattern,
+        linear: LinearSolver,
+        exact: Bools | None = None,
+    ) -> None:
         self.springs, self.pattern = springs, pattern
-        self.linear = linear.indefinite()
+        self.exact = np.zeros(springs.problem.n_contacts, dtype=bool) if exact is None else exact
+        self.linear = linear.unsymmetric()
         limits = springs.problem.limits
         self.can_open = np.isfinite(limits.tension)
         self.can_slide = np.isfinite(limits.cohesion)
         self.smooth = (limits.friction == 0) & (limits.cohesion == 0)
         self.bounded = self.can_slide & ~self.smooth
-        self.compliance_n = 1 / springs.normal_stiffness
-        self.compliance_t = 1 / springs.shear_stiffness
+        soft = np.where(self.exact, SOFT, 1.0)
+        self.compliance_n = soft / springs.normal_stiffness
+        self.compliance_t = soft / springs.shear_stiffness
 
-    def run(self, increment: Floats, budget: int, tolerance: float) -> Settled:
-        """Follow the central path with at most ``budget`` factorisations."""
-        springs, point = self.springs, self._start(increment)
-        best = Settled(increment, springs.defect(increment).size, 0, 0, "")
+    def run(self, start: Settled, budget: int, tolerance: float) -> Settled:
+        """Follow the central path with at most ``budget`` factorisations.
+
+        ``start`` gives unknowns and the size of forces; its springs may be softer.
+        """
+        springs, point = self.springs, self._start(start)
+        size = max(springs.defect(start.increment).size, self._jump(springs, point))
+        best = Settled(springs, start.increment, size, 0, 0, "")
         factorisations = solves = 0
         tried = 1.0
         for _ in range(budget):
-            size = springs.defect(point.increment).size
+            springs = self._springs(point)
+            size = max(springs.defect(point.increment).size, self._jump(springs, point))
             if size < best.size:
-                best = replace(best, increment=point.increment, size=size)
-            if size < 0.1 * tried and size < 1e-3:
+                best = replace(best, springs=springs, increment=point.increment, size=size)
+            if size < 0.1 * tried and size < 1e-3 and not self.exact.any():
                 tried = size
                 end = polish(springs, self.pattern, self.linear, point.increment, tolerance)
                 factorisations, solves = factorisations + end.factorisations, solves + end.solves
                 if end.size < best.size:
-                    best = replace(best, increment=end.increment, size=end.size)
+                    best = replace(best, springs=springs, increment=end.increment, size=end.size)
             if best.size <= tolerance or not np.isfinite(point.increment).all():
                 break
             system = _Linearised(self, point)
@@ -97,23 +117,38 @@ class InteriorPoint:
         story = f"interior point with {factorisations} factorisations"
         return replace(best, solves=solves, factorisations=factorisations, story=story)
 
-    def _start(self, increment: Floats) -> Point:
+    def _springs(self, point: Point) -> CutSprings:
+        shifts = (self.springs.normal_shift, self.springs.shear_shift)
+        forces = (point.normal, point.shear)
+        chosen = (np.where(self.exact, f, s) for f, s in zip(forces, shifts, strict=True))
+        return self.springs.shifted(*chosen)
+
+    def _jump(self, springs: CutSprings, point: Point) -> float:
+        if not self.exact.any():
+            return 0.0
+        found = np.concatenate(springs.forces(point.increment))
+        meant = np.concatenate([point.normal, point.shear])
+        size = float(np.abs(found).max())
+        return float(np.abs(found - meant).max()) / size if size > 0 else 0.0
+
+    def _start(self, start: Settled) -> Point:
         springs, limits = self.springs, self.springs.problem.limits
-        normal, shear = springs.forces(increment)
+        increment = start.increment
+        normal, shear = start.springs.forces(increment)
         finite = np.abs(np.where(np.isfinite(normal), normal, 0.0))
         typical = float(np.sqrt(np.mean(finite**2))) or 1.0
+        soft_n, soft_t = 1 / start.springs.normal_stiffness, 1 / start.springs.shear_stiffness
         pull = np.where(self.can_open, limits.tension, 0.0)
         p = np.maximum(pull - normal, typical)
+        gap = springs.problem.gaps(increment) - (normal - start.springs.normal_shift) * soft_n
         normal = np.where(self.can_open, pull - p, normal)
-        gap = springs.problem.gaps(increment) - (normal - springs.normal_shift) * self.compliance_n
-        w = np.maximum(gap, typical * self.compliance_n)
+        w = np.maximum(gap, typical * soft_n)
         bound = np.where(self.bounded, self.bound(normal, p, w), 0.0)
         shear = np.where(self.bounded, np.clip(shear, -0.9 * bound, 0.9 * bound), shear)
         shear = np.where(self.smooth, 0.0, shear)
-        over = springs.problem.slips(increment)
-        over = over - (shear - springs.shear_shift) * self.compliance_t
-        small = typical * self.compliance_t
-        u, v = np.maximum(over, 0) + small, np.maximum(-over, 0) + small
+        over = springs.problem.slips(increment) - (shear - start.springs.shear_shift) * soft_t
+        u = np.maximum(over, 0) + typical * soft_t
+        v = np.maximum(-over, 0) + typical * soft_t
         a = np.maximum(bound - shear, 1e-3 * typical)
         b = np.maximum(bound + shear, 1e-3 * typical)
         return Point(increment, normal, shear, p, w, a, u, b, v)
@@ -143,10 +178,12 @@ class _Linearised:
         springs = method.springs
         problem, limits = springs.problem, springs.problem.limits
         rest = problem.out_of_balance(at.increment, at.normal, at.shear)
+        over_n = (at.normal - springs.normal_shift) * method.compliance_n
+        over_t = (at.shear - springs.shear_shift) * method.compliance_t
         gap = problem.gaps(at.increment) - at.w * method.can_open
-        self.rest_gap = gap - (at.normal - springs.normal_shift) * method.compliance_n
+        self.rest_gap = gap - np.where(method.exact, 0.0, over_n)
         slip = problem.slips(at.increment) - (at.u - at.v) * method.bounded
-        self.rest_slip = slip - (at.shear - springs.shear_shift) * method.compliance_t
+        self.rest_slip = slip - np.where(method.exact, 0.0, over_t)
         bound = np.where(method.bounded, method.bound(at.normal, at.p, at.w), 0.0)
         self.rest_a = np.where(method.bounded, at.a - (bound - at.shear), 0.0)
         self.rest_b = np.where(method.bounded, at.b - (bound + at.shear), 0.0)

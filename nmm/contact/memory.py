@@ -62,6 +62,7 @@ class Memory:
 
     pattern: SpringPattern | None = None
     kept: KeptFactor | None = None
+    redundant: bool = False
 
     def pattern_of(self, problem: StepProblem) -> SpringPattern:
         """Pattern of ``problem``, laid out anew when it changed."""

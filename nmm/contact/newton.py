@@ -40,4 +40,6 @@ def polish(
         if not found.size < 0.5 * defect.size:
             break
         increment, defect = increment - step, found
-    return Settled(increment, defect.size, solves, taken, f"Newton with {taken} factorisations")
+    return Settled(
+        springs, increment, defect.size, solves, taken, f"Newton with {taken} factorisations"
+    )

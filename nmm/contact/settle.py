@@ -8,9 +8,14 @@ from integration.arrays import Floats
 from nmm.contact.chord import Chord
 from nmm.contact.interior import InteriorPoint
 from nmm.contact.memory import Memory
+from nmm.contact.newton import polish
 from nmm.contact.springs import CutSprings, Settled
 from nmm.solvers.linear import LinearSolver
 
+SMALL = 120
+"""Unknowns up to which Newton's method is tried first."""
+FINE = 1e-13
+"""Relative out-of-balance force at which Newton's method need not go on."""
 RESIGNED = 20
 """Solves with one factor after a step in which that did not suffice."""
 
@@ -52,6 +57,11 @@ def settle(
     """
     budget = budget or Budget()
     increment = np.zeros_like(springs.problem.force) if start is None else start
+    if len(increment) <= SMALL:
+        pattern = memory.pattern_of(springs.problem)
+        quick = polish(springs, pattern, linear.unsymmetric(), increment, FINE)
+        if quick.size <= tolerance:
+            return quick
     kept, new = memory.factor_of(springs, linear)
     chord = Chord(springs, kept.factor, increment, springs.defect(increment))
     if new:
@@ -71,11 +81,13 @@ def settle(
     if new:
         kept.solves_when_new = chord.solves
     story = f"{chord.solves} solves with {'a new' if factorisations else 'the kept'} factor"
-    found = Settled(chord.increment, chord.defect.size, chord.solves, factorisations, story)
+    found = Settled(
+        springs, chord.increment, chord.defect.size, chord.solves, factorisations, story
+    )
     if done or budget.interior <= 0:
         return found
     pattern = memory.pattern_of(springs.problem)
-    inner = InteriorPoint(springs, pattern, linear).run(found.increment, budget.interior, tolerance)
+    inner = InteriorPoint(springs, pattern, linear).run(found, budget.interior, tolerance)
     best = inner if inner.size < found.size else found
     return replace(
         best,

@@ -1,6 +1,6 @@
 """Contact forces as springs that a law cuts off: the equations every iterative solver works on."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -39,6 +39,10 @@ class CutSprings:
         """Springs with the problem's own stiffnesses."""
         zero = np.zeros(problem.n_contacts)
         return cls(problem, problem.normal_stiffness, problem.shear_stiffness, zero, zero)
+
+    def shifted(self, normal: Floats, shear: Floats) -> "CutSprings":
+        """Springs with other shifts."""
+        return replace(self, normal_shift=normal, shear_shift=shear)
 
     @cached_property
     def weight(self) -> Floats:
@@ -88,6 +92,8 @@ class Settled:
 
     Attributes
     ----------
+    springs
+        The springs whose forces belong to the increment.
     increment
         (n,) best unknowns.
     size
@@ -100,6 +106,7 @@ class Settled:
         How, in words.
     """
 
+    springs: CutSprings
     increment: Floats
     size: float
     solves: int

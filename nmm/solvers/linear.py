@@ -65,8 +65,16 @@ class LinearSolver(ABC):
         return Factor.of(self, csc_array(matrix))
 
     def indefinite(self) -> "LinearSolver":
-        """Return the solver with settings for matrices that are not positive definite."""
+        """Return the solver with settings for symmetric matrices with pivots of both signs."""
         return self
+
+    def unsymmetric(self) -> "LinearSolver":
+        """Return the solver with settings for nearly symmetric matrices with good pivots."""
+        return self.indefinite()
+
+    def scaling(self, matrix: csc_array) -> Floats:
+        """(n,) factors that bring the matrix to entries of about one."""
+        return jacobi_scale(matrix)
 
     def deflated(self) -> Self:
         """Return the solver with the shift for rank-deficient matrices."""
@@ -107,7 +115,7 @@ class Factor:
                 "linear system: the matrix holds numbers that are not finite: expected finite "
                 "stiffnesses and masses: check materials and the size of the step"
             )
-        scale = jacobi_scale(matrix)
+        scale = solver.scaling(matrix)
         scaled = _scaled(matrix, scale, solver.shift)
         try:
             return cls(solver, matrix, scale, solver.decompose(scaled))
@@ -199,6 +207,19 @@ def jacobi_scale(matrix: csc_array) -> Floats:
         largest = np.asarray(abs(matrix).max(axis=0).todense()).ravel()
         diagonal = np.where(diagonal > 0, diagonal, np.where(largest > 0, largest, 1.0))
     return np.asarray(1.0 / np.sqrt(diagonal))
+
+
+def ruiz_scale(matrix: csc_array, sweeps: int = 3) -> Floats:
+    """(n,) factors that bring the largest entry of every row and column near one (Ruiz 2001)."""
+    size = csc_array((np.abs(matrix.data), matrix.indices, matrix.indptr), shape=matrix.shape)
+    scale = np.ones(matrix.shape[0])
+    for _ in range(sweeps):
+        now = _scaled(size, scale, 0.0)
+        rows = np.asarray(now.max(axis=1).todense()).ravel()
+        columns = np.asarray(now.max(axis=0).todense()).ravel()
+        largest = np.maximum(rows, columns)
+        scale = scale / np.sqrt(np.where(largest > 0, largest, 1.0))
+    return scale
 
 
 def _scaled(matrix: csc_array, scale: Floats, shift: float) -> csc_array:

@@ -8,7 +8,8 @@ from scipy.sparse import csc_array
 from scipy.sparse.linalg import SuperLU as Decomposed
 from scipy.sparse.linalg import splu
 
-from nmm.solvers.linear import LinearSolver, RankDeficientError
+from integration.arrays import Floats
+from nmm.solvers.linear import LinearSolver, RankDeficientError, jacobi_scale, ruiz_scale
 
 
 @dataclass(frozen=True)
@@ -21,10 +22,13 @@ class SuperLU(LinearSolver):
         A diagonal pivot is kept when it is at least this part of the largest entry of its
         column: 0 for positive definite matrices (no search, symmetric fill), 0.1 for indefinite
         ones.
+    equilibrate
+        Scale by the largest entries of rows and columns instead of the diagonal.
     """
 
     name: ClassVar[str] = "superlu"
     pivot_threshold: float = 0.0
+    equilibrate: bool = False
 
     def decompose(self, matrix: csc_array) -> Decomposed:
         """Factorise; `RankDeficientError` at a zero pivot."""
@@ -41,6 +45,14 @@ class SuperLU(LinearSolver):
             # SuperLU reports a zero pivot, or trips over the supernode that holds it.
             raise RankDeficientError(str(fault)) from fault
 
+    def scaling(self, matrix: csc_array) -> Floats:
+        """By the diagonal, or by the largest entries where diagonals may vanish."""
+        return ruiz_scale(matrix) if self.equilibrate else jacobi_scale(matrix)
+
     def indefinite(self) -> "SuperLU":
+        """Equilibrated, pivots within a factor 10 of the largest entry, refined twice."""
+        return replace(self.unsymmetric(), equilibrate=True)
+
+    def unsymmetric(self) -> "SuperLU":
         """Pivots within a factor 10 of the largest entry, refined twice."""
         return replace(self, pivot_threshold=0.1, refinements=max(self.refinements, 2))

@@ -1,0 +1,68 @@
+"""Augmented Lagrangian: penalty springs relieved by multipliers."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from nmm.contact.answer import answer, singular_answer
+from nmm.contact.cone import interior_round
+from nmm.contact.enforcement import Enforcement
+from nmm.contact.memory import Memory
+from nmm.contact.problem import StepAnswer, StepProblem
+from nmm.contact.rounds import converged_rounds, first_round, rounds_verdict, stiff_springs
+from nmm.errors import SolveError
+from nmm.solvers.linear import LinearSolver
+
+
+@dataclass(frozen=True)
+class Augmented(Enforcement):
+    """Uzawa's iteration on penalty springs (Lin 1995; Amadei, Lin, Dwyer 1996).
+
+    ``lambda <- lambda + p d`` after every round, the shear multiplier cut at Coulomb's bound; a
+    round settles springs shifted by the multipliers. For one contact of compliance ``c`` the
+    error of the force falls by exactly ``1/(1 + p c)`` a round, so the result does not depend on
+    ``p``, only the number of rounds does. The multipliers are the contact forces.
+
+    Attributes
+    ----------
+    scale
+        ``p c`` (-), from which ``p`` of each contact follows; None takes the stiffnesses of the
+        problem.
+    growth
+        Factor on ``p`` (-) after a round that reduced the error by less than four, as happens
+        where many contacts share few unknowns; 1 keeps ``p``.
+    max_rounds
+        Most updates of the multipliers a step.
+    rescue
+        Most factorisations of the interior point, which takes over when the rounds fail; 0
+        reports the failure instead.
+    tolerance
+        Largest relative out-of-balance force (-), and largest gap or slip that should not be over
+        the compliance times the largest force (-).
+    """
+
+    name: ClassVar[str] = "augmented"
+    scale: float | None = 100.0
+    growth: float = 10.0
+    max_rounds: int = 50
+    rescue: int = 100
+    tolerance: float = 1e-8
+
+    def solve(
+        self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
+    ) -> StepAnswer:
+        """Alternate settling and updating until forces and multipliers agree."""
+        problem.check()
+        memory = memory or Memory()
+        at = first_round(stiff_springs(problem, self.scale))
+        try:
+            at = converged_rounds(
+                at, linear_solver, memory, self.tolerance, self.max_rounds, self.growth
+            )
+        except SolveError as fault:
+            return singular_answer(at.settled.springs, linear_solver, fault)
+        how = f"{at.count} rounds"
+        if self.rescue and not at.meets(self.tolerance):
+            at = interior_round(at, linear_solver, memory, self.tolerance, self.rescue)
+            how = f"{how}, then {at.settled.story}"
+        verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, how)
+        return answer(at.settled, linear_solver, verdict)
