@@ -8,7 +8,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.points import ContactPoints
-from nmm.contact.problem import BONDED, BROKEN, Limits, StepAnswer
+from nmm.contact.problem import BROKEN, Limits, StepAnswer
 from nmm.interfaces.base import InterfaceLaw
 
 # Loads on bonds of a symmetric structure agree to rounding only; those within this of the worst
@@ -87,7 +87,8 @@ class Laws:
         soft: Bools = np.zeros(len(contacts), dtype=bool)
         for law, index in self._by_law(contacts):
             soft[index] = law.softens
-        return np.logical_and.reduce([soft, contacts.is_joint, contacts.damage < 1])
+        held: Bools = soft & contacts.is_joint & (contacts.damage < 1)
+        return held
 
     def damaged(
         self, contacts: ContactPoints, opening: Floats, sliding: Floats, stiffness: Floats
@@ -176,8 +177,3 @@ def break_bonds(contacts: ContactPoints, broken: Bools) -> ContactPoints:
         shear_force=np.where(broken, 0.0, contacts.shear_force),
         slip=np.where(broken, 0.0, contacts.slip),
     )
-
-
-def intact(contacts: ContactPoints) -> Bools:
-    """Which contacts are bonds that hold."""
-    return (contacts.state == BONDED) & (contacts.damage < 1)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from nmm.effects.base import Instant, Setup, factor_of
 
 if TYPE_CHECKING:
-    from nmm.scene.actions import Load
+    from nmm.scene.actions import Load, Support
 
 
 def load_factor(setup: Setup, load: "Load") -> Callable[[Instant], float]:
@@ -17,3 +17,15 @@ def load_factor(setup: Setup, load: "Load") -> Callable[[Instant], float]:
     loading = setup.scene.loading
     scaled = loading is None or loading.scaled == "all" or load.name in loading.scaled
     return lambda end: factor_of(load.history, end.time) * (end.load_factor if scaled else 1.0)
+
+
+def displacement_factor(setup: Setup, support: "Support") -> Callable[[Instant], float]:
+    """Return the factor of a support's displacement: its history, times the load factor if scaled.
+
+    It is scaled when ``[loading]`` names it, or scales "all" of a scene without loads.
+    """
+    loading = setup.scene.loading
+    scaled = loading is not None and (
+        not setup.scene.loads if loading.scaled == "all" else support.name in loading.scaled
+    )
+    return lambda end: factor_of(support.history, end.time) * (end.load_factor if scaled else 1.0)

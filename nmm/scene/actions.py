@@ -151,7 +151,9 @@ class Loading(Frozen):
     """How the loads of a static run grow."""
 
     scaled: Annotated[tuple[str, ...] | Literal["all"], BeforeValidator(_scaled)] = Field(
-        default="all", description='"all" or a list of names of loads', examples=["all"]
+        default="all",
+        description='"all" or a list of names of loads and of supports with a displacement',
+        examples=["all"],
     )
     until: Annotated[float | Literal["failure"], BeforeValidator(_until)] = Field(
         default=1.0, description='"failure" or a load factor > 0', examples=["failure"]

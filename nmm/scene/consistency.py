@@ -153,12 +153,15 @@ def _effects(data: Tables) -> Iterator[Finding]:
 
 
 def _scaled_loads(data: Tables) -> Iterator[Finding]:
-    known = [row["name"] for _, row in _rows(data, "loads") if isinstance(row.get("name"), str)]
+    driven = [row for _, row in _rows(data, "supports") if row.get("displacement")]
+    rows = [row for _, row in _rows(data, "loads")] + driven
+    known = [row["name"] for row in rows if isinstance(row.get("name"), str)]
     scaled = _table(data, "loading").get("scaled", "all")
     for name in scaled if isinstance(scaled, list | tuple) else ():
         if isinstance(name, str) and name not in known:
             path: Path = ("loading", "scaled")
-            yield path, f'"{name}"', "the name of a load", suggestion(name, known)
-    if "loading" in data and not data.get("loads"):
-        remedy = "add [[loads]], or remove [loading]"
+            expected = "the name of a load, or of a support with a displacement"
+            yield path, f'"{name}"', expected, suggestion(name, known)
+    if "loading" in data and not rows:
+        remedy = "add [[loads]] or the displacement of a support, or remove [loading]"
         yield ("loading",), "no load", "at least one load to scale", remedy
