@@ -246,22 +246,42 @@ def traction_rows(model: Model, place: Place) -> Floats:
 
 
 def multiplier_basis(place: Place, size: float, degree: int) -> Floats:
-    """Legendre polynomials (m, k) on intervals of two cells or more along the boundary held."""
+    """Legendre polynomials (m, k) on intervals of two cells or more along each straight line held.
+
+    Multipliers on every cut piece of boundary would be too many for the displacements to answer
+    (Béchet, Moës and Wohlmuth 2009); on intervals longer than cells they are not.
+    """
+    parts = []
+    lines = _lines(place, size)
+    for number in range(int(lines.max(initial=-1)) + 1):  # the straight lines of a support
+        chosen = np.flatnonzero(lines == number)
+        part = _on_line(place.position[chosen], size, degree)
+        parts.append(np.zeros((len(lines), part.shape[1])))
+        parts[-1][chosen] = part
+    return np.concatenate(parts, axis=1)
+
+
+def _lines(place: Place, size: float) -> Ints:
+    """The straight line (m,) on which each point lies."""
+    assert place.normal is not None
+    offset = np.einsum("mi,mi->m", place.normal, place.position) / size
+    rows = np.round(np.column_stack([place.normal, offset]) / 1e-6).astype(np.int64)
+    return np.unique(rows, axis=0, return_inverse=True)[1].ravel()
+
+
+def _on_line(points: Floats, size: float, degree: int) -> Floats:
     from numpy.polynomial.legendre import legvander
 
-    start = place.position[0]
-    away = place.position - start
+    away = points - points[0]
     along = away[np.argmax(np.abs(away).sum(axis=1))]
-    length = max(float(np.hypot(*along)), 1e-300)
-    s = away @ along / length
+    s = away @ along / max(float(np.hypot(*along)), 1e-300)
     low, high = float(s.min()), float(s.max())
     number = max(int((high - low) / (2 * size)), 1)
     # One constant would leave the turn about the middle free.
     degree = max(degree, 1) if number == 1 else degree
     width = max(high - low, 1e-300) / number
     interval = np.clip(((s - low) / width).astype(int), 0, number - 1)
-    local = 2 * (s - low - interval * width) / width - 1
-    values = legvander(local, degree)
+    values = legvander(2 * (s - low - interval * width) / width - 1, degree)
     basis = np.zeros((len(s), number, degree + 1))
     basis[np.arange(len(s)), interval] = values
     return basis.reshape(len(s), -1)

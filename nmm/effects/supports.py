@@ -16,7 +16,8 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, at_point, on_block, on_segment
-from nmm.effects.base import Effect, Instant, Setup, factor_of
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.load_factor import displacement_factor
 from nmm.effects.support_methods import (
     Multipliers,
     Nitsche,
@@ -35,8 +36,9 @@ if TYPE_CHECKING:
 
 # Spring of a support in Young's moduli times thickness: Shi's 10 to 1000, at the stiff end.
 STIFFNESS = 1000.0
-# Spring along edges of a mesh, in Young's moduli over the size of a cell.
-EDGE_STIFFNESS = 1e4
+# Spring along edges of a mesh, in Young's moduli over the size of a cell, for an edge of one cell,
+# and the stiffest one: beyond it rounding of the stiffness exceeds the error of the spring.
+EDGE_STIFFNESS, STIFFEST = 100.0, 1e6
 # Nitsche's penalty in (lambda + 2 mu) / h by degree of the local functions, and the ghost term in
 # (lambda + 2 mu) / h^2: measured to keep the matrix positive down to cuts of 1e-6 of a cell.
 GAMMA = {0: 20.0, 1: 20.0, 2: 60.0, 3: 120.0}
@@ -170,8 +172,7 @@ class Method:
         axes: Bools = np.array(held)
         weight = place.weight * model.thickness
         if self.kind == "penalty":
-            factor = EDGE_STIFFNESS if self.stiffness is None else self.stiffness
-            spring = factor * model.modulus[place.elements] / self.size * weight
+            spring = self._factor(place) * model.modulus[place.elements] / self.size * weight
             return Springs(name, place, axes, displacement, spring)
         if self.kind == "lagrange":
             basis = multiplier_basis(place, self.size, self.degree)
@@ -187,6 +188,14 @@ class Method:
         penalty = gamma * hard[place.elements] / self.size
         traction = traction_rows(model, place)
         return Nitsche(name, place, axes, displacement, weight, penalty, traction, tie)
+
+    def _factor(self, place: Place) -> float:
+        """Spring in E / h: it must grow as the error of the approximation falls."""
+        assert self.size is not None
+        if self.stiffness is not None:
+            return self.stiffness
+        cells = max(float(np.hypot(*np.ptp(place.position, axis=0))) / self.size, 1.0)
+        return float(min(EDGE_STIFFNESS * cells ** (self.degree + 1), STIFFEST))
 
     def _cut(self, model: Model, place: Place) -> Ints:
         """Elements on the edge that a cut has left."""
@@ -219,9 +228,10 @@ def _support(setup: Setup, support: "SceneSupport") -> Support:
     place = _place(setup, support, method.order if mesh else 4)
     to = np.array(support.displacement)
     held = ("x" in support.fix, "y" in support.fix)
+    factor = displacement_factor(setup, support)
 
     def displacement(end: Instant) -> Floats:
-        return np.asarray(to * factor_of(support.history, end.time))
+        return to * factor(end)
 
     if mesh and support.point is None:
         return method.hold(setup.model, place, displacement, held, support.name)

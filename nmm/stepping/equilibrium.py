@@ -1,0 +1,112 @@
+"""Linear statics from Python: a model, effects, one solution in small displacements.
+
+What scenes declare by numbers may here be functions of position: exact displacements and
+tractions of a verification problem.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State, initial_state, strain_only
+from nmm.assembly.places import Place
+from nmm.effects.base import Effect, Instant, defines
+from nmm.effects.field_loads import FieldLoad
+from nmm.effects.loads import Load, Loads
+from nmm.effects.supports import Method, Supports
+from nmm.formulation import Solver
+from nmm.solvers.bordered import bordered
+from nmm.solvers.linear import Factor
+from nmm.stepping.cures import solver_for
+
+Field = Callable[[Floats], Floats]
+
+END = Instant(1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A solution.
+
+    Attributes
+    ----------
+    model
+        What was solved.
+    state
+        Displacements as ``state.deformation``.
+    residual
+        Relative out-of-balance force.
+    factor
+        The factorised system.
+    """
+
+    model: Model
+    state: State
+    residual: float
+    factor: Factor
+
+    @property
+    def energy(self) -> float:
+        """Strain energy (J)."""
+        u = self.state.deformation
+        return 0.5 * float(u @ (self.model.stiffness @ u))
+
+
+def equilibrium(
+    model: Model, effects: Sequence[Effect], solver: Solver | None = None
+) -> Equilibrium:
+    """Solve the displacements of a model under effects.
+
+    Raises
+    ------
+    SolveError
+        No equilibrium: a part is free and the load moves it.
+    """
+    start = initial_state(model.manifold)
+    matrix, force = model.stiffness, np.zeros(model.manifold.n_unknowns)
+    linear, border = solver_for(model.manifold, solver or Solver()), None
+    for effect in effects:
+        if defines(effect, "matrix"):
+            matrix = csc_array(matrix + effect.matrix(start))
+        if defines(effect, "force"):
+            force = force + effect.force(start, END)
+        if isinstance(effect, Supports):
+            border = effect.border(start, END)
+    n = len(force)
+    if border is not None:
+        matrix, force = bordered(matrix, border[0]), np.concatenate([force, border[1]])
+        linear = linear.indefinite()
+    factor = linear.factorise(matrix)
+    found = factor.solve(force)
+    residual = factor.relative_residual(found, force)
+    return Equilibrium(model, strain_only(model, start, found[:n]), residual, factor)
+
+
+def hold(
+    model: Model,
+    place: Place,
+    method: Method,
+    displacement: Field | None = None,
+    held: tuple[bool, bool] = (True, True),
+) -> Supports:
+    """Hold Gauss points of edges at a displacement that is a function of position (m, 2)."""
+    values = np.zeros(2) if displacement is None else displacement(place.position)
+    support = method.hold(model, place, lambda end: values, held)
+    return Supports([support], model.manifold.n_unknowns, initial_state(model.manifold))
+
+
+def traction(model: Model, place: Place, field: Callable[[Floats, Floats], Floats]) -> Loads:
+    """Load Gauss points of edges by tractions ``field(points, normals)`` (m, 2) in Pa."""
+    assert place.normal is not None
+    values = field(place.position, place.normal) * model.thickness
+    load = Load("edge", place, place.weight[:, None] * values, lambda end: 1.0)
+    return Loads([load], model.manifold.n_unknowns)
+
+
+def body_force(model: Model, field: Field, order: int) -> FieldLoad:
+    """Load the volume by a force density ``field(points)`` (m, 2) in N/m3."""
+    return FieldLoad.of(model, field, order)
