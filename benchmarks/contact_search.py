@@ -85,7 +85,7 @@ def measured(work: dict[str, Callable[[], object]], repeats: int) -> dict[str, f
 def main(blocks: tuple[int, ...] = (1_000, 10_000, 100_000)) -> list[dict[str, float]]:
     """Print the table and return its rows."""
     print(f"{platform.machine()}, Python {platform.python_version()}, numpy {np.__version__}, ms")
-    rows = []
+    rows: list[dict[str, float]] = []
     for number in blocks:
         surface = voronoi(number)
         work = tasks(surface)
