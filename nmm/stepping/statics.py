@@ -102,7 +102,8 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
     contacts: ContactPoints | None = None
     total = attempt = stepper.attempt(state, end, None, breaking)
     for _ in range(CORRECTIONS):
-        if not attempt.converged or total.motion > COLLAPSE * stepper.size:
+        far = not stepper.small and total.motion > COLLAPSE * stepper.size
+        if far or not attempt.converged:
             return Settled(replace(total, converged=False), contacts)
         _, contacts = stepper.accept(attempt)
         if stepper.small or attempt.motion <= SETTLED * total.motion + ROUNDING * stepper.size:

@@ -1,0 +1,1 @@
+"""Studies: one or many scenes under many formulations; error, seconds, memory, side by side."""

@@ -1,0 +1,94 @@
+"""What is kept of one measured case: numbers, cost, and all that it can be repeated from."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any, Self
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Record:
+    """One case of a study.
+
+    Attributes
+    ----------
+    name, settings, key
+        Formulation, what the case differs in, content hash.
+    status, sentence
+        Verdict of the run; a case that raised has status "error".
+    quantities
+        Numbers read off the run.
+    seconds
+        Processor seconds of every counted repeat.
+    wall
+        Wall-clock seconds of every counted repeat.
+    phases
+        Seconds by phase of the median repeat.
+    unknowns, elements, steps, passes
+        Sizes.
+    memory
+        Bytes that the run added to the process, at its peak; None when not measured.
+    versions, machine
+        What it was measured with.
+    """
+
+    name: str
+    settings: Mapping[str, Any]
+    key: str
+    status: str
+    sentence: str
+    quantities: Mapping[str, float] = field(default_factory=dict)
+    seconds: tuple[float, ...] = ()
+    wall: tuple[float, ...] = ()
+    phases: Mapping[str, float] = field(default_factory=dict)
+    unknowns: int = 0
+    elements: int = 0
+    steps: int = 0
+    passes: int = 0
+    memory: int | None = None
+    versions: Mapping[str, str] = field(default_factory=dict)
+    machine: str = ""
+
+    @property
+    def valid(self) -> bool:
+        """Whether the run's numbers may be used."""
+        return self.status in ("converged", "failure_load")
+
+    @property
+    def median_seconds(self) -> float:
+        """Median processor seconds."""
+        return float(np.median(self.seconds)) if self.seconds else float("nan")
+
+    @property
+    def label(self) -> str:
+        """Name and settings in words."""
+        settings = ", ".join(f"{key} = {value}" for key, value in self.settings.items())
+        return f"{self.name} ({settings})" if settings else self.name
+
+    def to_json(self) -> str:
+        """Return the record as one line of JSON; nan becomes null."""
+        return json.dumps(_plain(asdict(self)), allow_nan=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """Read a record back; null among the numbers becomes nan."""
+        values = json.loads(text)
+        values["quantities"] = {
+            name: float("nan") if value is None else value
+            for name, value in values["quantities"].items()
+        }
+        for name in ("seconds", "wall"):
+            values[name] = tuple(values[name])
+        return cls(**values)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, tuple | list):
+        return [_plain(item) for item in value]
+    if hasattr(value, "item"):
+        value = value.item()
+    return None if isinstance(value, float) and not np.isfinite(value) else value

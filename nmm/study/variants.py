@@ -1,0 +1,105 @@
+"""Variants of scenes and formulations: values set by dotted keys, and their content hashes."""
+
+import hashlib
+import itertools
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from nmm.errors import FormulationError, NmmError
+from nmm.formulation import Formulation
+from nmm.formulation import canonical_text as formulation_text
+from nmm.scene import Scene, build_scene
+from nmm.scene import canonical_text as scene_text
+from nmm.scene.document import build
+from nmm.scene.faults import Source
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run of a study.
+
+    Attributes
+    ----------
+    name
+        Formulation's title or file name.
+    scene, formulation
+        What is run.
+    settings
+        What this case differs in, by dotted key.
+    """
+
+    name: str
+    scene: Scene
+    formulation: Formulation
+    settings: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def key(self) -> str:
+        """Content hash: equal for equal scenes and formulations, whatever their files."""
+        content = scene_text(self.scene) + formulation_text(self.formulation)
+        return hashlib.sha256(content.encode()).hexdigest()
+
+    @property
+    def label(self) -> str:
+        """Name and settings in words."""
+        settings = ", ".join(f"{key} = {value}" for key, value in self.settings.items())
+        return f"{self.name} ({settings})" if settings else self.name
+
+
+def with_settings(case: Case, settings: Mapping[str, Any]) -> Case:
+    """Return a case with values changed; keys of formulations begin with ``formulation.``.
+
+    A key is a path through tables and arrays (``tessellations.0.seed``,
+    ``formulation.cover.size``).
+
+    Raises
+    ------
+    NmmError
+        When a path leads nowhere, or scene or formulation refuses the value.
+    """
+    tables = case.scene.model_dump(mode="json", by_alias=True, exclude_none=True)
+    method = case.formulation.model_dump(mode="json", exclude_none=True)
+    for path, value in settings.items():
+        first, _, rest = path.partition(".")
+        if first == "formulation":
+            _set(method, rest, value)
+        else:
+            _set(tables, path, value)
+    return Case(
+        case.name,
+        build_scene(tables, case.scene.source.name),
+        build(method, Formulation, Source(case.name), FormulationError),
+        {**case.settings, **settings},
+    )
+
+
+def grid(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
+    """Return all combinations of the values of several keys."""
+    return [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
+
+
+def value_of(text: str) -> Any:
+    """Return a value given on a command line: a number or TOML-like literal, else the text."""
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError:
+        return text
+
+
+def _set(tables: Any, path: str, value: Any) -> None:
+    *way, last = path.split(".")
+    place = tables
+    try:
+        for part in way:
+            place = place[int(part)] if isinstance(place, list) else place.setdefault(part, {})
+        if isinstance(place, list):
+            place[int(last)] = value
+        else:
+            place[last] = value
+    except (KeyError, IndexError, ValueError, TypeError, AttributeError) as fault:
+        raise NmmError(
+            f"setting {path}: leads nowhere in the file: expected a path of keys and numbers such "
+            "as tessellations.0.seed: correct it"
+        ) from fault
