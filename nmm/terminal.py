@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from nmm.scene import Scene
-    from nmm.stepping.run import Progress, Run
+    from nmm.stepping.run import Run
+    from nmm.stepping.simulation import Progress
 
 FAILED = "failed"
 

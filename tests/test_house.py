@@ -48,9 +48,20 @@ ROOMS = (
 IN_ROOM = {"formulation": "scene"}  # formulation files are read by the reader of scenes
 # The public face `nmm/__init__.py` imports any room, lazily; these rooms may use it.
 MAY_USE_THE_FACE = {"study", "verification", "cli", "testing"}
-# What every file of `effects` may import from its own room.
-SHARED_BY_EFFECTS = {"base", "load_factor"}
 ONLY_PLOTS = {"matplotlib"}
+
+
+def defines_an_effect(path: Path) -> bool:
+    """Whether a file has a class that derives from `Effect`; what effects share has none."""
+    classes = [
+        node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.ClassDef)
+    ]
+    return any(
+        isinstance(base, ast.Name) and base.id == "Effect" for c in classes for base in c.bases
+    )
+
+
+EFFECTS = {path.stem for path in (ROOT / "nmm/effects").glob("*.py") if defines_an_effect(path)}
 
 
 class Import(NamedTuple):
@@ -122,7 +133,7 @@ def fault_between_effects(found: Import) -> str | None:
     here, there = found.importer.split("."), found.imported.split(".")
     if here[:2] != ["nmm", "effects"] or there[:2] != ["nmm", "effects"] or len(here) < 3:
         return None
-    if len(there) > 2 and there[2] not in SHARED_BY_EFFECTS | {here[2]}:
+    if len(there) > 2 and there[2] in EFFECTS - {here[2]}:
         return f"effect {here[2]} imports effect {there[2]}: effects never import one another"
     return None
 
@@ -132,6 +143,11 @@ def fault_of_drawing(found: Import) -> str | None:
     if library in ONLY_PLOTS and not found.importer.startswith("nmm.plots"):
         return f"{found.importer} imports {library}: only nmm.plots draws"
     return None
+
+
+def test_the_effects_are_found():
+    assert {"gravity", "inertia", "contact"} <= EFFECTS
+    assert "base" not in EFFECTS
 
 
 RULES = [fault_between_packages, fault_between_rooms, fault_between_effects, fault_of_drawing]
