@@ -99,7 +99,7 @@ def _shared_patches(
 ) -> tuple[Ints, Ints]:
     """Places ``element * k + slot`` of one patch on both sides of a join."""
     k = patches.shape[1]
-    asked = doubtful[patches].any(axis=1)
+    asked: Bools = np.asarray(doubtful[patches].any(axis=1))
     joins = joins.take(asked[joins.first] & asked[joins.second])
     left, right = patches[joins.first], patches[joins.second]
     same = (left[:, :, None] == right[:, None, :]) & doubtful[left][:, :, None]

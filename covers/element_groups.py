@@ -165,7 +165,7 @@ class PolynomialGroup(ElementGroup):
         return out
 
     def _integrate(self, table: Floats) -> Floats:
-        return np.einsum("nsk,nk->ns", table, self.moments[:, : table.shape[2]])
+        return np.asarray(np.einsum("nsk,nk->ns", table, self.moments[:, : table.shape[2]]))
 
     def _contract(self, left: Floats, right: Floats, degree: int) -> Floats:
         gram = self.moments[:, product_index(degree)]

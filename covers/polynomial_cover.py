@@ -37,7 +37,8 @@ class PolynomialCover(Cover):
 
     def reference(self, cells: Ints, points: Floats) -> Floats:
         """Reference coordinates (m, 2) of ``points`` in ``cells``."""
-        return np.einsum("mij,mj->mi", self.cell_matrix[cells], points - self.cell_origin[cells])
+        offset = points - self.cell_origin[cells]
+        return np.asarray(np.einsum("mij,mj->mi", self.cell_matrix[cells], offset))
 
     def weights(self, cells: Ints, points: Floats) -> Floats:
         """Weights (m, k) at ``points`` (m, 2), each in the cell of the same row."""

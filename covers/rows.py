@@ -31,11 +31,11 @@ class Rows:
 
     def apply(self, unknowns: Floats) -> Floats:
         """Displacement (m, 2) at the points for a vector of all unknowns."""
-        return np.einsum("mcl,ml->mc", self.values, unknowns[self.unknowns])
+        return np.asarray(np.einsum("mcl,ml->mc", self.values, unknowns[self.unknowns]))
 
     def along(self, directions: Floats) -> Floats:
         """Rows (m, L) of the displacement along one direction (m, 2) a point."""
-        return np.einsum("mcl,mc->ml", self.values, directions)
+        return np.asarray(np.einsum("mcl,mc->ml", self.values, directions))
 
     def take(self, index: Ints) -> "Rows":
         """Return the rows of some points."""
