@@ -45,6 +45,11 @@ class ElementGroup(ABC):
     shape: Ints
 
     @property
+    def extends(self) -> bool:
+        """Whether the functions of an element have values beyond it."""
+        return True
+
+    @property
     def n_shapes(self) -> int:
         """Number d of distinct shapes."""
         return int(self.shape.max(initial=-1)) + 1

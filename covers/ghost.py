@@ -30,6 +30,14 @@ def neighbours(manifold: Manifold, elements: Ints) -> tuple[Ints, Ints]:
     return first[kept], second[kept]
 
 
+def _extend(manifold: Manifold) -> Bools:
+    """Elements whose fields can be continued beyond them."""
+    found = np.zeros(len(manifold.elements), dtype=bool)
+    for group in manifold.groups:  # a handful of groups
+        found[group.elements] = group.extends
+    return found
+
+
 def _parted(manifold: Manifold, start: Ints, end: Ints, vertex: Ints, n: int) -> Bools:
     """Edges of elements that are faces of cracks or other boundaries."""
     edges, polygons = manifold.boundary, manifold.elements
@@ -45,6 +53,8 @@ def ghost(manifold: Manifold, elements: Ints, weight: Floats, degree: int) -> cs
 
     ``E`` continues the polynomials of an element; the form vanishes for polynomials over both, so
     that it keeps the order of the approximation (Burman 2010; Lehrenfeld and Olshanskii 2019).
+    Elements whose fields have no values beyond them (meshless covers, fields singular at a crack)
+    are left out.
 
     Parameters
     ----------
@@ -57,6 +67,9 @@ def ghost(manifold: Manifold, elements: Ints, weight: Floats, degree: int) -> cs
     """
     n = manifold.n_unknowns
     first, second = neighbours(manifold, elements)
+    known = _extend(manifold)
+    both = known[first] & known[second]
+    first, second = first[both], second[both]
     if not len(first):
         return csc_array((n, n))
     pair = np.tile(np.arange(len(first)), 2)

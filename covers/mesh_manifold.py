@@ -34,7 +34,7 @@ from integration.singular import tip_rule
 # Elements nearer to a singular point than this many of their diameters are integrated about it.
 NEAR_TIP = 2.0
 # Degree beyond that of the polynomials to which functions that are none are integrated.
-RATIONAL, SINGULAR = 4, 8
+RATIONAL, SINGULAR = 6, 8
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,8 @@ def mesh_manifold(
     builder = _Builder.of(cover, cut, kinds, tuple(enrichments))
     n_unknowns = int(builder.offset[-1])
     body_area, body_centroid = _bodies(cut)
-    modes = (kinds.functions, kinds.which, builder.covers, n_unknowns, body_centroid)
+    nodes = cover.patch_centre[cut.cover_patch] if cover.precision >= 1 else None
+    modes = (kinds.functions, kinds.which, builder.covers, n_unknowns, body_centroid, nodes)
     return Manifold(
         elements=cut.elements,
         element_body=cut.element_body,

@@ -17,6 +17,11 @@ CHUNK = 40_000
 class Fields(ABC):
     """Scalar functions ``phi_s`` on elements, given at points."""
 
+    @property
+    def extends(self) -> bool:
+        """Whether they have values beyond the element."""
+        return False
+
     @abstractmethod
     def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
         """Values (m, S) and gradients (m, S, 2) at points (m, 2) in elements ``index`` (m,)."""
@@ -36,6 +41,11 @@ class QuadratureGroup(ElementGroup):
 
     fields: Fields
     rule: PointRule
+
+    @property
+    def extends(self) -> bool:
+        """See `ElementGroup.extends`."""
+        return self.fields.extends
 
     def values(self, index: Ints, points: Floats) -> Floats:
         """See `ElementGroup.values`."""

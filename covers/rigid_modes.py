@@ -18,19 +18,23 @@ def rigid_modes(
     covers: PhysicalCovers,
     n_unknowns: int,
     body_centroid: Floats,
+    nodes: Floats | None = None,
 ) -> csc_array:
     """Return the unknowns (n_unknowns, 3 B) of translation x, y and linear rotation of each body.
 
-    The rotation is about the body's centroid. It is exact when the local functions hold the
-    linear field, or when the weights reproduce linear fields from the values at the centres.
+    The rotation is about the body's centroid. It is exact when all local functions hold the
+    linear field, or when the weights reproduce linear fields from values at nodes.
 
     Parameters
     ----------
     functions, which
         Local functions, and which of them each cover (C,) has.
+    nodes
+        (C, 2) nodes of weights with linear precision: covers then take the field's values there,
+        whatever their degrees; None lets every cover hold the field itself.
     """
     fields = [(np.array([1.0, 0.0]), STILL), (np.array([0.0, 1.0]), STILL), (np.zeros(2), TURN)]
-    return _modes(fields, functions, which, covers, n_unknowns, body_centroid)
+    return _modes(fields, functions, which, covers, n_unknowns, body_centroid, nodes)
 
 
 def stretch_modes(
@@ -39,10 +43,11 @@ def stretch_modes(
     covers: PhysicalCovers,
     n_unknowns: int,
     body_centroid: Floats,
+    nodes: Floats | None = None,
 ) -> csc_array:
     """Return the unknowns (n_unknowns, B) of the field ``X - Xc`` of each body."""
     fields = [(np.zeros(2), np.eye(2))]
-    return _modes(fields, functions, which, covers, n_unknowns, body_centroid)
+    return _modes(fields, functions, which, covers, n_unknowns, body_centroid, nodes)
 
 
 def _modes(
@@ -52,17 +57,22 @@ def _modes(
     covers: PhysicalCovers,
     n_unknowns: int,
     body_centroid: Floats,
+    nodes: Floats | None = None,
 ) -> csc_array:
     """Unknowns of linear fields ``value + gradient (X - Xc)`` of each body, a column each."""
     kinds = len(fields)
     total = csc_array((n_unknowns, kinds * len(body_centroid)))
     for number, item in enumerate(functions):  # a handful of kinds of covers
         index = np.flatnonzero(which == number)
-        arm = covers.centre[index] - body_centroid[covers.body[index]]
+        arm = (covers.centre if nodes is None else nodes)[index]
+        arm = arm - body_centroid[covers.body[index]]
+        held = 1.0 if nodes is None else 0.0
         still = (len(index), 2, 2)
         unknowns = [
             item.linear_field(
-                value + arm @ gradient.T, np.broadcast_to(gradient, still), covers.matrix[index]
+                value + arm @ gradient.T,
+                np.broadcast_to(held * gradient, still),
+                covers.matrix[index],
             )
             for value, gradient in fields
         ]

@@ -38,6 +38,11 @@ class WeightedFields(Fields):
     functions: Sequence[LocalFunctions]
     covers: PhysicalCovers
 
+    @property
+    def extends(self) -> bool:
+        """Polynomial weights do; others know their own cell alone."""
+        return self.cover.weight_degree is not None
+
     def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
         """See `Fields.evaluate`."""
         weight, slope = self.weights(index, points)
