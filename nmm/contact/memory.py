@@ -58,11 +58,23 @@ class Memory:
 
     One memory belongs to one run. Its contents are used only where the problem handed in still
     has the same unknowns at its contacts, and are replaced otherwise.
+
+    Attributes
+    ----------
+    pattern
+        Pattern of matrix and springs.
+    kept
+        Factor with all springs acting.
+    redundant
+        Forces were not determined one by one in the last step.
+    barrier_width
+        Width of the barrier chosen in the first step (m).
     """
 
     pattern: SpringPattern | None = None
     kept: KeptFactor | None = None
     redundant: bool = False
+    barrier_width: float | None = None
 
     def pattern_of(self, problem: StepProblem) -> SpringPattern:
         """Pattern of ``problem``, laid out anew when it changed."""

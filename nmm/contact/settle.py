@@ -84,6 +84,10 @@ def settle(
     found = Settled(
         springs, chord.increment, chord.defect.size, chord.solves, factorisations, story
     )
+    if done and len(increment) <= SMALL:
+        pattern = memory.pattern_of(springs.problem)
+        end = polish(springs, pattern, linear.unsymmetric(), found.increment, FINE)
+        return replace(found, increment=end.increment, size=end.size)
     if done or budget.interior <= 0:
         return found
     pattern = memory.pattern_of(springs.problem)
