@@ -131,6 +131,7 @@ def _cut_layer(
     boxes, chop = cell_boxes(cover), float(np.median(size))
     near = touched_cells(cover, boxes, cracks, 3 * tolerance, chop)
     touched = near | touched_cells(cover, boxes, boundary, TOUCH * resolution.step, chop)
+    touched |= _at_the_rim(cover)
     cracks = _settled(cover, cracks, boundary, near, tolerance)
     cells = Cells(cover.edges, touched, region_of_cells(cover, domain.shapes, members))
 
@@ -151,6 +152,14 @@ def _cut_layer(
     joins = joins_of(cover, cells, faces, pieces, domain.group)
     edges, tips = boundary_of(faces, pieces, domain.group)
     return Layer(pieces, joins, edges, tips, touched)
+
+
+def _at_the_rim(cover: Cover) -> Bools:
+    """Cells (C,) with a corner on the rim of the mesh: the boundary runs there, if anywhere."""
+    outer = (cover.edges.left < 0) | (cover.edges.right < 0)
+    rim = np.zeros(len(cover.vertices), dtype=bool)
+    rim[cover.edges.start[outer]] = rim[cover.edges.end[outer]] = True
+    return np.asarray(rim[cover.cell_vertices].any(axis=1))
 
 
 def _settled(

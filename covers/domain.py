@@ -114,7 +114,7 @@ def domain_of(
 
 
 def _valid_shapes(polygons: Polygons, rounding: float) -> npt.NDArray[np.object_]:
-    """Regions as valid shapely polygons; what is invalid by rounding alone is mended."""
+    """Regions as valid shapely polygons; vertices that differ by rounding are one."""
     shapes = polygons.to_shapely()
     flat = np.flatnonzero(polygons.areas <= rounding * shapely.length(shapes))
     if len(flat):
@@ -123,13 +123,13 @@ def _valid_shapes(polygons: Polygons, rounding: float) -> npt.NDArray[np.object_
             f"{rounding:.3g} m expected: correct its vertices or leave it out"
         )
     for n in np.flatnonzero(~np.asarray(shapely.is_valid(shapes))):  # few or none
-        mended = shapely.make_valid(shapes[n])
-        if abs(mended.area - polygons.areas[n]) > rounding * shapes[n].length:
+        reason = shapely.is_valid_reason(shapes[n])
+        shapes[n] = shapely.remove_repeated_points(shapes[n], rounding)
+        if not shapes[n].is_valid:
             raise ValueError(
-                f"region {n}: {shapely.is_valid_reason(shapes[n])}: a polygon that neither crosses "
-                "nor overlaps itself expected: split it there or correct the vertices"
+                f"region {n}: {reason}: a polygon that does not meet itself expected: "
+                "split it there or correct the vertices"
             )
-        shapes[n] = mended
     return shapes
 
 

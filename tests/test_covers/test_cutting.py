@@ -318,7 +318,7 @@ def test_regions_that_touch_up_to_rounding_do_not_count_as_overlapping():
 def test_clusters_of_vertices_of_the_size_of_rounding_do_not_turn_a_region_inside_out(seed):
     random = np.random.default_rng(seed)
     cover = Triangles.regular([[-0.2, -0.2], [1.2, 1.2]], 0.3, angle=0.5)
-    away = 10.0 ** random.uniform(-16, -9)
+    away = 10.0 ** random.uniform(-16, -13)
     corners = np.array([[0, 0.1], [0.5, 0], [1, 0.3], [0.6, 0.5], [0.9, 1], [0.2, 0.8]])
     near = cover.vertices[
         [np.argmin(np.hypot(*(cover.vertices - corner).T)) for corner in corners[::2]]
@@ -329,6 +329,13 @@ def test_clusters_of_vertices_of_the_size_of_rounding_do_not_turn_a_region_insid
     result = cut(cover, block)
     assert result.elements.areas.sum() == pytest.approx(block.areas[0], rel=1e-12)
     assert result.n_bodies == 1
+
+
+@pytest.mark.parametrize("beyond", [1e-15, 1e-13, 3e-12, 1e-10])
+def test_a_block_that_stands_out_of_the_mesh_by_rounding_ends_at_the_mesh(beyond):
+    result = cut(CELLS, regions(shapely.box(0, -beyond, 3, 3 + beyond)))
+    assert_sound(result, 9.0)
+    assert (len(result.elements), len(result.boundary), result.n_covers) == (9, 12, 16)
 
 
 def test_overlapping_regions_are_cut_apart_from_one_another():
@@ -396,6 +403,11 @@ def test_the_same_input_gives_the_same_bytes():
     [
         ([shapely.Polygon([[0, 0], [2, 2], [2, 0], [0, 3]])], [], "region 0: Self-intersection"),
         ([BLOCK, shapely.Polygon([[0, 0], [1, 0], [2, 0]])], [], "region 1: area 0"),
+        (
+            [shapely.Polygon([[0, 0], [1, 1], [0, 2], [2, 2], [1, 1], [2, 0]])],
+            [],
+            "region 0: Ring Self-intersection",
+        ),
         ([shapely.box(2, 2, 4, 4)], [], "region 0: cells cover an area of 1 of 4"),
         ([shapely.box(12, 12, 14, 14)], [], "no cell near the regions"),
         ([BLOCK], [[[1, 1], [1, 1]]], "crack 0: 1 distinct points"),
