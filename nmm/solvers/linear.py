@@ -16,6 +16,9 @@ ACCEPTED = 1e-8
 """Largest relative residual of a solution; above it the load works on a free motion."""
 SHIFT = 1e-10
 """Part of the diagonal added to a rank-deficient matrix (Duarte, Babuska, Oden 2000)."""
+ROUNDING = 1e-15
+"""Part of the diagonal added to every matrix: what rounding changes anyway. It keeps a pivot of a
+rank-deficient matrix from being exactly zero, over which decompositions trip."""
 GROWTH = 1e13
 """Growth of a scaled solution over its load that only a rank-deficient matrix shows."""
 
@@ -116,7 +119,7 @@ class Factor:
                 "stiffnesses and masses: check materials and the size of the step"
             )
         scale = solver.scaling(matrix)
-        scaled = _scaled(matrix, scale, solver.shift)
+        scaled = _scaled(matrix, scale, max(solver.shift, ROUNDING))
         try:
             return cls(solver, matrix, scale, solver.decompose(scaled))
         except RankDeficientError:
