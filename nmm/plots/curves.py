@@ -175,7 +175,7 @@ def overview(run: RunData, *, path: PathLike | None = None) -> "list[Axes]":
     known, clock = run.history, _clock(run)
     groups: list[tuple[Sequence[str], bool]] = [
         ([name for name in ENERGIES if _varies(known, name)], False),
-        ([name for name in ("load_factor",) if _varies(known, name) and name != clock], False),
+        ([name for name in ("load_factor",) if _changes(known, name) and name != clock], False),
         ([name for name in STATES if _varies(known, name)], False),
         ([name for name in ("residual",) if _varies(known, name)], True),
         ([name for name in ("penetration",) if _varies(known, name)], False),
@@ -196,6 +196,10 @@ def overview(run: RunData, *, path: PathLike | None = None) -> "list[Axes]":
 
 def _varies(known: Mapping[str, Floats], name: str) -> bool:
     return name in known and bool(np.any(np.nan_to_num(known[name])))
+
+
+def _changes(known: Mapping[str, Floats], name: str) -> bool:
+    return name in known and bool(np.ptp(known[name]) > 0)
 
 
 def _family(known: Mapping[str, Floats], family: str) -> list[str]:

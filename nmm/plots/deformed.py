@@ -133,10 +133,12 @@ def _draw_marks(
     entries = []
     for (name, colour), parts in kinds.items():
         if len(parts.point):
-            lines = list(parts.on(polygons))
+            lines = parts.on(polygons)
             axes.add_collection(
-                LineCollection(lines, colors=colour, linewidths=width, capstyle="round")
+                LineCollection(list(lines), colors=colour, linewidths=width, capstyle="round")
             )
+            points = lines[parts.begin == parts.end, 0]  # contacts that speak for no length
+            axes.plot(*points.T, "o", color=colour, markersize=2.5 + width)
             entries.append(Line2D([], [], color=colour, linewidth=width, label=name))
     return entries
 

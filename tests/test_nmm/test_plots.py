@@ -195,6 +195,15 @@ def test_a_bond_that_is_no_longer_among_the_contacts_is_broken():
         assert sorted(part[:, 1]) == pytest.approx([0.0, 0.5])
 
 
+def test_a_contact_without_a_length_is_marked_by_a_dot():
+    elements, frame = two_squares(ContactState.SLIDE, [1.0, 0.25], 0.0)
+    run = MemorySink()
+    run.topologies = [Topology(elements, np.arange(2), np.zeros(2, dtype=np.int64), ("rock",))]
+    run.frames = [frame]
+    axes = plots.deformed(run, magnification=1.0)
+    assert {tuple(point) for point in axes.lines[0].get_xydata()} == {(1.0, 0.25)}
+
+
 def test_the_magnification_makes_small_displacements_visible(memory_run):
     topology = memory_run.topologies[0]
     frame = memory_run.frames[1]
