@@ -55,9 +55,7 @@ def _crack(run: nmm.Run) -> tuple[float, float]:
     frame, reference = run.frames[-1], run.manifold.elements.points
     wide = (frame.contact_state == 4) & (frame.contact_gap > 0.2 * frame.contact_gap.max())
     moved = frame.contact_position[wide]
-    nearest = np.argmin(
-        np.hypot(*np.moveaxis(moved[:, None] - frame.points[None], -1, 0)), axis=1
-    )
+    nearest = np.argmin(np.hypot(*np.moveaxis(moved[:, None] - frame.points[None], -1, 0)), axis=1)
     x = reference[nearest, 0]
     return float(x.min()), float(x.max())
 
