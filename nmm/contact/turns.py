@@ -14,6 +14,7 @@ from nmm.contact.bonds import Laws
 from nmm.contact.fixed_point import FixedPoint
 from nmm.contact.points import ContactPoints
 from nmm.contact.problem import StepAnswer, StepProblem, Verdict
+from nmm.contact.twins import Twins
 
 MOST = 200
 """Turns after which a step is given up."""
@@ -28,8 +29,8 @@ class Turns:
     ----------
     start, contacts
         The contacts at the start of the step, and with the damage of this turn.
-    opened
-        (m,) contacts whose bond is taken as open.
+    twins
+        Bonds that have opened once.
     lift
         (m,) by how much sliding has lifted the faces (m).
     done
@@ -40,8 +41,12 @@ class Turns:
         self._laws = laws
         self.start = self.contacts = start
         self._soft = laws.softening(start)
-        self._stiffness = laws.springs(start, np.zeros(len(start), dtype=bool))[0]
-        self.opened = start.gap > 0
+        opened, whole = (
+            laws.springs(start, np.full(len(start), is_open))[0] for is_open in (True, False)
+        )
+        self._stiffness = whole
+        index = np.flatnonzero(self._soft & (opened < (1 - 1e-9) * whole))
+        self.twins = Twins(index, opened[index] / whole[index])
         self.lift = laws.lift(start, start.worn)
         self.done = False
         self._count = 0
@@ -59,10 +64,8 @@ class Turns:
             np.concatenate([one[self._soft], rise / size if size else rise])
             for one, rise in ((self.contacts.damage, self.lift), (damage, lift))
         )
-        opened = np.where(self._soft, answer.gap > 0, self.opened)
-        turned = (opened != self.opened) & (self.start.damage > 0)
         change = float(np.abs(image - point).max(initial=0.0))
-        self.done = change <= SETTLED and not turned.any()
+        self.done = change <= SETTLED
         self._count += 1
         if self.done:
             self.contacts = replace(self.contacts, damage=damage)
@@ -73,15 +76,12 @@ class Turns:
                 "shorten the step or the load increment"
             )
             return Verdict(False, "passes", sentence)
-        if turned.any():
-            self._iteration = FixedPoint()
         following = self._iteration.next(point, image)
         n_soft = int(self._soft.sum())
         damage = self.start.damage.copy()
         damage[self._soft] = np.clip(following[:n_soft], damage[self._soft], 1.0)
         self.contacts = replace(self.contacts, damage=damage)
         self.lift = np.maximum(following[n_soft:], 0.0) * (size or 1.0)
-        self.opened = opened
         return None
 
     def loss(self, answer: StepAnswer, sliding: Floats) -> float:

@@ -195,9 +195,10 @@ class Contact(Effect):
         n_unknowns = self._model.manifold.n_unknowns
         normal_rows, tangent_rows = rows(contacts, self._sides, state.frames, n_unknowns)
         turns = Turns(self._laws, contacts)
+        nowhere = np.zeros(len(contacts), dtype=bool)
         passes, loss = 0, 0.0
         while True:
-            normal, shear, own = self._laws.springs(turns.start, turns.opened)
+            normal, shear, own = self._laws.springs(turns.start, nowhere)
             dashpots = self._dashpots(turns.start, normal, normal_rows, step)
             shift = turns.lift + dashpots.lag
             problem = StepProblem(
@@ -215,7 +216,9 @@ class Contact(Effect):
                 shear_force=contacts.shear_force,
                 compliant=own | (dashpots.stiffness > 0),
             )
-            answer = self._enforcement.solve(problem, solver, self._memory)
+            answer = turns.twins.merged(
+                self._enforcement.solve(turns.twins.joined(problem), solver, self._memory)
+            )
             passes += answer.passes
             if not answer.verdict.converged:
                 return Solved(turns.contacts, answer, passes, loss)

@@ -22,10 +22,11 @@ def load_factor(setup: Setup, load: "Load") -> Callable[[Instant], float]:
 def displacement_factor(setup: Setup, support: "Support") -> Callable[[Instant], float]:
     """Return the factor of a support's displacement: its history, times the load factor if scaled.
 
-    It is scaled when ``[loading]`` names it, or scales "all" of a scene without loads.
+    It is scaled when ``[loading]`` names it, or scales "all" of a scene without loads and the
+    displacement has no history.
     """
-    loading = setup.scene.loading
+    loading, alone = setup.scene.loading, not setup.scene.loads and support.history is None
     scaled = loading is not None and (
-        not setup.scene.loads if loading.scaled == "all" else support.name in loading.scaled
+        alone if loading.scaled == "all" else support.name in loading.scaled
     )
     return lambda end: factor_of(support.history, end.time) * (end.load_factor if scaled else 1.0)
