@@ -12,6 +12,9 @@ from covers.weighted_fields import WeightedFields
 from integration.arrays import Floats, Ints
 
 NEAR = 1e-9
+# Beyond this angle from the bisector points lie near the faces of a crack, where the side of their
+# element counts; elements about a wider corner may reach over the bisector's line behind it.
+FACES = 0.8 * np.pi
 
 
 @dataclass(frozen=True)
@@ -134,7 +137,7 @@ def singular_fields(item: Enrichment, points: Floats, side: Floats) -> tuple[Flo
     local = (points - item.point) @ turn
     radius = np.maximum(np.hypot(*local.T), 1e-30)
     angle = np.arctan2(local[:, 1], local[:, 0])
-    wrong = (local[:, 0] < 0) & (np.sign(local[:, 1]) != side)
+    wrong = (np.abs(angle) > FACES) & (np.sign(angle) != side)
     angle = np.where(wrong, np.copysign(2 * np.pi - np.abs(angle), side), angle)
     value, gradient = item.functions.evaluate(radius, angle)
     return value @ turn.T, np.einsum("ab,mnbc,dc->mnad", turn, gradient, turn)

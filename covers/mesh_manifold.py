@@ -32,9 +32,9 @@ from integration.rules import PointRule, polygon_rule
 from integration.singular import tip_rule
 
 # Elements nearer to a singular point than this many of their diameters are integrated about it.
-NEAR_TIP = 2.0
+NEAR_TIP = 1.25
 # Degree beyond that of the polynomials to which functions that are none are integrated.
-RATIONAL, SINGULAR = 6, 8
+RATIONAL, SINGULAR, FRACTIONAL = 6, 8, 8
 
 
 @dataclass(frozen=True)
@@ -301,7 +301,11 @@ class _Builder:
         tips = np.array([item.point for item in self.enrichments])[which]
         size = diameters(polygons)
         near = np.hypot(*(polygons.centroids - tips).T) < NEAR_TIP * size
-        near_rule = tip_rule(polygons.take(np.flatnonzero(near)), tips[near], 2 * degree + 2)
+        powers = np.array([item.functions.exponent for item in self.enrichments])
+        # Half powers are integrated exactly, others need more points along the radius.
+        more = 0 if np.array_equal(2 * powers, np.round(2 * powers)) else FRACTIONAL
+        order = 2 * degree + 2 + more
+        near_rule = tip_rule(polygons.take(np.flatnonzero(near)), tips[near], order)
         far_rule = polygon_rule(polygons.take(np.flatnonzero(~near)), 2 * degree + SINGULAR)
         return _joined(near_rule, np.flatnonzero(near), far_rule, np.flatnonzero(~near))
 

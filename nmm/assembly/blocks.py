@@ -48,9 +48,20 @@ def assemble(parts: Sequence[Part], n: int, offset: Ints) -> csc_array:
     sizes = np.diff(offset)
     if not parts or not len(sizes):
         return csc_array((n, n))
-    if (sizes == sizes[0]).all():
+    if (sizes == sizes[0]).all() and all(_cover_by_cover(part, int(sizes[0])) for part in parts):
         return _by_blocks(parts, len(sizes), int(sizes[0]))
     return _by_entries(parts, n)
+
+
+def _cover_by_cover(part: Part, size: int) -> bool:
+    """Whether the unknowns of elements are those of one cover after the other."""
+    first = part.unknowns[:1]
+    if not len(first):
+        return True
+    if first.shape[1] % size:
+        return False
+    steps = first.reshape(-1, size) - first.reshape(-1, size)[:, :1]
+    return bool((steps == np.arange(size)).all())
 
 
 def _by_blocks(parts: Sequence[Part], n_covers: int, size: int) -> csc_array:

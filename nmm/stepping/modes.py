@@ -1,0 +1,86 @@
+"""Free vibration: the lowest modes, dependent functions deflated."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csc_array, diags_array
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.errors import SolveError
+from nmm.solvers.linear import jacobi_scale
+
+# Part of its diagonal added to the stiffness: dependent functions, which have no mass, get infinite
+# frequencies by it.
+SHIFT = 1e-10
+
+
+@dataclass(frozen=True)
+class Modes:
+    """The lowest modes.
+
+    Attributes
+    ----------
+    frequency
+        (k,) circular frequencies (rad/s), rising; zero for rigid motions.
+    shape
+        (n, k) unknowns, of unit modal mass.
+    """
+
+    frequency: Floats
+    shape: Floats
+
+
+def lowest_modes(model: Model, number: int, held: csc_array | None = None) -> Modes:
+    """Return the lowest modes by inverse iteration on a subspace (Lanczos, shift and invert).
+
+    Stiffness and mass share the null space of dependent functions. A small part of the diagonal
+    added to the stiffness makes it definite there; as null functions carry no mass, every product
+    with the mass takes them out of the iterates.
+
+    Parameters
+    ----------
+    model
+        With densities.
+    number
+        Number of modes.
+    held
+        (n, n) stiffness of supports.
+
+    Raises
+    ------
+    SolveError
+        Without mass.
+    """
+    from scipy.sparse.linalg import LinearOperator, eigsh, splu
+
+    stiffness = model.stiffness if held is None else csc_array(model.stiffness + held)
+    mass = model.mass
+    if not mass.nnz or mass.diagonal().max() <= 0:
+        raise SolveError("modes: the model has no mass: expected densities: give materials one")
+    # A frequency well below the lowest elastic one, so that rigid motions are found too.
+    ratio = stiffness.diagonal().sum() / mass.diagonal().sum()
+    sigma = -1e-6 * ratio
+    matrix = csc_array(stiffness - sigma * mass)
+    scale = jacobi_scale(matrix)
+    scaled = csc_array(diags_array(scale) @ matrix @ diags_array(scale))
+    n = matrix.shape[0]
+    factor = splu(
+        csc_array(scaled + (SHIFT if model.manifold.dependent else 0.0) * diags_array(np.ones(n))),
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    )
+
+    def inverse(load: Floats) -> Floats:
+        return np.asarray(scale * factor.solve(scale * np.ravel(load)))
+
+    operator = LinearOperator((n, n), matvec=inverse, dtype=np.float64)
+    start = mass @ np.random.default_rng(0).normal(size=n)
+    values, vectors = eigsh(
+        stiffness, k=number, M=mass, sigma=sigma, OPinv=operator, v0=inverse(start)
+    )
+    order = np.argsort(values)
+    # Rounding of K leaves rigid motions with squares of either sign near zero.
+    squares = np.where(values > 1e-8 * np.abs(values).max(), values, 0.0)[order]
+    return Modes(np.sqrt(squares), vectors[:, order])
