@@ -1,6 +1,6 @@
 """Pieces of scene files that benchmarks share."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -41,11 +41,14 @@ def material(
 
 
 def interface(
-    name: str, friction: float, between: tuple[str, str] | None = None, **more: float | bool
+    name: str,
+    friction: float,
+    between: tuple[str, str] | None = None,
+    more: Mapping[str, float | bool] | None = None,
 ) -> str:
-    """Table of an interface; ``friction`` is its angle in degrees."""
+    """Table of an interface; ``friction`` is its angle in degrees, ``more`` its other keys."""
     pair = "" if between is None else f'between = ["{between[0]}", "{between[1]}"]\n'
-    rest = "".join(f"{key} = {str(value).lower()}\n" for key, value in more.items())
+    rest = "".join(f"{key} = {str(value).lower()}\n" for key, value in (more or {}).items())
     return f'[interfaces.{name}]\nfriction_angle = "{friction!r} deg"\n{pair}{rest}'
 
 

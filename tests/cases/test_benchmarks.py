@@ -4,12 +4,28 @@ import pytest
 
 from nmm.verification import CASES, judge, runs
 
+LOST = "corners outside each other by 1e-9 m lose contact: energy rises from 500 J to 960 J"
+CHORD = "joints load the ends of an edge alone: the column shortens by 1.336 mm, not 1.300"
+FAULTS = {
+    ("B8", "newmark", "degree 2"): LOST,
+    ("B8", "shi", "degree 2"): LOST,
+    ("B18 column", "", "degree 2"): CHORD,
+}
+
+
+def marks(case, formulation):
+    """Slow cases, and those that are known to fail, with the figures."""
+    fault = FAULTS.get((case.name, case.variant, formulation))
+    found = [] if fault is None else [pytest.mark.xfail(strict=True, reason=fault)]
+    return [*found, pytest.mark.slow] if case.slow else found
+
+
 RUNS = [
     pytest.param(
         case,
         formulation,
         id=", ".join(filter(None, (case.name, case.variant, formulation))),
-        marks=[pytest.mark.slow] if case.slow else [],
+        marks=marks(case, formulation),
     )
     for case, formulation in runs(slow=True)
 ]

@@ -1,0 +1,300 @@
+"""Joints with stiffness and strength: jointed column, direct shear, pull-off, a chain of bonds."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from nmm.verification import text
+from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.reading import last_way, way
+
+if TYPE_CHECKING:
+    from nmm.stepping.run import Run
+
+ROUNDING = "the linear fields of blocks hold the solution; residual 1e-8"
+
+
+@dataclass(frozen=True)
+class JointedColumn(SceneCase):
+    """Blocks and joints in series: ``u = sigma (H / E + n / kn)``."""
+
+    name: ClassVar[str] = "B18 column"
+    title: ClassVar[str] = "Column with joints of given stiffness"
+    source: ClassVar[str] = "Springs in series"
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2")
+    joints: ClassVar[int] = 4
+    stress: ClassVar[float] = -1e6
+    modulus: ClassVar[float] = 1e10
+    stiffness: ClassVar[float] = 5e9
+
+    def scene(self) -> str:
+        """Return a column of 5 m in 5 blocks, pressed on its top.
+
+        Joints act at their Gauss points, where the forces of a uniform stress are those of a
+        traction for every degree; two forces at the corners bend a block of degree 2.
+        """
+        high = self.joints + 1
+        springs = {"normal_stiffness": self.stiffness, "shear_stiffness": self.stiffness}
+        return text.scene(
+            'title = "Jointed column"\nplane = "stress"\n[contact]\n'
+            '[formulation.contact]\njoint_points = "gauss"\n',
+            [
+                text.material("rock", modulus=self.modulus, poisson=0.0, density=None),
+                text.interface("joint", 30.0, more=springs),
+                *(
+                    text.block(f"block {n}", "rock", text.rectangle((0, n), (1, n + 1)))
+                    for n in range(high)
+                ),
+                '[[supports]]\nname = "foot"\nsegment = [[0, 0], [1, 0]]\nfix = ["x", "y"]\n',
+                f'[[loads]]\nname = "top"\nkind = "edge"\nsegment = [[0, {high}], [1, {high}]]\n'
+                f"traction = [0, {self.stress!r}]\n",
+                text.monitor("foot", (0.5, 0), "block 0"),
+                text.monitor("top", (0.5, high), f"block {self.joints}"),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the shortening and the stress."""
+        short = last_way(run, "top")[1] - last_way(run, "foot")[1]
+        length = self.joints + 1
+        expected = self.stress * (length / self.modulus + self.joints / self.stiffness)
+        checks = {"shortening (m)": Check(short, expected, 1e-7, ROUNDING)}
+        for number, stress in enumerate(run.stress[:, 1]):
+            checks[f"stress in block {number} (Pa)"] = Check(stress, self.stress, 1e-7, ROUNDING)
+        return checks
+
+
+@dataclass(frozen=True)
+class DirectShear(SceneCase):
+    """A bonded joint is sheared under constant load: slope, peak and residual resistance."""
+
+    name: ClassVar[str] = "B18 shear"
+    title: ClassVar[str] = "Direct shear of a bonded joint"
+    source: ClassVar[str] = "Slope ks A, peak c A + N tan phi, residual N tan phi"
+    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda")
+    stiffness: ClassVar[float] = 1e9
+    cohesion: ClassVar[float] = 2e5
+    friction: ClassVar[float] = 30.0
+    load: ClassVar[float] = 1e5
+    travel: ClassVar[float] = 1e-3
+
+    def scene(self) -> str:
+        """Return a block of 1 m on another, pressed by its weight and driven sideways.
+
+        All of its outline is driven, so that it does not tilt and both ends of the joint carry
+        alike. The displacement grows with the load factor.
+        """
+        law = {
+            "cohesion": self.cohesion,
+            "tensile_strength": 1e6,
+            "bonded": True,
+            "normal_stiffness": 100 * self.stiffness,
+            "shear_stiffness": self.stiffness,
+        }
+        return text.scene(
+            'title = "Direct shear"\nplane = "stress"\n[contact]\n[loading]\n'
+            "scaled = []\nuntil = 1\n"
+            f"[gravity]\nacceleration = [0, {-self.load / 1e3!r}]\n"
+            "[formulation.loading]\nincrement = 0.01\ntolerance = 1e-4\n",
+            [
+                text.material("rock", modulus=1e12, poisson=0.0, density=1000.0),
+                text.interface("bond", self.friction, more=law),
+                text.block("lower", "rock", text.rectangle((-1, -1), (2, 0))),
+                text.block("upper", "rock", text.rectangle((0, 0), (1, 1))),
+                text.held("lower"),
+                '[[supports]]\nname = "drive"\nblock = "upper"\nfix = ["x"]\n'
+                f"displacement = [{self.travel!r}, 0]\nhistory = [[0, 0], [1, 1]]\n",
+                text.monitor("upper", (0.5, 0), "upper"),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the reaction against the displacement."""
+        force, slip = run.history["reaction:drive:x"], way(run, "upper")[:, 0]
+        friction = self.load * float(np.tan(np.radians(self.friction)))
+        peak = int(force.argmax())
+        slope = force[peak // 2] / slip[peak // 2]
+        series = "ks A in series with the shear of blocks of 1e12 Pa held on their outline"
+        return {
+            "slope (N/m)": Check(slope, self.stiffness, 2e-3, series),
+            "peak (N)": Check(
+                force.max(), self.cohesion + friction, 1e-3, "tolerance of the load 1e-4 a step"
+            ),
+            "residual (N)": Check(force[-1], friction, 1e-5, "the sheared blocks tilt by 5e-6 rad"),
+            "broken": Check(run.history["broken"][-1], 2.0, 0.0, "both points of the joint"),
+        }
+
+
+@dataclass(frozen=True)
+class PullOff(SceneCase):
+    """A bonded block is pulled off, centrally or off centre.
+
+    Two springs at the corners of a joint of width B hold ``F = f_t A / (1 + 2 e / B)``; at the
+    Gauss points of the joint ``f_t A / (1 + 2 sqrt(3) e / B)``. A stress that is linear over the
+    face would hold ``f_t A / (1 + 6 e / B)``; two springs do not.
+    """
+
+    name: ClassVar[str] = "B31 pull-off"
+    title: ClassVar[str] = "Pull on a bonded block, central and eccentric"
+    source: ClassVar[str] = "Lever rule of the more loaded of two springs"
+    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda")
+    eccentricity: float = 0.0
+    points: str = "corners"
+    strength: ClassVar[float] = 1e6
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return three eccentricities with both rules."""
+        return [cls(e, points) for points in ("corners", "gauss") for e in (0.0, 0.1, 0.3)]
+
+    @property
+    def variant(self) -> str:
+        """Rule and eccentricity over width."""
+        return f"{self.points}, e {self.eccentricity}"
+
+    def scene(self) -> str:
+        """Return a square bonded to a held one and pulled at a point of its top."""
+        law = {"cohesion": 10 * self.strength, "tensile_strength": self.strength, "bonded": True}
+        return text.scene(
+            'title = "Pull-off"\nplane = "stress"\n[contact]\n[loading]\nuntil = "failure"\n'
+            f'[formulation.contact]\njoint_points = "{self.points}"\n'
+            "[formulation.loading]\nincrement = 0.1\ntolerance = 1e-4\n",
+            [
+                text.material("rock", modulus=1e11, poisson=0.0, density=None),
+                text.interface("bond", 30.0, more=law),
+                text.block("lower", "rock", text.rectangle((0, -1), (1, 0))),
+                text.block("upper", "rock", text.rectangle((0, 0), (1, 1))),
+                text.held("lower"),
+                '[[loads]]\nname = "pull"\nkind = "point"\n'
+                f"point = [{0.5 + self.eccentricity!r}, 1]\nforce = [0, {self.strength!r}]\n",
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the load at which the bond fails."""
+        lever = 2.0 if self.points == "corners" else 2.0 * float(np.sqrt(3.0))
+        expected = self.strength / (1 + lever * self.eccentricity)
+        found = run.summary.failure_load
+        reason = "the bracket of the load, 1e-4, and a turn of 1e-4 rad"
+        return {"load (N)": Check(float("nan") if found is None else found, expected, 3e-4, reason)}
+
+
+@dataclass(frozen=True)
+class BrittleDrop(SceneCase):
+    """A bond that breaks lets go at once; energy is kept but for the broken springs' own."""
+
+    name: ClassVar[str] = "B31 drop"
+    title: ClassVar[str] = "Energy of a bond that breaks"
+    source: ClassVar[str] = "Work = kinetic + stored + lost"
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "newmark")
+    strength: ClassVar[float] = 1e6
+
+    def scene(self) -> str:
+        """Return a bonded block of 1 m pulled ever harder, in time."""
+        law = {"cohesion": 10 * self.strength, "tensile_strength": self.strength, "bonded": True}
+        return text.scene(
+            'title = "Brittle drop"\nplane = "stress"\nduration = 0.01\n[contact]\n[inertia]\n'
+            "[formulation.integrator]\nstep = 2e-5\n",
+            [
+                text.material("rock", modulus=1e9, poisson=0.0, density=1000.0),
+                text.interface("bond", 30.0, more=law),
+                text.block("lower", "rock", text.rectangle((0, -1), (1, 0))),
+                text.block("upper", "rock", text.rectangle((0, 0), (1, 1))),
+                text.held("lower"),
+                '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\n'
+                f"traction = [0, {2 * self.strength!r}]\nhistory = [[0, 0], [0.01, 1]]\n",
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare forces and energies after the drop."""
+        h = run.history
+        stored = h["strain_energy"] + h["contact_energy"] + h["support_energy"]
+        rest = h["external_work"] - h["kinetic_energy"] - stored - h["friction_loss"]
+        damping = "Shi's damping of the block's longest wave, omega dt / 4 = 0.01 a radian"
+        return {
+            "contact force (N)": Check(
+                float(np.abs(run.contact_forces).sum()), 0.0, 0.0, "nothing holds"
+            ),
+            "broken points": Check(h["broken"][-1], 2.0, 0.0, "both"),
+            "rest of energy over the work": Check(
+                rest[-1], 0.0, 0.02, damping, scale=h["external_work"][-1]
+            ),
+            "energy lost by broken springs (J)": Check(
+                h["friction_loss"][-1],
+                self.strength**2 / (2 * 0.5 * 1e9),
+                0.1,
+                "F^2 / (2 k) at 1e6 N, exceeded by the rise of the force in a step",
+            ),
+        }
+
+
+@dataclass(frozen=True)
+class Chain(SceneCase):
+    """Of bonds in series the weakest breaks, at its own strength."""
+
+    name: ClassVar[str] = "C3"
+    title: ClassVar[str] = "Bar of 100 mm with bonds of 3.0, 2.7 and 3.3 MPa"
+    source: ClassVar[str] = "Peak = smallest f_t times A; u = sigma L / E up to it"
+    formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    strengths: tuple[float, ...] = (3.0, 2.7, 3.3)
+    area: ClassVar[float] = 1e-4
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return one bond and three in series."""
+        return [cls((3.0,)), cls((3.0, 2.7, 3.3))]
+
+    @property
+    def variant(self) -> str:
+        """The number of bonds."""
+        return f"{len(self.strengths)} bonds"
+
+    def scene(self) -> str:
+        """Return a bar of 10 mm x 10 mm that is held left and pulled right."""
+        count = len(self.strengths) + 1
+        x = np.linspace(0, 0.1, count + 1)
+        names = [f"part{n}" for n in range(count)]
+        law = {"cohesion": 30e6, "bonded": True}
+        return text.scene(
+            'title = "Chain of bonds"\nplane = "stress"\nthickness = 0.01\n[contact]\n[loading]\n'
+            'until = "failure"\n[formulation.loading]\nincrement = 0.1\ntolerance = 1e-4\n',
+            [
+                *(text.material(n, modulus=30e9, poisson=0.0, density=None) for n in names),
+                *(
+                    text.interface(
+                        f"bond{n}",
+                        30.0,
+                        (names[n], names[n + 1]),
+                        {**law, "tensile_strength": strength * 1e6},
+                    )
+                    for n, strength in enumerate(self.strengths)
+                ),
+                *(
+                    text.block(name, name, text.rectangle((low, 0), (high, 0.01)))
+                    for name, low, high in zip(names, x[:-1], x[1:], strict=True)
+                ),
+                '[[supports]]\nname = "left"\nsegment = [[0, 0], [0, 0.01]]\nfix = ["x", "y"]\n',
+                '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[0.1, 0], [0.1, 0.01]]\n'
+                "traction = [1e6, 0]\n",
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the peak load and say which bond is the most loaded there."""
+        weakest = min(self.strengths) * 1e6 * self.area
+        found = run.summary.failure_load
+        frame = run.frames[-1]
+        strength = np.array(self.strengths) * 1e6 * self.area / 2
+        bond = np.round(frame.contact_position[:, 0] * (len(self.strengths) + 1) / 0.1).astype(int)
+        load = frame.contact_force[:, 0] / strength[bond - 1]
+        return {
+            "peak (N)": Check(
+                float("nan") if found is None else found, weakest, 2e-4, "bracket of the load 1e-4"
+            ),
+            "bond that fails": Check(
+                float(bond[load.argmax()] - 1), float(np.argmin(self.strengths)), 0.0, "one of them"
+            ),
+        }
