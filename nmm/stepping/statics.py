@@ -133,7 +133,7 @@ def _no_equilibrium(
     held = state.load_factor
     reason = attempt.sentence
     if attempt.motion > COLLAPSE * size:
-        reason = f"points move by more than {100 * COLLAPSE:.0f} % of the domain ({reason})"
+        reason = f"points move by more than {100 * COLLAPSE:.0f} % of the domain in one increment"
     if not schedule.until_failure or held == 0:
         sentence = f"no equilibrium between load factors {held:.6g} and {factor:.6g}: {reason}"
         return RunVerdict(FAILED, sentence, held)
