@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from nmm.study_verbs import register
 from nmm.terminal import (
     FAILED,
     console,
@@ -149,6 +150,9 @@ def plot(
         scene = parse_scene(stored.scene, str(run / "scene.toml")) if stored.scene else None
         _frame_exists(frame, len(stored.frames))
         tell_files(_draw(stored, run, scene, frame, magnification, component))
+
+
+register(app)
 
 
 def _run(place: Path, formulation: Path | None, out: Path, quiet: bool) -> None:

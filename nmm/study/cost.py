@@ -9,8 +9,8 @@ from nmm.formulation import Formulation
 from nmm.scene import Scene
 from nmm.study.measure import Progress, measure
 from nmm.study.record import Record
-from nmm.study.reference import Reference, extrapolated_reference, stated_reference
-from nmm.study.variants import Case, grid, with_settings
+from nmm.study.reference import Reference, by_name, extrapolated_reference, stated_reference
+from nmm.study.variants import cases_of
 
 
 @dataclass(frozen=True)
@@ -23,8 +23,7 @@ class CostStudy:
 
     def by_formulation(self) -> dict[str, list[Record]]:
         """Return the records of each formulation, in the order given."""
-        names = dict.fromkeys(one.name for one in self.records)
-        return {name: [one for one in self.records if one.name == name] for name in names}
+        return by_name(self.records)
 
     def error(self, record: Record) -> float:
         """Return the relative error of a record."""
@@ -52,16 +51,13 @@ def cost_study(
         all combinations are run.
     name
         The quantity; the scene's first ``[[reference]]`` when not given, else the elastic energy.
+        One that no ``[[reference]]`` names is measured against an extrapolated value.
     repeats
         Counted repeats of each run.
     """
     stated = stated_reference(scene, name)
     quantity = name or (stated.quantity if stated else "energy")
-    cases = [
-        with_settings(Case(title, scene, formulation), settings)
-        for title, formulation in formulations.items()
-        for settings in grid(vary)
-    ]
+    cases = cases_of(scene, formulations, vary)
     records = measure(cases, [quantity], repeats, progress=progress)
     reference = stated or extrapolated_reference(records, quantity)
     return CostStudy(scene.title, records, reference)

@@ -1,13 +1,18 @@
 """The page, figure and raw records of a cost study."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from nmm.study.cost import CostStudy, write_records
-from nmm.study.front import LEVELS, costs_at_levels, front
+from nmm.study.front import costs_at_levels, front
 from nmm.study.orders import observed_order
 from nmm.study.record import Record
+from nmm.study.reference import sizes_of
+
+# Wall over processor seconds above which something else took the processor.
+DISTURBED = 1.3
 
 
 def write_cost_report(study: CostStudy, out: Path) -> list[Path]:
@@ -24,17 +29,18 @@ def draw(study: CostStudy, path: Path) -> None:
     """Draw the work-precision figure."""
     from nmm.plots.work_precision import Series, work_precision
 
-    best = front([one.median_seconds for one in study.records], _errors(study, study.records))
-    on_front = dict(zip(map(id, study.records), best.tolist(), strict=True))
+    on_front = _front(study)
     series = {
         name: Series(
             error=_errors(study, many),
             seconds=[one.median_seconds for one in many],
-            unknowns=[float(one.unknowns) for one in many],
+            unknowns=[float(one.unknowns or np.nan) for one in many],
             memory=[float(one.memory or np.nan) for one in many],
-            on_front=[on_front[id(one)] for one in many],
-            phases=many[-1].phases,
-            failed=sum(not one.valid for one in many),
+            on_front=[id(one) in on_front for one in many],
+            valid=[one.valid for one in many],
+            phases=_finest(many).phases,
+            effects=_finest(many).effects,
+            family=many[0].family,
         )
         for name, many in study.by_formulation().items()
     }
@@ -43,8 +49,8 @@ def draw(study: CostStudy, path: Path) -> None:
     work_precision(
         series,
         title=study.title,
-        error_name=f"relative error of {reference.quantity}",
-        uncertainty=reference.uncertainty / size if "Richardson" in reference.source else 0.0,
+        error_name=f"relative error of {reference.quantity.replace('_', ' ')}",
+        uncertainty=reference.uncertainty / size if reference.extrapolated else 0.0,
         path=path,
     )
 
@@ -52,67 +58,129 @@ def draw(study: CostStudy, path: Path) -> None:
 def cost_page(study: CostStudy, picture: str) -> str:
     """Return the page in Markdown."""
     reference = study.reference
+    spread = "uncertainty" if reference.extrapolated else "tolerance"
     lines = [
         f"# What accuracy costs: {study.title or 'scene'}",
         "",
-        f"Reference of `{reference.quantity}`: {reference.value:.8g} +- "
+        f"Reference of `{reference.quantity}`: {reference.value:.8g}, {spread} "
         f"{reference.uncertainty:.2g} ({reference.source}).",
+        *_shaded(study),
         "",
         f"![work-precision]({picture})",
         "",
-        "| formulation | settings | unknowns | steps | passes | seconds (median) | memory | value |"
-        " relative error | verdict |",
-        "|---|---|---|---|---|---|---|---|---|---|",
-        *(_row(study, one) for one in study.records),
+        "| formulation | settings | unknowns | steps | passes | seconds: median | least | memory |"
+        " value | relative error | front | verdict |",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|",
+        *(_row(study, one, id(one) in _front(study)) for one in study.records),
         "",
-        *_orders(study),
-        "",
-        *_levels(study),
-        "",
-        *_conditions(study),
+        *_section("Observed orders", _orders(study)),
+        *_section("Where the runs go", _limits(study)),
+        *_section("Failed runs", _failed(study)),
+        *_section("Cost at equal error", levels(study)),
+        *_section("How it was measured", _conditions(study)),
     ]
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines).rstrip() + "\n"
 
 
-def _row(study: CostStudy, one: Record) -> str:
-    settings = ", ".join(f"{key.rpartition('.')[2]} {value}" for key, value in one.settings.items())
-    value = one.quantities.get(study.reference.quantity, np.nan)
-    memory = "" if one.memory is None else f"{one.memory / 2**20:.0f} MiB"
-    return (
-        f"| {one.name} | {settings} | {one.unknowns} | {one.steps} | {one.passes} | "
-        f"{one.median_seconds:.3g} | {memory} | {value:.7g} | {study.error(one):.2e} | "
-        f"{one.status if one.valid else f'**{one.status}**: {one.sentence}'} |"
-    )
-
-
-def _orders(study: CostStudy) -> list[str]:
-    """Observed orders in the size that carries an unknown, the root of their number."""
-    lines = []
-    for name, many in study.by_formulation().items():
-        sizes = [one.unknowns**-0.5 for one in many if one.unknowns]
-        if len(set(sizes)) > 1:
-            order = observed_order(sizes, [study.error(one) for one in many if one.unknowns])
-            lines.append(f"- observed order of {name} in unknowns^(-1/2): {order}")
-    return lines
-
-
-def _levels(study: CostStudy) -> list[str]:
-    """Sentences: at error e, A costs r times B."""
+def levels(study: CostStudy) -> list[str]:
+    """Sentences: at error e, A costs r times B; only between measured points."""
     points = {
         name: ([one.median_seconds for one in many], _errors(study, many))
         for name, many in study.by_formulation().items()
     }
-    costs = costs_at_levels(points)
     lines = []
-    for number, level in enumerate(LEVELS):
-        at = {name: cost[number] for name, cost in costs.items() if np.isfinite(cost[number])}
-        if len(at) > 1:
-            best = min(at, key=lambda name: at[name])
-            ratios = ", ".join(
-                f"{name} {at[name] / at[best]:.2g} times" for name in at if name != best
-            )
-            lines.append(f"- at error {level:g}, {best} costs {at[best]:.3g} s; {ratios} that")
+    for level, at in costs_at_levels(points).items():
+        if len(at) < 2 or all(cost.at_most for cost in at.values()):
+            continue
+        best = min(at, key=lambda name: at[name].value)
+        ratios = ", ".join(
+            f"{name} {'at most ' * cost.at_most}{cost.value / at[best].value:.2g} times"
+            for name, cost in at.items()
+            if name != best
+        )
+        none = [name for name in points if name not in at]
+        missed = f"; not reached by {', '.join(none)}" if none else ""
+        lines.append(f"- at error {level:g}, {best} costs {at[best]} s; {ratios} that{missed}")
     return lines
+
+
+def _section(title: str, lines: Sequence[str]) -> list[str]:
+    return [f"## {title}", "", *lines, ""] if lines else []
+
+
+def _row(study: CostStudy, one: Record, best: bool) -> str:
+    settings = ", ".join(f"{key.rpartition('.')[2]} {value}" for key, value in one.settings.items())
+    value = one.quantities.get(study.reference.quantity, np.nan)
+    error = study.error(one)
+    memory = "" if one.memory is None else f"{one.memory / 2**20:.0f} MiB"
+    seconds = [f"{one.median_seconds:.3g}", f"{min(one.seconds):.3g}"] if one.seconds else ["", ""]
+    cells = [
+        one.name,
+        settings,
+        f"{one.unknowns:,}" if one.unknowns else "",
+        str(one.steps or ""),
+        str(one.passes or ""),
+        *seconds,
+        memory,
+        f"{value:.7g}" if np.isfinite(value) else "",
+        f"{error:.2e}" if np.isfinite(error) and one.valid else "",
+        "front" if best else "",
+        one.status if one.valid else f"**{one.status}**",
+    ]
+    return f"| {' | '.join(cells)} |"
+
+
+def _orders(study: CostStudy) -> list[str]:
+    """Observed orders with their confidence, from errors above the reference's uncertainty."""
+    lines = []
+    floor = _floor(study)
+    for name, many in study.by_formulation().items():
+        used = [one for one in many if one.valid and study.error(one) > floor]
+        if len(used) < 2:
+            continue
+        sizes = sizes_of(used)
+        order = observed_order(sizes, [study.error(one) for one in used])
+        if order.points > 1 and np.isfinite(order.value):
+            lines.append(f"- {name}: {order} in {_size_name(used)}")
+    return lines
+
+
+def _size_name(records: Sequence[Record]) -> str:
+    if len({one.unknowns for one in records}) > 1:
+        return "unknowns^(-1/2)"
+    return next(
+        key
+        for key in records[0].settings
+        if len({str(one.settings.get(key)) for one in records}) > 1
+    )
+
+
+def _limits(study: CostStudy) -> list[str]:
+    """Whether formulations go to one value: a modelling error does not fall with size."""
+    reference = study.reference
+    return [
+        f"- {name}: {limit.value:.8g}, uncertainty {limit.uncertainty:.2g}; "
+        f"{(limit.value - reference.value) / (abs(reference.value) or 1.0):+.2e} from the reference"
+        for name, limit in reference.limits.items()
+    ]
+
+
+def _failed(study: CostStudy) -> list[str]:
+    return [f"- {one.label}: {one.sentence}" for one in study.records if not one.valid]
+
+
+def _shaded(study: CostStudy) -> list[str]:
+    floor = _floor(study)
+    low = [one for one in study.records if one.valid and study.error(one) < floor]
+    if not low:
+        return []
+    return [f'{len(low)} errors lie below that uncertainty and mean no more than "less than it".']
+
+
+def _floor(study: CostStudy) -> float:
+    """Relative error below which the reference says nothing."""
+    reference = study.reference
+    return reference.uncertainty / (abs(reference.value) or 1.0) if reference.extrapolated else 0.0
 
 
 def _conditions(study: CostStudy) -> list[str]:
@@ -122,12 +190,28 @@ def _conditions(study: CostStudy) -> list[str]:
     versions = ", ".join(f"{name} {version}" for name, version in first.versions.items())
     repeats = max(len(one.seconds) for one in study.records)
     wall = [w / c for one in study.records for w, c in zip(one.wall, one.seconds, strict=True) if c]
+    ratio = float(np.median(wall)) if wall else float("nan")
+    shared = " (other work took the processor: read the processor seconds)" * (ratio > DISTURBED)
     return [
-        f"Medians of {repeats} repeats after a warm-up, all runs in turn, processor seconds; wall "
-        f"over processor seconds {np.median(wall):.2f} (median). {first.machine}; {versions}. Raw "
-        "records with scene and formulation hashes: `records.jsonl`.",
+        f"Medians of {repeats} repeats after a warm-up, all runs in turn; processor seconds of the "
+        f"whole run, covers included. Wall over processor seconds {ratio:.2f}{shared}. Memory is "
+        f"what a run adds to a fresh process at its peak. {first.machine}; {versions}. Scene "
+        f"{first.scene_hash[:12]}. Raw records with all hashes, seeds and repeats: "
+        "`records.jsonl`.",
     ]
 
 
-def _errors(study: CostStudy, records: list[Record]) -> list[float]:
-    return [study.error(one) if one.valid else float("nan") for one in records]
+def _finest(records: Sequence[Record]) -> Record:
+    valid = [one for one in records if one.valid and one.seconds] or list(records)
+    return max(valid, key=lambda one: one.median_seconds if one.seconds else -1.0)
+
+
+def _front(study: CostStudy) -> set[int]:
+    best = front([one.median_seconds for one in study.records], _errors(study, study.records))
+    return {id(one) for one, on in zip(study.records, best.tolist(), strict=True) if on}
+
+
+def _errors(study: CostStudy, records: Sequence[Record]) -> list[float]:
+    """Errors, nan for failed runs; none below what the reference can tell."""
+    floor = _floor(study)
+    return [max(study.error(one), floor) if one.valid else float("nan") for one in records]

@@ -1,13 +1,25 @@
 """Which formulations pay: the Pareto front of error and seconds, and ratios at equal error."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools
 
 # Levels of relative error at which costs are compared.
-LEVELS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
+LEVELS = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5)
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What reaching an error costs; ``at_most`` when even the cheapest run is better than that."""
+
+    value: float
+    at_most: bool = False
+
+    def __str__(self) -> str:
+        return f"{'at most ' if self.at_most else ''}{self.value:.3g}"
 
 
 def front(cost: Sequence[float], error: Sequence[float]) -> Bools:
@@ -19,11 +31,11 @@ def front(cost: Sequence[float], error: Sequence[float]) -> Bools:
     return np.asarray(good & ~(beaten & good[None]).any(axis=1))
 
 
-def cost_at(level: float, cost: Sequence[float], error: Sequence[float]) -> float:
+def cost_at(level: float, cost: Sequence[float], error: Sequence[float]) -> Cost | None:
     """Least cost at which a formulation reaches an error, log-log between its own points.
 
-    nan where it does not reach the level. A formulation whose worst point is already better costs
-    what that point costs: nothing is extrapolated.
+    None where it does not reach the level: nothing is extrapolated. What is dearer than a better
+    point is passed over, so that one lucky sign change counts where it lies and no further.
     """
     c, e = np.asarray(cost, dtype=float), np.asarray(error, dtype=float)
     good = np.isfinite(c) & np.isfinite(e) & (c > 0)
@@ -31,19 +43,24 @@ def cost_at(level: float, cost: Sequence[float], error: Sequence[float]) -> floa
     c, e = c[good][order], np.minimum.accumulate(np.maximum(e[good][order], 1e-300))
     reached = np.flatnonzero(e <= level)
     if len(reached) == 0:
-        return float("nan")
+        return None
     first = int(reached[0])
-    if first == 0 or e[first] == e[first - 1]:
-        return float(c[first])
+    if first == 0:
+        return Cost(float(c[0]), at_most=bool(e[0] < level))
     share = np.log(level / e[first - 1]) / np.log(e[first] / e[first - 1])
-    return float(c[first - 1] * (c[first] / c[first - 1]) ** share)
+    return Cost(float(c[first - 1] * (c[first] / c[first - 1]) ** share))
 
 
 def costs_at_levels(
     points: Mapping[str, tuple[Sequence[float], Sequence[float]]],
-) -> dict[str, Floats]:
-    """Return the cost of each formulation (cost, error) at every level."""
+    levels: Sequence[float] = LEVELS,
+) -> dict[float, dict[str, Cost]]:
+    """Return, for each level, the cost of each formulation (cost, error) that reaches it."""
     return {
-        name: np.array([cost_at(level, cost, error) for level in LEVELS])
-        for name, (cost, error) in points.items()
+        level: {
+            name: cost
+            for name, (costs, errors) in points.items()
+            if (cost := cost_at(level, costs, errors)) is not None
+        }
+        for level in levels
     }

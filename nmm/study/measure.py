@@ -1,21 +1,40 @@
 """Running cases and taking their cost: interleaved repeats after a warm-up, one thread a case."""
 
+import os
 import platform
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass, replace
+from importlib import import_module
 from multiprocessing import get_context
 from pathlib import Path
 from time import perf_counter, process_time
+from typing import TYPE_CHECKING, Any
 
 from nmm.errors import NmmError
-from nmm.results.summary import installed_versions
-from nmm.stepping.run import Run, run
 from nmm.study.quantities import quantity
 from nmm.study.record import Record
 from nmm.study.variants import Case
 
+if TYPE_CHECKING:
+    from nmm.results.summary import Summary
+    from nmm.stepping.run import Run
+
 Progress = Callable[[float, str], None]
+
+# Packages whose modules are loaded before memory is measured: they are no part of a run.
+_LOADED = ("integration", "covers", "nmm", "scipy", "skfem", "shapely", "numba")
+
+
+@dataclass(frozen=True)
+class Spent:
+    """What one repeat took: processor and wall-clock seconds, and where they went."""
+
+    seconds: float
+    wall: float
+    summary: "Summary"
 
 
 def measure(
@@ -34,91 +53,140 @@ def measure(
     names
         Quantities read off each run.
     repeats
-        Counted runs of each case; a case whose warm-up failed is not repeated.
+        Counted runs of each case; a case that raised in the warm-up is not repeated.
     memory
         Also run each case once in a process of its own to see how much memory it adds.
     """
     tell = progress or (lambda share, text: None)
-    total = (repeats + 1) * len(cases)
-    found = [_once(case, names) for case in _told(cases, tell, 0, total)]
-    times: list[list[tuple[float, float]]] = [[] for _ in cases]
-    for turn in range(repeats):
-        for index, case in enumerate(_told(cases, tell, (turn + 1) * len(cases), total)):
+    rounds = repeats + 1 + memory
+    total = rounds * len(cases)
+    found = [_once(case, names)[0] for case in _told(cases, tell, 0, total)]
+    times: list[list[Spent]] = [[] for _ in cases]
+    for turn in range(1, repeats + 1):
+        for index, case in enumerate(_told(cases, tell, turn * len(cases), total)):
             if found[index].status != "error":
-                times[index].append(_timed(case))
-    peaks = [
-        _peak(case) if memory and one.status != "error" else None
-        for case, one in zip(cases, found, strict=True)
-    ]
+                times[index].append(_once(case, ())[1])
+    peaks: list[int | None] = [None] * len(cases)
+    if memory:
+        modules = [name for name in sys.modules if name.partition(".")[0] in _LOADED]
+        for index, case in enumerate(_told(cases, tell, (rounds - 1) * len(cases), total)):
+            if found[index].status != "error":
+                peaks[index] = _peak(case, modules)
     return [_joined(one, many, peak) for one, many, peak in zip(found, times, peaks, strict=True)]
 
 
 def record(case: Case, names: Sequence[str]) -> Record:
     """Run one case once and return its record, with the seconds of that one run."""
-    started = (process_time(), perf_counter())
-    found = _once(case, names)
-    spent = (process_time() - started[0], perf_counter() - started[1])
+    found, spent = _once(case, names)
     return _joined(found, [spent], None)
 
 
-def _once(case: Case, names: Sequence[str]) -> Record:
+def machine() -> str:
+    """Processor and system in words."""
+    kind = platform.machine()
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        kind = next(line for line in lines if line.startswith("model name")).partition(":")[2]
+    except (OSError, StopIteration):
+        pass
+    return f"{kind.strip()}, {os.cpu_count()} cores, {platform.system()} {platform.release()}"
+
+
+def _once(case: Case, names: Sequence[str]) -> tuple[Record, Spent]:
+    from nmm.results.summary import Summary
+    from nmm.stepping.run import run
+
+    cpu, wall = process_time(), perf_counter()
+    summary = Summary()
     try:
         done = run(case.scene, case.formulation)
-    except NmmError as fault:
-        return Record(case.name, dict(case.settings), case.key, "error", str(fault))
-    return _record(case, done, names)
+        summary = done.summary
+        spent = Spent(process_time() - cpu, perf_counter() - wall, summary)
+        return _record(case, done, names), spent
+    # A case that breaks in any way is a result of the study, and the other cases go on.
+    except Exception as fault:
+        kind = "" if isinstance(fault, NmmError) else f"{type(fault).__name__}: "
+        spent = Spent(process_time() - cpu, perf_counter() - wall, summary)
+        sentence = " ".join(f"{kind}{fault}".split())
+        return Record(**_identity(case), status="error", sentence=sentence), spent
 
 
-def _record(case: Case, done: Run, names: Sequence[str]) -> Record:
+def _identity(case: Case) -> dict[str, Any]:
+    from nmm.formulation import formulation_hash
+    from nmm.results.summary import installed_versions
+    from nmm.scene import scene_hash
+
+    seeds = [item.seed for item in case.scene.tessellations if item.seed is not None]
+    return {
+        "name": case.name,
+        "settings": dict(case.settings),
+        "key": case.key,
+        "cover": case.formulation.cover.type,
+        "scene_hash": scene_hash(case.scene),
+        "formulation_hash": formulation_hash(case.formulation),
+        "seed": seeds[0] if seeds else case.scene.seed,
+        "versions": installed_versions(),
+        "machine": machine(),
+    }
+
+
+def _record(case: Case, done: "Run", names: Sequence[str]) -> Record:
     summary = done.summary
     usable = summary.status in ("converged", "failure_load")
     values = {name: quantity(done, name) if usable else float("nan") for name in names}
     return Record(
-        name=case.name,
-        settings=dict(case.settings),
-        key=case.key,
+        **_identity(case),
         status=summary.status,
         sentence=summary.sentence,
         quantities=values,
         phases=dict(summary.seconds),
+        effects=dict(summary.effect_seconds),
         unknowns=summary.unknowns,
         elements=summary.elements,
         steps=summary.steps,
         passes=summary.passes,
-        versions=installed_versions(),
-        machine=f"{platform.machine()}, {platform.system()} {platform.release()}",
     )
 
 
-def _timed(case: Case) -> tuple[float, float]:
-    cpu, wall = process_time(), perf_counter()
-    run(case.scene, case.formulation)
-    return process_time() - cpu, perf_counter() - wall
-
-
-def _joined(found: Record, times: Sequence[tuple[float, float]], peak: int | None) -> Record:
+def _joined(found: Record, times: Sequence[Spent], peak: int | None) -> Record:
+    """Return the record with the cost of its repeats; phases are those of the median one."""
+    if not times:
+        return replace(found, memory=peak)
+    middle = sorted(times, key=lambda one: one.seconds)[(len(times) - 1) // 2].summary
     return replace(
         found,
-        seconds=tuple(cpu for cpu, _ in times),
-        wall=tuple(wall for _, wall in times),
+        seconds=tuple(one.seconds for one in times),
+        wall=tuple(one.wall for one in times),
+        phases=dict(middle.seconds),
+        effects=dict(middle.effect_seconds),
         memory=peak,
     )
 
 
-def _peak(case: Case) -> int | None:
-    """Bytes that a run adds to a fresh process at its peak."""
+def _peak(case: Case, modules: Sequence[str]) -> int | None:
+    """Bytes that a run adds to a fresh process at its peak; None when the process died."""
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-        return pool.submit(_added_memory, case).result()
+        try:
+            return pool.submit(_added_memory, case, modules).result()
+        except BrokenProcessPool:
+            return None
 
 
-def _added_memory(case: Case) -> int | None:
+def _added_memory(case: Case, modules: Sequence[str]) -> int | None:
+    from nmm.stepping.run import run
+
+    for name in modules:
+        try:
+            import_module(name)
+        except Exception:  # some modules of libraries cannot be imported alone
+            continue
     try:
         # A new process keeps the peak of the one it was made by until it is reset.
         Path("/proc/self/clear_refs").write_text("5")
         before = _high_water()
         run(case.scene, case.formulation)
         return _high_water() - before
-    except OSError:
+    except (OSError, ValueError):
         return None
 
 

@@ -70,7 +70,8 @@ def richardson(sizes: Sequence[float], values: Sequence[float]) -> Extrapolated:
     first, second = f[1] - f[0], f[2] - f[1]
     if second == 0:
         return Extrapolated(float(f[2]), 0.0, float("inf"))
-    if first * second <= 0 or abs(second) >= abs(first):
+    # Changes that tend to a limit with an order above 0 fall faster than the logarithm of the size.
+    if first / second <= np.log(h[0] / h[1]) / np.log(h[1] / h[2]) * (1 + 1e-9):
         return Extrapolated(float(f[2]), float(max(abs(first), abs(second))), float("nan"))
     p = _order_of(h, first / second)
     correction = second / ((h[1] / h[2]) ** p - 1)

@@ -24,14 +24,16 @@ class Record:
         Processor seconds of every counted repeat.
     wall
         Wall-clock seconds of every counted repeat.
-    phases
-        Seconds by phase of the median repeat.
+    phases, effects
+        Wall-clock seconds by phase and by effect of the median repeat.
     unknowns, elements, steps, passes
         Sizes.
     memory
         Bytes that the run added to the process, at its peak; None when not measured.
-    versions, machine
-        What it was measured with.
+    cover
+        Type of the cover; "block" is DDA.
+    scene_hash, formulation_hash, seed, versions, machine
+        What was run, and with what it was measured.
     """
 
     name: str
@@ -43,11 +45,16 @@ class Record:
     seconds: tuple[float, ...] = ()
     wall: tuple[float, ...] = ()
     phases: Mapping[str, float] = field(default_factory=dict)
+    effects: Mapping[str, float] = field(default_factory=dict)
     unknowns: int = 0
     elements: int = 0
     steps: int = 0
     passes: int = 0
     memory: int | None = None
+    cover: str = ""
+    scene_hash: str = ""
+    formulation_hash: str = ""
+    seed: int | None = None
     versions: Mapping[str, str] = field(default_factory=dict)
     machine: str = ""
 
@@ -55,6 +62,11 @@ class Record:
     def valid(self) -> bool:
         """Whether the run's numbers may be used."""
         return self.status in ("converged", "failure_load")
+
+    @property
+    def family(self) -> str:
+        """Whether it is "DDA" (one cover a block) or "manifold" (any other cover)."""
+        return "DDA" if self.cover == "block" else "manifold"
 
     @property
     def median_seconds(self) -> float:

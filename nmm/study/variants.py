@@ -5,15 +5,18 @@ import itertools
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from nmm.errors import FormulationError, NmmError
-from nmm.formulation import Formulation
+from nmm.formulation import Formulation, read_formulation
 from nmm.formulation import canonical_text as formulation_text
 from nmm.scene import Scene, build_scene
 from nmm.scene import canonical_text as scene_text
 from nmm.scene.document import build
 from nmm.scene.faults import Source
+
+SIZE = "formulation.cover.size"
 
 
 @dataclass(frozen=True)
@@ -75,13 +78,49 @@ def with_settings(case: Case, settings: Mapping[str, Any]) -> Case:
     )
 
 
+def cases_of(
+    scene: Scene, formulations: Mapping[str, Formulation], vary: Mapping[str, Sequence[Any]]
+) -> list[Case]:
+    """Return one case for each formulation and combination of values, none of them twice.
+
+    The size of a cover means nothing to blocks: their formulations get no such setting.
+    """
+    found: dict[tuple[str, str], Case] = {}
+    for name, formulation in formulations.items():
+        blocks = formulation.cover.type == "block"
+        for settings in grid(vary):
+            apt = {key: value for key, value in settings.items() if not (blocks and key == SIZE)}
+            case = with_settings(Case(name, scene, formulation), apt)
+            found.setdefault((name, case.key), case)
+    return list(found.values())
+
+
+def read_formulations(paths: Sequence[Path]) -> dict[str, Formulation]:
+    """Read formulation files by title, or by file name where they have none or share it."""
+    read = [(path, read_formulation(path)) for path in paths]
+    titles = [one.title for _, one in read]
+    named = {
+        one.title if one.title and titles.count(one.title) == 1 else path.stem: one
+        for path, one in read
+    }
+    if len(named) < len(read):
+        raise NmmError(
+            f"formulations: {', '.join(str(path) for path in paths)}: two have one name: expected "
+            "titles that differ: give them"
+        )
+    return named
+
+
 def grid(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
     """Return all combinations of the values of several keys."""
     return [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
 
 
 def value_of(text: str) -> Any:
-    """Return a value given on a command line: a number or TOML-like literal, else the text."""
+    """Return a value given on a command line: a JSON literal, else the text.
+
+    Text may be a quantity with a unit such as ``2 ms``.
+    """
     try:
         return json.loads(text)
     except json.JSONDecodeError:

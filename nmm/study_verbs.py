@@ -1,0 +1,115 @@
+"""The verbs of studies: cost, compare, verify, study, calibrate. What they need they import."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from nmm.terminal import console, faults_told, progress_bar, tell_files
+
+if TYPE_CHECKING:
+    from nmm.formulation import Formulation
+    from nmm.scene import Scene
+
+SceneFile = Annotated[Path, typer.Argument(help="Scene file, TOML.", metavar="SCENE")]
+Formulations = Annotated[
+    list[Path] | None, typer.Argument(help="Formulation files, TOML.", metavar="FORMULATION")
+]
+FirstFormulations = Annotated[
+    list[Path] | None,
+    typer.Option("--formulations", "-f", help="Formulation files; more may follow without it."),
+]
+Out = Annotated[Path | None, typer.Option("--out", "-o", help="Folder to write to.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print the outcome only.")]
+
+
+def cost(
+    scene: SceneFile,
+    more: Formulations = None,
+    formulations: FirstFormulations = None,
+    sizes: Annotated[
+        str | None, typer.Option(help="Sizes of covers in m, with commas: 0.2,0.1,0.05.")
+    ] = None,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(help="key=v1,v2,...: formulation.integrator.step=2e-3,1e-3; repeatable."),
+    ] = None,
+    quantity: Annotated[
+        str | None, typer.Option(help="What error is taken of; the scene's first [[reference]].")
+    ] = None,
+    repeats: Annotated[int, typer.Option(min=1, help="Counted repeats of each run.")] = 3,
+    out: Out = None,
+    quiet: Quiet = False,
+) -> None:
+    """Show what accuracy costs: error against seconds over formulations and sizes."""
+    with faults_told():
+        _one_thread()
+        from nmm.study.cost import cost_study
+        from nmm.study.cost_report import levels, write_cost_report
+        from nmm.study.variants import SIZE
+
+        said = ([f"{SIZE}={sizes}"] if sizes else []) + (vary or [])
+        with progress_bar(quiet) as progress:
+            study = cost_study(
+                _scene(scene),
+                _formulations(scene, [*(formulations or []), *(more or [])]),
+                dict(_varied(text) for text in said),
+                quantity,
+                repeats,
+                progress,
+            )
+        files = write_cost_report(study, out or Path("runs") / f"{scene.stem}-cost")
+        lost = sum(not one.valid for one in study.records)
+        console().print(
+            f"{len(study.records)} cases, {lost} failed; reference of {study.reference.quantity} "
+            f"{study.reference.value:.6g}: {study.reference.source}",
+            highlight=False,
+        )
+        for line in levels(study):
+            console().print(line, highlight=False)
+        tell_files(files)
+
+
+VERBS = (cost,)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the verbs to the command line."""
+    for verb in VERBS:
+        app.command()(verb)
+
+
+def _one_thread() -> None:
+    from nmm.study.threads import one_thread
+
+    one_thread()
+
+
+def _scene(place: Path) -> "Scene":
+    import sys
+
+    import nmm
+
+    # A scene may name parts of modules in its own folder.
+    sys.path.append(str(place.resolve().parent))
+    return nmm.read_scene(place)
+
+
+def _formulations(scene: Path, paths: list[Path]) -> "dict[str, Formulation]":
+    from nmm.formulation import Formulation
+    from nmm.study.variants import read_formulations
+
+    if paths:
+        return read_formulations(paths)
+    own = _scene(scene).formulation or Formulation()
+    return {own.title or "the scene's own": own}
+
+
+def _varied(text: str) -> tuple[str, list[object]]:
+    from nmm.errors import NmmError
+    from nmm.study.variants import value_of
+
+    key, equals, values = text.partition("=")
+    if not equals or not values:
+        raise NmmError(f"--vary {text}: expected key=value,value: write it so")
+    return key.strip(), [value_of(item.strip()) for item in values.split(",")]
