@@ -9,6 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.stepping.recorder import Recorder
@@ -20,7 +22,8 @@ if TYPE_CHECKING:
     from nmm.effects.contact import Breaking
 
 # Corrections for the turn of contacts and bodies end when they move nothing by more than this
-# share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain).
+# share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain,
+# or of its distance from the origin: see `_rounding`).
 SETTLED = 1e-8
 ROUNDING = 1e-13
 CORRECTIONS = 12
@@ -100,18 +103,25 @@ class Settled:
 def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> Settled:
     """Find equilibrium in the moved place: solve, move, and correct until nothing moves."""
     contacts: ContactPoints | None = None
+    rounding = _rounding(stepper)
     total = attempt = stepper.attempt(state, end, None, breaking)
     for _ in range(CORRECTIONS):
         far = not stepper.small and total.motion > COLLAPSE * stepper.size
         if far or not attempt.converged:
             return Settled(replace(total, converged=False), contacts)
         _, contacts = stepper.accept(attempt)
-        if stepper.small or attempt.motion <= SETTLED * total.motion + ROUNDING * stepper.size:
+        if stepper.small or attempt.motion <= SETTLED * total.motion + rounding:
             return Settled(total, contacts)
         attempt = stepper.attempt(attempt.state, end, None, breaking)
         total = _joined(total, attempt)
     sentence = f"the moved place is not in equilibrium after {CORRECTIONS} corrections"
     return Settled(replace(total, converged=False, sentence=sentence), contacts)
+
+
+def _rounding(stepper: Stepper) -> float:
+    """How far points must move to be known to have moved (m)."""
+    farthest = float(np.abs(stepper.reference).max())
+    return max(ROUNDING * stepper.size, 4 * float(np.finfo(float).eps) * farthest)
 
 
 def _joined(first: Attempt, then: Attempt) -> Attempt:
