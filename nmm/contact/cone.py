@@ -19,6 +19,7 @@ from nmm.contact.rounds import (
     updated,
 )
 from nmm.contact.settle import FINE, SMALL, Budget
+from nmm.contact.springs import CutSprings
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
 
@@ -62,21 +63,49 @@ class Cone(Enforcement):
         """Find admissible forces that balance the step with complementary gaps."""
         problem.check()
         memory = memory or Memory()
-        at = first_round(stiff_springs(problem, self.scale))
-        rounds = 1 if memory.redundant else self.max_rounds
-        budget = Budget(self.max_solves, self.max_solves, 0)
+        springs = stiff_springs(problem, self.scale)
         try:
-            at = converged_rounds(at, linear_solver, memory, self.tolerance, rounds, 1.0, budget)
+            at, how = exact_round(
+                springs,
+                linear_solver,
+                memory,
+                self.tolerance,
+                self.max_rounds,
+                self.max_solves,
+                self.max_factorisations,
+            )
         except SolveError as fault:
-            return singular_answer(at.settled.springs, linear_solver, fault)
-        how = f"{at.count} rounds"
-        if not at.meets(self.tolerance):
-            if at.count > 1:
-                memory.redundant = True
-            at = interior_round(at, linear_solver, memory, self.tolerance, self.max_factorisations)
-            how = f"{how}, then {at.settled.story}"
+            return singular_answer(springs, linear_solver, fault)
         verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, how)
         return answer(at.settled, linear_solver, verdict)
+
+
+def exact_round(
+    springs: CutSprings,
+    linear: LinearSolver,
+    memory: Memory,
+    tolerance: float,
+    rounds: int = 10,
+    solves: int = 40,
+    factorisations: int = 100,
+) -> tuple[Round, str]:
+    """Exact forces by rounds of multipliers or, by rule, the interior point; and how.
+
+    Raises
+    ------
+    SolveError
+        When even with all contacts acting the load moves a free part.
+    """
+    at = first_round(springs)
+    budget = Budget(solves, solves, 0)
+    allowed = 1 if memory.redundant else rounds
+    at = converged_rounds(at, linear, memory, tolerance, allowed, 1.0, budget)
+    how = f"{at.count} rounds"
+    if at.meets(tolerance):
+        return at, how
+    memory.redundant = memory.redundant or at.count > 1
+    at = interior_round(at, linear, memory, tolerance, factorisations)
+    return at, f"{how}, then {at.settled.story}"
 
 
 def interior_round(

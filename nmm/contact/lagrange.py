@@ -8,14 +8,13 @@ from scipy.sparse import block_array, csc_array, diags_array
 
 from integration.arrays import Bools, Floats
 from nmm.contact.answer import answer, singular_answer
-from nmm.contact.cone import interior_round
+from nmm.contact.cone import exact_round
 from nmm.contact.enforcement import Enforcement
 from nmm.contact.law import shear_bound
 from nmm.contact.memory import Memory
 from nmm.contact.passes import Springs, changes, first_springs
 from nmm.contact.problem import StepAnswer, StepProblem
 from nmm.contact.rounds import Round, compliances, measured, rounds_verdict, stiff_springs
-from nmm.contact.settle import settle
 from nmm.contact.springs import CutSprings, Settled
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
@@ -38,14 +37,14 @@ class Lagrange(Enforcement):
     contact's compliance keeps it regular, and refinement with the matrix without that block removes
     its effect when the constraints agree with one another. When they do not (a wall whose blocks
     have more contacts than unknowns), when the set cycles, or when it sets a part free, the
-    interior point finds the same exact conditions, and the verdict says so.
+    way of `Cone` finds the same exact conditions, and the verdict says so.
 
     Attributes
     ----------
     max_passes
         Most corrections of the active set.
     rescue
-        Most factorisations of the interior point; 0 reports the failure instead.
+        Most factorisations of the interior point.
     tolerance
         Largest relative out-of-balance force (-), and largest gap or slip that should not be over
         the compliance times the largest force (-).
@@ -64,15 +63,15 @@ class Lagrange(Enforcement):
         memory = memory or Memory()
         springs = stiff_springs(problem, 1.0)
         at, how = self._active_set(springs, linear_solver)
-        if at is None or (self.rescue and not at.meets(self.tolerance)):
+        if at is None or not at.meets(self.tolerance):
+            springs = stiff_springs(problem, 10.0)
             try:
-                start = settle(springs, linear_solver, memory, 1e-4)
+                at, rest = exact_round(
+                    springs, linear_solver, memory, self.tolerance, factorisations=self.rescue
+                )
             except SolveError as fault:
                 return singular_answer(springs, linear_solver, fault)
-            at = Round(start)
-            if self.rescue:
-                at = interior_round(at, linear_solver, memory, self.tolerance, self.rescue)
-                how = f"{how}, then {at.settled.story}"
+            how = f"{how}, then {rest}"
         verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, how)
         return answer(at.settled, linear_solver, verdict)
 
@@ -89,7 +88,7 @@ class Lagrange(Enforcement):
                     continue
                 return None, f"a singular active set in pass {passes}"
             found = _corrected(problem, active, increment, normal, shear)
-            if not changes(active, found).any():
+            if not changes(problem, active, found).any():
                 shifted = springs.shifted(
                     np.where(problem.own_stiffness, 0.0, normal),
                     np.where(problem.own_stiffness, 0.0, shear),
@@ -182,7 +181,8 @@ def _corrected(
     smooth: Bools = (limits.friction == 0) & (limits.cohesion == 0)
     elastic = np.where(own, shear / problem.shear_stiffness, 0.0)
     stays = active.sliding & (active.sign * (slip - elastic) >= -near_slip)
-    turned = ~active.sliding & active.closed & (np.abs(shear) > bound + near_force)
+    held = active.closed | (limits.tension > 0)
+    turned = ~active.sliding & held & (np.abs(shear) > bound + near_force)
     sliding = stays | turned | smooth
     sign = np.where(stays, active.sign, np.sign(shear))
     return Springs(~is_open, sliding, np.where(smooth, 0.0, sign) * sliding)

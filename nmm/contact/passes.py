@@ -57,7 +57,8 @@ def next_springs(problem: StepProblem, springs: Springs, gap: Floats, slip: Floa
     bound = shear_bound(np.minimum(normal, limits.tension), opens, limits)
     smooth = (limits.friction == 0) & (limits.cohesion == 0)
     stays = springs.sliding & (springs.sign * shear >= bound)
-    turned = springs.closed & (np.abs(shear) > bound)
+    held = springs.closed | (limits.tension > 0)
+    turned = held & (np.abs(shear) > bound)
     sliding = stays | turned | smooth
     return Springs(~opens, sliding, np.where(smooth, 0.0, np.sign(shear)) * sliding)
 
@@ -74,10 +75,12 @@ def forces(
     return normal, np.where(carries, problem.shear_stiffness * slip, at_bound)
 
 
-def changes(old: Springs, new: Springs) -> Bools:
-    """(m,) contacts whose state differs; the shear state of open contacts does not count."""
+def changes(problem: StepProblem, old: Springs, new: Springs) -> Bools:
+    """(m,) contacts whose state differs; the shear state of lost contacts does not count."""
     shear = (old.sliding != new.sliding) | (old.sign != new.sign)
-    return np.asarray((old.closed != new.closed) | (shear & old.closed & new.closed))
+    bond = problem.limits.tension > 0
+    held = (old.closed | bond) & (new.closed | bond)
+    return np.asarray((old.closed != new.closed) | (shear & held))
 
 
 def words(springs: Springs, contact: int) -> str:

@@ -10,7 +10,7 @@ from integration.arrays import Floats
 from nmm.contact.answer import settled_answer
 from nmm.contact.balance import relative_residual, weights
 from nmm.contact.enforcement import Enforcement
-from nmm.contact.law import label, shear_bound
+from nmm.contact.law import label, project, shear_bound
 from nmm.contact.memory import Memory
 from nmm.contact.passes import Springs, changes, first_springs, forces, next_springs, words
 from nmm.contact.pattern import SpringPattern
@@ -110,9 +110,9 @@ class _OpenClose:
             friction_from = np.minimum(
                 self.problem.normal_stiffness * gap, self.problem.limits.tension
             )
-            if not changes(springs, found).any():
+            if not changes(self.problem, springs, found).any():
                 answer = self._answer(springs, None)
-                if answer.residual <= self.options.tolerance:
+                if answer.verdict.converged:
                     return answer
             springs = found
         self.trail.append(springs)
@@ -130,7 +130,7 @@ class _OpenClose:
         residual = relative_residual(p, self.weight, self.increment, normal, shear)
         passes = len(self.trail) - (verdict is not None and verdict.code in ("cycle", "passes"))
         if verdict is None:
-            good = residual <= self.options.tolerance
+            good = residual <= self.options.tolerance and self._admissible(normal, shear, gap, slip)
             verdict = Verdict(good, "converged", f"contact states settled in {passes} passes")
         elastic = np.where(springs.closed | (p.limits.tension > 0), shear / p.shear_stiffness, 0.0)
         return StepAnswer(
@@ -147,6 +147,13 @@ class _OpenClose:
             solver=self.linear.name,
         )
 
+    def _admissible(self, normal: Floats, shear: Floats, gap: Floats, slip: Floats) -> bool:
+        p = self.problem
+        meant = project(p.normal_stiffness * gap, p.shear_stiffness * slip, p.limits)
+        size = max(float(np.abs(force).max(initial=0.0)) for force in meant)
+        miss = np.abs(np.stack(meant) - np.stack([normal, shear])).max(initial=0.0)
+        return bool(miss <= 1e-9 * size)
+
     def _singular(self, springs: Springs, fault: SolveError) -> Verdict:
         n_open = int((~springs.closed).sum())
         sentence = (
@@ -159,7 +166,7 @@ class _OpenClose:
         codes = [springs.code for springs in self.trail]
         last = len(codes) - 1
         first = max((i for i in range(last - 1) if codes[i] == codes[last]), default=None)
-        changing = np.flatnonzero(changes(self.trail[-2], self.trail[-1]))
+        changing = np.flatnonzero(changes(self.problem, self.trail[-2], self.trail[-1]))
         if first is None or not changing.size:
             tail = f"{changing.size} of {self.problem.n_contacts} contacts changed in pass {last}"
             if not changing.size:
@@ -172,7 +179,7 @@ class _OpenClose:
         cycle = self.trail[first:]
         moved = np.zeros(self.problem.n_contacts, dtype=bool)
         for old, new in pairwise(cycle):
-            moved |= changes(old, new)
+            moved |= changes(self.problem, old, new)
         who = np.flatnonzero(moved)
         named = "; ".join(f"contact {i} {_story(cycle, int(i))}" for i in who[:5])
         more = f" and {who.size - 5} more" if who.size > 5 else ""
