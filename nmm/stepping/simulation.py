@@ -101,7 +101,9 @@ class Simulation:
             step = self.formulation.integrator.step
             times = Schedule(scene.duration, step, FRAMES)
             return run_in_time(stepper, recorder, self.start, times, progress)
-        state, verdict = run_load(stepper, recorder, self.start, self._load_schedule(), progress)
+        state, verdict = run_load(
+            stepper, recorder, self.start, self._load_schedule(), progress, self.regions.name
+        )
         loading = scene.loading
         if verdict.code == FAILURE and loading is not None and loading.motion_after_failure:
             self._show_failure(recorder, state, verdict, loading.motion_after_failure, progress)

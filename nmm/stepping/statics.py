@@ -5,7 +5,7 @@ load, so that bonds break in the order, and at the load, of a slow test whatever
 starts from.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -14,6 +14,7 @@ import numpy as np
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.stepping.recorder import Recorder
+from nmm.stepping.relaxation import Relaxed, relax
 from nmm.stepping.step import Attempt, Stepper
 from nmm.stepping.verdict import CONVERGED, FAILED, FAILURE, RunVerdict
 
@@ -63,14 +64,16 @@ def run_load(
     state: State,
     schedule: LoadSchedule,
     progress: Callable[[float, str], None],
+    names: Sequence[str] = (),
 ) -> tuple[State, RunVerdict]:
-    """Raise the load factor from that of ``state``.
+    """Raise the load factor from that of ``state``; ``names`` are those of the regions.
 
     Returns
     -------
     The last state in equilibrium and the verdict.
     """
     increment = min(schedule.increment, schedule.target)
+    rest: Relaxed | None = None
     while state.load_factor < schedule.target * (1 - 1e-12):
         factor = min(state.load_factor + increment, schedule.target)
         fine = increment <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
@@ -86,10 +89,21 @@ def run_load(
             increment = increment if broke else min(2 * increment, schedule.increment)
             continue
         stepper.restore(start)
+        loose = stepper.plan.contact is not None and state.load_factor == 0 and rest is None
+        if loose and (fine or not schedule.until_failure):
+            rest = relax(stepper, state, Instant(factor, factor), names)
+            if not rest.at_rest:
+                stepper.restore(start)
+                return state, RunVerdict(FAILED, _no_rest(rest), 0.0)
+            state = replace(rest.state, time=state.time, load_factor=0.0)
+            continue
         if fine:
             return state, _no_equilibrium(state, factor, found.attempt, schedule, stepper.size)
         increment /= 2
-    return state, RunVerdict(CONVERGED, f"equilibrium at load factor {state.load_factor:.6g}")
+    sentence = f"equilibrium at load factor {state.load_factor:.6g}"
+    if rest is not None:
+        sentence += f", loose blocks brought to rest in {rest.steps} steps of relaxation"
+    return state, RunVerdict(CONVERGED, sentence)
 
 
 @dataclass(frozen=True)
@@ -135,6 +149,10 @@ def _joined(first: Attempt, then: Attempt) -> Attempt:
         passes=first.passes + then.passes,
         solved=solved,
     )
+
+
+def _no_rest(rest: Relaxed) -> str:
+    return f"no equilibrium of loose blocks after {rest.steps} steps of relaxation: {rest.sentence}"
 
 
 def _no_equilibrium(

@@ -1,0 +1,114 @@
+"""Where loose blocks come to rest: steps with a mass and no memory of velocity, then none.
+
+Each step moves the blocks as if they started from rest (Shi 1988, kinetic factor 0; dynamic
+relaxation in the sense of Day 1965, implicit). The mass lends stiffness to what is not yet held and
+drops out of the state that is found: the last solution is one without it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+from nmm.effects.inertia import Inertia
+from nmm.stepping.integrators import Shi
+from nmm.stepping.step import Attempt, Stepper
+
+# Motions in sizes of the domain: of the first step, up to which the next step is lengthened, and
+# at which a solution without mass is tried.
+FIRST, SLOW, STILL = 1e-3, 5e-3, 1e-5
+# A step is lengthened and cut by these; so many steps, cuts in a row, and sizes of the domain
+# travelled end the search.
+LONGER, SHORTER, STEPS, CUTS = 1.5, 0.3, 400, 12
+
+
+@dataclass(frozen=True)
+class Relaxed:
+    """Where the search for rest ended.
+
+    Attributes
+    ----------
+    state
+        The last state.
+    steps
+        Steps taken.
+    at_rest
+        Whether hardly anything moves any more.
+    sentence
+        Which block moves, and how, if it does.
+    """
+
+    state: State
+    steps: int
+    at_rest: bool
+    sentence: str
+
+
+def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) -> Relaxed:
+    """Move loose blocks under the loads of ``end`` until they rest; ``names`` (N,) of regions."""
+    model = stepper.model
+    heavy = replace(model, density=np.where(model.density > 0, model.density, 1.0))
+    inertia = Inertia(heavy)
+    moving = Stepper(
+        model, stepper.plan.joined(inertia), Shi(kinetic_factor=0.0), stepper.solver, small=False
+    )
+    length = _first_length(heavy, stepper.plan.force(state, end), stepper.size)
+    way, cuts, attempt = 0.0, 0, None
+    for steps in range(1, STEPS + 1):
+        found = moving.attempt(state, end, length)
+        if not found.converged:
+            cuts += 1
+            length *= SHORTER
+            if cuts > CUTS:
+                return Relaxed(state, steps, False, f"a step failed: {found.sentence}")
+            continue
+        moving.accept(found)
+        rest = np.zeros_like(state.velocity)
+        state = replace(found.state, velocity=rest, acceleration=rest)
+        attempt, cuts, way = found, 0, way + found.motion
+        if found.motion < STILL * stepper.size and _holds(stepper, state, end):
+            return Relaxed(state, steps, True, "")
+        if way > stepper.size:
+            break
+        length *= LONGER if found.motion < SLOW * stepper.size else 1.0
+    return Relaxed(state, steps, False, _who(model, attempt, names))
+
+
+def _holds(stepper: Stepper, state: State, end: Instant) -> bool:
+    """Whether there is equilibrium without mass near ``state``."""
+    alone = stepper.attempt(state, end, None)
+    return alone.converged and alone.motion <= SLOW * stepper.size
+
+
+def _first_length(model: Model, force: Floats, size: float) -> float:
+    """Length (s) of a step in which the most accelerated body moves by `FIRST`."""
+    modes = model.manifold.rigid_modes
+    mass = (modes.T @ (model.mass @ modes)).diagonal().reshape(-1, 3)
+    pull = np.asarray(modes.T @ force).reshape(-1, 3)
+    fastest = float(np.hypot(*(pull[:, :2] / mass[:, :2]).T).max(initial=0.0))
+    return float(np.sqrt(2 * FIRST * size / fastest)) if fastest > 0 else 1.0
+
+
+def _who(model: Model, attempt: Attempt | None, names: Sequence[str]) -> str:
+    """Name the block that moves most, and how."""
+    if attempt is None:
+        return "no step converged"
+    manifold = model.manifold
+    rigid = (model.rigid_projection @ attempt.increment).reshape(-1, 3)
+    radius = np.sqrt(manifold.body_area)
+    turn = np.abs(rigid[:, 2]) * radius
+    shift = np.hypot(rigid[:, 0], rigid[:, 1])
+    body = int(np.argmax(np.maximum(turn, shift)))
+    region = manifold.element_region[np.flatnonzero(manifold.element_body == body)[0]]
+    name = names[region] if len(names) else f"number {body}"
+    if turn[body] > shift[body]:
+        sense = "counter-clockwise" if rigid[body, 2] > 0 else "clockwise"
+        how = f"it turns {sense}"
+    else:
+        x, y = attempt.state.frames.to_global(np.array([body]), rigid[body : body + 1, :2])[0]
+        how = f"it moves along ({x / shift[body]:.2f}, {y / shift[body]:.2f})"
+    return f"block {name} can move freely: {how}; add a support or friction, or [inertia]"
