@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from covers.ghost import ghost
+from covers.ghost import ghost, neighbours
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, at_point, on_block, on_segment
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import displacement_factor
+from nmm.effects.nitsche_penalty import least_penalty
 from nmm.effects.support_methods import (
     Multipliers,
     Nitsche,
@@ -144,7 +145,8 @@ class Method:
     stiffness
         Spring in Young's moduli over the size of a cell; None is the default.
     gamma, ghost
-        Nitsche's penalty and ghost term; None is the default of the degree.
+        Nitsche's penalty and ghost term; None is the default of the degree, or more where an
+        estimate of the largest traction over energy asks for it.
     """
 
     kind: str
@@ -185,8 +187,10 @@ class Method:
             self.ghost * model.thickness * hard / self.size**2,
             self.degree + 1,
         )
-        penalty = gamma * hard[place.elements] / self.size
         traction = traction_rows(model, place)
+        penalty = gamma * hard[place.elements] / self.size
+        if self.gamma is None:
+            penalty = np.maximum(penalty, least_penalty(model, place, traction, tie))
         return Nitsche(name, place, axes, displacement, weight, penalty, traction, tie)
 
     def _factor(self, place: Place) -> float:
@@ -198,9 +202,14 @@ class Method:
         return float(min(EDGE_STIFFNESS * cells ** (self.degree + 1), STIFFEST))
 
     def _cut(self, model: Model, place: Place) -> Ints:
-        """Elements on the edge that a cut has left."""
+        """Elements on the edge that a cut has left, and those of their neighbours."""
         elements = np.unique(place.elements)
-        return elements if model.cut is None else elements[~model.cut.element_whole[elements]]
+        if model.cut is None:
+            return elements
+        part = ~model.cut.element_whole
+        first, second = neighbours(model.manifold, elements[part[elements]])
+        near = np.unique(np.concatenate([elements, first, second]))
+        return np.asarray(near[part[near]])
 
 
 def method_of(part: "SupportMethod", size: float | None, degree: int, mesh: bool) -> Method:

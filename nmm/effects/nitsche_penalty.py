@@ -1,0 +1,71 @@
+"""How large Nitsche's penalty must be: the largest ratio of traction to energy on an edge."""
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+
+from covers.ghost import neighbours
+from integration.arrays import Floats
+from nmm.assembly import element_matrices
+from nmm.assembly.model import Model
+from nmm.assembly.places import Place
+
+# Part of the diagonal that makes the energy definite for fields without traction.
+SHIFT = 1e-9
+# The form is positive from a penalty of once the ratio on; twice keeps away from the limit.
+SAFETY = 2.0
+
+
+def least_penalty(model: Model, place: Place, traction: Floats, ghost: csc_array) -> float:
+    """Return twice the largest ``int |sigma n|^2 / (a(u, u) + ghost)`` over displacements (Pa/m).
+
+    The energy is that of the elements on the edge and of their neighbours (Griebel and Schweitzer
+    2003 take the same estimate element by element, which knows no bound on small cuts; the ghost
+    term gives one).
+    """
+    from scipy.sparse.linalg import LinearOperator, eigsh, splu
+
+    energy = csc_array(_energy(model, place) + ghost)
+    n = energy.shape[0]
+    unknowns = place.points.rows.unknowns
+    m, _, length = traction.shape
+    weight = np.sqrt(place.weight * model.thickness)[:, None, None]
+    columns = np.repeat(unknowns[:, None], 2, axis=1)
+    offsets = np.arange(2 * m + 1) * length
+    rows = csr_array(((weight * traction).ravel(), columns.ravel(), offsets), shape=(2 * m, n))
+    active = np.flatnonzero(energy.diagonal() > 0)
+    energy, rows = energy[active][:, active], csr_array(rows[:, active])
+    scale = 1 / np.sqrt(energy.diagonal())
+    scaled = csc_array(diags_array(scale) @ energy @ diags_array(scale))
+    factor = splu(csc_array(scaled + SHIFT * diags_array(np.ones(len(scale)))))
+    rows = csr_array(rows @ diags_array(scale))
+
+    def product(x: Floats) -> Floats:
+        return np.asarray(rows @ factor.solve(rows.T @ np.ravel(x)))
+
+    operator = LinearOperator((2 * m, 2 * m), matvec=product, dtype=np.float64)
+    start = np.random.default_rng(0).normal(size=2 * m)
+    largest = eigsh(operator, k=1, which="LA", v0=start, tol=1e-2, return_eigenvectors=False)
+    return SAFETY * float(largest[0])
+
+
+def _energy(model: Model, place: Place) -> csc_array:
+    """Stiffness of the elements on the edge and of their neighbours."""
+    manifold = model.manifold
+    own = np.unique(place.elements)
+    first, second = neighbours(manifold, own)
+    near = np.zeros(len(manifold.elements), dtype=bool)
+    near[own] = near[first] = near[second] = True
+    n = manifold.n_unknowns
+    total = csc_array((n, n))
+    for group in manifold.groups:  # a handful of groups
+        chosen = np.flatnonzero(near[group.elements])
+        if not len(chosen):
+            continue
+        elasticity = model.thickness * model.elasticity[group.elements[chosen]]
+        values = element_matrices.stiffness(group, group.shape[chosen], elasticity)
+        unknowns = group.unknowns[chosen]
+        length = unknowns.shape[1]
+        row, column = np.repeat(unknowns, length, axis=1), np.tile(unknowns, length)
+        entries = (values.ravel(), (row.ravel(), column.ravel()))
+        total = total + csc_array(entries, shape=(n, n))
+    return csc_array(total)
