@@ -51,12 +51,13 @@ def select(
     # In one body the far face of a thin neck looks like a face that is overlapped.
     trusted = last | (surface.body[v] != surface.body[e])
     depth = np.where(trusted, rules.depth, rules.flush) * thinner(surface, v, e)
-    usable = convex_vertices(surface, rules)[v] & (gap >= -depth) & (gap <= rules.reach)
+    usable = (length > 0.0) & convex_vertices(surface, rules)[v]
+    usable &= (gap >= -depth) & (gap <= rules.reach)
     usable &= leaves(surface, covers, v, e, rules)
     usable &= ~shielded(surface, covers, e, along, surface.body[v], rules)
     rank = _rank(surface, v, e, along, gap, last, motion, rules)
     kept = np.where(interior & usable, 1, 0)
-    kept[_dominated(surface, pairs, kept == 1, interior, gap, rank, rules)] = -1
+    kept[_dominated(surface, pairs, kept == 1, interior, along, gap, rank, rules)] = -1
     _pair_rule(surface, pairs, covers, kept, usable, rank, rules)
     return np.maximum(kept, 0), along, gap
 
@@ -85,6 +86,7 @@ def _dominated(
     pairs: Pairs,
     tentative: Bools,
     interior: Bools,
+    along: Floats,
     gap: Floats,
     rank: Floats,
     rules: Rules,
@@ -92,7 +94,7 @@ def _dominated(
     """Rows over which another edge of the same body stands, seen from the same vertex.
 
     Of edges that bound a convex part of the body the one least penetrated is the entrance; and a
-    vertex outside one of them has not entered through another.
+    vertex outside one of them has not entered through another, unless its own edges do pass there.
     """
     e = pairs.edge
     i, j = _same_vertex(pairs, np.flatnonzero(tentative))
@@ -102,6 +104,9 @@ def _dominated(
     i, j = i[mutual], j[mutual]
     better = (rank[j] > rank[i]) | ((rank[j] == rank[i]) & (e[j] < e[i]))
     outside = ~tentative[j] & (gap[j] > rules.grain) & (gap[i] < 0.0)
+    some = np.flatnonzero(outside)
+    row = j[some]
+    outside[some] = ~_passes(surface, pairs.vertex[row], e[row], along[row], gap[row])
     dominated = np.zeros(len(e), dtype=bool)
     dominated[i[(tentative[j] & better) | outside]] = True
     return dominated
@@ -114,6 +119,22 @@ def _same_vertex(pairs: Pairs, rows: Ints) -> tuple[Ints, Ints]:
     i = np.repeat(rows, count)
     j = np.arange(count.sum()) + np.repeat(low - (np.cumsum(count) - count), count)
     return i, j
+
+
+def _passes(surface: Surface, v: Ints, e: Ints, along: Floats, gap: Floats) -> Bools:
+    """Whether one of the edges at a vertex outside an edge passes through it."""
+    found = np.zeros(len(v), dtype=bool)
+    before = surface.previous[v]
+    for ray, length in (
+        (surface.direction[v], surface.length[v]),
+        (-surface.direction[before], surface.length[before]),
+    ):
+        down = -dot(ray, surface.normal[e])
+        there = (down > 0.0) & (gap <= down * length)
+        way = np.divide(gap, down, out=np.zeros_like(gap), where=there)
+        at = along + way * dot(ray, surface.direction[e])
+        found |= there & (at > 0.0) & (at < surface.length[e])
+    return found
 
 
 def _inside(surface: Surface, one: Ints, other: Ints, rules: Rules) -> Bools:

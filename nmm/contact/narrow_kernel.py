@@ -249,7 +249,7 @@ def _judge(shape, v, edge, low, high, s, gap, known, state, rules):  # type: ign
         state[k] = 0
         if s[k] >= -slop and s[k] <= shape.real[e, LENGTH] + slop:
             state[k] = _INTERIOR
-        if not shape.link[v, CONVEX] or gap[k] > rules.reach:
+        if not shape.link[v, CONVEX] or gap[k] > rules.reach or shape.real[e, LENGTH] <= 0.0:
             continue
         # In one body the far face of a thin neck looks like a face that is overlapped.
         trusted = known[k] or shape.link[v, BODY] != shape.link[e, BODY]
@@ -266,7 +266,25 @@ def _judge(shape, v, edge, low, high, s, gap, known, state, rules):  # type: ign
 
 
 @_compiled
-def _dominate(shape, edge, low, high, gap, state, rank, kept, rules):  # type: ignore[no-untyped-def]
+def _passes(shape, v, e, s, gap):  # type: ignore[no-untyped-def]
+    """Whether one of the edges at a vertex outside an edge passes through it."""
+    p = shape.link[v, PREVIOUS]
+    tx, ty = shape.real[e, TX], shape.real[e, TY]
+    for side in range(2):
+        if side == 0:
+            rx, ry, length = shape.real[v, TX], shape.real[v, TY], shape.real[v, LENGTH]
+        else:
+            rx, ry, length = -shape.real[p, TX], -shape.real[p, TY], shape.real[p, LENGTH]
+        down = ry * tx - rx * ty
+        if down > 0.0 and gap <= down * length:
+            at = s + gap / down * (rx * tx + ry * ty)
+            if at > 0.0 and at < shape.real[e, LENGTH]:
+                return True
+    return False
+
+
+@_compiled
+def _dominate(shape, v, edge, low, high, s, gap, state, rank, kept, rules):  # type: ignore[no-untyped-def]
     """Keep of the rows of a vertex those over which no other edge of the same body stands."""
     both = _INTERIOR | _USABLE
     for i in range(low, high):
@@ -285,6 +303,7 @@ def _dominate(shape, edge, low, high, gap, state, rank, kept, rules):  # type: i
                 better = rank[j] > rank[i] or (rank[j] == rank[i] and j < i)
             else:
                 better = gap[j] > rules.grain and gap[i] < 0.0
+                better = better and not _passes(shape, v, edge[j], s[j], gap[j])
             if (
                 better
                 and _inside(shape, edge[i], edge[j], rules)
@@ -420,7 +439,7 @@ def select(shape, vertex, edge, offset, last, motion, rules):  # type: ignore[no
         for k in range(low, high):
             if state[k] & _USABLE:
                 rank[k] = _rank(shape, motion, v, edge[k], s[k], gap[k], known[k], rules)
-        _dominate(shape, edge, low, high, gap, state, rank, kept, rules)
+        _dominate(shape, v, edge, low, high, s, gap, state, rank, kept, rules)
     final = kept.copy()
     for k in range(m):
         v, w = vertex[k], edge[k]

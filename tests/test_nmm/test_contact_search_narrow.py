@@ -250,6 +250,67 @@ def test_faces_of_a_crack_touch_only_when_asked():
     assert sorted([found.vertex[0], found.corner[0]]) == [2, 4]
 
 
+def separation(p, q):
+    """Largest separation of two convex polygons over their edge normals, and that normal."""
+    best, normal = -np.inf, None
+    for a, b, sign in ((p, q, 1.0), (q, p, -1.0)):
+        edge = np.roll(a, -1, axis=0) - a
+        outward = np.stack([edge[:, 1], -edge[:, 0]], axis=1) / np.hypot(*edge.T)[:, None]
+        apart = np.einsum("eqk,ek->eq", b[None] - a[:, None], outward).min(axis=1)
+        if apart.max() > best:
+            best, normal = apart.max(), sign * outward[apart.argmax()]
+    return best, normal
+
+
+def convex(rng, size):
+    """Random convex polygon of three to seven vertices."""
+    angle = np.sort(rng.uniform(0, 2 * np.pi, rng.integers(3, 8)))
+    ellipse = np.stack([np.cos(angle), rng.uniform(0.2, 1) * np.sin(angle)], axis=1)
+    return size * ellipse @ axes(rng.uniform(0, 2 * np.pi))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_two_convex_bodies_part_along_the_axis_that_separates_them_most(seed):
+    # The separating axis theorem is exact for convex bodies, inside and outside.
+    rng, judged = np.random.default_rng(seed), 0
+    while judged < 150:
+        p, q = convex(rng, 1.0), convex(rng, 10 ** rng.uniform(-1, 0))
+        turn = rng.uniform(0, 2 * np.pi)
+        way = np.array([np.cos(turn), np.sin(turn)])
+        wanted = rng.choice([-1.0, 1.0]) * 10 ** rng.uniform(-6, -2.2)
+        low, high = 0.0, 5.0
+        for _ in range(60):  # bisection for the separation that is wanted
+            middle = 0.5 * (low + high)
+            less = separation(p, q + middle * way)[0] < wanted
+            low, high = (middle, high) if less else (low, middle)
+        q = q + high * way
+        exact, normal = separation(p, q)
+        surface = scene(p, q)
+        thin = surface.thickness.min()
+        distance = shapely.Polygon(p).distance(shapely.Polygon(q))
+        skewed = abs(exact - wanted) > 1e-9 or thin < 0.02 or exact < -0.09 * thin
+        if skewed or distance > 0.01:
+            continue
+        judged += 1
+        found = search(surface)
+        felt = upward(surface, found, 1)
+        nearest = found.gap.argmin()
+        # Lines within the angular tolerance are one where they meet: 0.05 of a thousandth.
+        np.testing.assert_allclose(found.gap[nearest], exact, rtol=0, atol=5e-5 * thin)
+        assert felt[nearest] @ normal > 1.0 - 0.05**2
+        assert (felt @ felt.T).min() > 0.99  # no contact pulls another way
+
+
+def test_tips_that_cross_without_a_vertex_inside_are_parted():
+    blade = np.array([[0.0, 0.0], [1.0, -0.02], [1.0, 0.02]])
+    surface = scene(blade, blade @ axes(np.pi / 2) + [5e-3, -1.5e-3])
+    found = search(surface)
+    exact, normal = separation(surface.start[:3], surface.start[3:])
+    assert exact < 0.0
+    np.testing.assert_allclose(found.gap, exact, rtol=1e-9)
+    np.testing.assert_allclose(upward(surface, found, 1), [normal], atol=1e-12)
+
+
 # --- no catching ----------------------------------------------------------------------------------
 
 
@@ -420,6 +481,14 @@ def test_1000_voronoi_cells_shaken_are_found_by_both_forms_alike():
     found = search(cells, 5e-3)
     assert equal(found, search(cells, 5e-3, compiled=False))
     assert len(np.unique(found.key)) == len(found) > 5000
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+def test_an_edge_without_length_meets_nothing(compiled):
+    doubled = np.array([[0, 0], [1, 0], [1, 1], [0.5, 1], [0.5, 1], [0, 1]], dtype=float)
+    found = search(scene(doubled, rectangle(0.3, 1, 0.5, 1)), compiled=compiled)
+    assert 3 not in found.edge
+    np.testing.assert_array_equal(np.abs(found.normal), np.tile([0, 1], (len(found), 1)))
 
 
 def test_no_edges_have_no_contacts():
