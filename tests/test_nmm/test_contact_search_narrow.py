@@ -329,6 +329,28 @@ def test_a_block_sliding_over_a_floor_of_ten_blocks_meets_nothing_but_the_floor(
         last = found
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_a_floor_that_has_settled_unevenly_catches_nothing_either(seed):
+    rng = np.random.default_rng(seed)
+    uneven, depth = 10 ** rng.uniform(-12, -4), 10 ** rng.uniform(-9, -2.5)
+    angle, shift = rng.uniform(-3, 3), rng.choice([0.0, 1e3, 1e6])
+    floor = [
+        rectangle(i, -1, 1, 1, 0.3 * uneven * rng.normal()) + uneven * rng.normal(size=2)
+        for i in range(6)
+    ]
+    width, height = rng.uniform(0.5, 3), rng.uniform(0.3, 2)
+    last = None
+    # Also with a side within the unevenness of a joint, where the corner is pressed into it.
+    for x in np.concatenate([np.linspace(1.0, 2.2, 15), 2 + 10 ** rng.uniform(-12, -3, 10)]):
+        block = rectangle(x, -depth, width, height, uneven * rng.normal())
+        surface = placed(scene(*floor, block), angle, shift)
+        last = search(surface, 1e-3, last=last)
+        normal = upward(surface, last, 6) @ axes(angle).T
+        assert len(normal) >= 2
+        # Floor and block are turned by up to some 1e-4.
+        np.testing.assert_allclose(normal, np.tile([0, 1], (len(normal), 1)), rtol=0, atol=1e-3)
+
+
 @pytest.mark.parametrize("depth", [1e-3, 0.0, -1e-4])
 def test_a_course_slides_over_another_without_catching_a_head_joint(depth):
     for way in (-0.3, -1e-3, -1e-6, 0.0, 1e-9, 1e-4, 5e-4, 0.02, 0.5):
