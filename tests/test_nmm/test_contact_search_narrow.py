@@ -460,7 +460,7 @@ def test_contacts_do_not_depend_on_where_the_scene_is(angle, shift):
         np.testing.assert_allclose(here.normal @ axes(angle), there.normal, rtol=0, atol=1e-6)
 
 
-def test_mirrored_and_scaled_scenes_have_mirrored_and_scaled_contacts():
+def test_scaled_scenes_have_scaled_contacts():
     cells = shaken(voronoi(100, 4), 1e-3, 1e-3, 5)
     here = search(cells, 1e-3)
     big = search(cells.moved(1e5 * cells.start, 1e5 * cells.end), 1e2)
