@@ -1,7 +1,7 @@
 """Ghost stabilisation: small cut elements follow the fields of their neighbours."""
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, diags_array
 
 from covers.manifold import Manifold
 from covers.rows import Rows
@@ -82,5 +82,7 @@ def ghost(manifold: Manifold, elements: Ints, weight: Floats, degree: int) -> cs
         np.concatenate([one.unknowns, two.unknowns], axis=1),
         np.concatenate([one.values, -two.values], axis=2),
     ).matrix(n)
-    weighted = jump.multiply(np.repeat(factor, 2)[:, None])
-    return csc_array(jump.T @ weighted)
+    # Neighbours share covers, and half of the entries are those of the other component.
+    jump.sum_duplicates()
+    jump.eliminate_zeros()
+    return csc_array(jump.T @ (diags_array(np.repeat(factor, 2)) @ jump))

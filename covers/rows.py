@@ -63,6 +63,8 @@ def stack_groups(parts: list[tuple[Ints, Ints, Floats]], n_points: int) -> tuple
     -------
     unknowns (n_points, L_max), values (n_points, ..., L_max)
     """
+    if len(parts) == 1:
+        return parts[0][1], parts[0][2]
     length = max((unknowns.shape[1] for _, unknowns, _ in parts), default=0)
     inner = parts[0][2].shape[1:-1] if parts else (2,)
     all_unknowns = np.zeros((n_points, length), dtype=np.int64)
