@@ -105,8 +105,9 @@ def rows(
     )
     offsets = np.arange(len(contacts) + 1, dtype=np.int32) * np.int32(columns.shape[1])
     shape = (len(contacts), n_unknowns)
+    # Columns of their own: summing sorts them in place.
     normal, tangent = (
-        csr_array((value.ravel(), columns.ravel(), offsets), shape=shape) for value in values
+        csr_array((value.ravel(), columns.flatten(), offsets), shape=shape) for value in values
     )
     if sides.repeats:
         for part in (normal, tangent):
