@@ -70,7 +70,31 @@ def cost(
         tell_files(files)
 
 
-VERBS = (cost,)
+def compare(
+    scene: SceneFile,
+    formulations: Formulations = None,
+    memory: Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")] = True,
+    out: Out = None,
+    quiet: Quiet = False,
+) -> None:
+    """Draw a scene under several formulations side by side, with a table."""
+    with faults_told():
+        _one_thread()
+        from nmm.study.compare import compare_formulations, comparison_page, write_comparison
+
+        with progress_bar(quiet) as progress:
+            study = compare_formulations(
+                _scene(scene), _formulations(scene, formulations or []), memory, progress
+            )
+        files = write_comparison(study, out or Path("runs") / f"{scene.stem}-compare")
+        if not quiet:
+            for line in comparison_page(study, "").splitlines():
+                if line.startswith(("|", "- ")):
+                    typer.echo(line)
+        tell_files(files)
+
+
+VERBS = (cost, compare)
 
 
 def register(app: typer.Typer) -> None:

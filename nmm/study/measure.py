@@ -68,10 +68,9 @@ def measure(
                 times[index].append(_once(case, ())[1])
     peaks: list[int | None] = [None] * len(cases)
     if memory:
-        modules = [name for name in sys.modules if name.partition(".")[0] in _LOADED]
         for index, case in enumerate(_told(cases, tell, (rounds - 1) * len(cases), total)):
             if found[index].status != "error":
-                peaks[index] = _peak(case, modules)
+                peaks[index] = added_memory(case)
     return [_joined(one, many, peak) for one, many, peak in zip(found, times, peaks, strict=True)]
 
 
@@ -163,8 +162,12 @@ def _joined(found: Record, times: Sequence[Spent], peak: int | None) -> Record:
     )
 
 
-def _peak(case: Case, modules: Sequence[str]) -> int | None:
-    """Bytes that a run adds to a fresh process at its peak; None when the process died."""
+def added_memory(case: Case) -> int | None:
+    """Bytes that a run adds to a fresh process at its peak; None when they cannot be told.
+
+    What this process has imported is imported there before, so a case should have run here once.
+    """
+    modules = [name for name in sys.modules if name.partition(".")[0] in _LOADED]
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
         try:
             return pool.submit(_added_memory, case, modules).result()

@@ -1,0 +1,113 @@
+"""Displacement and stress at common points, so that runs with unlike elements can be compared."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from integration.polygons import Polygons
+
+if TYPE_CHECKING:
+    from nmm.stepping.run import Run
+
+
+@dataclass(frozen=True)
+class Raster:
+    """A regular grid over the plane and the points of it that lie in material.
+
+    Attributes
+    ----------
+    extent
+        (2, 2) lower left and upper right corner (m).
+    shape
+        Rows and columns of the grid.
+    index
+        (m,) places of the points in the flattened grid.
+    points
+        (m, 2) reference coordinates (m).
+    """
+
+    extent: Floats
+    shape: tuple[int, int]
+    index: Ints
+    points: Floats
+
+    def image(self, values: Floats) -> Floats:
+        """Return values (m,) as an image, nan where there is no material."""
+        filled = np.full(self.shape[0] * self.shape[1], np.nan)
+        filled[self.index] = values
+        return filled.reshape(self.shape)
+
+
+@dataclass(frozen=True)
+class Fields:
+    """Displacement (m, 2) in m and Cauchy stress (m, 3) in Pa, nan where no element is."""
+
+    displacement: Floats
+    stress: Floats
+
+    @property
+    def mises(self) -> Floats:
+        """Von Mises stress (m,) of the components in the plane."""
+        xx, yy, xy = self.stress.T
+        return np.asarray(np.sqrt(xx**2 - xx * yy + yy**2 + 3 * xy**2))
+
+
+def raster(polygons: Polygons, cells: int = 12_000) -> Raster:
+    """Return about ``cells`` square cells over the box of polygons; their middles are the points.
+
+    The points are moved off the middles by a hundredth of a cell, so that few lie on joints.
+    """
+    low, high = polygons.points.min(axis=0), polygons.points.max(axis=0)
+    side = float(np.sqrt(np.prod(high - low) / cells))
+    columns, rows = (max(int(np.ceil(n)), 1) for n in (high - low) / side)
+    x = low[0] + (np.arange(columns) + 0.5) * (high[0] - low[0]) / columns
+    y = low[1] + (np.arange(rows) + 0.5) * (high[1] - low[1]) / rows
+    points = np.stack([axis.ravel() for axis in np.meshgrid(x, y)], axis=1) + 0.0071 * side
+    inside = np.flatnonzero(elements_at(polygons, points) >= 0)
+    return Raster(np.stack([low, high]), (rows, columns), inside, points[inside])
+
+
+def elements_at(polygons: Polygons, points: Floats) -> Ints:
+    """Return the polygon (m,) that each point lies in, -1 for none; the first of several."""
+    import shapely
+
+    tree = shapely.STRtree(polygons.to_shapely())
+    found = np.full(len(points), len(polygons), dtype=np.int64)
+    which, polygon = tree.query(shapely.points(points), predicate="intersects")
+    np.minimum.at(found, which, polygon)
+    return np.where(found == len(polygons), -1, found)
+
+
+def fields(run: "Run", points: Floats) -> Fields:
+    """Evaluate a run's last state at reference points (m, 2), in global axes."""
+    manifold = run.manifold
+    elements = elements_at(manifold.elements, points)
+    there = elements >= 0
+    displacement, stress = np.full((len(points), 2), np.nan), np.full((len(points), 3), np.nan)
+    displacement[there] = _displacement(run, elements[there], points[there])
+    stress[there] = _stress(run, elements[there], points[there])
+    return Fields(displacement, stress)
+
+
+def _displacement(run: "Run", elements: Ints, points: Floats) -> Floats:
+    from nmm.assembly.motion import material_points
+
+    material = material_points(run.manifold, elements, points)
+    return material.place(run.state.frames, run.state.deformation) - points
+
+
+def _stress(run: "Run", elements: Ints, points: Floats) -> Floats:
+    unknowns, rows = run.manifold.gradient_rows(elements, points)
+    gradient = np.einsum("mijl,ml->mij", rows, run.state.deformation[unknowns])
+    strain = np.stack(
+        [gradient[:, 0, 0], gradient[:, 1, 1], gradient[:, 0, 1] + gradient[:, 1, 0]], axis=1
+    )
+    stress = np.einsum("mij,mj->mi", run.stepper.model.elasticity[elements], strain)
+    initial = run.stepper.plan.initial_stress
+    if initial is not None:
+        stress = stress + initial.stress[elements]
+    turn = run.state.frames.rotation[run.manifold.element_body[elements]]
+    tensor = turn @ stress[:, [[0, 2], [2, 1]]] @ np.swapaxes(turn, 1, 2)
+    return np.asarray(np.stack([tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 0, 1]], axis=1))
