@@ -110,18 +110,21 @@ class _Potential:
     def shear(self, increment: Floats, bound: Floats) -> tuple[Floats, Floats, Floats]:
         """Energy, force and stiffness of every contact along its tangent."""
         slip, k = self.problem.slips(increment), self.problem.shear_stiffness
+        far = np.abs(slip)
         reach = np.where(self.spring, bound / k, self.width / 2)
-        reach = np.where(reach > 0, reach, 1.0)
-        y = np.abs(slip) / reach
-        inside = y < 1
-        part = np.where(self.spring, y, y * (2 - y))
-        energy = np.where(self.spring, y**2 / 2, y**2 - y**3 / 3)
-        beyond = np.where(self.spring, y - 0.5, y - 1 / 3)
-        slope = np.where(self.spring, 1.0, 2 - 2 * y)
+        inside = far < reach
+        y = np.minimum(far / np.where(self.spring, 1.0, reach), 1.0)
+        beyond = np.where(inside, 0.0, far - np.where(self.spring, reach / 2, reach / 3))
+        cap = np.where(inside | (bound == 0), 0.0, bound)
+        ramp = np.where(self.spring, 0.0, bound)  # springs have no smooth ramp, nor a finite one
+        smooth = ramp * self.width / 2 * (y**2 - y**3 / 3)
+        spring_force, smooth_force = k * far, ramp * y * (2 - y)
+        slope = ramp / (self.width / 2) * (2 - 2 * y)
+        force = np.where(self.spring, spring_force, smooth_force)
         return (
-            bound * reach * np.where(inside, energy, beyond),
-            bound * np.sign(slip) * np.where(inside, part, 1.0),
-            bound / reach * np.where(inside, slope, 0.0),
+            np.where(inside, np.where(self.spring, k * far**2 / 2, smooth), cap * beyond),
+            np.sign(slip) * np.where(inside, force, cap),
+            np.where(inside, np.where(self.spring, k, slope), 0.0),
         )
 
     def bound(self, normal: Floats) -> Floats:
@@ -154,13 +157,14 @@ class _Descent:
         while updates < self.options.max_passes and np.isfinite(increment).all():
             updates += 1
             increment = self._minimum(increment, bound)
-            normal, shear = self._forces(increment, bound)
+            normal, shear = self._forces(increment)
             residual = relative_residual(problem, self.weight, increment, normal, shear)
-            if residual <= self.options.tolerance:
+            hopeless = updates >= 3 and residual > 0.1
+            if residual <= self.options.tolerance or hopeless:
                 break
             share = 1.0 if updates <= PLAIN else 0.5
             bound = share * well.bound(normal) + (1 - share) * bound
-        return self._answer(increment, bound, residual, f"{updates} friction bounds", memory)
+        return self._answer(increment, residual, f"{updates} friction bounds", memory)
 
     def _minimum(self, increment: Floats, bound: Floats) -> Floats:
         well, problem = self.well, self.well.problem
@@ -195,17 +199,17 @@ class _Descent:
             return 1.0
         return min(1.0, NEAR * float((-now[near] / change[near]).min()))
 
-    def _forces(self, increment: Floats, bound: Floats) -> tuple[Floats, Floats]:
+    def _forces(self, increment: Floats) -> tuple[Floats, Floats]:
+        """Forces under the bound of their own normal force."""
         normal = self.well.normal(increment)[1]
-        now = self.well.bound(normal)
-        return normal, np.clip(self.well.shear(increment, bound)[1], -now, now)
+        return normal, self.well.shear(increment, self.well.bound(normal))[1]
 
     def _answer(
-        self, increment: Floats, bound: Floats, residual: float, updates: str, memory: Memory
+        self, increment: Floats, residual: float, updates: str, memory: Memory
     ) -> StepAnswer:
         well, problem = self.well, self.well.problem
-        normal, shear = self._forces(increment, bound)
-        slip = problem.slips(increment)
+        normal, shear = self._forces(increment)
+        slip, bound = problem.slips(increment), well.bound(normal)
         reach = np.where(well.spring, bound / problem.shear_stiffness, well.width / 2)
         is_open = np.where(
             well.spring, problem.gaps(increment) > well.stretch, well.distance(increment) >= 1

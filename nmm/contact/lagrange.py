@@ -119,7 +119,8 @@ def _saddle(
     regular = compliance + SOFT * np.concatenate([ease[0][closed], ease[1][stuck]])
 
     pull = np.where(active.closed, 0.0, limits.tension)
-    constant = np.where(active.sliding, active.sign * limits.cohesion, 0.0)
+    finite = np.where(active.sliding, limits.cohesion, 0.0)
+    constant = active.sign * finite
     constant = np.where(active.closed | (limits.tension > 0), constant, 0.0)
     load = problem.force - problem.normal_rows.T @ pull - problem.tangent_rows.T @ constant
     rhs = np.concatenate([load, -problem.gap[closed], -problem.slip[stuck]])

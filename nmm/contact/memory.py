@@ -72,6 +72,7 @@ class Memory:
     """
 
     pattern: SpringPattern | None = None
+    start: Floats | None = None
     kept: KeptFactor | None = None
     redundant: bool = False
     barrier_width: float | None = None

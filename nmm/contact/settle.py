@@ -14,6 +14,8 @@ from nmm.solvers.linear import LinearSolver
 
 SMALL = 120
 """Unknowns up to which Newton's method is tried first."""
+FEW = 200
+"""Contacts up to which it is tried first from a start that is near."""
 FINE = 1e-13
 """Relative out-of-balance force at which Newton's method need not go on."""
 RESIGNED = 20
@@ -56,8 +58,10 @@ def settle(
         When even with all springs acting the load moves a free part.
     """
     budget = budget or Budget()
+    near, memory.start = memory.start, None
+    start = near if start is None else start
     increment = np.zeros_like(springs.problem.force) if start is None else start
-    if len(increment) <= SMALL:
+    if len(increment) <= SMALL or (near is not None and springs.problem.n_contacts <= FEW):
         pattern = memory.pattern_of(springs.problem)
         quick = polish(springs, pattern, linear.unsymmetric(), increment, FINE)
         if quick.size <= tolerance:
