@@ -124,10 +124,15 @@ def _outward(surface: Surface, e: Ints, own: Floats, before: Floats, rules: Rule
 
 
 def shielded(
-    surface: Surface, covers: Covers, e: Ints, along: Floats, partner: Ints, rules: Rules
+    surface: Surface, covers: Covers, v: Ints, e: Ints, along: Floats, rules: Rules
 ) -> Bools:
-    """Feet on a stretch of edge, next to one of its ends, that a third body covers."""
-    length = surface.length[e]
+    """Feet of vertices on a stretch of edge, next to one of its ends, that a third body covers.
+
+    The third body must leave less room than the vertex' own body needs: what is squeezed between
+    two bodies that are flush for their size is no less there.
+    """
+    length, partner = surface.length[e], surface.body[v]
+    room = rules.depth * surface.thickness[v] + rules.rounding
     foot = np.clip(along, 0.0, length)
     hidden = np.zeros(len(e), dtype=bool)
     total = np.zeros(len(e))
@@ -136,6 +141,7 @@ def shielded(
         (covers.before[surface.next[e]], surface.end[e], surface.end, length - foot),
     ):
         third = (x >= 0) & (surface.body[x] != partner)
+        third &= np.abs(cross(surface.direction[x], corner - surface.start[x])) <= room
         covered = np.where(third, np.abs(dot(far[x] - corner, surface.direction[e])), 0.0)
         whole = covered >= length - flush_distance(surface, e, x, rules)
         margin = np.minimum(rules.depth * thinner(surface, e, x), 0.5 * covered)

@@ -54,7 +54,7 @@ def select(
     usable = (length > 0.0) & convex_vertices(surface, rules)[v]
     usable &= (gap >= -depth) & (gap <= rules.reach)
     usable &= leaves(surface, covers, v, e, rules)
-    usable &= ~shielded(surface, covers, e, along, surface.body[v], rules)
+    usable &= ~shielded(surface, covers, v, e, along, rules)
     rank = _rank(surface, v, e, along, gap, last, motion, rules)
     kept = np.where(interior & usable, 1, 0)
     kept[_dominated(surface, pairs, kept == 1, interior, along, gap, rank, rules)] = -1

@@ -182,9 +182,20 @@ def _walk(shape, v, partner, rx, ry, ax, ay, forward, rules):  # type: ignore[no
 
 
 @_compiled
-def _shielded(shape, e, s, partner, rules):  # type: ignore[no-untyped-def]
+def _aside(shape, e, x, end):  # type: ignore[no-untyped-def]
+    """Distance of the start (``end`` 0) or end of an edge from the line of another."""
+    px, py = (shape.real[e, SX], shape.real[e, SY])
+    if end == 1:
+        px, py = (shape.real[e, EX], shape.real[e, EY])
+    dx, dy = px - shape.real[x, SX], py - shape.real[x, SY]
+    return shape.real[x, TX] * dy - shape.real[x, TY] * dx
+
+
+@_compiled
+def _shielded(shape, v, e, s, rules):  # type: ignore[no-untyped-def]
     """Whether the foot is on a stretch of edge, next to its end, that a third body covers."""
-    length = shape.real[e, LENGTH]
+    length, partner = shape.real[e, LENGTH], shape.link[v, BODY]
+    room = rules.depth * shape.real[v, THICK] + rules.rounding
     foot = min(max(s, 0.0), length)
     total = 0.0
     for end in range(2):
@@ -199,6 +210,8 @@ def _shielded(shape, e, s, partner, rules):  # type: ignore[no-untyped-def]
             distance = length - foot
             dx = shape.real[x, EX] - shape.real[e, EX]
             dy = shape.real[x, EY] - shape.real[e, EY]
+        if abs(_aside(shape, e, x, end)) > room:
+            continue
         covered = abs(dx * shape.real[e, TX] + dy * shape.real[e, TY])
         thin = _thinner(shape, e, x)
         if covered >= length - (rules.flush * thin + rules.rounding):
@@ -261,7 +274,7 @@ def _judge(shape, v, edge, low, high, s, gap, known, state, rules):  # type: ign
             ux, uy, wx, wy = _rays(shape, v, shape.link[e, BODY], rules)
             if not _leaves(shape, e, ux, uy, wx, wy, rules):
                 continue
-        if not _shielded(shape, e, s[k], shape.link[v, BODY], rules):
+        if not _shielded(shape, v, e, s[k], rules):
             state[k] |= _USABLE
 
 
