@@ -228,6 +228,7 @@ class Contact(Effect):
             if fault is not None:
                 return Solved(turns.contacts, replace(answer, verdict=fault), passes, loss)
             if not turns.done:
+                self._memory.start = answer.increment
                 continue
             broken, _ = self._laws.breaking(turns.contacts, answer, breaking == "worst")
             if not broken.any():
@@ -296,7 +297,8 @@ class Contact(Effect):
             self._neighbours = NeighbourList(skin=4 * reach)
         vertex, edge = self._neighbours.update(surface)
         found = find_contacts(surface, vertex, edge, reach, last=self.record.found)
-        return found.take(~self.record.book.hides(found))
+        meets = self._interfaces(found.vertex, found.edge) != NONE
+        return found.take(meets & ~self.record.book.hides(found))
 
     def _interfaces(self, vertex: Ints, edge: Ints) -> Ints:
         manifold = self._model.manifold
@@ -307,7 +309,7 @@ class Contact(Effect):
         joints = find_joints(surface)
         interface = self._interfaces(joints.edge_a, joints.edge_b)
         makes = np.array([law.makes_joints for law in self._laws.laws])
-        wanted = makes[interface]
+        wanted = makes[interface] & (interface != NONE)
         joints = joints.take(wanted)
         bonded = np.array([law.bonded for law in self._laws.laws])[interface[wanted]]
         distance = self._distance(joints)
@@ -346,4 +348,7 @@ def _interface_of_regions(setup: Setup) -> Ints:
         except SceneError:
             continue
     material = setup.region_material
-    return table[np.ix_(material, material)]
+    found = table[np.ix_(material, material)]
+    if setup.formulation.cover.glued:
+        np.fill_diagonal(found, NONE)  # sub-blocks of one block never meet
+    return found
