@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 
 
 @dataclass(frozen=True)
@@ -35,14 +35,25 @@ class Dashpots:
         return float((self.stiffness * way**2)[force < 0].sum())
 
 
-def meeting_mass(rows: csr_array, rigid_modes: csc_array, mass: csc_array) -> Floats:
-    """Mass (m,) in kg that two rigid bodies put against each other at a contact.
+def meeting_mass(rows: csr_array, pair: Ints, rigid_modes: csc_array, ease: Floats) -> Floats:
+    """Mass (m,) in kg that two rigid bodies put against each other at each contact.
 
-    ``1 / (g M^-1 g^T)`` with the normal row ``g`` in rigid motions, whose mass is diagonal about
-    the centroids.
+    ``1 / (G M^-1 G^T 1)`` with the normal rows ``G`` in rigid motions: all contacts of one pair of
+    bodies close together, as two do when faces meet.
+
+    Parameters
+    ----------
+    rows
+        (m, n) normal rows.
+    pair
+        (m,) which pair of bodies each contact belongs to.
+    rigid_modes, ease
+        (n, 3 B) rigid motions, (3 B,) inverse of mass and moment of inertia; 0 for held bodies.
     """
-    rigid = (rigid_modes.T @ (mass @ rigid_modes)).diagonal()
-    ease = np.divide(1.0, rigid, out=np.zeros_like(rigid), where=rigid > 0)
-    along = rows @ rigid_modes
-    eased = along.multiply(along) @ ease
+    along = csr_array(rows @ rigid_modes)
+    _, number = np.unique(pair, return_inverse=True)
+    m = len(number)
+    members = csr_array((np.ones(m), (number, np.arange(m))), shape=(number.max(initial=-1) + 1, m))
+    together = csr_array(members @ along)[number]
+    eased = np.maximum(along.multiply(together) @ ease, 0.0)
     return np.asarray(np.divide(1.0, eased, out=np.zeros_like(eased), where=eased > 0))

@@ -6,12 +6,13 @@ other contacts are found by search as bodies move. Both are contact points of on
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any, Literal, Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
@@ -125,8 +126,10 @@ class Contact(Effect):
         enforcement: Enforcement,
         stations: str,
         start: State,
+        held: Bools,
     ) -> None:
         self._model = model
+        self._held = held
         self._laws = laws
         self._interface_of = interface_of
         self._enforcement = enforcement
@@ -163,6 +166,7 @@ class Contact(Effect):
             make_enforcement(method.enforcement, options),
             method.joint_points,
             setup.start,
+            _held_bodies(setup),
         )
 
     def candidates(self, state: State, reach: float) -> ContactPoints:
@@ -281,10 +285,20 @@ class Contact(Effect):
         """Return the dampers of a step; a share of critical damping of the masses that meet."""
         if step is None or not self._laws.damps:
             return Dashpots(np.zeros(len(contacts)), np.zeros(len(contacts)))
-        modes, mass = self._model.manifold.rigid_modes, self._model.mass
-        critical = 2 * np.sqrt(normal * meeting_mass(rows, modes, mass))
+        body = self._model.manifold.boundary.body
+        pair = body[contacts.edge_a] * self._model.manifold.n_bodies + body[contacts.edge_b]
+        modes = self._model.manifold.rigid_modes
+        critical = 2 * np.sqrt(normal * meeting_mass(rows, pair, modes, self._ease))
         coefficient = self._laws.damping(contacts) * critical
         return Dashpots.of(coefficient, step, normal, contacts.gap)
+
+    @cached_property
+    def _ease(self) -> Floats:
+        """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those that are held."""
+        modes = self._model.manifold.rigid_modes
+        rigid = (modes.T @ (self._model.mass @ modes)).diagonal()
+        ease = np.divide(1.0, rigid, out=np.zeros_like(rigid), where=rigid > 0)
+        return np.where(np.repeat(self._held, 3), 0.0, ease)
 
     def _surface(self, state: State) -> Surface:
         """Edges of a state; those of the last one asked for are kept."""
@@ -334,6 +348,18 @@ def interface_law(item: Any) -> InterfaceLaw:
     if item.restitution is not None:
         given["damping"] = damping_of(item.restitution)
     return kind(**given, **item.options)
+
+
+def _held_bodies(setup: Setup) -> Bools:
+    """Which bodies (B,) a support holds as a whole, in both directions."""
+    manifold = setup.model.manifold
+    held: Bools = np.zeros(manifold.n_bodies, dtype=bool)
+    for support in setup.scene.supports:  # a handful of supports
+        if support.point is None and support.segment is None and len(set(support.fix)) == 2:
+            regions = setup.regions(support.block)
+            inside = slice(None) if regions is None else regions[manifold.element_region]
+            held[manifold.element_body[inside]] = True
+    return held
 
 
 def _interface_of_regions(setup: Setup) -> Ints:
