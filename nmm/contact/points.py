@@ -105,9 +105,10 @@ def rows(
     )
     offsets = np.arange(len(contacts) + 1, dtype=np.int32) * np.int32(columns.shape[1])
     shape = (len(contacts), n_unknowns)
-    # Columns of their own: summing sorts them in place.
+    # Columns and offsets of their own: summing changes both in place.
     normal, tangent = (
-        csr_array((value.ravel(), columns.flatten(), offsets), shape=shape) for value in values
+        csr_array((value.ravel(), columns.flatten(), offsets.copy()), shape=shape)
+        for value in values
     )
     if sides.repeats:
         for part in (normal, tangent):
