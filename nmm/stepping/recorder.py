@@ -59,6 +59,8 @@ class Recorder:
         What is recorded, where to, and which points.
     work, friction_loss
         Accumulated over accepted steps (J).
+    stored_first
+        Energy at the start, before any contact (J).
     """
 
     stepper: Stepper
@@ -67,6 +69,7 @@ class Recorder:
     work: float = 0.0
     friction_loss: float = 0.0
     steps: int = 0
+    stored_first: float = 0.0
     passes: int = 0
     frames: int = 0
     residual: float = 0.0
@@ -77,6 +80,9 @@ class Recorder:
     def step(self, before: State, attempt: Attempt, contacts: "ContactPoints | None") -> None:
         """Record an accepted step in the history."""
         plan, after = self.stepper.plan, attempt.state
+        if not self.steps:
+            first = self._energies(before)
+            self.stored_first = sum(first.values()) - first["contact_energy"]
         self.steps += 1
         self.passes += attempt.passes
         self.residual = max(self.residual, attempt.residual)
@@ -134,8 +140,11 @@ class Recorder:
 
     @property
     def energy_balance(self) -> float:
-        """Return (work - stored - lost to friction) over the largest of them."""
-        stored = sum(self.energies.values())
+        """Return (work - gain of stored energy - lost) over the largest of them.
+
+        Lost is what friction, softening and damping took.
+        """
+        stored = sum(self.energies.values()) - self.stored_first
         size = max(abs(self.work), abs(stored), self.friction_loss)
         return (self.work - stored - self.friction_loss) / size if size else 0.0
 

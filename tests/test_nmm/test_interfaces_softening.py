@@ -1,0 +1,99 @@
+"""Cohesive laws alone: what strength is left at what opening, and the energy it takes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from nmm.errors import SceneError
+from nmm.interfaces.mohr_coulomb import MohrCoulomb
+from nmm.interfaces.restitution import damping_of, restitution
+from nmm.interfaces.softening import BilinearSoftening, LinearSoftening
+
+STRENGTH, ENERGY, SPRING = 3e6, 100.0, 1e13
+LINEAR = LinearSoftening(
+    friction_angle=0.6,
+    cohesion=4e6,
+    tensile_strength=STRENGTH,
+    bonded=True,
+    fracture_energy=ENERGY,
+)
+BILINEAR = BilinearSoftening(**vars(LINEAR))
+
+
+def pulled(law, openings):
+    """Stress of a bond that opens monotonically from nothing."""
+    openings = np.asarray(openings)
+    zero = np.zeros(len(openings))
+    spring = np.full(len(openings), SPRING)
+    damage = law.damaged(zero, openings, zero, spring)
+    return law.secant(damage, spring) * SPRING * openings
+
+
+@pytest.mark.parametrize("law", [LINEAR, BILINEAR])
+def test_the_area_under_the_curve_is_the_fracture_energy_whatever_the_spring(law):
+    """Trapezoids on 2e5 intervals of a piecewise linear curve: error far below 1e-6."""
+    openings = np.linspace(0, 4 * ENERGY / STRENGTH, 200_001)
+    assert np.trapezoid(pulled(law, openings), openings) == pytest.approx(ENERGY, rel=1e-6)
+
+
+def test_linear_softening_ends_at_twice_energy_over_strength():
+    """wc = 2 GF / ft = 66.667 um; at half of it half of the strength is left (closed form)."""
+    width = 2 * ENERGY / STRENGTH
+    assert pulled(LINEAR, [width])[0] == 0.0
+    half = width / 2 + 0.5 * STRENGTH / SPRING
+    assert pulled(LINEAR, [half])[0] == pytest.approx(STRENGTH / 2, rel=1e-12)
+
+
+def test_bilinear_softening_passes_a_third_at_four_fifths_of_energy_over_strength():
+    """Petersson's knee, with the elastic stretch of the spring on top."""
+    knee = 0.8 * ENERGY / STRENGTH + STRENGTH / 3 / SPRING
+    assert pulled(BILINEAR, [knee])[0] == pytest.approx(STRENGTH / 3, rel=1e-12)
+
+
+def test_damage_never_heals():
+    """A bond with damage 0.4 that is closed again keeps it."""
+    damage = LINEAR.damaged(
+        np.array([0.4]), np.array([-1e-5]), np.array([0.0]), np.array([SPRING])
+    )
+    assert damage[0] == 0.4
+
+
+def test_sliding_takes_cohesion_by_its_own_energy():
+    """ws = 2 GF2 / c = 2 * 200 / 4e6 = 1e-4 m: 2.5e-5 m of sliding is damage 0.25."""
+    law = replace(LINEAR, shear_fracture_energy=200.0)
+    one = np.ones(1)
+    damage = law.damaged(0 * one, -one, 2.5e-5 * one, SPRING * one)
+    assert damage[0] == pytest.approx(0.25, rel=1e-12)
+    assert law.limits(one, damage, 1.0).cohesion[0] == pytest.approx(3e6, rel=1e-12)
+
+
+def test_a_spring_too_soft_for_the_energy_is_refused():
+    """Below ft^2 / (2 GF) = 4.5e10 Pa/m the bond itself would snap back."""
+    one = np.ones(1)
+    with pytest.raises(SceneError, match="normal_stiffness"):
+        LINEAR.damaged(0 * one, one, 0 * one, 4.4e10 * one)
+
+
+def test_a_broken_bond_has_its_residual_friction_angle():
+    """Peak angle 0.6 while it holds, 0.4 afterwards; an unbonded contact keeps 0.6."""
+    law = MohrCoulomb(friction_angle=0.6, cohesion=1.0, bonded=True, residual_friction_angle=0.4)
+    limits = law.limits(np.ones(2), np.array([0.0, 1.0]), 1.0)
+    assert limits.friction == pytest.approx(np.tan([0.6, 0.4]), rel=1e-14)
+    loose = MohrCoulomb(friction_angle=0.6)
+    assert loose.limits(np.ones(1), np.ones(1), 1.0).friction[0] == pytest.approx(np.tan(0.6))
+
+
+@pytest.mark.parametrize("wanted", [0.9, 0.5, 0.1])
+def test_damping_gives_the_restitution_asked_for(wanted):
+    """A mass on spring and damper by fine explicit steps until the force would pull."""
+    share, step = damping_of(wanted), 1e-5
+    gap, speed = 0.0, -1.0
+    while True:
+        force = -gap - 2 * share * speed
+        if force <= 0 and gap < 0:
+            break
+        speed += step * force
+        gap += step * speed
+    assert speed == pytest.approx(wanted, rel=1e-3)  # explicit Euler at 1e-5 of a period / 2 pi
+    assert restitution(share) == pytest.approx(wanted, rel=1e-9)
