@@ -29,10 +29,17 @@ class Dashpots:
         stiffness = coefficient / step
         return cls(stiffness, stiffness * np.minimum(gap, 0.0) / (spring + stiffness))
 
-    def loss(self, before: Floats, after: Floats, force: Floats) -> float:
-        """Energy (J) taken in a step from gap ``before`` to ``after`` that ended with ``force``."""
-        way = np.minimum(after, 0.0) - np.minimum(before, 0.0)
-        return float((self.stiffness * way**2)[force < 0].sum())
+    def loss(
+        self, spring: Floats, gap: tuple[Floats, Floats], force: tuple[Floats, Floats]
+    ) -> float:
+        """Energy (J) taken in a step.
+
+        Mean force times way, less what the springs have gained; ``gap`` and ``force`` are those at
+        the start and the end, ``spring`` (m,) the stiffness beside the damper.
+        """
+        work = (force[0] + force[1]) / 2 * (gap[1] - gap[0])
+        before, after = (np.minimum(one, 0.0) for one in gap)
+        return float((work - spring * (after**2 - before**2) / 2)[self.stiffness > 0].sum())
 
 
 def meeting_mass(rows: csr_array, pair: Ints, rigid_modes: csc_array, ease: Floats) -> Floats:

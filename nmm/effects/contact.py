@@ -17,6 +17,7 @@ from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.bonds import Laws, break_bonds
+from nmm.contact.crossing import find_crossings
 from nmm.contact.dashpots import Dashpots, meeting_mass
 from nmm.contact.enforcement import Enforcement, make_enforcement
 from nmm.contact.following import (
@@ -237,7 +238,11 @@ class Contact(Effect):
             broken, _ = self._laws.breaking(turns.contacts, answer, breaking == "worst")
             if not broken.any():
                 loss += turns.loss(answer, sliding)
-                loss += dashpots.loss(contacts.gap, answer.gap, answer.normal_force)
+                loss += dashpots.loss(
+                    normal,
+                    (contacts.gap, answer.gap),
+                    (contacts.normal_force, answer.normal_force),
+                )
                 return Solved(turns.contacts, answer, passes, loss, sliding=sliding)
             if breaking == "stop":
                 return Solved(turns.contacts, answer, passes, loss, stopped=True)
@@ -257,6 +262,23 @@ class Contact(Effect):
             known=done.take(~done.is_joint),
         )
         return concatenate([done, self.record.book.lost])
+
+    def passage(self, before: State, after: State) -> str:
+        """Say where a body went through another in the step last solved; empty if none did."""
+        assert self._neighbours is not None
+        start = self._surface(before)
+        end = self._sides.surface(after.frames, after.deformation)
+        vertex, edge = self._neighbours.update(start)
+        meets = self._interfaces(vertex, edge) != NONE
+        found = find_crossings(start, end, (vertex[meets], edge[meets]))
+        if not len(found):
+            return ""
+        x, y = start.start[found.vertex[int(found.fraction.argmin())]]
+        return (
+            f"the corner at [{x:.6g}, {y:.6g}] goes through an edge of another block after "
+            f"{100 * found.free_fraction:.2g} % of the step, deeper than a tenth of the thinner "
+            "block: shorten the step, or raise [contact] normal_penalty"
+        )
 
     @property
     def broken_bonds(self) -> int:

@@ -53,9 +53,7 @@ def test_bilinear_softening_passes_a_third_at_four_fifths_of_energy_over_strengt
 
 def test_damage_never_heals():
     """A bond with damage 0.4 that is closed again keeps it."""
-    damage = LINEAR.damaged(
-        np.array([0.4]), np.array([-1e-5]), np.array([0.0]), np.array([SPRING])
-    )
+    damage = LINEAR.damaged(np.array([0.4]), np.array([-1e-5]), np.array([0.0]), np.array([SPRING]))
     assert damage[0] == 0.4
 
 

@@ -1,0 +1,209 @@
+"""Interface laws and loose blocks in whole runs."""
+
+import numpy as np
+import pytest
+
+from nmm import run
+from nmm.formulation import Formulation
+from nmm.scene.model import Scene
+
+ROCK = {"r": {"young_modulus": 1e9, "poisson_ratio": 0.2, "density": 2000.0}}
+
+
+def block(name, x, y, width=1.0, height=1.0):
+    """Rectangle with its lower left corner at (x, y)."""
+    corners = [[x, y], [x + width, y], [x + width, y + height], [x, y + height]]
+    return {"name": name, "material": "r", "vertices": corners}
+
+
+def steps(increment, tolerance=1e-4, **contact):
+    """Formulation of a static run."""
+    loading = {"increment": increment, "tolerance": tolerance}
+    return Formulation.model_validate({"loading": loading, "contact": contact})
+
+
+def bar(length, law="linear_softening", strength=3e6, **more):
+    """Benchmark C3: bar of 100 mm2, E = 30 GPa, one interface with GF = 0.1 N/mm."""
+    h, half = 0.01, length / 2
+    interface = {
+        "law": law,
+        "friction_angle": 0.6,
+        "cohesion": strength,
+        "tensile_strength": strength,
+        "bonded": True,
+        "fracture_energy": 100.0,
+        "normal_stiffness": 3e15,
+    }
+    held = {"name": "left", "segment": [[0, 0], [0, h]], "fix": ["x", "y"]}
+    return {
+        "title": "bar",
+        "plane": "stress",
+        "thickness": 0.01,
+        "materials": {"r": {"young_modulus": 30e9, "poisson_ratio": 0.0}},
+        "interfaces": {"i": interface},
+        "blocks": [block("a", 0, 0, half, h), block("b", half, 0, half, h)],
+        "supports": [held],
+        "contact": {},
+        **more,
+    }
+
+
+def pulled_bar(length, way):
+    """The bar with its right end driven by ``way``."""
+    right = [[length, 0], [length, 0.01]]
+    scene = bar(length, loading={"until": 1.0})
+    driven = {"name": "right", "segment": right, "fix": ["x", "y"], "displacement": [way, 0]}
+    return Scene.model_validate({**scene, "supports": [*scene["supports"], driven]})
+
+
+def test_a_cohesive_bar_carries_its_strength_under_load_control():
+    """Benchmark C3: 300 N, bracketed within the 1e-4 asked for."""
+    right = [[0.1, 0], [0.1, 0.01]]
+    load = {"name": "pull", "kind": "edge", "segment": right, "traction": [1e6, 0]}
+    scene = bar(0.1, loads=[load], loading={"until": "failure"})
+    found = run(Scene.model_validate(scene), steps(0.5)).summary
+    assert found.status == "failure_load"
+    assert found.failure_load == pytest.approx(300.0, rel=1e-4)
+
+
+def test_a_cohesive_bar_softens_along_the_closed_form_and_takes_its_fracture_energy():
+    """Benchmark C3: u = sigma L / E + w, sigma = ft (1 - w / wc), 10 N mm in the end.
+
+    Supports of 1000 E and the bond give way by some 1e-5 of u; the sum of trapezoids misses the
+    corner of the peak by at most half a step of energy, 1e-3.
+    """
+    found = run(pulled_bar(0.1, 8e-5), steps(0.02))
+    history = found.history
+    way, force = 8e-5 * history["load_factor"], history["reaction:right:x"]
+    softening = (way > 1.1e-5) & (way < 6.6e-5)
+    stress = (2 * 100 / 3e6 - way) / (2 * 100 / 3e6 / 3e6 - 0.1 / 30e9)
+    assert softening.sum() > 20
+    assert force[softening] == pytest.approx(1e-4 * stress[softening], rel=1e-3)
+    assert history["friction_loss"][-1] == pytest.approx(0.01, rel=1.5e-3)
+
+
+@pytest.mark.parametrize(("length", "snaps"), [(0.6, False), (0.75, True)])
+def test_a_long_bar_snaps_back(length, snaps):
+    """Benchmark C3: no equilibrium beyond the peak iff L > 2 GF E / ft^2 = 666.7 mm."""
+    found = run(pulled_bar(length, 1.2e-4), steps(0.1, tolerance=1e-3)).summary
+    assert (found.status != "converged") == snaps
+
+
+def shear_box(law, **interface):
+    """Block 1 x 1 pressed by 1 MPa on a base and pushed sideways by 2 mm at its foot."""
+    given = {"friction_angle": 0.5, "normal_stiffness": 1e10, "shear_stiffness": 1e10, "law": law}
+    return Scene.model_validate(
+        {
+            "title": "shear",
+            "plane": "strain",
+            "materials": {"r": {"young_modulus": 1e12, "poisson_ratio": 0.0}},
+            "interfaces": {"i": {**given, **interface}},
+            "blocks": [block("base", -1, -1, 3, 1), block("top", 0, 0)],
+            "supports": [
+                {"name": "ground", "block": "base", "fix": ["x", "y"]},
+                {
+                    "name": "push",
+                    "segment": [[0, 0], [0, 1]],
+                    "block": "top",
+                    "fix": ["x"],
+                    "displacement": [2e-3, 0],
+                },
+            ],
+            "loads": [
+                {"name": "n", "kind": "edge", "segment": [[0, 1], [1, 1]], "traction": [0, -1e6]}
+            ],
+            "contact": {},
+            "loading": {"scaled": ["push"], "until": 1.0},
+            "monitors": [{"name": "m", "point": [0.5, 1.0], "block": "top"}],
+        }
+    )
+
+
+def test_shear_falls_from_cohesion_and_peak_friction_to_residual_friction():
+    """Peak c A + N tan 0.5, residual N tan 0.4 (benchmark B18), softening over 2 GF / c = 0.8 mm.
+
+    The peak falls between two increments of 20 um: 1e6 Pa/0.8 mm of softening is 2.5e4 N of 1.5e6.
+    """
+    scene = shear_box(
+        "linear_softening",
+        bonded=True,
+        cohesion=1e6,
+        tensile_strength=1e6,
+        fracture_energy=400.0,
+        residual_friction_angle=0.4,
+    )
+    history = run(scene, steps(0.01)).history
+    push = np.abs(history["reaction:push:x"])
+    assert push.max() == pytest.approx(1e6 + 1e6 * np.tan(0.5), rel=0.02)
+    assert push[-1] == pytest.approx(1e6 * np.tan(0.4), rel=1e-3)
+
+
+def test_dilation_lifts_the_block_by_its_angle():
+    """From the first tenth of the push, when it slides already, to the end: 1.8 mm tan 0.1."""
+    scene = shear_box("mohr_coulomb", dilation_angle=0.1)
+    lift = run(scene, steps(0.1)).history["monitor:m:uy"]
+    assert lift[-1] - lift[0] == pytest.approx(1.8e-3 * np.tan(0.1), rel=1e-3)
+
+
+def standing(*blocks, friction=0.6, loads=()):
+    """Blocks above a held base, statics."""
+    return Scene.model_validate(
+        {
+            "title": "loose",
+            "plane": "strain",
+            "materials": ROCK,
+            "interfaces": {"i": {"friction_angle": friction}},
+            "blocks": [block("base", -2, -1, 4, 1), *blocks],
+            "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
+            "loads": list(loads),
+            "gravity": {},
+            "contact": {},
+        }
+    )
+
+
+def test_loose_blocks_above_each_other_find_their_rest_and_carry_their_weight():
+    """Two blocks of 19 620 N fall on a base: 19 620 N and 39 240 N at the two beds."""
+    found = run(standing(block("a", -0.5, 0.1), block("b", -0.3, 1.2)))
+    assert found.summary.status == "converged"
+    assert "relaxation" in found.summary.sentence
+    assert found.contact_forces[:, 0].sum() == pytest.approx(-58_860.0, rel=1e-6)
+
+
+def test_a_block_that_nothing_holds_is_named():
+    """Beside the base there is nothing to rest on."""
+    found = run(standing(block("stray", 3, 0.5))).summary
+    assert found.status == "failed"
+    assert "block stray" in found.sentence
+    assert "(0.00, -1.00)" in found.sentence
+
+
+def head_on(restitution):
+    """Two free blocks, the left one at 1 m/s towards the right one."""
+    return Scene.model_validate(
+        {
+            "title": "impact",
+            "plane": "strain",
+            "duration": 0.02,
+            "materials": {"r": {"young_modulus": 1e11, "poisson_ratio": 0.0, "density": 1000.0}},
+            "interfaces": {"i": {"friction_angle": 0.0, "restitution": restitution}},
+            "blocks": [block("a", 0, 0), block("b", 1.001, 0)],
+            "inertia": {},
+            "contact": {},
+            "initial_velocities": [{"block": "a", "velocity": [1.0, 0]}],
+        }
+    )
+
+
+def test_blocks_part_at_the_restitution_asked_for_and_energy_is_accounted_for():
+    """v2 - v1 = e; loss (1 - e^2) / 4 of mv^2; 300 steps in contact resolve both to 1 %."""
+    method = {
+        "integrator": {"type": "newmark", "step": 4e-5},
+        "contact": {"normal_penalty": 1e-3},
+    }
+    found = run(head_on(0.5), Formulation.model_validate(method))
+    rate = (found.stepper.model.rigid_projection @ found.state.velocity).reshape(-1, 3)[:, 0]
+    assert rate[1] - rate[0] == pytest.approx(0.5, rel=0.01)
+    assert rate.sum() == pytest.approx(1.0, rel=1e-10)
+    assert found.history["friction_loss"][-1] == pytest.approx(1000 * 0.75 / 4, rel=0.01)
+    assert abs(found.summary.energy_balance) < 0.005
