@@ -1,0 +1,127 @@
+"""Verification runner: verdicts, pages, published case folders."""
+
+import shutil
+import tomllib
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from nmm.cli import app
+from nmm.errors import NmmError
+from nmm.verification import Check
+from nmm.verification.manual import share
+from nmm.verification.published import PublishedCase
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENE = """
+title = "bar"
+plane = "stress"
+[materials.m]
+young_modulus = 1.0
+poisson_ratio = 0.3
+[[blocks]]
+material = "m"
+vertices = [[0, 0], [4, 0], [4, 1], [0, 1]]
+[[supports]]
+name = "wall"
+segment = [[0, 0], [0, 1]]
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[4, 0], [4, 1]]
+traction = [1e-3, 0]
+"""
+MODULE = '''
+from nmm.verification.base import Case, Check
+
+class Mine(Case):
+    """Two and two."""
+    name, title, source = "mine", "a sum", "arithmetic"
+
+    def checks(self, formulation):
+        return {"sum": Check(2.0 + 2.0, %s, 0.0, "exact")}
+'''
+
+
+def call(*words):
+    return CliRunner().invoke(app, [str(word) for word in words])
+
+
+@pytest.fixture
+def folder(tmp_path):
+    scene = tmp_path / "bar.toml"
+    scene.write_text(SCENE)
+    result = call("publish", scene, "--quantity", "energy", "--out", tmp_path / "case")
+    assert result.exit_code == 0, result.output
+    return tmp_path / "case"
+
+
+def test_a_published_folder_is_reproduced(folder):
+    result = call("verify", folder)
+    assert result.exit_code == 0, result.output
+    assert "1 runs, all within tolerance" in result.stdout
+
+
+def test_a_value_that_is_missed_gives_exit_code_1(folder):
+    path = folder / "expected.toml"
+    value = tomllib.loads(path.read_text())["values"][0]["value"]
+    path.write_text(path.read_text().replace(str(value), str(1.01 * value)))
+    result = call("verify", folder)
+    assert result.exit_code == 1
+    assert "MISSED" in result.stdout
+    assert "1 missed" in result.stdout
+
+
+def test_a_scene_changed_since_it_was_published_is_refused(folder):
+    path = folder / "scene.toml"
+    path.write_text(path.read_text().replace("1e-3", "2e-3"))
+    with pytest.raises(NmmError, match="expected the scene that was published"):
+        PublishedCase(folder).checks("as published")
+    assert call("verify", folder).exit_code == 1
+
+
+def test_other_versions_are_told(folder):
+    path = folder / "expected.toml"
+    text = path.read_text()
+    numpy = tomllib.loads(text)["versions"]["numpy"]
+    path.write_text(text.replace(f'numpy = "{numpy}"', 'numpy = "0.1"'))
+    assert PublishedCase(folder).remarks == [f"published with numpy 0.1, this is {numpy}"]
+
+
+def test_a_folder_in_use_is_not_published_into(folder):
+    assert call("publish", folder / "scene.toml", "--out", folder).exit_code == 1
+
+
+def test_the_published_example_can_be_read_and_is_what_it_says(tmp_path):
+    shutil.copytree(ROOT / "examples/published_case/slide", tmp_path / "case")
+    case = PublishedCase(tmp_path / "case")
+    checks = case.checks("as published")
+    assert set(checks) == {"monitor:toe:ux", "monitor:toe:uy"}
+    assert all(check.passed for check in checks.values())
+
+
+@pytest.mark.parametrize(("right", "code"), [(4.0, 0), (5.0, 1)])
+def test_a_case_of_ones_own_is_run_and_gets_its_page(right, code, tmp_path, monkeypatch):
+    module = f"my_cases_{code}"
+    (tmp_path / f"{module}.py").write_text(MODULE % right)
+    monkeypatch.chdir(tmp_path)
+    result = call("verify", f"{module}:Mine", "--out", tmp_path / "manual")
+    assert result.exit_code == code, result.output
+    page = (tmp_path / "manual/mine.md").read_text()
+    assert "Two and two." in page
+    assert ("**missed**" in page) == bool(code)
+    assert (tmp_path / "manual/margins.png").exists()
+
+
+def test_an_unknown_benchmark_is_named():
+    result = call("verify", "B999")
+    assert result.exit_code == 1
+    assert "B999" in result.stderr
+
+
+def test_the_share_of_a_limit_is_the_value_over_it():
+    assert share(Check(0.5, 1.0, 0.0, "", bound="at_most")) == 0.5
+    assert share(Check(1.1, 1.0, 0.2, "")) == pytest.approx(0.5)
+    assert share(Check(2.0, 1.0, 0.0, "")) == float("inf")
