@@ -11,6 +11,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats
 from nmm.errors import FormulationError, SolveError
 from nmm.registry import Registry
+from nmm.solvers.krylov import minimal_residual
 
 ACCEPTED = 1e-8
 """Largest relative residual of a solution; above it the load works on a free motion."""
@@ -19,6 +20,12 @@ SHIFT = 1e-10
 ROUNDING = 1e-15
 """Part of the diagonal added to every matrix: what rounding changes anyway. It keeps a pivot of a
 rank-deficient matrix from being exactly zero, over which decompositions trip."""
+DIRECTIONS = 12
+"""Most directions in which the shift of a decomposition is taken out at once."""
+ROUNDING = 1e-14
+"""Residual that rounding leaves for each unit of the solution."""
+SLOW = 1e-10
+"""Residual above which refinement of a shifted matrix is given help."""
 GROWTH = 1e13
 """Growth of a scaled solution over its load that only a rank-deficient matrix shows."""
 
@@ -136,13 +143,13 @@ class Factor:
             When no solution exists: the matrix is singular and the load moves a free part.
         """
         x, residual, growth = self._refined(rhs)
-        if residual <= ACCEPTED and growth < GROWTH:
+        if residual <= _limit(growth) and growth < GROWTH:
             return x
         if not self.deflated:
             if self._fallback is None:
                 self._fallback = self._shifted()
             return self._fallback.solve(rhs)
-        if residual <= ACCEPTED:
+        if residual <= _limit(growth):
             return x
         at = self.weakest_unknown(x)
         raise SolveError(
@@ -194,13 +201,35 @@ class Factor:
             if rest < 1e-15 or turn == self.solver.refinements:
                 break
             x = x + self.apply(defect)
+        if self.solver.shift and rest > SLOW:
+            # Directions about as soft as the shift: refinement would take hundreds of turns.
+            tried, left = self._minimised(load, size)
+            if left < rest:
+                best, rest = tried, left
         growth = float(np.abs(best / self.scale).max() / np.abs(load).max())
         return best, rest, growth
+
+    def _minimised(self, load: Floats, size: float) -> tuple[Floats, float]:
+        """Solution with the shift taken out by minimal residuals, and its residual."""
+
+        def product(x: Floats) -> Floats:
+            return np.asarray(self.scale * (self.matrix @ (self.scale * x)))
+
+        x = minimal_residual(
+            product, self.decomposition.solve, load, directions=DIRECTIONS, tolerance=1e-14
+        )
+        rest = float(np.linalg.norm(load - product(x))) / size
+        return self.scale * x, rest
 
     def _shifted(self) -> "Factor":
         shifted = self.solver.deflated()
         parts = shifted.decompose(_scaled(self.matrix, self.scale, shifted.shift))
         return Factor(shifted, self.matrix, self.scale, parts, deflated=True)
+
+
+def _limit(growth: float) -> float:
+    """Residual to accept: where the solution outgrows its load, rounding of it sets the floor."""
+    return max(ACCEPTED, ROUNDING * growth)
 
 
 def jacobi_scale(matrix: csc_array) -> Floats:
