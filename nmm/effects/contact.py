@@ -128,8 +128,10 @@ class Contact(Effect):
         stations: str,
         start: State,
         held: Bools,
+        cracked: bool = False,
     ) -> None:
         self._model = model
+        self._cracked = cracked
         self._held = held
         self._laws = laws
         self._interface_of = interface_of
@@ -168,6 +170,7 @@ class Contact(Effect):
             method.joint_points,
             setup.start,
             _held_bodies(setup),
+            cracked=bool(setup.scene.cracks),
         )
 
     def candidates(self, state: State, reach: float) -> ContactPoints:
@@ -330,7 +333,7 @@ class Contact(Effect):
 
     def _search(self, surface: Surface, reach: float) -> Contacts:
         if self._neighbours is None or self._neighbours.skin < 2 * reach:
-            self._neighbours = NeighbourList(skin=4 * reach)
+            self._neighbours = NeighbourList(4 * reach, within_bodies=self._cracked)
         vertex, edge = self._neighbours.update(surface)
         found = find_contacts(surface, vertex, edge, reach, last=self.record.found)
         meets = self._interfaces(found.vertex, found.edge) != NONE

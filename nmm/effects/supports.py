@@ -110,6 +110,18 @@ class Supports(Effect):
         now = Instant(state.time, state.load_factor)
         return sum(s.energy(self._lag(i, state, now)) for i, s in enumerate(self._supports))
 
+    def work(self, before: State, after: State) -> float:
+        """Mean reaction of each driven support times the way it is driven."""
+        start, end = (Instant(one.time, one.load_factor) for one in (before, after))
+        total = 0.0
+        for i, support in enumerate(self._supports):
+            way = np.asarray(support.displacement(end) - support.displacement(start))
+            if way.any():
+                first = support.reaction(before, self._lag(i, before, start))
+                last = support.reaction(after, self._lag(i, after, end))
+                total += float((first + last) / 2 @ np.atleast_2d(way).mean(axis=0))
+        return total
+
     def reactions(self, state: State) -> dict[str, Floats]:
         """Return the force (2,) in N that each support exerts on the bodies."""
         now = Instant(state.time, state.load_factor)
@@ -227,7 +239,7 @@ def method_of(part: "SupportMethod", size: float | None, degree: int, mesh: bool
 
 def _support(setup: Setup, support: "SceneSupport") -> Support:
     cover = setup.formulation.cover
-    mesh = cover.type != "block"
+    mesh = not cover.of_blocks
     method = method_of(setup.formulation.supports, cover.size, cover.degree or 0, mesh)
     if method.kind == "lagrange" and setup.scene.contact is not None:
         raise FormulationError(

@@ -207,3 +207,78 @@ def test_blocks_part_at_the_restitution_asked_for_and_energy_is_accounted_for():
     assert rate.sum() == pytest.approx(1.0, rel=1e-10)
     assert found.history["friction_loss"][-1] == pytest.approx(1000 * 0.75 / 4, rel=0.01)
     assert abs(found.summary.energy_balance) < 0.005
+
+
+def column(n, normal_stiffness):
+    """Benchmark B18: n + 1 blocks of 1 m, n joints of given stiffness, 1 MPa on top."""
+    rock = {"r": {"young_modulus": 1e10, "poisson_ratio": 0.0}}
+    top = [[0, n + 1], [1, n + 1]]
+    return Scene.model_validate(
+        {
+            "title": "column",
+            "plane": "strain",
+            "materials": rock,
+            "interfaces": {"i": {"friction_angle": 0.5, "normal_stiffness": normal_stiffness}},
+            "blocks": [block(f"b{k}", 0, k) for k in range(n + 1)],
+            "supports": [{"name": "foot", "segment": [[0, 0], [1, 0]], "fix": ["x", "y"]}],
+            "loads": [{"name": "l", "kind": "edge", "segment": top, "traction": [0, -1e6]}],
+            "contact": {},
+            "monitors": [{"name": "m", "point": [0.5, n + 1.0]}],
+        }
+    )
+
+
+def test_a_jointed_column_shortens_by_its_blocks_and_its_joints():
+    """u = sigma (H / E + n / kn) = 1e6 (4 / 1e10 + 3 / 1e9) (B18); the support gives 1e-4 more."""
+    found = run(column(3, 1e9))
+    assert found.summary.status == "converged"
+    way = found.history["monitor:m:uy"][-1]
+    assert way == pytest.approx(-1e6 * (4 / 1e10 + 3 / 1e9), rel=1e-3)
+
+
+@pytest.mark.parametrize(("stations", "arm"), [("corners", 2.0), ("gauss", 2 * np.sqrt(3.0))])
+def test_a_bond_pulled_off_its_middle_fails_by_the_rule_of_its_springs(stations, arm):
+    """F = ft A / (1 + arm e / B): two springs at the corners or the Gauss points (B31)."""
+    load = {"name": "l", "kind": "point", "point": [0.7, 1.0], "force": [0, 1e5]}
+    bond = {"friction_angle": 0.5, "cohesion": 1e8, "tensile_strength": 1e6, "bonded": True}
+    scene = {
+        "title": "pull",
+        "plane": "strain",
+        "materials": {"r": {"young_modulus": 1e12, "poisson_ratio": 0.0}},
+        "interfaces": {"i": {**bond, "normal_stiffness": 1e11, "shear_stiffness": 1e11}},
+        "blocks": [block("base", 0, -1), block("top", 0, 0)],
+        "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
+        "loads": [load],
+        "loading": {"until": "failure"},
+        "contact": {},
+    }
+    found = run(Scene.model_validate(scene), steps(0.5, tolerance=1e-3, joint_points=stations))
+    expected = 1e6 / (1 + arm * 0.2)
+    assert found.summary.failure_load == pytest.approx(expected, rel=3e-3)
+
+
+def test_the_faces_of_a_crack_within_one_body_press_on_each_other():
+    """A plate cracked over half its width, under 0.1 MPa, is stressed as if whole.
+
+    The springs between the faces are 100 E: they leave 1e-3 of the stress uneven.
+    """
+    corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+    scene = {
+        "title": "self contact",
+        "plane": "stress",
+        "materials": {"r": {"young_modulus": 1e9, "poisson_ratio": 0.0}},
+        "interfaces": {"i": {"friction_angle": 0.3}},
+        "blocks": [{"name": "plate", "material": "r", "vertices": corners}],
+        "cracks": [{"name": "c", "points": [[-1, 0.01], [0.03, 0.01]]}],
+        "supports": [
+            {"name": "foot", "segment": [[-1, -1], [1, -1]], "fix": ["y"]},
+            {"name": "corner", "point": [-1, -1], "fix": ["x"]},
+        ],
+        "loads": [
+            {"name": "l", "kind": "edge", "segment": [[-1, 1], [1, 1]], "traction": [0, -1e5]}
+        ],
+        "contact": {},
+    }
+    cover = {"type": "quads", "functions": "monomials", "degree": 0, "size": 0.25}
+    found = run(Scene.model_validate(scene), Formulation.model_validate({"cover": cover}))
+    assert found.stress[:, 1] == pytest.approx(-1e5, rel=3e-3)
