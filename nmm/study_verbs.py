@@ -147,7 +147,54 @@ def publish(
         typer.echo(write(scene, formulation, names, tolerance, out, source))
 
 
-VERBS = (cost, compare, verify, publish)
+def study(
+    plan: Annotated[Path, typer.Argument(help="Study file, TOML.", metavar="STUDY")],
+    scheduler: Annotated[
+        str | None, typer.Option(help="Address of a dask.distributed scheduler.")
+    ] = None,
+    processes: Annotated[
+        int | None, typer.Option("--processes", "-n", min=1, help="Processes; one a core.")
+    ] = None,
+    again: Annotated[bool, typer.Option(help="Run cases again that failed before.")] = False,
+    out: Out = None,
+    quiet: Quiet = False,
+) -> None:
+    """Run a sweep or an ensemble; what is done already is skipped."""
+    with faults_told():
+        _one_thread()
+        from nmm.study.plan import read_plan
+        from nmm.study.sweep import run_study
+        from nmm.study.sweep_report import sweep_page, write_sweep
+
+        read, cases = read_plan(plan)
+        folder = out or Path("runs") / plan.stem
+        try:
+            with progress_bar(quiet) as progress:
+                done = run_study(
+                    read,
+                    cases,
+                    folder,
+                    scheduler=scheduler,
+                    processes=processes,
+                    again=again,
+                    tell=lambda number, total, one: progress(
+                        number / total, f"{number}/{total} {one.label}: {one.status}"
+                    ),
+                )
+        except KeyboardInterrupt:
+            typer.secho(f"stopped; the same command continues it: nmm study {plan}", err=True)
+            raise typer.Exit(130) from None
+        files = write_sweep(done, folder)
+        failed = sum(not one.valid for one in done.records)
+        typer.echo(f"{len(done.records)} cases, {done.skipped} done before, {failed} failed")
+        if not quiet:
+            for line in sweep_page(done).splitlines():
+                if line.startswith(("|", "- ")):
+                    typer.echo(line)
+        tell_files(files)
+
+
+VERBS = (cost, compare, verify, publish, study)
 
 
 def register(app: typer.Typer) -> None:

@@ -1,0 +1,64 @@
+"""Study files: which scenes are run under which formulations with which values."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from pydantic import Field
+
+from nmm.errors import NmmError
+from nmm.formulation import Formulation
+from nmm.scene import read_scene
+from nmm.scene.document import parse, read_text
+from nmm.scene.fields import Count, Frozen
+from nmm.study.variants import Case, cases_of, read_formulations
+
+
+class Plan(Frozen):
+    """A study: a scene, formulations, values by dotted key, and what is read off each run."""
+
+    title: str = Field(default="", description="a title", examples=["Kitoh, 12 seeds"])
+    scene: str = Field(
+        description="the path of a scene file, from the study's folder", examples=["beam.toml"]
+    )
+    formulations: tuple[str, ...] = Field(
+        default=(), description="a list of paths of formulation files", examples=[["dda.toml"]]
+    )
+    vary: dict[str, tuple[Any, ...]] = Field(
+        default={},
+        description='a table [vary] of lists by dotted key, as "tessellations.0.seed" = [1, 2]',
+    )
+    quantities: tuple[str, ...] = Field(
+        default=("energy",), description="a list of quantities", examples=[["failure_load"]]
+    )
+    over: tuple[str, ...] = Field(
+        default=(),
+        description="a list of varied keys that make an ensemble: means are taken over them",
+        examples=[["tessellations.0.seed"]],
+    )
+    repeats: Count = Field(default=1, gt=0, description="repeats of each case, > 0", examples=[1])
+
+
+def read_plan(path: Path) -> tuple[Plan, list[Case]]:
+    """Read a study file and return it with its cases, none twice.
+
+    Raises
+    ------
+    NmmError
+        Faults of the study file, of the scene, of a formulation, or of a value in ``[vary]``.
+    """
+    plan = parse(read_text(path, NmmError), Plan, str(path), NmmError)[0]
+    folder = path.resolve().parent
+    scene = read_scene(folder / plan.scene)
+    kinds = read_formulations([folder / name for name in plan.formulations])
+    if not kinds:
+        own = scene.formulation or Formulation()
+        kinds = {own.title or "scene's own": own}
+    strange = [key for key in plan.over if key not in plan.vary]
+    if strange:
+        raise NmmError(
+            f"{path}: over: {strange[0]}: expected a key of [vary] ({', '.join(plan.vary)}): "
+            "correct it"
+        )
+    return plan, cases_of(scene, kinds, plan.vary)
