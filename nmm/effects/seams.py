@@ -20,7 +20,7 @@ from nmm.contact.sides import sides
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.errors import SceneError
 
-# Springs of glue in E / length of the longest edge shared by two elements: it leaves 1e-6 of that length
+# Springs of glue in E / length of the longest edge that elements share: it leaves 1e-6 of it
 # under a strain of one, and bounds the condition number's growth by as much.
 GLUE = 1e6
 # Degree of the work of the springs along a seam.
