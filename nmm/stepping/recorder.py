@@ -61,6 +61,8 @@ class Recorder:
         Accumulated over accepted steps (J).
     stored_first
         Energy at the start, before any contact (J).
+    throughput
+        Largest work, stored or lost energy so far (J).
     """
 
     stepper: Stepper
@@ -70,6 +72,7 @@ class Recorder:
     friction_loss: float = 0.0
     steps: int = 0
     stored_first: float = 0.0
+    throughput: float = 0.0
     passes: int = 0
     frames: int = 0
     residual: float = 0.0
@@ -88,6 +91,10 @@ class Recorder:
         self.residual = max(self.residual, attempt.residual)
         self.work += plan.work(before, after)
         self.energies = self._energies(after)
+        stored = sum(self.energies.values())
+        self.throughput = max(
+            self.throughput, abs(self.work), abs(stored), abs(self.stored_first), self.friction_loss
+        )
         row = {
             "time": after.time,
             "load_factor": after.load_factor,
@@ -140,13 +147,13 @@ class Recorder:
 
     @property
     def energy_balance(self) -> float:
-        """Return (work - gain of stored energy - lost) over the largest of them.
+        """Return (work - gain of stored energy - lost) over the largest of them in the run.
 
         Lost is what friction, softening and damping took.
         """
         stored = sum(self.energies.values()) - self.stored_first
-        size = max(abs(self.work), abs(stored), self.friction_loss)
-        return (self.work - stored - self.friction_loss) / size if size else 0.0
+        lack = self.work - stored - self.friction_loss
+        return lack / self.throughput if self.throughput else 0.0
 
     def _energies(self, state: State) -> dict[str, float]:
         plan, q = self.stepper.plan, state.deformation
