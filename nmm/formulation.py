@@ -15,6 +15,7 @@ from nmm.scene.document import parse, read_text
 from nmm.scene.fields import Angle, Count, Frozen, Length, Number, PartName, Point, Time
 
 _PART = 'a registered name or "module:Name"'
+_OF_BLOCKS = ("block", "sub_blocks")
 
 
 class _Part(Frozen):
@@ -41,6 +42,8 @@ class Enrichment(Frozen):
 class Cover(_Part):
     """Physical covers and their local functions: block = DDA, meshes = manifold.
 
+    The type "sub_blocks" divides blocks and glues the parts.
+
     A mesh has local functions "monomials" of degree 1 unless others are named.
     """
 
@@ -60,11 +63,21 @@ class Cover(_Part):
     )
     enrichment: Enrichment | None = Field(default=None, description="a table [cover.enrichment]")
 
+    @property
+    def of_blocks(self) -> bool:
+        """Whether each block, or sub-block, has one cover of its own."""
+        return self.type in _OF_BLOCKS
+
+    @property
+    def glued(self) -> bool:
+        """Whether blocks are divided into sub-blocks that never part."""
+        return self.type == "sub_blocks" and self.options.get("bond", "elastic") == "elastic"
+
     @model_validator(mode="before")
     @classmethod
     def _mesh(cls, data: Any) -> Any:
         """Meshes carry polynomials unless something else is asked for."""
-        if not isinstance(data, Mapping) or data.get("type", "block") == "block":
+        if not isinstance(data, Mapping) or data.get("type", "block") in _OF_BLOCKS:
             return data
         plain = {"functions": "monomials"} if "functions" not in data else {}
         monomials = data.get("functions", "monomials") == "monomials"
@@ -97,7 +110,7 @@ class ContactMethod(_Part):
 
     enforcement: PartName = Field(default="penalty", description=_PART, examples=["penalty"])
     normal_penalty: Number = Field(
-        default=100.0, gt=0, description="a multiple of E x thickness, > 0", examples=[100.0]
+        default=10.0, gt=0, description="a multiple of E x thickness, > 0", examples=[10.0]
     )
     shear_ratio: Number = Field(
         default=1.0, gt=0, description="shear over normal penalty, > 0", examples=[1.0]

@@ -54,14 +54,18 @@ def cover_regions(
     """
     lines = [*cracks, *np.asarray(regions.cracks)]
     functions = local_functions(cover)
-    if cover.type == "block":
+    if cover.of_blocks:
         if lines:
             raise FormulationError(
-                f'[cover] type: "block": {len(lines)} cracks end inside blocks: expected a cover '
-                'that cracks can cut: use type = "triangles" with a size'
+                f'[cover] type: "{cover.type}": {len(lines)} cracks end inside blocks: expected a '
+                'cover that cracks can cut: use type = "triangles" with a size'
             )
-        region = np.arange(len(regions.polygons), dtype=np.int64)
-        return Covering(block_manifold(regions.polygons, region, functions))
+        blocks, region = regions.polygons, np.arange(len(regions.polygons), dtype=np.int64)
+        if cover.type == "sub_blocks":
+            from nmm.geometry.sub_blocks import divided
+
+            blocks, region = divided(blocks, cover)
+        return Covering(block_manifold(blocks, region, functions))
     return _mesh(regions, cover, functions, lines, kappa)
 
 

@@ -56,6 +56,9 @@ EFFECTS: dict[str, Called] = {
     "contact": Called("nmm.effects.contact:Contact", lambda s: s.contact is not None),
 }
 
+GLUE = "nmm.effects.artificial_joints:ArtificialJoints"
+"""Not the scene's but the formulation's: what holds sub-blocks together."""
+
 
 def called_for(scene: "Scene") -> dict[str, bool]:
     """Say for every effect whether a scene names it."""
@@ -167,10 +170,12 @@ def _are(some: list[csc_array], others: list[csc_array]) -> bool:
 
 def compile_plan(setup: Setup) -> Plan:
     """Import and build the effects that a scene names."""
+    targets = [EFFECTS[name].target for name, wanted in called_for(setup.scene).items() if wanted]
+    if setup.formulation.cover.glued:
+        targets.append(GLUE)
     effects = {}
-    for name, wanted in called_for(setup.scene).items():
-        if wanted:
-            module, _, attribute = EFFECTS[name].target.partition(":")
-            kind: type[Effect] = getattr(import_module(module), attribute)
-            effects[name] = kind.from_setup(setup)
+    for target in targets:
+        module, _, attribute = target.partition(":")
+        kind: type[Effect] = getattr(import_module(module), attribute)
+        effects[kind.name] = kind.from_setup(setup)
     return Plan(effects)
