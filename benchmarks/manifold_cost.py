@@ -1,32 +1,20 @@
-"""What the manifold costs on a smooth problem beside finite elements of the same order.
+"""What manifold covers cost beside finite elements: seconds, unknowns and errors of one problem.
 
-The problem has an exact smooth solution with displacements prescribed on all sides of the unit
-square (E = 1, nu = 0.3, plane stress). The manifold of order p stands beside finite elements of
-order p + 1 (scikit-fem with strong supports and the same direct solver), all in one run on one
-thread. Seconds are processor seconds, the least of some repetitions; errors are not timed. Run:
-``python benchmarks/manifold_cost.py``.
+Benchmark A8 (smooth elasticity on the unit square, displacements prescribed on all sides) with
+triangular covers of degree 0 to 2 that are turned and shifted at random against the square, and
+with scikit-fem's P1, P2 and P3 on a mesh that fits it. CPU seconds of one process, medians over
+the positions of the mesh and over repeats; the same linear solver for all. Evaluation of errors is
+not counted. Run: ``python benchmarks/manifold_cost.py [largest number of unknowns]``.
 """
 
 from __future__ import annotations
 
-import os
-
-for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ.setdefault(_name, "1")
-
-import platform
 import sys
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
-from pathlib import Path
-from time import process_time
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import numpy as np
-import scipy
-import skfem
-from scipy.sparse import csc_array
-from scipy.sparse.linalg import splu
-from skfem.models.elasticity import linear_elasticity
 
 from covers.cutting import cut
 from covers.local_functions import Monomials
@@ -38,38 +26,42 @@ from nmm.assembly.errors import field_errors
 from nmm.assembly.model import Model
 from nmm.assembly.places import on_edges
 from nmm.effects.supports import Method
+from nmm.formulation import Solver
 from nmm.materials.elastic import Elastic
-from nmm.stepping.equilibrium import body_force, equilibrium, hold
+from nmm.stepping.cures import solver_for
+from nmm.stepping.equilibrium import END, body_force, hold
 
-SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])])
 LAW = Elastic(1.0, 0.3)
-D = LAW.stiffness("stress")
-
-MANIFOLD_SIZES = {0: (16, 32, 64, 128), 1: (8, 16, 32, 64), 2: (4, 8, 16, 32)}
-ELEMENT_SIZES = {1: (16, 32, 64, 128, 192), 2: (8, 16, 32, 64, 96), 3: (4, 8, 16, 32, 48)}
-SWEPT = {0: 64, 1: 32, 2: 16}
-TRIANGLE = {
-    1: skfem.ElementTriP1,
-    2: skfem.ElementTriP2,
-    3: skfem.ElementTriP3,
-}
+SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])])
+D = LAW.stiffness("strain")
+FACTOR = (D[0, 1] + 2 * D[2, 2]) * 2 * np.pi**2
 
 
-@dataclass(frozen=True)
+def displacement(p: Floats) -> Floats:
+    x, y = np.pi * p.T
+    return np.stack([np.sin(x) * np.cos(y), np.cos(x) * np.sin(y)], axis=1)
+
+
+def strain(p: Floats) -> Floats:
+    x, y = np.pi * p.T
+    normal = np.pi * np.cos(x) * np.cos(y)
+    return np.stack([normal, normal, -2 * np.pi * np.sin(x) * np.sin(y)], axis=1)
+
+
+@dataclass
 class Cost:
-    """One solution: what it cost and how far it is off.
+    """One run: CPU seconds by phase, unknowns, relative error in energy."""
 
-    Attributes
-    ----------
-    seconds
-        By phase.
-    """
+    unknowns: int = 0
+    error: float = np.nan
+    seconds: dict[str, float] = field(default_factory=dict)
 
-    method: str
-    n: int
-    unknowns: int
-    error: float
-    seconds: dict[str, float]
+    def spend(self, phase: str, work: Callable[[], object]) -> object:
+        """Do the work and count its seconds."""
+        begin = time.process_time()
+        result = work()
+        self.seconds[phase] = self.seconds.get(phase, 0.0) + time.process_time() - begin
+        return result
 
     @property
     def total(self) -> float:
@@ -77,265 +69,177 @@ class Cost:
         return sum(self.seconds.values())
 
 
-def displacement(p: Floats) -> Floats:
-    """The solution (m, 2)."""
-    x, y = p.T
-    u = np.sin(3 * x) * np.cos(2 * y) + x * y / 4
-    v = np.cos(2 * x + y) * np.exp(y / 2) - y**2 / 3
-    return np.stack([u, v], axis=1)
+def manifold(degree: int, size: float, angle: float, shift: tuple[float, float]) -> Cost:
+    cost = Cost()
+    spend = cost.spend
+    laid = spend(
+        "cutting", lambda: Triangles.regular([[0, 0], [1, 1]], size, angle=angle, shift=shift)
+    )
+    pieces = spend("cutting", lambda: cut(laid, SQUARE))
+    made = spend("moments", lambda: mesh_manifold(laid, pieces, Monomials(degree)))
+    n = len(made.elements)
+    model = Model(made, np.broadcast_to(D, (n, 3, 3)), np.zeros(n), np.ones(n), 1.0, pieces)
+    spend("assembly", lambda: model.stiffness)
+    method = Method("nitsche", size, degree)
+    from nmm.assembly.motion import initial_state
+
+    start = initial_state(made)
+
+    def boundary():
+        place = on_edges(made, np.ones(len(made.boundary), dtype=bool), method.order)
+        supports = hold(model, place, method, displacement)
+        return supports.matrix(start), supports.force(start, END)
+
+    tie, pull = spend("supports", boundary)
+    load = spend(
+        "load",
+        lambda: body_force(model, lambda p: FACTOR * displacement(p), 2 * degree + 2).force(
+            start, END
+        ),
+    )
+    factor = spend("solve", lambda: solver_for(made, Solver()).factorise(model.stiffness + tie))
+    found = spend("solve", lambda: factor.solve(pull + load))
+    cost.unknowns = made.n_unknowns
+    cost.error = field_errors(model, found, displacement, strain, 2 * degree + 6).energy
+    return cost
 
 
-def strain(p: Floats) -> Floats:
-    """Its strain (m, 3)."""
-    x, y = p.T
-    e, s, c = np.exp(y / 2), np.sin(2 * x + y), np.cos(2 * x + y)
-    xx = 3 * np.cos(3 * x) * np.cos(2 * y) + y / 4
-    yy = (c / 2 - s) * e - 2 * y / 3
-    return np.stack([xx, yy, -2 * np.sin(3 * x) * np.sin(2 * y) + x / 4 - 2 * s * e], axis=1)
+def finite_elements(degree: int, cells: int) -> Cost:
+    import skfem
+    from skfem.helpers import ddot, sym_grad
+    from skfem.models.elasticity import linear_elasticity
 
+    cost = Cost()
+    spend = cost.spend
+    element = {1: skfem.ElementTriP1, 2: skfem.ElementTriP2, 3: skfem.ElementTriP3}[degree]()
+    line = np.linspace(0, 1, cells + 1)
 
-def load(p: Floats) -> Floats:
-    """Minus the divergence of its stress (m, 2)."""
-    x, y = p.T
-    e, s, c = np.exp(y / 2), np.sin(2 * x + y), np.cos(2 * x + y)
-    sine = np.sin(3 * x) * np.cos(2 * y)
-    u_xx, u_yy, u_xy = -9 * sine, -4 * sine, 0.25 - 6 * np.cos(3 * x) * np.sin(2 * y)
-    v_xx, v_yy, v_xy = -4 * c * e, -(0.75 * c + s) * e - 2 / 3, -(2 * c + s) * e
-    f_x = D[0, 0] * u_xx + D[0, 1] * v_xy + D[2, 2] * (u_yy + v_xy)
-    f_y = D[2, 2] * (u_xy + v_xx) + D[0, 1] * u_xy + D[1, 1] * v_yy
-    return -np.stack([f_x, f_y], axis=1)
+    def lay():
+        mesh = skfem.MeshTri.init_tensor(line, line)
+        return skfem.Basis(mesh, skfem.ElementVector(element), intorder=2 * degree)
 
-
-class Clock:
-    """Processor seconds between calls."""
-
-    def __init__(self) -> None:
-        self.seconds: dict[str, float] = {}
-        self._last = process_time()
-
-    def stop(self, name: str) -> None:
-        """Count the time since the last call for ``name``."""
-        now = process_time()
-        self.seconds[name] = self.seconds.get(name, 0.0) + now - self._last
-        self._last = now
-
-
-def net(n: int, angle: float, shift: tuple[float, float]) -> Triangles:
-    """Shi's net with edges 1/n, turned and shifted against the square."""
-    return Triangles.regular([[0.0, 0.0], [1.0, 1.0]], 1 / n, angle=angle, shift=shift)
-
-
-def fitted(n: int) -> Triangles:
-    """Right triangles that fit the square; two shapes."""
-    line = np.linspace(0, 1, n + 1)
-    cover = Triangles.from_mesh(skfem.MeshTri.init_tensor(line, line))
-    half = len(cover.cell_vertices) // 2
-    size = np.full(len(cover.patch_size), 1 / n)
-    return replace(cover, cell_shape=np.repeat([0, 1], half), patch_size=size)
-
-
-def manifold(degree: int, n: int, make: Callable[[], Triangles], kind: str) -> Cost:
-    """Solve with covers of a degree by Nitsche's method on all sides."""
-    clock = Clock()
-    cover = make()
-    pieces = cut(cover, SQUARE)
-    clock.stop("cutting")
-    made = mesh_manifold(cover, pieces, Monomials(degree))
-    clock.stop("moments")
-    count = len(made.elements)
-    elasticity = np.broadcast_to(D, (count, 3, 3))
-    model = Model(made, elasticity, np.zeros(count), np.ones(count), 1.0, pieces)
-    _ = model.stiffness
-    clock.stop("assembly")
-    place = on_edges(made, np.ones(len(made.boundary), dtype=bool), 2 * degree + 2)
-    effects = [
-        hold(model, place, Method("nitsche", 1 / n, degree), displacement),
-        body_force(model, load, 2 * degree + 2),
-    ]
-    clock.stop("supports and loads")
-    found = equilibrium(model, effects)
-    clock.stop("solve")
-    assert found.residual < 1e-9
-    off = field_errors(model, found.state.deformation, displacement, strain, 2 * degree + 4)
-    return Cost(f"NMM{degree} {kind}", n, made.n_unknowns, off.energy, clock.seconds)
-
-
-def elements(order: int, n: int) -> Cost:
-    """Solve with finite elements; strong supports, tuned direct solver."""
-    clock = Clock()
-    line = np.linspace(0, 1, n + 1)
-    mesh = skfem.MeshTri.init_tensor(line, line)
-    kind = skfem.ElementVector(TRIANGLE[order]())
-    clock.stop("mesh")
-    # Stiffness integrands have the degree 2 (order - 1).
-    stiff = skfem.Basis(mesh, kind, intorder=max(2 * order - 2, 1))
-    matrix = skfem.asm(linear_elasticity(D[0, 1], D[2, 2]), stiff)
-    clock.stop("assembly")
-    basis = skfem.Basis(mesh, kind, intorder=_positive(2 * order))
+    basis = spend("mesh", lay)
+    matrix = spend("assembly", lambda: skfem.asm(linear_elasticity(D[0, 1], D[2, 2]), basis))
 
     @skfem.LinearForm
-    def work(v, w):  # type: ignore[no-untyped-def]
-        shape = w.x[0].shape
-        f = load(w.x.reshape(2, -1).T).T.reshape(2, *shape)
-        return f[0] * v[0] + f[1] * v[1]
+    def force(v, w):
+        x, y = np.pi * w.x
+        return FACTOR * (np.sin(x) * np.cos(y) * v[0] + np.cos(x) * np.sin(y) * v[1])
 
-    force = work.assemble(basis)
-    held = basis.get_dofs().flatten()
-    at = basis.doflocs[:, held].T
-    exact = displacement(at)
-    u = basis.zeros()
-    u[held] = exact[np.arange(len(held)), _component(basis, held)]
-    clock.stop("supports and loads")
-    reduced, rest, _, free = skfem.condense(matrix, force, x=u, D=held)
-    system = csc_array(reduced)
-    factor = splu(
-        csc_array(
-            (system.data, system.indices.astype(np.intc), system.indptr.astype(np.intc)),
-            shape=system.shape,
-        ),
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
+    load = spend("load", lambda: force.assemble(basis))
+
+    def solve():
+        x = np.zeros(basis.N)
+        dofs = basis.get_dofs().flatten()
+        places = basis.doflocs[:, dofs].T
+        first = np.isin(dofs, basis.get_dofs().all("u^1"))
+        values = displacement(places)
+        x[dofs] = np.where(first, values[:, 0], values[:, 1])
+        inner = np.setdiff1d(np.arange(basis.N), dofs)
+        rest = load - matrix @ x
+        factor = solver_for(Independent(), Solver()).factorise(matrix[inner][:, inner])
+        x[inner] = factor.solve(rest[inner])
+        return x
+
+    found = spend("solve", solve)
+
+    @skfem.Functional
+    def error(w):
+        p = np.moveaxis(w.x, 0, -1)
+        exact = np.moveaxis(strain(p.reshape(-1, 2)).reshape(*p.shape[:-1], 3), -1, 0)
+        e = sym_grad(w["u"])
+        d = np.array(
+            [
+                [e[0, 0] - exact[0], e[0, 1] - exact[2] / 2],
+                [e[1, 0] - exact[2] / 2, e[1, 1] - exact[1]],
+            ]
+        )
+        return D[0, 1] * (d[0, 0] + d[1, 1]) ** 2 + 2 * D[2, 2] * ddot(d, d)
+
+    @skfem.Functional
+    def size(w):
+        p = np.moveaxis(w.x, 0, -1)
+        exact = np.moveaxis(strain(p.reshape(-1, 2)).reshape(*p.shape[:-1], 3), -1, 0)
+        trace = exact[0] + exact[1]
+        return D[0, 1] * trace**2 + 2 * D[2, 2] * (
+            exact[0] ** 2 + exact[1] ** 2 + exact[2] ** 2 / 2
+        )
+
+    fine = skfem.Basis(basis.mesh, basis.elem, intorder=2 * degree + 4)
+    cost.unknowns = basis.N
+    cost.error = float(
+        np.sqrt(error.assemble(fine, u=fine.interpolate(found)) / size.assemble(fine))
     )
-    u[free] = factor.solve(rest)
-    clock.stop("solve")
-    return Cost(f"P{order}", n, len(u), _error(mesh, kind, order, u), clock.seconds)
+    return cost
 
 
-def _positive(order: int) -> int:
-    """Rules of the orders 3 and 7 have negative weights."""
-    return order + 1 if order in (3, 7) else order
+class Independent:
+    """Finite elements have no dependent functions."""
+
+    dependent = 0
 
 
-def _component(basis: skfem.Basis, held: np.ndarray) -> np.ndarray:
-    """0 where an unknown moves along x, 1 where it moves along y."""
-    second = np.zeros(basis.N, dtype=np.int64)
-    for dofs in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
-        if len(dofs):
-            second[dofs[1::2].ravel()] = 1
-    return second[held]
-
-
-def _error(mesh: skfem.MeshTri, kind: object, order: int, u: Floats) -> float:
-    basis = skfem.Basis(mesh, kind, intorder=_positive(2 * order + 2))
-    g = basis.interpolate(u).grad
-    x = basis.global_coordinates().value
-    exact = strain(x.reshape(2, -1).T).T.reshape(3, *x.shape[1:])
-    off = np.stack([g[0, 0], g[1, 1], g[0, 1] + g[1, 0]]) - exact
-    energies = [np.einsum("iek,ij,jek,ek->", e, D, e, basis.dx) for e in (off, exact)]
-    return float(np.sqrt(energies[0] / energies[1]))
-
-
-def least(work: Callable[[], Cost], repeats: int) -> Cost:
-    """Return the run of least total seconds."""
-    return min((work() for _ in range(repeats)), key=lambda cost: cost.total)
-
-
-def at_error(baseline: list[Cost], error: float) -> tuple[float, float]:
-    """Seconds and unknowns of the baseline at an error, by log-log interpolation.
-
-    Beyond the sizes solved the last two are prolonged.
-    """
-    x = np.log([cost.error for cost in baseline])
-    found = []
-    for values in ([c.total for c in baseline], [float(c.unknowns) for c in baseline]):
-        y = np.log(values)
-        k = int(np.clip(np.searchsorted(-x, -np.log(error)) - 1, 0, len(x) - 2))
-        slope = (y[k + 1] - y[k]) / (x[k + 1] - x[k])
-        found.append(float(np.exp(y[k] + slope * (np.log(error) - x[k]))))
-    return found[0], found[1]
-
-
-def ratios(costs: Iterable[Cost], baseline: list[Cost]) -> Floats:
-    """Ratios (m, 2) of seconds and unknowns to the baseline's at equal error."""
-    return np.array(
-        [np.array([cost.total, cost.unknowns]) / at_error(baseline, cost.error) for cost in costs]
+def median(costs: list[Cost]) -> Cost:
+    phases = costs[0].seconds
+    return Cost(
+        int(np.median([c.unknowns for c in costs])),
+        float(np.median([c.error for c in costs])),
+        {name: float(np.median([c.seconds[name] for c in costs])) for name in phases},
     )
 
 
-def positions(number: int) -> list[tuple[float, tuple[float, float]]]:
-    """Random turns and shifts of the net."""
-    random = np.random.default_rng(1)
-    return [(float(a), (float(s), float(t))) for a, s, t in random.uniform(size=(number, 3))]
+def at_error(costs: list[Cost], error: float) -> tuple[float, float]:
+    """Seconds and unknowns at an error, interpolated between logarithms; not a number outside."""
+    order = np.argsort([c.error for c in costs])
+    logs = np.log([costs[k].error for k in order])
+    if not logs[0] <= np.log(error) <= logs[-1]:
+        return np.nan, np.nan
+    seconds = np.interp(np.log(error), logs, np.log([costs[k].total for k in order]))
+    unknowns = np.interp(np.log(error), logs, np.log([costs[k].unknowns for k in order]))
+    return float(np.exp(seconds)), float(np.exp(unknowns))
 
 
-def row(cost: Cost) -> str:
-    """One line of the table."""
-    s = cost.seconds
-    first = s.get("cutting", s.get("mesh", 0.0))
-    return (
-        f"| {cost.method} | {cost.n} | {cost.unknowns} | {cost.error:.2e} | {first:.3f} "
-        f"| {s.get('moments', 0.0):.3f} | {s['assembly']:.3f} | {s['supports and loads']:.3f} "
-        f"| {s['solve']:.3f} | {cost.total:.3f} |"
-    )
-
-
-def main(repeats: int = 3, cuts: int = 20, largest: int = 4) -> dict[str, object]:
-    """Solve all and return the costs, the ratios and the lines of the report.
-
-    Parameters
-    ----------
-    repeats
-        Of every solution; the least counts.
-    cuts
-        Random positions of the net.
-    largest
-        How many of the sizes of each method are solved.
-    """
-    base = {
-        order: [least(lambda o=order, n=n: elements(o, n), repeats) for n in sizes[: largest + 1]]
-        for order, sizes in ELEMENT_SIZES.items()
-    }
-    lines = [
-        f"{platform.machine()}, Python {platform.python_version()}, numpy {np.__version__}, "
-        f"scipy {scipy.__version__}, scikit-fem {skfem.__version__}; one thread, least of "
-        f"{repeats} runs, {cuts} positions of the net",
-        "",
-        "| method | n | unknowns | energy error | cutting | moments | assembly | supports, loads "
-        "| solve | total s |",
-        "|---|---|---|---|---|---|---|---|---|---|",
-    ]
-    lines += [row(cost) for costs in base.values() for cost in costs]
-    summary, found = [], {}
-    for degree, sizes in MANIFOLD_SIZES.items():
-        fit = [
-            least(lambda n=n, p=degree: manifold(p, n, lambda: fitted(n), "fitted"), repeats)
-            for n in sizes[:largest]
-        ]
-        angle, shift = positions(1)[0]
-        series = [
-            least(
-                lambda n=n, p=degree: manifold(p, n, lambda: net(n, angle, shift), "cut"), repeats
+def main(largest: int = 40_000, positions: int = 20, repeats: int = 3) -> dict[str, list[Cost]]:
+    """Print all costs and the ratios at equal errors; return the costs."""
+    rng = np.random.default_rng(0)
+    places = [(rng.uniform(0, np.pi / 3), tuple(rng.uniform(0, 1, 2))) for _ in range(positions)]
+    manifold(1, 0.2, *places[0]), finite_elements(2, 4)  # warm up
+    found: dict[str, list[Cost]] = {}
+    print(f"{'method':12} {'unknowns':>9} {'error':>10} {'worst':>10} {'seconds':>8}  phases")
+    for degree in (0, 1, 2):
+        name, cells = f"manifold {degree}", 8
+        found[name] = []
+        while 2.4 * cells**2 * (degree + 1) * (degree + 2) / 2 < largest:
+            few = places if cells <= 32 else places[:5]
+            runs = [manifold(degree, 1 / cells, *place) for place in few]
+            _report(found, name, runs)
+            cells *= 2
+    for degree in (1, 2, 3):
+        name, cells = f"P{degree}", 8
+        found[name] = []
+        while 2 * (degree * cells) ** 2 < largest:
+            _report(found, name, [finite_elements(degree, cells) for _ in range(repeats)])
+            cells *= 2
+    print("\nat equal error: seconds and unknowns of the manifold over those of P(degree + 1)")
+    for degree in (0, 1, 2):
+        for error in (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5):
+            ours, theirs = (
+                at_error(found[name], error) for name in (f"manifold {degree}", f"P{degree + 1}")
             )
-            for n in sizes[:largest]
-        ]
-        n = min(SWEPT[degree], sizes[:largest][-1])
-        swept = [
-            least(lambda a=a, s=s: manifold(degree, n, lambda: net(n, a, s), "cut"), repeats)
-            for a, s in positions(cuts)
-        ]
-        lines += [row(cost) for cost in (*fit, *series)]
-        for name, costs in (("fitted", fit[1:]), ("cut, swept", swept)):
-            ratio = ratios(costs, base[degree + 1])
-            found[f"{degree} {name}"] = ratio
-            middle, worst = np.median(ratio, axis=0), ratio.max(axis=0)
-            errors = [cost.error for cost in costs]
-            summary.append(
-                f"| order {degree} {name} | P{degree + 1} | {min(errors):.1e} .. {max(errors):.1e} "
-                f"| {middle[0]:.2f} | {worst[0]:.2f} | {middle[1]:.2f} | {worst[1]:.2f} |"
-            )
-    lines += [
-        "",
-        "| manifold | against | energy error | seconds, median | worst | unknowns, median | worst |",
-        "|---|---|---|---|---|---|---|",
-        *summary,
-    ]
-    return {"elements": base, "ratios": found, "lines": lines}
+            if np.isfinite([*ours, *theirs]).all():
+                ratios = f"{ours[0] / theirs[0]:.2f} {ours[1] / theirs[1]:.2f}"
+                print(f"degree {degree}, error {error:.0e}: {ratios}")
+    return found
+
+
+def _report(found: dict[str, list[Cost]], name: str, runs: list[Cost]) -> None:
+    middle = median(runs)
+    found[name].append(middle)
+    worst = max(run.error for run in runs)
+    phases = ", ".join(f"{key} {value:.3f}" for key, value in middle.seconds.items())
+    numbers = f"{middle.unknowns:9,} {middle.error:10.2e} {worst:10.2e} {middle.total:8.3f}"
+    print(f"{name:12} {numbers}  {phases}")
 
 
 if __name__ == "__main__":
-    report = main()
-    text = "\n".join(report["lines"])  # type: ignore[arg-type]
-    print(text)
-    if len(sys.argv) > 1:
-        Path(sys.argv[1]).write_text(text + "\n")
+    main(*(int(item) for item in sys.argv[1:2]))

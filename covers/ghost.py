@@ -11,41 +11,11 @@ from integration.rules import polygon_rule
 
 def neighbours(manifold: Manifold, elements: Ints) -> tuple[Ints, Ints]:
     """Pairs of elements, one of them among ``elements``, that share an edge within a body."""
-    polygons = manifold.elements
-    points, owner = polygons.points + 0.0, polygons.polygon_of_point
-    _, vertex = np.unique(points, axis=0, return_inverse=True)
-    vertex = vertex.ravel()
-    start, end = vertex, vertex[polygons.next_point]
-    n = int(vertex.max(initial=0)) + 1
-    forward, backward = start * n + end, end * n + start
-    order = np.argsort(forward)
-    place = np.minimum(np.searchsorted(forward[order], backward), len(order) - 1)
-    other = order[place]
-    shared = forward[other] == backward
-    mine = np.zeros(len(polygons), dtype=bool)
+    first, second = manifold.shared_edges
+    mine = np.zeros(len(manifold.elements), dtype=bool)
     mine[elements] = True
-    first, second = owner, owner[other]
-    kept = shared & (mine[first] | mine[second]) & ~_parted(manifold, start, end, vertex, n)
-    kept &= (first < second) & (manifold.element_body[first] == manifold.element_body[second])
+    kept = mine[first] | mine[second]
     return first[kept], second[kept]
-
-
-def _extend(manifold: Manifold) -> Bools:
-    """Elements whose fields can be continued beyond them."""
-    found = np.zeros(len(manifold.elements), dtype=bool)
-    for group in manifold.groups:  # a handful of groups
-        found[group.elements] = group.extends
-    return found
-
-
-def _parted(manifold: Manifold, start: Ints, end: Ints, vertex: Ints, n: int) -> Bools:
-    """Edges of elements that are faces of cracks or other boundaries."""
-    edges, polygons = manifold.boundary, manifold.elements
-    table = {tuple(p): v for p, v in zip((polygons.points + 0.0).tolist(), vertex, strict=True)}
-    first = [table.get(tuple(p), -1) for p in (edges.start + 0.0).tolist()]
-    last = [table.get(tuple(p), -1) for p in (edges.end + 0.0).tolist()]
-    keys = np.array(first, dtype=np.int64) * n + np.array(last, dtype=np.int64)
-    return np.isin(start * n + end, keys)
 
 
 def ghost(manifold: Manifold, elements: Ints, weight: Floats, degree: int) -> csc_array:
@@ -86,3 +56,11 @@ def ghost(manifold: Manifold, elements: Ints, weight: Floats, degree: int) -> cs
     jump.sum_duplicates()
     jump.eliminate_zeros()
     return csc_array(jump.T @ (diags_array(np.repeat(factor, 2)) @ jump))
+
+
+def _extend(manifold: Manifold) -> Bools:
+    """Elements whose fields can be continued beyond them."""
+    found = np.zeros(len(manifold.elements), dtype=bool)
+    for group in manifold.groups:  # a handful of groups
+        found[group.elements] = group.extends
+    return found

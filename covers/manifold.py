@@ -14,6 +14,7 @@ from scipy.sparse import csc_array
 from covers.boundary import BoundaryEdges
 from covers.element_groups import ElementGroup
 from covers.rows import Rows, stack_groups
+from covers.shared_edges import shared_edges
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
 
@@ -92,6 +93,11 @@ class Manifold:
             group[part.elements] = number
             index[part.elements] = np.arange(len(part.elements))
         return group, index
+
+    @cached_property
+    def shared_edges(self) -> tuple[Ints, Ints]:
+        """The two elements (p,) of each edge inside a body."""
+        return shared_edges(self.elements, self.element_body, self.boundary)
 
     def rows(self, elements: Ints, points: Floats) -> Rows:
         """Evaluation rows of the displacement at ``points`` (m, 2) in ``elements`` (m,)."""

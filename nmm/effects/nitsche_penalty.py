@@ -36,7 +36,12 @@ def least_penalty(model: Model, place: Place, traction: Floats, ghost: csc_array
     energy, rows = energy[active][:, active], csr_array(rows[:, active])
     scale = 1 / np.sqrt(energy.diagonal())
     scaled = csc_array(diags_array(scale) @ energy @ diags_array(scale))
-    factor = splu(csc_array(scaled + SHIFT * diags_array(np.ones(len(scale)))))
+    factor = splu(
+        csc_array(scaled + SHIFT * diags_array(np.ones(len(scale)))),
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    )
     rows = csr_array(rows @ diags_array(scale))
 
     def product(x: Floats) -> Floats:
