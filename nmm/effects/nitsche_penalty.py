@@ -11,7 +11,8 @@ from nmm.assembly.places import Place
 
 # Part of the diagonal that makes the energy definite for fields without traction.
 SHIFT = 1e-9
-# The form is positive from a penalty of once the ratio on; twice keeps away from the limit.
+# The form is positive from a penalty of once the ratio on; twice keeps away from the
+# limit, and from the tolerance of the estimate.
 SAFETY = 2.0
 
 
@@ -49,7 +50,7 @@ def least_penalty(model: Model, place: Place, traction: Floats, ghost: csc_array
 
     operator = LinearOperator((2 * m, 2 * m), matvec=product, dtype=np.float64)
     start = np.random.default_rng(0).normal(size=2 * m)
-    largest = eigsh(operator, k=1, which="LA", v0=start, tol=1e-2, return_eigenvectors=False)
+    largest = eigsh(operator, k=1, which="LA", v0=start, tol=0.1, return_eigenvectors=False)
     return SAFETY * float(largest[0])
 
 
