@@ -280,5 +280,25 @@ def test_the_faces_of_a_crack_within_one_body_press_on_each_other():
         "contact": {},
     }
     cover = {"type": "quads", "functions": "monomials", "degree": 0, "size": 0.25}
-    found = run(Scene.model_validate(scene), Formulation.model_validate({"cover": cover}))
+    chosen = {"cover": cover, "contact": {"normal_penalty": 100.0}}
+    found = run(Scene.model_validate(scene), Formulation.model_validate(chosen))
     assert found.stress[:, 1] == pytest.approx(-1e5, rel=3e-3)
+
+
+def test_edges_of_materials_without_an_interface_are_no_joints():
+    """Two materials meet for which the scene has no interface, beside a bonded one that it has."""
+    bond = {"friction_angle": 0.5, "cohesion": 1e6, "bonded": True, "between": ["r", "r"]}
+    clay = {"young_modulus": 1e9, "poisson_ratio": 0.2, "density": 2000.0}
+    scene = {
+        "title": "two materials",
+        "plane": "strain",
+        "materials": {**ROCK, "clay": clay},
+        "interfaces": {"i": bond},
+        "blocks": [block("base", -2, -1, 4, 1), {**block("top", 0, 0), "material": "clay"}],
+        "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
+        "gravity": {},
+        "contact": {},
+    }
+    found = run(Scene.model_validate(scene))
+    assert found.history["bonded"].max() == 0
+    assert found.contact_forces[:, 0].sum() == pytest.approx(-2000 * 9.81, rel=1e-6)
