@@ -6,6 +6,7 @@ it when `path` is given and returns the axes.
 
 from nmm.plots.blocks import blocks
 from nmm.plots.contact_forces import contact_forces
+from nmm.plots.covers import covers
 from nmm.plots.curves import curve, history, load_displacement, overview
 from nmm.plots.deformed import deformed, failure_mode
 from nmm.plots.gallery import draw_all
@@ -14,6 +15,7 @@ from nmm.plots.stress import stress
 __all__ = [
     "blocks",
     "contact_forces",
+    "covers",
     "curve",
     "deformed",
     "draw_all",

@@ -4,7 +4,10 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from nmm.plots.contact_forces import contact_forces
+from nmm.plots.covers import covers
 from nmm.plots.curves import load_displacement, overview
 from nmm.plots.deformed import deformed, failure_mode
 from nmm.plots.stress import stress
@@ -12,6 +15,7 @@ from nmm.results.sink import RunData
 
 if TYPE_CHECKING:
     from nmm.scene import Scene
+    from nmm.stepping.covering import Covering
 
 
 def draw_all(
@@ -59,6 +63,9 @@ def draw_all(
     stress(run, component, frame=calm, path=file(f"stress_{component}.png"))
     if len(run.frames[calm].contact_gap):
         contact_forces(run, frame=calm, path=file("contact_forces.png"))
+    covering = _covering(run, scene)
+    if covering is not None and covering.laid is not None and covering.cut is not None:
+        covers(covering.laid, covering.cut, path=file("covers.png"))
     if run.frames[-1].stage != "dynamic" and _moved(run):
         load_displacement(run, path=file("load_displacement.png"))
     if len(run.history):
@@ -77,3 +84,18 @@ def _moved(run: RunData) -> bool:
     return any(
         name.startswith("monitor:") and bool(values.any()) for name, values in run.history.items()
     )
+
+
+def _covering(run: RunData, scene: "Scene | None") -> "Covering | None":
+    """Lay the covers of a stored run again; None for blocks and where scene or text is missing."""
+    text = getattr(run, "formulation", "")
+    if scene is None or not text:
+        return None
+    from nmm.formulation import parse_formulation
+    from nmm.geometry import regions
+    from nmm.stepping.covering import cover_regions
+
+    cover = parse_formulation(text).cover.model_copy(update={"enrichment": None})
+    if cover.of_blocks:
+        return None
+    return cover_regions(regions(scene), cover, [np.array(item.points) for item in scene.cracks])

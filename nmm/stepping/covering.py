@@ -14,6 +14,7 @@ from nmm.errors import FormulationError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from covers.base import Cover as MathematicalCover
     from covers.cut_cells import CutCells
     from covers.enrichment import Enrichment
     from nmm.formulation import Cover
@@ -22,10 +23,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Covering:
-    """A manifold and, for covers that are cut, how the cut left them."""
+    """A manifold and, for covers that are cut, the cover and how the cut left it."""
 
     manifold: Manifold
     cut: "CutCells | None" = None
+    laid: "MathematicalCover | None" = None
 
 
 def cover_regions(
@@ -111,7 +113,7 @@ def _mesh(
     except (ValueError, TypeError, ImportError) as fault:
         raise FormulationError(f"[cover] {fault}") from fault
     extra = [] if cover.enrichment is None else _enrichments(pieces, cover, kappa)
-    return Covering(mesh_manifold(laid, pieces, functions, extra), pieces)
+    return Covering(mesh_manifold(laid, pieces, functions, extra), pieces, laid)
 
 
 def _enrichments(cut: "CutCells", cover: "Cover", kappa: Floats | None) -> "list[Enrichment]":
