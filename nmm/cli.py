@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from nmm.study_verbs import register
+from nmm.study_verbs import register, tell_cost
 from nmm.terminal import (
     FAILED,
     console,
@@ -106,10 +106,14 @@ def check(scene: SceneFile, formulation: FormulationFile = None) -> None:
 
 
 @app.command()
-def explain(scene: SceneFile, formulation: FormulationFile = None) -> None:
+def explain(
+    scene: SceneFile,
+    formulation: FormulationFile = None,
+    cost: Annotated[bool, typer.Option("--cost", help="Also seconds and memory.")] = False,
+) -> None:
     """Say what a scene simulates and what it does not, and how large it is."""
     with faults_told():
-        _explain(scene, formulation)
+        _explain(scene, formulation, cost)
 
 
 @app.command()
@@ -178,7 +182,7 @@ def _run(place: Path, formulation: Path | None, out: Path, quiet: bool) -> None:
         raise typer.Exit(2)
 
 
-def _explain(place: Path, formulation: Path | None) -> None:
+def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
     from rich.markup import escape
     from rich.table import Table
 
@@ -205,6 +209,8 @@ def _explain(place: Path, formulation: Path | None) -> None:
     for line in _sizes(scene, chosen, len(prepared.regions), len(manifold.elements)):
         out.print(line, highlight=False)
     out.print(f"unknowns: {manifold.n_unknowns:,}", highlight=False)
+    if cost:
+        tell_cost(prepared)
     tell_next(f"nmm run {place}")
 
 

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from nmm.formulation import Formulation
     from nmm.scene import Scene
+    from nmm.stepping.simulation import Simulation
     from nmm.verification import Case, Outcome
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene file, TOML.", metavar="SCENE")]
@@ -194,7 +195,55 @@ def study(
         tell_files(files)
 
 
-VERBS = (cost, compare, verify, publish, study)
+def calibrate(
+    check: Annotated[
+        bool, typer.Option(help="Then predict scenes five times larger and run them.")
+    ] = False,
+    quiet: Quiet = False,
+) -> None:
+    """Fit the model of what runs cost on this machine, for `nmm explain --cost`."""
+    with faults_told():
+        _one_thread()
+        from nmm.study import calibrate as work
+        from nmm.study.cost_model import factor, save_model
+
+        with progress_bar(quiet) as progress:
+            model = work.calibrate(progress)
+        typer.echo(save_model(model))
+        typer.echo(
+            f"fitted up to {model.largest:,} unknowns; farthest off by a factor of "
+            f"{model.spread_seconds:.2f} in seconds, {model.spread_memory:.2f} in memory"
+        )
+        for one in work.measured(work.CHECKED) if check else ():
+            spent, said = one.preparing + one.running, model.seconds(one.size)
+            held, told = float(one.memory or 0), model.bytes(one.size)
+            typer.echo(
+                f"{one.name}, {one.size.unknowns:,} unknowns: predicted {said:.3g} s, measured "
+                f"{spent:.3g} s, factor {factor(said, spent):.2f}; predicted {told / 2**20:.0f} "
+                f"MiB, measured {held / 2**20:.0f} MiB, factor {factor(told, held):.2f}"
+            )
+
+
+VERBS = (cost, compare, verify, publish, study, calibrate)
+
+
+def tell_cost(simulation: "Simulation") -> None:
+    """Print what a compiled scene will cost on this machine."""
+    from nmm.study.cost_model import load_model, size_of, steps_of
+
+    model = load_model()
+    if model is None:
+        typer.echo("cost: not known on this machine; measure it once: nmm calibrate")
+        return
+    each = model.passes_a_step if simulation.scene.contact is not None else 1.0
+    steps = steps_of(simulation)
+    one, two = (model.seconds(size_of(simulation, each * n)) for n in (1.0, 2.0))
+    held = model.bytes(size_of(simulation, each))
+    if steps is None:
+        text = f"{one:.2g} s and {two - one:.2g} s for each further step, failure decides how many"
+    else:
+        text = f"{model.seconds(size_of(simulation, each * steps)):.2g} s of {steps:,.0f} steps"
+    typer.echo(f"cost: about {text}; {held / 2**20:.0f} MiB more memory")
 
 
 def register(app: typer.Typer) -> None:

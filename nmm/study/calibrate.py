@@ -1,0 +1,116 @@
+"""Measure small scenes of several kinds on this machine and fit the cost model to them."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from time import process_time
+
+import numpy as np
+
+from nmm.formulation import Formulation
+from nmm.scene import Scene, parse_scene
+from nmm.study.cost_model import CostModel, Measured, fit, size_of
+from nmm.study.measure import Progress, added_memory, machine
+from nmm.study.variants import Case
+
+ROCK = "[materials.rock]\nyoung_modulus = 1e9\npoisson_ratio = 0.2\ndensity = 2000\n"
+JOINT = "[interfaces.joint]\nfriction_angle = 0.5\n"
+BEAM = (
+    'title = "beam"\nplane = "stress"\n'
+    + ROCK
+    + '[[blocks]]\nmaterial = "rock"\nvertices = [[0, 0], [4, 0], [4, 1], [0, 1]]\n'
+    '[[supports]]\nname = "wall"\nsegment = [[0, 0], [0, 1]]\nfix = ["x", "y"]\n'
+    '[[loads]]\nname = "end"\nkind = "edge"\nsegment = [[4, 0], [4, 1]]\ntraction = [0, 1e3]\n'
+)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """One kind of scene at a size: ``covers`` across a beam, or blocks on a side of a wall."""
+
+    name: str
+    cover: str
+    degree: int
+    number: int
+
+    @property
+    def case(self) -> Case:
+        """What is run."""
+        name = f"{self.name} {self.number}"
+        if self.cover == "block":
+            return Case(name, wall(self.number), _walled(self.degree))
+        cover = {"type": self.cover, "degree": self.degree, "size": 1 / self.number}
+        formulation = Formulation.model_validate({"cover": cover})
+        return Case(name, parse_scene(BEAM, "calibration"), formulation)
+
+
+FITTED = (
+    *(Kind("triangles 0", "triangles", 0, n) for n in (4, 8, 16)),
+    *(Kind("triangles 1", "triangles", 1, n) for n in (4, 8, 14)),
+    *(Kind("quads 1", "quads", 1, n) for n in (4, 8, 14)),
+    *(Kind("quads 2", "quads", 2, n) for n in (4, 8)),
+    *(Kind("DDA wall", "block", 1, n) for n in (3, 5, 8)),
+    *(Kind("DDA 2 wall", "block", 2, n) for n in (3, 6)),
+)
+"""Scenes that the model is fitted on."""
+
+CHECKED = (
+    Kind("triangles 0", "triangles", 0, 36),
+    Kind("triangles 1", "triangles", 1, 32),
+    Kind("quads 1", "quads", 1, 32),
+    Kind("DDA wall", "block", 1, 18),
+)
+"""Scenes about five times larger than the largest of their kind, for `check`."""
+
+
+def wall(number: int) -> Scene:
+    """Return a wall of so many square blocks a side that settles under its weight."""
+    blocks = [
+        f'[[blocks]]\nname = "b{i}-{j}"\nmaterial = "rock"\n'
+        f"vertices = [[{i}, {j}], [{i + 1}, {j}], [{i + 1}, {j + 1}], [{i}, {j + 1}]]\n"
+        for i in range(number)
+        for j in range(number)
+    ]
+    held = [
+        f'[[supports]]\nname = "h{i}"\nblock = "b{i}-0"\nfix = ["x", "y"]\n' for i in range(number)
+    ]
+    head = 'title = "wall"\nplane = "stress"\nduration = 0.02\n[gravity]\n[inertia]\n[contact]\n'
+    return parse_scene(head + ROCK + JOINT + "".join(blocks + held), "calibration")
+
+
+def measured(kinds: Sequence[Kind], progress: Progress | None = None) -> Iterator[Measured]:
+    """Yield size and cost of every kind, each after a warm-up and the lesser of two repeats."""
+    from nmm.results.sink import MemorySink
+    from nmm.stepping.simulation import prepare
+
+    for number, kind in enumerate(kinds):
+        if progress is not None:
+            progress(number / len(kinds), kind.case.name)
+        case = kind.case
+        times, sink, simulation = [], MemorySink(), None
+        for _ in range(3):
+            sink = MemorySink()
+            began = process_time()
+            simulation = prepare(case.scene, case.formulation)
+            built = process_time()
+            simulation.run([sink], lambda share, text: None)
+            times.append((built - began, process_time() - built))
+        assert simulation is not None
+        size = size_of(simulation, float(max(sink.summary.passes, 1)))
+        preparing, running = np.min(np.array(times[1:]), axis=0)
+        yield Measured(case.name, size, float(preparing), float(running), added_memory(case))
+
+
+def calibrate(progress: Progress | None = None) -> CostModel:
+    """Fit the model of this machine."""
+    runs = list(measured(FITTED, progress))
+    walls = [one.size.passes for one in runs if "wall" in one.name]
+    return fit(runs, float(np.mean(walls)) / STEPS, machine())
+
+
+STEPS = 20
+"""Steps of a wall: 0.02 s of 1 ms."""
+
+
+def _walled(degree: int) -> Formulation:
+    cover = {"type": "block"} if degree == 1 else {"functions": "monomials", "degree": degree}
+    return Formulation.model_validate({"cover": cover, "integrator": {"step": 1e-3}})
