@@ -9,7 +9,7 @@ from nmm.stepping.recorder import Recorder
 from nmm.stepping.step import Attempt, Stepper
 from nmm.stepping.verdict import CONVERGED, FAILED, RunVerdict
 
-# A step is halved this often before the run is given up: 1/1024 of the chosen step.
+# A step is halved down to this power of two of the chosen step before the run is given up: 1/1024.
 CUTS = 10
 
 
@@ -55,7 +55,7 @@ def run_in_time(
         attempt = _step_or_cut(stepper, state, min(step, end - state.time), schedule)
         if not attempt.converged:
             recorder.frame(state, schedule.stage, contacts)
-            return state, RunVerdict(FAILED, _failure(attempt, state, step))
+            return state, RunVerdict(FAILED, _failure(attempt, state, schedule))
         taken = attempt.state.time - state.time
         after, contacts = stepper.accept(attempt)
         recorder.step(state, attempt, contacts)
@@ -71,7 +71,7 @@ def run_in_time(
 
 
 def _step_or_cut(stepper: Stepper, state: State, step: float, schedule: Schedule) -> Attempt:
-    for length in _halves(step):
+    for length in _halves(step, schedule.step / 2**CUTS):
         end = Instant(state.time + length, schedule.load_factor)
         attempt = stepper.attempt(state, end, length)
         if attempt.converged:
@@ -79,13 +79,16 @@ def _step_or_cut(stepper: Stepper, state: State, step: float, schedule: Schedule
     return attempt
 
 
-def _halves(step: float) -> Iterator[float]:
-    for cut in range(CUTS + 1):
-        yield step / 2**cut
+def _halves(step: float, smallest: float) -> Iterator[float]:
+    """Yield a step, though it be small, and its halves down to the smallest."""
+    yield step
+    while step / 2 >= smallest:
+        step /= 2
+        yield step
 
 
-def _failure(attempt: Attempt, state: State, step: float) -> str:
+def _failure(attempt: Attempt, state: State, schedule: Schedule) -> str:
     return (
-        f"the step at {state.time:.6g} s did not converge, though cut to {step / 2**CUTS:.3g} s: "
-        f"{attempt.sentence}"
+        f"the step at {state.time:.6g} s did not converge, though cut to "
+        f"{schedule.step / 2**CUTS:.3g} s: {attempt.sentence}"
     )

@@ -203,10 +203,12 @@ class Stepper:
             result = self._result(state, end, step, solved.answer.increment)
             far = result.motion
             if far <= reach or solved.stopped or not verdict.converged or far > self._size:
+                good = verdict.converged and far <= self._size and not solved.stopped
+                through = self.plan.contact.passage(state, result.state) if good else ""
                 return replace(
                     result,
-                    converged=verdict.converged and far <= self._size and not solved.stopped,
-                    sentence=verdict.sentence,
+                    converged=good and not through,
+                    sentence=through or verdict.sentence,
                     residual=solved.answer.residual,
                     passes=passes,
                     solved=solved,
