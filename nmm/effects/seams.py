@@ -132,6 +132,8 @@ def _springs(setup: Setup, joints: Joints) -> Floats:
         for axis, own in enumerate((item.normal_stiffness, item.shear_stiffness)):
             if item.bonded:
                 found[chosen, axis] = glue[chosen] if own is None else own
+    # Sub-blocks of one block are the formulation's to tie.
+    found[region[one] == region[two]] = 0.0
     return found
 
 

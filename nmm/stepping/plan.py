@@ -52,6 +52,10 @@ EFFECTS: dict[str, Called] = {
         "nmm.effects.body_loads:BodyLoads", lambda s: any(load.kind == "body" for load in s.loads)
     ),
     "supports": Called("nmm.effects.supports:Supports", lambda s: bool(s.supports)),
+    "seams": Called(
+        "nmm.effects.seams:Seams",
+        lambda s: s.contact is None and any(item.bonded for item in s.interfaces.values()),
+    ),
     "inertia": Called("nmm.effects.inertia:Inertia", lambda s: s.inertia is not None),
     "contact": Called("nmm.effects.contact:Contact", lambda s: s.contact is not None),
 }
