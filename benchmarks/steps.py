@@ -12,7 +12,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 from dataclasses import dataclass
 from itertools import pairwise
-from time import perf_counter
+from time import perf_counter, process_time
 
 import numpy as np
 
@@ -58,12 +58,16 @@ def wall(n_blocks: int, duration: float) -> Scene:
 
 @dataclass(frozen=True)
 class Cost:
-    """Mean seconds a step after the first ones, all and by phase, and passes a step."""
+    """Mean seconds a step after the first ones, all and by phase, and passes a step.
+
+    ``processor`` counts the seconds of this process alone, on a machine that others share.
+    """
 
     blocks: int
     contacts: int
     status: str
     total: float
+    processor: float
     phases: dict[str, float]
     passes: float
 
@@ -73,16 +77,19 @@ def measure(n_blocks: int, enforcement: str, steps: int, penalty: float) -> Cost
     contact = {"enforcement": enforcement, "normal_penalty": penalty}
     scene = wall(n_blocks, steps * 1e-3)
     simulation = prepare(scene, Formulation.model_validate({"contact": contact}))
-    seconds, stamps, marks = simulation.stepper.seconds, [], []
+    seconds, stamps, own, marks = simulation.stepper.seconds, [], [], []
 
     def note(share: float, text: str) -> None:
         stamps.append(perf_counter())
+        own.append(process_time())
         marks.append(dict(seconds))
 
     memory = MemorySink()
     simulation.run([memory], note)
     if len(stamps) <= WARM + 1:
-        return Cost(len(scene.blocks), 0, "failed", np.nan, dict.fromkeys(PHASES, np.nan), np.nan)
+        return Cost(
+            len(scene.blocks), 0, "failed", np.nan, np.nan, dict.fromkeys(PHASES, np.nan), np.nan
+        )
     count = len(stamps) - 1 - WARM
     phases = {name: (marks[-1][name] - marks[WARM][name]) / count for name in PHASES}
     return Cost(
@@ -90,6 +97,7 @@ def measure(n_blocks: int, enforcement: str, steps: int, penalty: float) -> Cost
         len(memory.frames[-1].contact_gap),
         "all converged" if len(stamps) == steps else f"stopped after {len(stamps)}",
         (stamps[-1] - stamps[WARM]) / count,
+        (own[-1] - own[WARM]) / count,
         phases,
         float(np.mean(memory.history["passes"][WARM:])),
     )
@@ -112,11 +120,11 @@ def main() -> None:
         for n_blocks in options.blocks:
             cost = measure(n_blocks, enforcement, options.steps, options.penalty)
             rest = cost.total - sum(cost.phases.values())
-            line = f"{cost.blocks:6d} {cost.contacts:8d} {cost.total:8.4f} "
+            line = f"{cost.blocks:6d} {cost.contacts:8d} {cost.total:8.4f} {cost.processor:8.4f}"
             line += "".join(f"{cost.phases[p]:10.4f}" for p in PHASES)
             line += f"{rest:10.4f} {cost.passes:6.1f}  {cost.status}"
             if last is not None:
-                growth = np.log(cost.total / last.total) / np.log(cost.blocks / last.blocks)
+                growth = np.log(cost.processor / last.processor) / np.log(cost.blocks / last.blocks)
                 line += f", grows as N^{growth:.2f}"
             print(line, flush=True)
             last = cost

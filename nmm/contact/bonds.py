@@ -42,8 +42,8 @@ class Laws:
     shear_bond: float
 
     def limits(self, contacts: ContactPoints) -> Limits:
-        """Return the largest forces of the contacts."""
-        tension, cohesion, friction = (np.empty(len(contacts)) for _ in range(3))
+        """Return the largest forces of the contacts; those without an interface are smooth."""
+        tension, cohesion, friction = (np.zeros(len(contacts)) for _ in range(3))
         for law, index in self._by_law(contacts):
             limits = law.limits(contacts.length[index], contacts.damage[index], self.thickness)
             tension[index], cohesion[index] = limits.tension, limits.cohesion
