@@ -16,6 +16,7 @@ from integration.arrays import Bools, Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.contact.balance import with_springs
 from nmm.contact.bonds import Laws, break_bonds
 from nmm.contact.crossing import find_crossings
 from nmm.contact.dashpots import Dashpots, meeting_mass
@@ -31,13 +32,13 @@ from nmm.contact.joints import Joints, find_joints
 from nmm.contact.memory import Memory
 from nmm.contact.narrow import Contacts, find_contacts, follow
 from nmm.contact.points import ContactPoints, concatenate, rows
-from nmm.contact.problem import StepAnswer, StepProblem
+from nmm.contact.problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.search import NeighbourList
 from nmm.contact.sides import sides
 from nmm.contact.surface import Surface
 from nmm.contact.turns import Turns, slid_under_load
 from nmm.effects.base import Effect, Setup
-from nmm.errors import SceneError
+from nmm.errors import SceneError, SolveError
 from nmm.interfaces.base import INTERFACE_LAWS, InterfaceLaw
 from nmm.interfaces.restitution import damping_of
 from nmm.solvers.linear import LinearSolver
@@ -137,6 +138,7 @@ class Contact(Effect):
         self._interface_of = interface_of
         self._enforcement = enforcement
         self._memory = Memory()
+        self._solved: tuple[StepProblem, StepAnswer] | None = None
         self._sides = sides(model.manifold)
         surface = self._sides.surface(start.frames, start.deformation)
         self._neighbours: NeighbourList | None = None
@@ -228,6 +230,7 @@ class Contact(Effect):
                 self._enforcement.solve(turns.twins.joined(problem), solver, self._memory)
             )
             passes += answer.passes
+            self._solved = (problem, answer)
             if not answer.verdict.converged:
                 return Solved(turns.contacts, answer, passes, loss)
             answer = replace(answer, gap=answer.gap + shift)
@@ -293,9 +296,22 @@ class Contact(Effect):
         side = self._sides.at(contacts.edge_b, contacts.parameter_b)
         return side.place(state.frames, state.deformation)
 
-    def condition(self) -> float | None:
-        """Return nothing yet known of the system with springs."""
-        return None
+    def condition(self, solver: LinearSolver) -> float | None:
+        """Estimate the condition number of the last system with the springs that acted in it."""
+        if self._solved is None:
+            return None
+        problem, answer = self._solved
+        closed = answer.normal_force != 0
+        held = closed & (answer.state != SLIDE)
+        matrix = with_springs(
+            problem,
+            np.where(closed, problem.normal_stiffness, 0.0),
+            np.where(held, problem.shear_stiffness, 0.0),
+        )
+        try:
+            return solver.factorise(matrix).condition()
+        except SolveError:
+            return None
 
     def energy(self, state: State) -> float:
         """Energy of the springs of the contacts as last committed (J)."""

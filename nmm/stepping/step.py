@@ -268,7 +268,7 @@ class Stepper:
         if self._factor is not None:
             return self._factor.condition()
         contact = self.plan.contact
-        return None if contact is None else contact.condition()
+        return None if contact is None else contact.condition(self.solver)
 
     def _spend(self, phase: str, started: float) -> None:
         self.seconds[phase] = self.seconds.get(phase, 0.0) + perf_counter() - started

@@ -130,3 +130,12 @@ def test_unnamed_effects_are_neither_built_nor_imported() -> None:
         "assert not bad, bad\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_the_summary_estimates_the_condition_of_the_system_with_its_joints() -> None:
+    text = BOND.replace('until = "failure"', "until = 0.5")
+    run = nmm.run(nmm.parse_scene(text))
+    found = run.summary.condition_estimate
+    assert found is not None
+    # Supports of 1000 E beside blocks of 1 E, Jacobi-scaled: between 1 and their product squared.
+    assert 1 < found < 1e8
