@@ -20,9 +20,10 @@ from nmm.contact.sides import sides
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.errors import SceneError
 
-# Springs of glue in E / length of the longest edge that elements share: it leaves 1e-6 of it
-# under a strain of one, and bounds the condition number's growth by as much.
-GLUE = 1e6
+# Springs of glue in E / length of the longest edge that elements share: it opens by 1e-4 of that
+# length under a strain of one. At 1e6 the traction along a cut interface oscillates by 10 %, at
+# 1e4 by 1 %.
+GLUE = 1e4
 # Degree of the work of the springs along a seam.
 ORDER = 8
 
