@@ -14,7 +14,6 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
-from nmm.effects.inertia import Inertia
 from nmm.stepping.integrators import Shi
 from nmm.stepping.step import Attempt, Stepper
 
@@ -50,6 +49,9 @@ class Relaxed:
 
 def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) -> Relaxed:
     """Move loose blocks under the loads of ``end`` until they rest; ``names`` (N,) of regions."""
+    # Only scenes with loose blocks come here; the others do not import inertia.
+    from nmm.effects.inertia import Inertia
+
     model = stepper.model
     heavy = replace(model, density=np.where(model.density > 0, model.density, 1.0))
     inertia = Inertia(heavy)
