@@ -43,7 +43,8 @@ from nmm.interfaces.base import INTERFACE_LAWS, InterfaceLaw
 from nmm.interfaces.restitution import damping_of
 from nmm.solvers.linear import LinearSolver
 
-NONE = -1
+# Numbers that stand in for an interface: bodies that never meet, and those that must not.
+NONE, MISSING = -1, -2
 
 # Keys of a scene's interface that every law has, and those that a law need not know.
 ALWAYS = (
@@ -352,7 +353,15 @@ class Contact(Effect):
             self._neighbours = NeighbourList(4 * reach, within_bodies=self._cracked)
         vertex, edge = self._neighbours.update(surface)
         found = find_contacts(surface, vertex, edge, reach, last=self.record.found)
-        meets = self._interfaces(found.vertex, found.edge) != NONE
+        interface = self._interfaces(found.vertex, found.edge)
+        missing = (interface == MISSING) & (found.gap <= 0)
+        if missing.any():
+            x, y = surface.start[found.vertex[missing]][0]
+            raise SceneError(
+                f"[interfaces]: blocks meet at ({x:.6g}, {y:.6g}) whose materials have none: "
+                'expected an interface between the two: add one, or one with between = "any"'
+            )
+        meets = interface >= 0
         return found.take(meets & ~self.record.book.hides(found))
 
     def _interfaces(self, vertex: Ints, edge: Ints) -> Ints:
@@ -364,7 +373,7 @@ class Contact(Effect):
         joints = find_joints(surface)
         interface = self._interfaces(joints.edge_a, joints.edge_b)
         makes = np.array([law.makes_joints for law in self._laws.laws])
-        wanted = makes[interface] & (interface != NONE)
+        wanted = (interface >= 0) & makes[np.maximum(interface, 0)]
         joints = joints.take(wanted)
         bonded = np.array([law.bonded for law in self._laws.laws])[interface[wanted]]
         distance = self._distance(joints)
@@ -404,11 +413,11 @@ def _held_bodies(setup: Setup) -> Bools:
 
 
 def _interface_of_regions(setup: Setup) -> Ints:
-    """Index (N, N) of the interface between any two regions; NONE where the scene has none."""
+    """Index (N, N) of the interface between any two regions; MISSING where the scene has none."""
     materials = list(setup.scene.materials)
     names: Mapping[int, str] = dict(enumerate(materials))
     order = {id(item): number for number, item in enumerate(setup.scene.interfaces.values())}
-    table = np.full((len(materials), len(materials)), NONE)
+    table = np.full((len(materials), len(materials)), MISSING)
     for i, j in np.ndindex(*table.shape):  # pairs of materials
         try:
             table[i, j] = order[id(setup.scene.interface(names[i], names[j]))]
