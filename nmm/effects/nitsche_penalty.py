@@ -50,7 +50,7 @@ def least_penalty(model: Model, place: Place, traction: Floats, ghost: csc_array
 
     operator = LinearOperator((2 * m, 2 * m), matvec=product, dtype=np.float64)
     start = np.random.default_rng(0).normal(size=2 * m)
-    largest = eigsh(operator, k=1, which="LA", v0=start, tol=0.1, return_eigenvectors=False)
+    largest = eigsh(operator, k=1, which="LA", v0=start, tol=1e-2, return_eigenvectors=False)
     return SAFETY * float(largest[0])
 
 

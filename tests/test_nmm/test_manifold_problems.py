@@ -133,7 +133,7 @@ def test_peak_stress_at_a_hole_with_quadratic_covers() -> None:
 
 @pytest.mark.parametrize(
     ("nu", "degree", "inner", "tolerance"),
-    [(0.3, 1, 1.9066666667, 5e-3), (0.49, 1, 1.9966, 5e-3), (0.4999, 2, 1.99996666, 2e-2)],
+    [(0.3, 1, 1.9066666667, 5e-3), (0.49, 1, 1.9966, 8e-3), (0.4999, 2, 1.99996666, 2e-2)],
 )
 def test_thick_cylinder(nu: float, degree: int, inner: float, tolerance: float) -> None:
     t = np.linspace(0, np.pi / 2, 129)
