@@ -27,7 +27,7 @@ from covers.domain import Domain, Segments, domain_of
 from covers.faces import BOUNDARY, CRACK, MESH, Cells, Sources
 from covers.noding import lines_between, node
 from covers.resolution import Resolution, resolution_of
-from covers.touched_cells import cell_boxes, region_of_cells, touched_cells
+from covers.touched_cells import region_of_cells, touched_cells
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons, diameters
 
@@ -128,9 +128,9 @@ def _cut_layer(
     margin = float(size.max())
     cracks = clipped(cracks, low - margin, high + margin)
 
-    boxes, chop = cell_boxes(cover), float(np.median(size))
-    near = touched_cells(cover, boxes, cracks, 3 * tolerance, chop)
-    touched = near | touched_cells(cover, boxes, boundary, TOUCH * resolution.step, chop)
+    chop = float(np.median(size))
+    near = touched_cells(cover, cracks, 3 * tolerance, chop)
+    touched = near | touched_cells(cover, boundary, TOUCH * resolution.step, chop)
     touched |= _at_the_rim(cover)
     cracks = _settled(cover, cracks, boundary, near, tolerance)
     cells = Cells(cover.edges, touched, region_of_cells(cover, domain.shapes, members))

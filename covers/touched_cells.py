@@ -11,16 +11,7 @@ from covers.domain import Segments
 from integration.arrays import Bools, Floats, Ints
 
 
-def cell_boxes(cover: Cover) -> shapely.STRtree:
-    """Search tree of the cells' bounding boxes."""
-    corners = cover.vertices[cover.cell_vertices]
-    low, high = corners.min(axis=1), corners.max(axis=1)
-    return shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
-
-
-def touched_cells(
-    cover: Cover, boxes: shapely.STRtree, lines: Segments, distance: float, size: float
-) -> Bools:
+def touched_cells(cover: Cover, lines: Segments, distance: float, size: float) -> Bools:
     """Cells (C,) nearer than ``distance`` (m) to any of the lines.
 
     Parameters
@@ -34,13 +25,49 @@ def touched_cells(
     pieces = _chopped(lines, size)
     low = np.minimum(pieces[:, 0], pieces[:, 1]) - distance
     high = np.maximum(pieces[:, 0], pieces[:, 1]) + distance
-    piece, cell = boxes.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
-    candidates, row = np.unique(cell, return_inverse=True)
-    shapes = np.asarray(shapely.polygons(cover.vertices[cover.cell_vertices[candidates]]))
+    corners = cover.vertices[cover.cell_vertices]
+    first, last = corners.min(axis=1), corners.max(axis=1)
+    candidates = np.flatnonzero(_near_bins(first, last, low, high, size))
+    if not len(candidates):
+        return touched
+    boxes = shapely.STRtree(_boxes(first[candidates], last[candidates]))
+    piece, row = boxes.query(_boxes(low, high))
+    shapes = np.asarray(shapely.polygons(corners[candidates]))
     chopped = np.asarray(shapely.linestrings(pieces))
     near = np.asarray(shapely.dwithin(chopped[piece], shapes[row], distance))
-    touched[cell[near]] = True
+    touched[candidates[row[near]]] = True
     return touched
+
+
+def _boxes(low: Floats, high: Floats) -> npt.NDArray[np.object_]:
+    return np.asarray(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+
+
+def _near_bins(first: Floats, last: Floats, low: Floats, high: Floats, size: float) -> Bools:
+    """Boxes (C,) from ``first`` to ``last`` that share a bin of a grid with a box of the others.
+
+    Far cheaper than a search tree of all boxes: bins that hold something are counted by sums over
+    rectangles of the grid.
+    """
+    origin, end = first.min(axis=0), last.max(axis=0)
+    # No more bins than about four a cell, however uneven the cells are.
+    least = np.sqrt(float(np.prod(end - origin)) / (4 * len(first)))
+    step = max(size, least, float((end - origin).max()) / (4 * len(first) + 1))
+    shape = np.floor((end - origin) / step).astype(np.int64) + 1
+
+    def bins(points: Floats) -> Ints:
+        found = np.floor((points - origin) / step)
+        return np.asarray(np.clip(found, 0, shape - 1).astype(np.int64))
+
+    filled = np.zeros(shape + 1, dtype=np.int64)
+    (i, j), (k, m) = bins(low).T, bins(high).T + 1
+    for row, column, sign in ((i, j, 1), (k, j, -1), (i, m, -1), (k, m, 1)):
+        np.add.at(filled, (row, column), sign)
+    held = filled.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0
+    total = np.zeros(shape + 1, dtype=np.int64)
+    total[1:, 1:] = held.cumsum(axis=0).cumsum(axis=1)
+    (i, j), (k, m) = bins(first).T, bins(last).T + 1
+    return np.asarray(total[k, m] - total[i, m] - total[k, j] + total[i, j] > 0)
 
 
 def region_of_cells(cover: Cover, shapes: npt.NDArray[np.object_], regions: Ints) -> Ints:
