@@ -42,6 +42,7 @@ def cost(
         str | None, typer.Option(help="What error is taken of; the scene's first [[reference]].")
     ] = None,
     repeats: Annotated[int, typer.Option(min=1, help="Counted repeats of each run.")] = 3,
+    memory: Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")] = True,
     out: Out = None,
     quiet: Quiet = False,
 ) -> None:
@@ -61,6 +62,7 @@ def cost(
                 quantity,
                 repeats,
                 progress,
+                memory,
             )
         files = write_cost_report(study, out or Path("runs") / f"{scene.stem}-cost")
         lost = sum(not one.valid for one in study.records)
@@ -211,7 +213,7 @@ def calibrate(
             model = work.calibrate(progress)
         typer.echo(save_model(model))
         typer.echo(
-            f"fitted up to {model.largest:,} unknowns; farthest off by a factor of "
+            f"fitted up to {max(model.largest.values()):,} unknowns; farthest off by a factor of "
             f"{model.spread_seconds:.2f} in seconds, {model.spread_memory:.2f} in memory"
         )
         for one in work.measured(work.CHECKED) if check else ():
@@ -235,15 +237,16 @@ def tell_cost(simulation: "Simulation") -> None:
     if model is None:
         typer.echo("cost: not known on this machine; measure it once: nmm calibrate")
         return
-    each = model.passes_a_step if simulation.scene.contact is not None else 1.0
     steps = steps_of(simulation)
-    one, two = (model.seconds(size_of(simulation, each * n)) for n in (1.0, 2.0))
-    held = model.bytes(size_of(simulation, each))
+    one, two = (model.seconds(size_of(simulation, n)) for n in (1.0, 2.0))
+    size = size_of(simulation, steps or 1.0)
     if steps is None:
         text = f"{one:.2g} s and {two - one:.2g} s for each further step, failure decides how many"
     else:
-        text = f"{model.seconds(size_of(simulation, each * steps)):.2g} s of {steps:,.0f} steps"
-    typer.echo(f"cost: about {text}; {held / 2**20:.0f} MiB more memory")
+        text = f"{model.seconds(size):.2g} s of {steps:,.0f} steps"
+    typer.echo(f"cost: about {text}; {model.bytes(size) / 2**20:.0f} MiB more memory")
+    if size.unknowns > 5 * model.largest[size.kind]:
+        typer.echo(f"cost: fitted up to {model.largest[size.kind]:,} unknowns: read it as a guess")
 
 
 def register(app: typer.Typer) -> None:

@@ -37,6 +37,7 @@ def cost_study(
     name: str | None = None,
     repeats: int = 3,
     progress: Progress | None = None,
+    memory: bool = True,
 ) -> CostStudy:
     """Run a scene under every formulation at every setting.
 
@@ -54,11 +55,15 @@ def cost_study(
         One that no ``[[reference]]`` names is measured against an extrapolated value.
     repeats
         Counted repeats of each run.
+    progress
+        Called with the share done and what is run.
+    memory
+        Whether memory is measured, in a process of its own for each case.
     """
     stated = stated_reference(scene, name)
     quantity = name or (stated.quantity if stated else "energy")
     cases = cases_of(scene, formulations, vary)
-    records = measure(cases, [quantity], repeats, progress=progress)
+    records = measure(cases, [quantity], repeats, memory, progress)
     reference = stated or extrapolated_reference(records, quantity)
     return CostStudy(scene.title, records, reference)
 

@@ -3,7 +3,7 @@
 import json
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -30,29 +30,33 @@ class Size:
         Entries of all element matrices, ``sum L^2``.
     edges
         Boundary edges that contact is searched among; 0 without contact.
-    passes
-        Linear systems that are solved.
+    steps
+        Steps or load increments. Contact passes are not told beforehand; their usual number is in
+        the coefficients.
     """
 
     elements: int
     unknowns: int
     entries: int
     edges: int
-    passes: float
+    steps: float
+
+    @property
+    def kind(self) -> str:
+        """Runs with and without contact are fitted apart."""
+        return "contact" if self.edges else "alone"
 
     def preparation(self) -> Floats:
         """Terms of the seconds of geometry, covers and effects."""
         return np.array([1.0, self.elements, self.entries, self.edges])
 
     def running(self) -> Floats:
-        """Terms of the seconds of the run: once, and for each pass.
+        """Terms of the seconds of the run: once, and for each step.
 
         Factors of a plane mesh in nested dissection take ``N^1.5`` operations (George 1973).
         """
-        n, p = float(self.unknowns), self.passes
-        return np.array(
-            [1.0, self.entries, n**1.5, p, p * self.entries, p * n, p * n**1.5, p * self.edges]
-        )
+        n, s = float(self.unknowns), self.steps
+        return np.array([1.0, s, s * self.entries, s * n, s * n**1.5, s * self.edges])
 
     def storage(self) -> Floats:
         """Terms of the memory; factors of a plane mesh hold ``N log N`` numbers (George 1973)."""
@@ -72,40 +76,44 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class CostModel:
-    """Coefficients, none negative, of the terms of `Size`, and how well they fit.
-
-    Attributes
-    ----------
-    preparing, running, memory
-        Coefficients.
-    passes_a_step
-        Contact passes a step, as measured.
-    spread_seconds, spread_memory
-        Largest factor between fit and measurement.
-    largest
-        Unknowns of the largest scene it was fitted on.
-    machine
-        Where.
-    """
+class Coefficients:
+    """Coefficients of the terms of `Size`, none negative."""
 
     preparing: tuple[float, ...]
     running: tuple[float, ...]
     memory: tuple[float, ...]
-    passes_a_step: float
+
+
+@dataclass(frozen=True)
+class CostModel:
+    """Coefficients by kind of run, and how well they fit.
+
+    Attributes
+    ----------
+    coefficients
+        By `Size.kind`.
+    spread_seconds, spread_memory
+        Largest factor between fit and measurement.
+    largest
+        Unknowns of the largest scene of each kind it was fitted on.
+    machine
+        Where.
+    """
+
+    coefficients: Mapping[str, Coefficients]
     spread_seconds: float
     spread_memory: float
-    largest: int
+    largest: Mapping[str, int]
     machine: str
 
     def seconds(self, size: Size) -> float:
         """Processor seconds of a whole run."""
-        run = float(size.running() @ self.running)
-        return float(size.preparation() @ self.preparing) + run
+        of = self.coefficients[size.kind]
+        return float(size.preparation() @ of.preparing) + float(size.running() @ of.running)
 
     def bytes(self, size: Size) -> float:
-        """Bytes that a run adds to the process at its peak."""
-        return float(size.storage() @ self.memory)
+        """Bytes that a run adds to a fresh process at its peak."""
+        return float(size.storage() @ self.coefficients[size.kind].memory)
 
     def to_json(self) -> str:
         """Return the model as JSON."""
@@ -115,39 +123,42 @@ class CostModel:
     def from_json(cls, text: str) -> Self:
         """Read a model back."""
         values: dict[str, Any] = json.loads(text)
-        for name in ("preparing", "running", "memory"):
-            values[name] = tuple(values[name])
+        values["coefficients"] = {
+            kind: Coefficients(**{name: tuple(many) for name, many in of.items()})
+            for kind, of in values["coefficients"].items()
+        }
         return cls(**values)
 
 
-def fit(measured: Sequence[Measured], passes_a_step: float, machine: str) -> CostModel:
+def fit(measured: Sequence[Measured], machine: str) -> CostModel:
     """Fit all coefficients so that relative errors are least.
 
     Raises
     ------
     NmmError
-        When there are too few measurements.
+        When there are too few measurements of a kind.
     """
-    stored = [one for one in measured if one.memory]
-    if len(measured) < 4 or len(stored) < 2:
-        raise NmmError(f"cost model: {len(measured)} measurements: expected at least 4: run more")
-    preparing = _fit([one.size.preparation() for one in measured], [o.preparing for o in measured])
-    running = _fit([one.size.running() for one in measured], [one.running for one in measured])
-    memory = _fit([one.size.storage() for one in stored], [float(o.memory or 0) for o in stored])
-    model = CostModel(
-        preparing,
-        running,
-        memory,
-        passes_a_step,
-        1.0,
-        1.0,
-        max(one.size.unknowns for one in measured),
-        machine,
-    )
+    kinds = {
+        one.size.kind: [o for o in measured if o.size.kind == one.size.kind] for one in measured
+    }
+    coefficients = {kind: _coefficients(kind, many) for kind, many in kinds.items()}
+    largest = {kind: max(one.size.unknowns for one in many) for kind, many in kinds.items()}
+    model = CostModel(coefficients, 1.0, 1.0, largest, machine)
     seconds = [factor(model.seconds(one.size), one.preparing + one.running) for one in measured]
-    held = [factor(model.bytes(one.size), float(one.memory or 0)) for one in stored]
-    return CostModel(
-        **{**_fields(model), "spread_seconds": max(seconds), "spread_memory": max(held)}
+    held = [factor(model.bytes(one.size), float(one.memory)) for one in measured if one.memory]
+    return replace(model, spread_seconds=max(seconds), spread_memory=max(held, default=1.0))
+
+
+def _coefficients(kind: str, measured: Sequence[Measured]) -> Coefficients:
+    if len(measured) < 4:
+        raise NmmError(
+            f"cost model, {kind}: {len(measured)} measurements: expected at least 4: run more"
+        )
+    stored = [one for one in measured if one.memory]
+    return Coefficients(
+        _fit([one.size.preparation() for one in measured], [one.preparing for one in measured]),
+        _fit([one.size.running() for one in measured], [one.running for one in measured]),
+        _fit([one.size.storage() for one in stored], [float(one.memory or 0) for one in stored]),
     )
 
 
@@ -157,14 +168,14 @@ def factor(one: float, other: float) -> float:
     return high / low if low > 0 else float("inf")
 
 
-def size_of(simulation: "Simulation", passes: float) -> Size:
+def size_of(simulation: "Simulation", steps: float) -> Size:
     """Count what a compiled scene will cost."""
     manifold = simulation.stepper.model.manifold
     entries = sum(
         group.unknowns.shape[0] * group.unknowns.shape[1] ** 2 for group in manifold.groups
     )
     edges = len(manifold.boundary.start) if simulation.scene.contact is not None else 0
-    return Size(len(manifold.elements), manifold.n_unknowns, int(entries), edges, passes)
+    return Size(len(manifold.elements), manifold.n_unknowns, int(entries), edges, steps)
 
 
 def steps_of(simulation: "Simulation") -> float | None:
@@ -209,7 +220,3 @@ def _fit(rows: Sequence[Floats], values: Sequence[float]) -> tuple[float, ...]:
     scale = np.where((top := relative.max(axis=0)) > 0, top, 1.0)
     found, _ = nnls(relative / scale, np.ones(len(target)))
     return tuple(float(value) for value in found / scale)
-
-
-def _fields(model: CostModel) -> Mapping[str, Any]:
-    return {name: getattr(model, name) for name in CostModel.__dataclass_fields__}

@@ -76,6 +76,7 @@ def cost_page(study: CostStudy, picture: str) -> str:
         *_section("Observed orders", _orders(study)),
         *_section("Where the runs go", _limits(study)),
         *_section("Failed runs", _failed(study)),
+        *_section("Time by effect", _effects(study)),
         *_section("Cost at equal error", levels(study)),
         *_section("How it was measured", _conditions(study)),
     ]
@@ -163,6 +164,17 @@ def _limits(study: CostStudy) -> list[str]:
         f"{(limit.value - reference.value) / (abs(reference.value) or 1.0):+.2e} from the reference"
         for name, limit in reference.limits.items()
     ]
+
+
+def _effects(study: CostStudy) -> list[str]:
+    """Wall-clock seconds of the dearest run of each formulation by effect."""
+    lines = []
+    for many in study.by_formulation().values():
+        one = _finest(many)
+        spent = ", ".join(f"{effect} {seconds:.2g} s" for effect, seconds in one.effects.items())
+        if spent:
+            lines.append(f"- {one.label}: {spent}")
+    return lines
 
 
 def _failed(study: CostStudy) -> list[str]:
