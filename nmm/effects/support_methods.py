@@ -288,5 +288,10 @@ def _on_line(points: Floats, size: float, degree: int) -> Floats:
 
 
 def _triplets(unknowns: Ints, matrices: Floats) -> Triplets:
+    if len(unknowns) > 1:
+        # Points of one element follow one another: they make one matrix.
+        new = np.concatenate([[True], (unknowns[1:] != unknowns[:-1]).any(axis=1)])
+        first = np.flatnonzero(new)
+        unknowns, matrices = unknowns[first], np.add.reduceat(matrices, first, axis=0)
     row = np.repeat(unknowns[:, :, None], unknowns.shape[1], axis=2)
     return row.ravel(), np.swapaxes(row, 1, 2).ravel(), matrices.ravel()
