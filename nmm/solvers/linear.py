@@ -255,19 +255,26 @@ def ruiz_scale(matrix: csc_array, sweeps: int = 3) -> Floats:
 
 
 def _scaled(matrix: csc_array, scale: Floats, shift: float) -> csc_array:
-    columns = np.repeat(scale, np.diff(matrix.indptr))
-    data = matrix.data * scale[matrix.indices] * columns
+    """``diag(scale) matrix diag(scale)`` plus ``shift`` on the diagonal; zeros keep their place."""
+    counts = np.diff(matrix.indptr)
+    data = matrix.data * scale[matrix.indices] * np.repeat(scale, counts)
     scaled = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
     if shift:
-        from scipy.sparse import eye_array
+        diagonal = np.flatnonzero(matrix.indices == np.repeat(np.arange(len(scale)), counts))
+        if len(diagonal) == len(scale):
+            data[diagonal] += shift
+        else:
+            from scipy.sparse import eye_array
 
-        scaled = csc_array(scaled + shift * eye_array(len(scale)))
+            scaled = csc_array(scaled + shift * eye_array(len(scale)))
     return scaled
 
 
 SOLVERS: Registry[type[LinearSolver]] = Registry(
     "solver",
     {
+        "auto": "nmm.solvers.auto:Auto",
+        "cholesky": "nmm.solvers.cholesky:Cholesky",
         "superlu": "nmm.solvers.superlu:SuperLU",
         "qdldl": "nmm.solvers.qdldl:Qdldl",
     },
@@ -282,7 +289,7 @@ def make_solver(name: str = "auto", options: Mapping[str, Any] | None = None) ->
     FormulationError
         When the name or an option is not known.
     """
-    kind = SOLVERS.load("superlu" if name == "auto" else name)
+    kind = SOLVERS.load(name)
     known = [item.name for item in fields(kind)]
     for key in options or {}:
         if key not in known:

@@ -1,0 +1,37 @@
+"""The solver that costs least: chosen by size and by what is imported already."""
+
+import sys
+from dataclasses import dataclass
+from typing import ClassVar
+
+from scipy.sparse import csc_array
+
+from nmm.solvers.linear import Decomposition, LinearSolver
+from nmm.solvers.superlu import SuperLU
+
+FEW, MANY = 60, 20000
+"""Unknowns below which, and from which on, compiled code never or always pays."""
+
+
+@dataclass(frozen=True)
+class Auto(LinearSolver):
+    """Cholesky's factorisation where compiled code is at hand or pays its import, else SuperLU."""
+
+    name: ClassVar[str] = "auto"
+
+    def decompose(self, matrix: csc_array) -> Decomposition:
+        """Factorise a scaled matrix; `RankDeficientError` at a zero pivot."""
+        n = matrix.shape[0]
+        if n >= MANY or (n >= FEW and "numba" in sys.modules):
+            from nmm.solvers.cholesky import Cholesky
+
+            return Cholesky(self.refinements, self.shift).decompose(matrix)
+        return SuperLU(self.refinements, self.shift).decompose(matrix)
+
+    def indefinite(self) -> SuperLU:
+        """SuperLU, which searches pivots."""
+        return SuperLU(self.refinements, self.shift).indefinite()
+
+    def unsymmetric(self) -> SuperLU:
+        """SuperLU, which searches pivots."""
+        return SuperLU(self.refinements, self.shift).unsymmetric()

@@ -1,0 +1,86 @@
+"""Dense kernels of LAPACK and BLAS for compiled code, through scipy's own pointers.
+
+Addresses are arguments of the compiled functions, so these can be kept on disk.
+"""
+
+import ctypes
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from typing import Any
+
+import numpy as np
+from llvmlite import ir  # type: ignore[import-untyped]
+from numba import types
+from numba.extending import get_cython_function_address, intrinsic
+
+from integration.arrays import Ints
+
+VERBS = ("set", "get")
+
+
+@cache
+def addresses() -> Ints:
+    """Return the addresses of dpotrf, dtrsm and dsyrk, which compiled code takes as arguments."""
+    found = [
+        get_cython_function_address("scipy.linalg.cython_lapack", "dpotrf"),
+        get_cython_function_address("scipy.linalg.cython_blas", "dtrsm"),
+        get_cython_function_address("scipy.linalg.cython_blas", "dsyrk"),
+    ]
+    return np.array(found, dtype=np.int64)
+
+
+def _caller(count: int) -> Any:
+    """Intrinsic ``call(address, p_1, ..., p_count)`` of a C function that takes pointers."""
+
+    def call(typing: Any, address: Any, pointers: Any) -> Any:
+        def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            byte = ir.IntType(8).as_pointer()
+            kind = ir.FunctionType(ir.VoidType(), [byte] * count)
+            function = builder.inttoptr(arguments[0], kind.as_pointer())
+            values = [builder.extract_value(arguments[1], i) for i in range(count)]
+            builder.call(function, [builder.inttoptr(value, byte) for value in values])
+            return context.get_dummy_value()
+
+        return types.void(address, pointers), build
+
+    return intrinsic(call)
+
+
+call5 = _caller(5)
+call10 = _caller(10)
+call11 = _caller(11)
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Keep OpenBLAS from starting threads: fronts are too small for them (6 times slower)."""
+    setter, getter = _thread_control()
+    if setter is None or getter is None:
+        yield
+        return
+    before = getter()
+    setter(1)
+    try:
+        yield
+    finally:
+        setter(before)
+
+
+@cache
+def _thread_control() -> tuple[Any, Any]:
+    """Setter and getter of the number of threads in scipy's OpenBLAS; None where unknown."""
+    import scipy.linalg.cython_blas as module
+
+    try:
+        library = ctypes.CDLL(module.__file__)
+    except OSError:
+        return None, None
+    for name in ("scipy_openblas_{}_num_threads", "openblas_{}_num_threads"):
+        for suffix in ("", "64_"):
+            try:
+                setter, getter = (getattr(library, name.format(v) + suffix) for v in VERBS)
+                return setter, getter
+            except AttributeError:
+                continue
+    return None, None
