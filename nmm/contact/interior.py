@@ -100,9 +100,12 @@ class InteriorPoint:
                     best = replace(best, springs=springs, increment=end.increment, size=end.size)
             if best.size <= tolerance or not np.isfinite(point.increment).all():
                 break
+            kappa = _gap(point, self)
+            # Contacts that can neither open nor slide leave a linear step: there is no path.
+            if kappa <= 0:
+                break
             system = _Linearised(self, point)
             factorisations, solves = factorisations + 1, solves + 2
-            kappa = _gap(point, self)
             affine = system.step(tuple(-x * y for x, y in point.pairs()))
             ahead = self._length(point, affine)
             shrink = (_gap(point.moved(affine, ahead), self) / kappa) ** 3
