@@ -52,7 +52,7 @@ class Barrier(Enforcement):
     name: ClassVar[str] = "barrier"
     width: float | None = None
     max_passes: int = 100
-    tolerance: float = 1e-8
+    tolerance: float = 1e-7
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
