@@ -31,8 +31,8 @@ class Series:
 
     Attributes
     ----------
-    error, seconds, unknowns, memory
-        One value a run.
+    error, seconds, counts, memory
+        One value a run; counts are of what ``counted`` of `work_precision` says.
     on_front
         Whether no run of any formulation is better in both error and seconds.
     valid
@@ -45,7 +45,7 @@ class Series:
 
     error: Sequence[float]
     seconds: Sequence[float]
-    unknowns: Sequence[float]
+    counts: Sequence[float]
     memory: Sequence[float]
     on_front: Sequence[bool]
     valid: Sequence[bool]
@@ -60,9 +60,10 @@ def work_precision(
     title: str = "",
     error_name: str = "relative error",
     uncertainty: float = 0.0,
+    counted: str = "unknowns",
     path: PathLike | None = None,
 ) -> "list[Axes]":
-    """Draw four panels: error against seconds, unknowns and memory; where the time goes.
+    """Draw four panels: error against seconds, counts and memory; where the time goes.
 
     Parameters
     ----------
@@ -72,12 +73,14 @@ def work_precision(
         Above the figure, and on the axis of the errors.
     uncertainty
         Relative uncertainty of the reference; errors below it mean nothing and are shaded.
+    counted
+        What the runs are counted by: "unknowns", or "steps" where those do not differ.
     path
         File to save the figure in.
     """
     rows = len(series)
     panels = axes_grid(2, 2, 6.2 + 0.17 * rows + 0.14 * max(rows - 4, 0))
-    costs = (("seconds", "processor seconds"), ("unknowns", "unknowns"), ("memory", "memory (MiB)"))
+    costs = (("seconds", "processor seconds"), ("counts", counted), ("memory", "memory (MiB)"))
     shades = colours([one.family for one in series.values()])
     for axes, (what, words) in zip(panels, costs, strict=False):
         for number, one in enumerate(series.values()):
@@ -126,6 +129,8 @@ def _scales(axes: "Axes") -> None:
     from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
     if not any(np.size(line.get_xdata()) for line in axes.lines):
+        axes.text(0.5, 0.5, "not measured", ha="center", color="#777777", transform=axes.transAxes)
+        axes.set(xticks=[], yticks=[])
         return
     axes.set(xscale="log", yscale="log")
     # Less than two decades of cost: numbers are read better than powers of ten.
@@ -139,7 +144,7 @@ def _scales(axes: "Axes") -> None:
 
 
 def _shade(axes: "Axes", uncertainty: float) -> None:
-    if uncertainty > 0:
+    if uncertainty > 0 and axes.get_yscale() == "log":
         low, high = axes.get_ylim()
         low = min(low, uncertainty / 2)
         axes.axhspan(low, uncertainty, color="#00000014", linewidth=0, zorder=0)

@@ -30,11 +30,13 @@ def draw(study: CostStudy, path: Path) -> None:
     from nmm.plots.work_precision import Series, work_precision
 
     on_front = _front(study)
+    sizes = {one.unknowns for one in study.records if one.unknowns}
+    counted = "unknowns" if len(sizes) > 1 else "steps"
     series = {
         name: Series(
             error=_errors(study, many),
             seconds=[one.median_seconds for one in many],
-            unknowns=[float(one.unknowns or np.nan) for one in many],
+            counts=[float(getattr(one, counted) or np.nan) for one in many],
             memory=[float(one.memory or np.nan) for one in many],
             on_front=[id(one) in on_front for one in many],
             valid=[one.valid for one in many],
@@ -49,6 +51,7 @@ def draw(study: CostStudy, path: Path) -> None:
     work_precision(
         series,
         title=study.title,
+        counted=counted,
         error_name=f"relative error of {reference.quantity.replace('_', ' ')}",
         uncertainty=reference.uncertainty / size if reference.extrapolated else 0.0,
         path=path,

@@ -47,6 +47,10 @@ def observed_order(sizes: Sequence[float], errors: Sequence[float]) -> Order:
     return Order(float(slope), float(student.ppf(0.975, n - 2) * deviation), n)
 
 
+# Orders above this one, seen in three values, are often chance: they lessen no uncertainty.
+TRUSTED = 2.0
+
+
 @dataclass(frozen=True)
 class Extrapolated:
     """A value beyond the finest run, with its uncertainty."""
@@ -74,8 +78,10 @@ def richardson(sizes: Sequence[float], values: Sequence[float]) -> Extrapolated:
     if first / second <= np.log(h[0] / h[1]) / np.log(h[1] / h[2]) * (1 + 1e-9):
         return Extrapolated(float(f[2]), float(max(abs(first), abs(second))), float("nan"))
     p = _order_of(h, first / second)
-    correction = second / ((h[1] / h[2]) ** p - 1)
-    return Extrapolated(float(f[2] + correction), float(abs(correction)), p)
+    ratio = h[1] / h[2]
+    correction = second / (ratio**p - 1)
+    doubt = second / (ratio ** min(p, TRUSTED) - 1)
+    return Extrapolated(float(f[2] + correction), float(abs(doubt)), p)
 
 
 def _order_of(h: "np.ndarray[tuple[int], np.dtype[np.float64]]", ratio: float) -> float:

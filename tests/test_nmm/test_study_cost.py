@@ -213,3 +213,10 @@ def test_the_verb_takes_formulations_sizes_and_settings(tmp_path):
     assert result.exit_code == 0, result.output
     assert "4 cases, 0 failed" in result.stdout
     assert (tmp_path / "cost.png").exists()
+
+
+def test_an_order_that_is_too_good_lessens_no_uncertainty():
+    # changes of 1 and 1/16: order 4; at the order 2 that is trusted the doubt is (1/16) / 3
+    found = richardson([1, 0.5, 0.25], [0.0, 1.0, 1.0625])
+    assert found.order == pytest.approx(4)
+    assert found.uncertainty == pytest.approx(1 / 48)
