@@ -66,3 +66,23 @@ def monitor(name: str, point: Corner | Floats, block: str) -> str:
 def scene(head: str, tables: Iterable[str]) -> str:
     """Return a whole scene file."""
     return "\n".join([head, *tables])
+
+
+def box(name: str, low: Corner, size: Corner, material: str = "rock") -> str:
+    """Table of an upright rectangular block with its lower left corner at ``low``."""
+    return block(name, material, rectangle(low, (low[0] + size[0], low[1] + size[1])))
+
+
+def floor(friction: float = 30.0) -> list[str]:
+    """Tables of a held floor of rock, 4 m wide with its top at y = 0, and of all contacts."""
+    return [interface("contact", friction), box("floor", (-2, -1), (4, 1)), held("floor")]
+
+
+def weighty(step: float | None = None, duration: float = 0.2, penalty: float = 100.0) -> str:
+    """Head of a scene in plane stress with gravity and contact: statics without a ``step`` (s)."""
+    time = "" if step is None else f"duration = {duration!r}\n[inertia]\n"
+    rule = "" if step is None else f"[formulation.integrator]\nstep = {step!r}\n"
+    return (
+        f'plane = "stress"\n{time}[gravity]\n[contact]\n'
+        f"[formulation.contact]\nnormal_penalty = {penalty!r}\n{rule}"
+    )

@@ -1,0 +1,95 @@
+"""The answer does not depend on where the axes are, how blocks are numbered, or on the unit."""
+
+import numpy as np
+import pytest
+
+from nmm.scene import parse_scene
+from nmm.stepping.run import run
+from nmm.verification import text
+from nmm.verification.reading import last_way
+
+SLOPE = np.radians(30)
+# Half of g (sin 30 - cos 30 tan 20) times 0.5 s squared.
+SLID = 1.81281473 * 0.125
+
+
+def on_slope(friction, dynamic, turn=0.0, shift=(0.0, 0.0), scale=1.0, order=(0, 1)):
+    """A block of 1 m on a slope; way down the slope and away from it, and forces, in metres."""
+    stretch = np.sqrt(scale)
+
+    def place(low, high):
+        return scale * text.turned(text.rectangle(low, high), SLOPE + turn) + shift
+
+    base, block = place((0, -1), (6, 0)), place((4, 0), (5, 1))
+    down = text.turned(np.array([[0.0, -text.G]]), turn)[0].tolist()
+    time = f"duration = {float(0.5 * stretch)!r}\n[inertia]\n" if dynamic else ""
+    blocks = [text.block("base", "rock", base), text.block("block", "rock", block)]
+    scene = text.scene(
+        f'plane = "strain"\n{time}[contact]\n[gravity]\nacceleration = {down}\n'
+        "[formulation.contact]\nnormal_penalty = 100.0\n"
+        f"[formulation.integrator]\nstep = {float(0.01 * stretch)!r}\n",
+        [
+            text.material("rock", modulus=20e9 * scale),
+            text.interface("slope", friction),
+            *(blocks[number] for number in order),
+            text.held("base"),
+            text.monitor("toe", block[0], "block"),
+        ],
+    )
+    found = run(parse_scene(scene))
+    assert found.summary.status == "converged", found.summary.sentence
+    way = text.turned(last_way(found, "toe")[None], -SLOPE - turn)[0] / scale
+    return way, found.contact_forces.sum(axis=0) / scale**2
+
+
+CHANGES = {
+    "turned by 0.7": {"turn": 0.7},
+    "turned by 90 degrees": {"turn": np.pi / 2},
+    "numbered backwards": {"order": (1, 0)},
+    "a thousand times as large": {"scale": 1e3},
+    "a thousandth as large": {"scale": 1e-3},
+}
+
+
+@pytest.fixture(scope="module")
+def plain():
+    return {
+        (friction, dynamic): on_slope(friction, dynamic)
+        for friction, dynamic in ((20.0, True), (40.0, False))
+    }
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_a_sliding_block_goes_the_same_way(change, plain):
+    way, force = on_slope(20.0, True, **change)
+    # Rounding of coordinates over penetrations, 1e-16 over 6e-9, through 50 steps.
+    assert way == pytest.approx(plain[20.0, True][0], abs=1e-10)
+    assert force == pytest.approx(plain[20.0, True][1], rel=1e-6)
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_a_resting_block_gives_way_the_same(change, plain):
+    way, force = on_slope(40.0, False, **change)
+    # The same 1e-16, a few of them, of ways of 1e-8.
+    assert way == pytest.approx(plain[40.0, False][0], abs=1e-14)
+    assert force == pytest.approx(plain[40.0, False][1], rel=1e-8)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+def test_a_block_a_thousand_kilometres_from_the_origin_slides_the_same_way(turn):
+    way, force = on_slope(20.0, True, turn, shift=(1e6, -1e6))
+    # Coordinates are rounded to 1e-10 there, a fiftieth of the penetration.
+    assert way[0] == pytest.approx(-SLID, abs=2e-7 + 1e-9)
+    assert abs(way[1]) < 2e-8
+    weight = 2600 * text.G * np.cos(SLOPE)
+    # The last step of Shi's rule overshoots by 0.1 %.
+    assert -force == pytest.approx([weight, weight * np.tan(np.radians(20))], rel=2e-3)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+def test_a_block_a_thousand_kilometres_from_the_origin_rests(turn):
+    _, force = on_slope(40.0, False, turn, shift=(1e6, -1e6))
+    weight = 2600 * text.G
+    expected = [weight * np.cos(SLOPE), weight * np.sin(SLOPE)]
+    # The sum is balanced by the solution to 1e-8, wherever the block is.
+    assert -force == pytest.approx(expected, rel=1e-6)
