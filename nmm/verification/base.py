@@ -54,6 +54,9 @@ class Check:
 
 Checks = dict[str, Check]
 
+EXACT = ("augmented", "lagrange", "cone")
+"""Formulations whose contacts do not give way."""
+
 
 def limit(computed: float, reference: float, reason: str) -> Check:
     """Return the check that ``computed`` is at most ``reference``."""

@@ -16,6 +16,7 @@ CHOICES: dict[str, dict[str, dict[str, Any]]] = {
     "augmented": {"contact": {"enforcement": "augmented"}},
     "lagrange": {"contact": {"enforcement": "lagrange"}},
     "cone": {"contact": {"enforcement": "cone"}},
+    "barrier": {"contact": {"enforcement": "barrier"}},
 }
 
 

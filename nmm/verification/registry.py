@@ -33,6 +33,7 @@ CASES = Registry[type[Case]](
         "B10 cone": f"{_HOME}.friction:Cone",
         "C4": f"{_HOME}.friction:Strength",
         "B11 penetration": f"{_HOME}.enforcement:Penetration",
+        "B11 rounds": f"{_HOME}.enforcement:Rounds",
         "D4": f"{_HOME}.enforcement:Groove",
         "B9 damping": f"{_HOME}.time_integration:SpringBlock",
         "B9 order": f"{_HOME}.time_integration:Order",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 
 from nmm.verification import text
-from nmm.verification.base import Check, Checks, SceneCase, limit
+from nmm.verification.base import EXACT, Case, Check, Checks, SceneCase, limit
 from nmm.verification.reading import joint_force
 from nmm.verification.text import G
 
@@ -24,7 +24,7 @@ class Penetration(SceneCase):
     name: ClassVar[str] = "B11 penetration"
     title: ClassVar[str] = "Penetration of a block at rest"
     source: ClassVar[str] = "Balance: 2 p g = m g"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda", "open-close")
+    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda", "open-close", *EXACT)
     penalty: float = 100.0
 
     @classmethod
@@ -86,7 +86,7 @@ class Groove(SceneCase):
     name: ClassVar[str] = "D4"
     title: ClassVar[str] = "Square in a right-angled groove, penalty from E to 1e6 E"
     source: ClassVar[str] = "Each flank carries W / sqrt(2)"
-    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda")
+    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda", *EXACT)
     penalty: float = 100.0
 
     @classmethod
@@ -129,3 +129,61 @@ class Groove(SceneCase):
         }
         residual = run.summary.equilibrium_residual or 0.0
         return {**checks, "residual": limit(residual, 1e-8, "the benchmark's")}
+
+
+@dataclass(frozen=True)
+class Rounds(Case):
+    """The augmented Lagrangian presses a spring of stiffness k: the force after n rounds."""
+
+    name: ClassVar[str] = "B11 rounds"
+    title: ClassVar[str] = "Rounds of the augmented Lagrangian"
+    source: ClassVar[str] = "lambda_n = F (1 - (k / (k + p))^n)"
+    formulations: ClassVar[tuple[str, ...]] = ("augmented",)
+    ratio: float = 1.0
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return penalties from a tenth to ten times the spring."""
+        return [cls(0.1), cls(1.0), cls(10.0)]
+
+    @property
+    def variant(self) -> str:
+        """The penalty over the spring."""
+        return f"p / k {self.ratio:g}"
+
+    def checks(self, formulation: str) -> Checks:
+        """Compare the contact force after one to four rounds."""
+        reason = "the benchmark's"
+        found = {}
+        for count in (1, 2, 3, 4):
+            expected = 1.0 - (1 / (1 + self.ratio)) ** count
+            found[f"force after {count} rounds over F"] = Check(
+                self._force(count), expected, 1e-10, reason
+            )
+        return found
+
+    def _force(self, rounds: int) -> float:
+        """Push on a body on a spring of 1 N/m that 1 N presses against a wall."""
+        from scipy.sparse import csc_array, csr_array
+
+        from nmm.contact.augmented import Augmented
+        from nmm.contact.problem import Limits, StepProblem
+        from nmm.solvers.linear import make_solver
+
+        one, none = np.ones(1), np.zeros(1)
+        problem = StepProblem(
+            matrix=csc_array(np.diag([1.0, 1.0])),
+            force=np.array([0.0, -1.0]),
+            normal_rows=csr_array(np.array([[0.0, 1.0]])),
+            tangent_rows=csr_array(np.array([[1.0, 0.0]])),
+            gap=none,
+            slip=none,
+            normal_stiffness=one,
+            shear_stiffness=one,
+            limits=Limits(none, none, none),
+            state=np.zeros(1, dtype=np.int64),
+            normal_force=none,
+            shear_force=none,
+        )
+        method = Augmented(scale=self.ratio, growth=1.0, max_rounds=rounds, rescue=0)
+        return -float(method.solve(problem, make_solver("auto", {})).normal_force[0])

@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.verification import text
-from nmm.verification.base import Case, Check, Checks, SceneCase
+from nmm.verification.base import EXACT, Case, Check, Checks, SceneCase
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ class ForcedCycle(Case):
     name: ClassVar[str] = "B10 enforcement"
     title: ClassVar[str] = "Cyclic shear of one contact"
     source: ClassVar[str] = "T = clip(T + kt du, -mu N, mu N) over the way it took"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "open-close")
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "open-close", *EXACT)
 
     def checks(self, formulation: str) -> Checks:
         """Compare every step with the elastic-plastic spring, and the last loop with 84 J."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.verification import text
-from nmm.verification.base import Check, Checks, SceneCase, holds, limit
+from nmm.verification.base import EXACT, Check, Checks, SceneCase, holds, limit
 from nmm.verification.reading import converged, joint_force, last_way, masses, rates, way
 from nmm.verification.text import G
 
@@ -161,7 +161,7 @@ class Sliding(SceneCase):
     name: ClassVar[str] = "B2"
     title: ClassVar[str] = "Block sliding down a slope"
     source: ClassVar[str] = "s = a t^2 / 2 with a = g (sin alpha - cos alpha tan phi)"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", "newmark")
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", "newmark", *EXACT)
     slope: float = 30.0
     friction: float = 20.0
     step: float = 0.01

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 
 from nmm.verification import text
-from nmm.verification.base import Check, Checks, SceneCase, holds
+from nmm.verification.base import EXACT, Check, Checks, SceneCase, holds
 from nmm.verification.reading import converged, joint_force, last_way
 from nmm.verification.text import G
 
@@ -29,7 +29,7 @@ class Stack(SceneCase):
     name: ClassVar[str] = "B12 stack"
     title: ClassVar[str] = "Stack of five blocks"
     source: ClassVar[str] = "Balance of weights"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "rigid", "degree 2")
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "rigid", "degree 2", *EXACT)
     shape: str = "tapered"
     heights: tuple[float, ...] = (1.0, 0.5, 2.0, 0.25, 1.0)
     widths: tuple[float, ...] = (2.0, 1.5, 1.0, 0.75, 0.5)
