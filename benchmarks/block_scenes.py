@@ -1,6 +1,7 @@
 """Walls and piles of blocks as contact problems, rows built by hand: no search, no scene."""
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from scipy.sparse import block_diag, csc_array, csr_array
@@ -34,9 +35,11 @@ class Scene:
 
     @property
     def matrix(self) -> csc_array:
+        """Inertia and elasticity of a step."""
         return csc_array(2 / self.step**2 * self.mass + self.stiffness)
 
     def load(self, lateral: float) -> np.ndarray:
+        """Weight and a lateral acceleration (m/s2)."""
         force = np.zeros((len(self.volume), 6))
         force[:, 0] = DENSITY * self.volume * lateral
         force[:, 1] = -DENSITY * self.volume * GRAVITY
@@ -49,17 +52,19 @@ def wall(n_blocks: int, penalty: float = 1.0, step: float = 1e-3, **options: flo
     per_row = max(2, round(n_blocks / rows))
     boxes, level = [], []
     for row in range(rows):
-        cuts = np.arange(per_row + 1) * 0.5 if row % 2 == 0 else np.r_[
-            0, 0.25 + np.arange(per_row) * 0.5, per_row * 0.5
-        ]
-        boxes += [(a, row * 0.25, b, row * 0.25 + 0.25) for a, b in zip(cuts, cuts[1:])]
+        cuts = (
+            np.arange(per_row + 1) * 0.5
+            if row % 2 == 0
+            else np.r_[0, 0.25 + np.arange(per_row) * 0.5, per_row * 0.5]
+        )
+        boxes += [(a, row * 0.25, b, row * 0.25 + 0.25) for a, b in pairwise(cuts)]
         level += [row] * (len(cuts) - 1)
     boxes, level = np.array(boxes), np.array(level)
     polygons = [np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]) for x0, y0, x1, y1 in boxes]
     a, b, start, end = [], [], [], []
     by_level = [np.flatnonzero(level == row) for row in range(rows)]
     for row, members in enumerate(by_level):
-        for left, right in zip(members, members[1:]):
+        for left, right in pairwise(members):
             a.append(right), b.append(left)
             x, y0, y1 = boxes[left, 2], boxes[left, 1], boxes[left, 3]
             start.append((x, y1)), end.append((x, y0))
@@ -120,12 +125,18 @@ def _cells(points: np.ndarray, side: float) -> tuple[list, list, np.ndarray]:
 
 
 def _scene(
-    polygons: list, joints: Joints, penalty: float, step: float, friction: float = FRICTION,
+    polygons: list,
+    joints: Joints,
+    penalty: float,
+    step: float,
+    friction: float = FRICTION,
     damping: float = 1.0,
 ) -> Scene:
     area, centre, second = np.array([_moments(p) for p in polygons], dtype=object).T
     area, centre = area.astype(float), np.array(list(centre))
-    mass = block_diag([DENSITY * _mass(a, s) for a, s in zip(area, second)], format="csc")
+    mass = block_diag(
+        [DENSITY * _mass(a, s) for a, s in zip(area, second, strict=True)], format="csc"
+    )
     factor = YOUNG / (1 - POISSON**2)
     plane = factor * np.array([[1, POISSON, 0], [POISSON, 1, 0], [0, 0, (1 - POISSON) / 2]])
     elastic = []
@@ -184,8 +195,10 @@ def _moments(p: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
     p, q = p - centre, q - centre
     cross = p[:, 0] * q[:, 1] - q[:, 0] * p[:, 1]
     xx, yy = ((p**2 + p * q + q**2) * cross[:, None]).sum(axis=0) / 12
-    xy = ((2 * p[:, 0] * p[:, 1] + p[:, 0] * q[:, 1] + q[:, 0] * p[:, 1] + 2 * q[:, 0] * q[:, 1])
-          * cross).sum() / 24
+    xy = (
+        (2 * p[:, 0] * p[:, 1] + p[:, 0] * q[:, 1] + q[:, 0] * p[:, 1] + 2 * q[:, 0] * q[:, 1])
+        * cross
+    ).sum() / 24
     return area, centre, np.array([xx, yy, xy])
 
 

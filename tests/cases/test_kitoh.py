@@ -35,9 +35,9 @@ def test_130_blocks_fail_in_the_stated_range_whatever_the_increment(beams: Modul
 def test_ensemble_has_the_stated_means_scatter_crack_and_independence(beams: ModuleType) -> None:
     found = beams.main(seeds=(1, 2, 3, 4, 5))
     loads = {n: np.array([one.load for one in many]) for n, many in found["beams"].items()}
-    assert 8.6 <= loads[130].min()
+    assert loads[130].min() >= 8.6
     assert loads[130].max() <= 11
-    assert 8.4 <= loads[455].min()
+    assert loads[455].min() >= 8.4
     assert loads[455].max() <= 10.2
     assert loads[130].mean() >= loads[455].mean()
     for many in loads.values():
