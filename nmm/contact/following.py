@@ -1,5 +1,6 @@
 """Contact points from step to step: joints keep their place, the others are found anew."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,6 +12,9 @@ from nmm.contact.points import ContactPoints, concatenate
 from nmm.contact.problem import BONDED, BROKEN, OPEN, StepAnswer
 from nmm.contact.sides import tangents
 from nmm.contact.surface import Surface
+
+# From points to where their sides a are from their sides b (m, 2).
+Apart = Callable[[ContactPoints], Floats]
 
 # A broken joint whose faces have slid by this share of its length is left to the search.
 SLID = 0.05
@@ -45,11 +49,10 @@ class JointBook:
         alive = np.isin(self.pair_joint, self.joint)
         return np.isin(found.key, self.pairs[alive])
 
-    def now(self, surface: Surface) -> ContactPoints:
+    def now(self, surface: Surface, apart_of: Apart) -> ContactPoints:
         """Return the points with gap, slip and normal of the moved surface."""
         p = self.points
-        normal = surface.normal[p.edge_b]
-        apart = _on(surface, p.edge_a, p.parameter_a) - _on(surface, p.edge_b, p.parameter_b)
+        normal, apart = surface.normal[p.edge_b], apart_of(p)
         stretch = np.einsum("ij,ij->i", apart, tangents(normal))
         held = p.damage < 1
         return replace(
@@ -59,14 +62,13 @@ class JointBook:
             slip=np.where(held, stretch - p.slid, p.slip),
         )
 
-    def keep(self, points: ContactPoints, surface: Surface) -> "JointBook":
+    def keep(self, points: ContactPoints, surface: Surface, apart_of: Apart) -> "JointBook":
         """Return the book with the answer's points; joints that came apart are given up."""
-        apart = _on(surface, points.edge_a, points.parameter_a)
-        apart = apart - _on(surface, points.edge_b, points.parameter_b)
+        apart = apart_of(points)
         far = np.hypot(apart[:, 0], apart[:, 1]) > SLID * points.length
         lost = far & (points.damage >= 1)
         gone = np.isin(self.joint, self.joint[lost]) & (points.damage >= 1)
-        before = _turned(self.lost, surface)
+        before = _turned(self.lost, surface, apart_of)
         if not gone.any():
             return replace(self, points=points, lost=before)
         zero = np.zeros(int(gone.sum()))
@@ -204,12 +206,16 @@ def answered(
     )
 
 
-def _turned(points: ContactPoints, surface: Surface) -> ContactPoints:
+def _turned(points: ContactPoints, surface: Surface, apart_of: Apart) -> ContactPoints:
     """Return points with the normal and gap of the moved surface."""
-    normal = surface.normal[points.edge_b]
-    apart = _on(surface, points.edge_a, points.parameter_a)
-    apart = apart - _on(surface, points.edge_b, points.parameter_b)
+    normal, apart = surface.normal[points.edge_b], apart_of(points)
     return replace(points, normal=normal, gap=np.einsum("ij,ij->i", apart, normal))
+
+
+def apart_on(surface: Surface, points: ContactPoints) -> Floats:
+    """Where sides a of points are from sides b (m, 2), on the chords of the edges."""
+    side_a = _on(surface, points.edge_a, points.parameter_a)
+    return np.asarray(side_a - _on(surface, points.edge_b, points.parameter_b))
 
 
 def _on(surface: Surface, edge: Ints, parameter: Floats) -> Floats:

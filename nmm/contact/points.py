@@ -1,6 +1,7 @@
 """Contact points of a step: where they are, what gap and slip they have, which rows move them."""
 
 from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -8,6 +9,9 @@ from scipy.sparse import csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import Frames
 from nmm.contact.sides import Sides
+
+if TYPE_CHECKING:
+    from nmm.contact.stations import Stations
 
 
 @dataclass(frozen=True)
@@ -85,21 +89,25 @@ def concatenate(parts: list[ContactPoints]) -> ContactPoints:
 
 
 def rows(
-    contacts: ContactPoints, sides: Sides, frames: Frames, n_unknowns: int
+    contacts: ContactPoints,
+    sides: Sides,
+    frames: Frames,
+    n_unknowns: int,
+    stations: "Stations | None" = None,
 ) -> tuple[csr_array, csr_array]:
     """Return the normal and tangent rows (m, n_unknowns): ``gap += N d``, ``slip += T d``.
 
-    Both have the same sorted pattern.
+    Both have the same sorted pattern. Joints act at their ``stations``, or on chords without.
     """
     from nmm.contact.rows import side_rows
 
     columns, *values = side_rows(
-        sides.start.rows.unknowns,
-        sides.start.rows.values,
-        sides.end.rows.values,
+        sides.start.rows.unknowns if stations is None else stations.unknowns,
+        sides.start.rows.values if stations is None else stations.start,
+        sides.end.rows.values if stations is None else stations.end,
         frames.rotation,
-        sides.start.body,
-        (contacts.edge_a, contacts.edge_b),
+        sides.start.body if stations is None else stations.body,
+        (contacts.edge_a, contacts.edge_b) if stations is None else stations.rows_of(contacts),
         (contacts.parameter_a, contacts.parameter_b),
         contacts.normal,
     )

@@ -6,7 +6,7 @@ other contacts are found by search as bodies move. Both are contact points of on
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, Literal, Self
 
 import numpy as np
@@ -22,8 +22,10 @@ from nmm.contact.crossing import find_crossings
 from nmm.contact.dashpots import Dashpots, meeting_mass
 from nmm.contact.enforcement import Enforcement, make_enforcement
 from nmm.contact.following import (
+    Apart,
     JointBook,
     answered,
+    apart_on,
     joint_book,
     remember,
     searched_points,
@@ -35,6 +37,7 @@ from nmm.contact.points import ContactPoints, concatenate, rows
 from nmm.contact.problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.search import NeighbourList
 from nmm.contact.sides import sides
+from nmm.contact.stations import Stations
 from nmm.contact.surface import Surface
 from nmm.contact.turns import Turns, slid_under_load
 from nmm.effects.base import Effect, Setup
@@ -146,6 +149,7 @@ class Contact(Effect):
         self._last: Contacts | None = None
         self._known: tuple[State, Surface] | None = None
         self.record = ContactRecord(self._follow_joints(surface, stations))
+        self._stations = Stations.of(self._sides, self.record.book.points)
         self._unbonded = self.record.book.broken
 
     @classmethod
@@ -180,7 +184,7 @@ class Contact(Effect):
         """Return the contact points of a step in which no point moves further than ``reach``."""
         surface = self._surface(state)
         record = self.record
-        joints = record.book.now(surface)
+        joints = record.book.now(surface, self._apart(state))
         found = self._search(surface, 2 * reach)
         new = searched_points(found, self._interfaces(found.vertex, found.edge))
         if record.found is not None and record.known is not None:
@@ -204,7 +208,9 @@ class Contact(Effect):
         ends there and is no equilibrium. ``step`` is its length (s), None in statics.
         """
         n_unknowns = self._model.manifold.n_unknowns
-        normal_rows, tangent_rows = rows(contacts, self._sides, state.frames, n_unknowns)
+        normal_rows, tangent_rows = rows(
+            contacts, self._sides, state.frames, n_unknowns, self._stations
+        )
         turns = Turns(self._laws, contacts)
         nowhere = np.zeros(len(contacts), dtype=bool)
         passes, loss = 0, 0.0
@@ -264,7 +270,7 @@ class Contact(Effect):
         done = answered(solved.contacts, solved.answer, bonded, solved.sliding)
         surface = self._surface(state)
         self.record = ContactRecord(
-            book=self.record.book.keep(done.take(done.is_joint), surface),
+            book=self.record.book.keep(done.take(done.is_joint), surface, self._apart(state)),
             found=self._last,
             known=done.take(~done.is_joint),
         )
@@ -276,7 +282,7 @@ class Contact(Effect):
         start = self._surface(before)
         end = self._sides.surface(after.frames, after.deformation)
         vertex, edge = self._neighbours.update(start)
-        meets = self._interfaces(vertex, edge) != NONE
+        meets = self._interfaces(vertex, edge) >= 0
         found = find_crossings(start, end, (vertex[meets], edge[meets]))
         if not len(found):
             return ""
@@ -347,6 +353,12 @@ class Contact(Effect):
         if self._known is None or self._known[0] is not state:
             self._known = state, self._sides.surface(state.frames, state.deformation)
         return self._known[1]
+
+    def _apart(self, state: State) -> Apart:
+        """How far apart the sides of joints are in a state."""
+        if self._stations is None:
+            return partial(apart_on, self._surface(state))
+        return partial(self._stations.apart, frames=state.frames, deformation=state.deformation)
 
     def _search(self, surface: Surface, reach: float) -> Contacts:
         if self._neighbours is None or self._neighbours.skin < 2 * reach:
