@@ -54,6 +54,9 @@ class Check:
 
 Checks = dict[str, Check]
 
+MESHES = ("finite elements", "manifold")
+"""Formulations whose covers are triangles of half a metre."""
+
 EXACT = ("augmented", "lagrange", "cone")
 """Formulations whose contacts do not give way."""
 

@@ -5,11 +5,15 @@ from typing import Any
 from nmm.errors import FormulationError
 from nmm.formulation import Formulation
 
+_POLYNOMIALS = {"functions": "monomials"}
+
 CHOICES: dict[str, dict[str, dict[str, Any]]] = {
     "dda": {},
     "rigid": {"cover": {"functions": "rigid"}},
     "degree 2": {"cover": {"functions": "monomials", "degree": 2}},
     "degree 3": {"cover": {"functions": "monomials", "degree": 3}},
+    "finite elements": {"cover": {"type": "triangles", "size": 0.5, **_POLYNOMIALS, "degree": 0}},
+    "manifold": {"cover": {"type": "triangles", "size": 0.5, **_POLYNOMIALS, "degree": 1}},
     "classical": {"rotation": {"update": "linear"}},
     "newmark": {"integrator": {"type": "newmark"}},
     "open-close": {"contact": {"options": {"iteration": "open_close"}}},

@@ -60,6 +60,16 @@ def joint_force(run: "Run", point: Floats, normal: Floats) -> Floats:
     return np.asarray(frame.contact_force[near & along].sum(axis=0))
 
 
+def current_areas(run: "Run") -> Floats:
+    """Area (E,) of the elements at the end (m2)."""
+    return areas(run.manifold.elements.with_points(run.stepper.place(run.state)))
+
+
+def mean_stress(run: "Run") -> Floats:
+    """Stress (3,) at the end, averaged over all elements (Pa)."""
+    return np.asarray(np.average(run.stress, axis=0, weights=areas(run.manifold.elements)))
+
+
 def converged(run: "Run") -> bool:
     """Whether the run came to its end."""
     return run.summary.status == "converged"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 
 from nmm.verification import text
-from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.base import MESHES, Check, Checks, SceneCase
 from nmm.verification.reading import last_way, way
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ class JointedColumn(SceneCase):
     name: ClassVar[str] = "B18 column"
     title: ClassVar[str] = "Column with joints of given stiffness"
     source: ClassVar[str] = "Springs in series"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2")
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", *MESHES)
     joints: ClassVar[int] = 4
     stress: ClassVar[float] = -1e6
     modulus: ClassVar[float] = 1e10
@@ -60,10 +60,12 @@ class JointedColumn(SceneCase):
         short = last_way(run, "top")[1] - last_way(run, "foot")[1]
         length = self.joints + 1
         expected = self.stress * (length / self.modulus + self.joints / self.stiffness)
-        checks = {"shortening (m)": Check(short, expected, 1e-7, ROUNDING)}
-        for number, stress in enumerate(run.stress[:, 1]):
-            checks[f"stress in block {number} (Pa)"] = Check(stress, self.stress, 1e-7, ROUNDING)
-        return checks
+        stress = run.stress[:, 1]
+        return {
+            "shortening (m)": Check(short, expected, 1e-7, ROUNDING),
+            "smallest stress (Pa)": Check(float(stress.min()), self.stress, 1e-7, ROUNDING),
+            "largest stress (Pa)": Check(float(stress.max()), self.stress, 1e-7, ROUNDING),
+        }
 
 
 @dataclass(frozen=True)
