@@ -161,7 +161,10 @@ class Sliding(SceneCase):
     name: ClassVar[str] = "B2"
     title: ClassVar[str] = "Block sliding down a slope"
     source: ClassVar[str] = "s = a t^2 / 2 with a = g (sin alpha - cos alpha tan phi)"
-    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", "newmark", *EXACT, "finite elements")
+    formulations: ClassVar[tuple[str, ...]] = (
+        *("dda", "degree 2", "newmark", "finite elements"),
+        *EXACT,
+    )
     slope: float = 30.0
     friction: float = 20.0
     step: float = 0.01
