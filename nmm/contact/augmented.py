@@ -4,11 +4,12 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from nmm.contact.answer import answer, singular_answer
-from nmm.contact.cone import interior_round
+from nmm.contact.cone import exact_round
 from nmm.contact.enforcement import Enforcement
 from nmm.contact.memory import Memory
 from nmm.contact.problem import StepAnswer, StepProblem
 from nmm.contact.rounds import converged_rounds, first_round, rounds_verdict, stiff_springs
+from nmm.contact.settle import Budget
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
 
@@ -54,15 +55,19 @@ class Augmented(Enforcement):
         problem.check()
         memory = memory or Memory()
         at = first_round(stiff_springs(problem, self.scale))
+        budget = Budget(interior=0) if self.rescue else Budget()
         try:
             at = converged_rounds(
-                at, linear_solver, memory, self.tolerance, self.max_rounds, self.growth
+                at, linear_solver, memory, self.tolerance, self.max_rounds, self.growth, budget
             )
         except SolveError as fault:
             return singular_answer(at.settled.springs, linear_solver, fault)
         how = f"{at.count} rounds"
         if self.rescue and not at.meets(self.tolerance):
-            at = interior_round(at, linear_solver, memory, self.tolerance, self.rescue)
-            how = f"{how}, then {at.settled.story}"
+            soft = stiff_springs(problem, 10.0)
+            at, rest = exact_round(
+                soft, linear_solver, memory, self.tolerance, factorisations=self.rescue
+            )
+            how = f"{how}, then {rest}"
         verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, how)
         return answer(at.settled, linear_solver, verdict)

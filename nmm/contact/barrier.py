@@ -41,7 +41,7 @@ class Barrier(Enforcement):
     Attributes
     ----------
     width
-        ``w`` (m); None takes a hundredth of what the largest contact force of the first step
+        ``w`` (m); None takes a thousandth of what the largest contact force of the first step
         would press into its contact (compliance times force).
     max_passes
         Most Newton steps for one bound, and most updates of the bound.
@@ -67,7 +67,7 @@ class Barrier(Enforcement):
             return singular_answer(springs, linear_solver, fault)
         force = max(float(np.abs(f).max(initial=0.0)) for f in springs.forces(rough.increment))
         ease = float(np.mean(compliances(problem)[0])) if problem.n_contacts else 1.0
-        width = self.width or memory.barrier_width or 1e-2 * force * ease or 1e-2 * ease
+        width = self.width or memory.barrier_width or 1e-3 * force * ease or 1e-3 * ease
         memory.barrier_width = width
         well = _Potential(problem, memory.pattern_of(problem), width, max(force, width / ease))
         return _Descent(self, well, linear_solver).run(rough, memory)

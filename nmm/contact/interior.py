@@ -22,6 +22,10 @@ from nmm.solvers.linear import Factor, LinearSolver
 
 NEAR = 0.99
 """Part of the way to the boundary that a step may take."""
+JAM = 0.1
+"""Length of a step after which the next one only recentres."""
+PATIENCE, ROUGH = 10, 1e-6
+"""Steps without halving a defect below `ROUGH` after which rounding has the last word."""
 SOFT = 1e-6
 """Compliance left to exact contacts in the matrix, as a part of their spring's."""
 
@@ -86,7 +90,8 @@ class InteriorPoint:
         size = max(springs.defect(start.increment).size, self._jump(springs, point))
         best = Settled(springs, start.increment, size, 0, 0, "")
         factorisations = solves = 0
-        tried = 1.0
+        tried = mark = 1.0
+        idle, length = 0, 1.0
         for _ in range(budget):
             springs = self._springs(point)
             size = max(springs.defect(point.increment).size, self._jump(springs, point))
@@ -100,6 +105,10 @@ class InteriorPoint:
                     best = replace(best, springs=springs, increment=end.increment, size=end.size)
             if best.size <= tolerance or not np.isfinite(point.increment).all():
                 break
+            idle = 0 if best.size < 0.5 * mark else idle + 1
+            mark = best.size if idle == 0 else mark
+            if idle > PATIENCE and best.size < ROUGH:
+                break
             kappa = _gap(point, self)
             # Contacts that can neither open nor slide leave a linear step: there is no path.
             if kappa <= 0:
@@ -109,14 +118,21 @@ class InteriorPoint:
             affine = system.step(tuple(-x * y for x, y in point.pairs()))
             ahead = self._length(point, affine)
             shrink = (_gap(point.moved(affine, ahead), self) / kappa) ** 3
-            centre = kappa * min(max(shrink, 1e-8), 1.0)
-            along = 1.0 if ahead > 0.1 else 0.0
+            jammed = length < JAM
+            centre = kappa * (1.0 if jammed else min(max(shrink, 1e-8), 1.0))
+            along = 1.0 if ahead > JAM and not jammed else 0.0
             targets = tuple(
                 centre - along * dx * dy - x * y
                 for (x, y), (dx, dy) in zip(point.pairs(), affine.pairs(), strict=True)
             )
             step = system.step(targets)
-            point = point.moved(step, min(1.0, NEAR * self._length(point, step)))
+            length = min(1.0, NEAR * self._length(point, step))
+            point = point.moved(step, length)
+        if best.size > tolerance:
+            end = polish(best.springs, self.pattern, self.linear, best.increment, tolerance)
+            factorisations, solves = factorisations + end.factorisations, solves + end.solves
+            if end.size < best.size:
+                best = replace(best, increment=end.increment, size=end.size)
         story = f"interior point with {factorisations} factorisations"
         return replace(best, solves=solves, factorisations=factorisations, story=story)
 
@@ -145,15 +161,15 @@ class InteriorPoint:
         p = np.maximum(pull - normal, typical)
         gap = springs.problem.gaps(increment) - (normal - start.springs.normal_shift) * soft_n
         normal = np.where(self.can_open, pull - p, normal)
-        w = np.maximum(gap, typical * soft_n)
+        w = np.maximum(gap, typical**2 * soft_n / p)
         bound = np.where(self.bounded, self.bound(normal, p, w), 0.0)
-        shear = np.where(self.bounded, np.clip(shear, -0.9 * bound, 0.9 * bound), shear)
+        shear = np.where(self.bounded, np.clip(shear, -0.5 * bound, 0.5 * bound), shear)
         shear = np.where(self.smooth, 0.0, shear)
         over = springs.problem.slips(increment) - (shear - start.springs.shear_shift) * soft_t
-        u = np.maximum(over, 0) + typical * soft_t
-        v = np.maximum(-over, 0) + typical * soft_t
         a = np.maximum(bound - shear, 1e-3 * typical)
         b = np.maximum(bound + shear, 1e-3 * typical)
+        u = np.maximum(over, 0) + typical**2 * soft_t / a
+        v = np.maximum(-over, 0) + typical**2 * soft_t / b
         return Point(increment, normal, shear, p, w, a, u, b, v)
 
     def bound(self, normal: Floats, p: Floats, w: Floats) -> Floats:

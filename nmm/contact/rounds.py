@@ -21,11 +21,6 @@ FAILURES = 2
 """Rounds that may miss their own tolerance before the iteration is given up."""
 
 
-STALL = 10.0
-"""Many contacts on few unknowns are redundant; what they share settles last, a digit above the
-aim (walls of 100 to 1 000 bricks stall at 2e-8 of the load)."""
-
-
 @dataclass(frozen=True)
 class Round:
     """Where the rounds stand.
@@ -60,7 +55,7 @@ def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
     """(m,) compliance ``c = g^T diag(K)^-1 g`` (m/N) of normal and tangent rows ``g``.
 
     Only unknowns that the matrix holds count. Where there are none or their hold is weak the
-    problem's stiffness ``k`` stands in, so that ``c <= 100 / k``; where that is the joint's own,
+    problem's stiffness ``k`` stands in, so that ``c <= 1e4 / k``; where that is the joint's own,
     ``c = 1 / k``.
     """
     diagonal = problem.matrix.diagonal()
@@ -74,7 +69,7 @@ def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
         (normal, problem.normal_stiffness),
         (shear, problem.shear_stiffness),
     ):
-        largest = np.where(compliance > 0, np.minimum(compliance, 100 / stiffness), 1 / stiffness)
+        largest = np.where(compliance > 0, np.minimum(compliance, 1e4 / stiffness), 1 / stiffness)
         found.append(np.where(own, 1 / stiffness, largest))
     return found[0], found[1]
 
@@ -192,16 +187,12 @@ def converged_rounds(
 def rounds_verdict(
     at: Round, linear: LinearSolver, memory: Memory, tolerance: float, how: str
 ) -> Verdict:
-    """Verdict on balance and on what the multipliers still lack; ``how`` they were found.
-
-    The iteration aims at ``tolerance``; `STALL` times as much is accepted where it stalled before,
-    and the answer's residual says which it was.
-    """
+    """Verdict on balance and on what the multipliers still lack; ``how`` they were found."""
     found = replace(at.settled, story=f"{how}, {at.settled.solves} solves")
-    verdict = judge(found, linear, memory, STALL * tolerance)
+    verdict = judge(found, linear, memory, tolerance)
     if not verdict.converged:
         return verdict
-    if at.error > STALL * tolerance:
+    if at.error > tolerance:
         sentence = (
             f"gaps of {at.gap:.1e} m left after {how}, {at.error:.1e} of what the largest force "
             "would press in: allow more rounds, raise the scale or shorten the step"

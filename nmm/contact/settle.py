@@ -16,8 +16,6 @@ SMALL = 120
 """Unknowns up to which Newton's method is tried first."""
 FEW = 200
 """Contacts up to which it is tried first from a start that is near."""
-NEAR = 1e-5
-"""Relative out-of-balance force from which Newton's method is tried after the interior point."""
 FINE = 1e-13
 """Relative out-of-balance force at which Newton's method need not go on."""
 RESIGNED = 20
@@ -96,7 +94,8 @@ def settle(
         return replace(found, increment=end.increment, size=end.size)
     if done or budget.interior <= 0:
         return found
-    inner = _inside(springs, linear, memory, found, budget.interior, tolerance)
+    pattern = memory.pattern_of(springs.problem)
+    inner = InteriorPoint(springs, pattern, linear).run(found, budget.interior, tolerance)
     best = inner if inner.size < found.size else found
     return replace(
         best,
@@ -104,29 +103,6 @@ def settle(
         factorisations=found.factorisations + inner.factorisations,
         story=f"{found.story}, then {inner.story}",
     )
-
-
-def _inside(
-    springs: CutSprings,
-    linear: LinearSolver,
-    memory: Memory,
-    found: Settled,
-    budget: int,
-    tolerance: float,
-) -> Settled:
-    """Interior point until Newton's method takes hold; alone if that never does."""
-    pattern = memory.pattern_of(springs.problem)
-    near = max(tolerance, NEAR)
-    inner = InteriorPoint(springs, pattern, linear).run(found, budget, near)
-    end = polish(springs, pattern, linear.unsymmetric(), inner.increment, tolerance)
-    solves, factorisations = inner.solves + end.solves, inner.factorisations + end.factorisations
-    if end.size > tolerance:
-        end = InteriorPoint(springs, pattern, linear).run(
-            inner if inner.size < end.size else end, budget, tolerance
-        )
-        solves, factorisations = solves + end.solves, factorisations + end.factorisations
-    story = f"interior point and Newton with {factorisations} factorisations"
-    return replace(end, solves=solves, factorisations=factorisations, story=story)
 
 
 def _hopeful(chord: Chord, tolerance: float, solves: int) -> bool:
