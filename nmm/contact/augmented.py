@@ -56,14 +56,16 @@ class Augmented(Enforcement):
         memory = memory or Memory()
         at = first_round(stiff_springs(problem, self.scale))
         budget = Budget(interior=0) if self.rescue else Budget()
+        rounds = 1 if self.rescue and memory.redundant else self.max_rounds
         try:
             at = converged_rounds(
-                at, linear_solver, memory, self.tolerance, self.max_rounds, self.growth, budget
+                at, linear_solver, memory, self.tolerance, rounds, self.growth, budget
             )
         except SolveError as fault:
             return singular_answer(at.settled.springs, linear_solver, fault)
         how = f"{at.count} rounds"
         if self.rescue and not at.meets(self.tolerance):
+            memory.redundant = memory.redundant or at.count > 1
             soft = stiff_springs(problem, 10.0)
             at, rest = exact_round(
                 soft, linear_solver, memory, self.tolerance, factorisations=self.rescue

@@ -80,6 +80,8 @@ class Lagrange(Enforcement):
         active, seen = first_springs(problem), set[bytes]()
         for passes in range(1, self.max_passes + 1):
             seen.add(active.code)
+            if _constraints(problem, active) > len(problem.force):
+                return None, "more contacts than unknowns"
             try:
                 increment, normal, shear = _saddle(problem, active, linear)
             except SolveError:
@@ -100,6 +102,11 @@ class Lagrange(Enforcement):
                 return None, f"an active set that cycled after {passes} passes"
             active = found
         return None, f"{self.max_passes} active sets"
+
+
+def _constraints(problem: StepProblem, active: Springs) -> int:
+    sharp = active.closed & ~problem.own_stiffness
+    return int(sharp.sum() + (sharp & ~active.sliding).sum())
 
 
 def _saddle(
