@@ -84,15 +84,12 @@ class Case(ABC):
         Where the reference comes from.
     formulations
         Names, in `nmm.verification.formulations`, of those it applies to.
-    slow
-        Whether it takes more than a few seconds.
     """
 
     name: ClassVar[str]
     title: ClassVar[str]
     source: ClassVar[str]
     formulations: ClassVar[tuple[str, ...]] = ("dda",)
-    slow: ClassVar[bool] = False
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
@@ -103,6 +100,11 @@ class Case(ABC):
     def variant(self) -> str:
         """What tells this variant from the others; empty when there is one."""
         return ""
+
+    @property
+    def slow(self) -> bool:
+        """Whether this variant takes more than a few seconds."""
+        return False
 
     @abstractmethod
     def checks(self, formulation: str) -> Checks:

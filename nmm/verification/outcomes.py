@@ -57,12 +57,14 @@ class Outcome:
 
 
 def runs(names: Iterable[str] | None = None, slow: bool = False) -> Iterator[tuple[Case, str]]:
-    """Yield every variant of the named benchmarks (all when None) with each formulation."""
+    """Yield every variant of the named benchmarks (all when None) with each formulation.
+
+    Variants of more than a few seconds are left out unless ``slow``.
+    """
     for name in CASES.table if names is None else names:
-        kind = CASES.load(name)
-        if kind.slow and not slow and names is None:
-            continue
-        for case in kind.variants():
+        for case in CASES.load(name).variants():
+            if case.slow and not slow:
+                continue
             for formulation in case.formulations:
                 yield case, formulation
 
@@ -85,6 +87,6 @@ def verify(names: Iterable[str] | None = None, slow: bool = False) -> list[Outco
     names
         Names of `CASES`; all that are not slow when None.
     slow
-        Whether "all" includes the slow ones.
+        Whether variants of more than a few seconds are run too.
     """
     return [judge(case, formulation) for case, formulation in runs(names, slow)]
