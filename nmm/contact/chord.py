@@ -19,30 +19,29 @@ GROWTH = 3.0
 
 @dataclass
 class History:
-    """Differences of the last iterates: steps, corrections and defects.
+    """Differences of the last iterates: corrections, and steps plus corrections.
 
     ``correction = -M^-1 defect``, so inner products in ``M`` of corrections are products of a
     correction with a defect: no product with ``M`` is needed.
     """
 
     depth: int
-    steps: Floats = field(init=False)
+    sums: Floats = field(init=False)
     corrections: Floats = field(init=False)
-    defects: Floats = field(init=False)
     gram: Floats = field(init=False)
     count: int = 0
 
     def start(self, n: int) -> None:
         """Make room for vectors of ``n`` unknowns."""
-        self.steps, self.corrections, self.defects = np.empty((3, self.depth, n))
+        self.sums, self.corrections = np.empty((2, self.depth, n))
         self.gram = np.zeros((self.depth, self.depth))
 
     def add(self, step: Floats, correction: Floats, defect: Floats) -> None:
         """Remember one step in the place of the oldest."""
         at, self.count = self.count % self.depth, self.count + 1
-        self.steps[at], self.corrections[at], self.defects[at] = step, correction, defect
+        self.sums[at], self.corrections[at] = step + correction, correction
         used = min(self.count, self.depth)
-        self.gram[at, :used] = self.gram[:used, at] = -self.corrections[:used] @ defect
+        self.gram[at, :used] = self.gram[:used, at] = -_products(self.corrections[:used], defect)
 
     def mixed(self, correction: Floats, defect: Floats) -> Floats:
         """Step that combines ``correction`` with the remembered ones (least squares in ``M``)."""
@@ -54,9 +53,14 @@ class History:
         if not (np.isfinite(trace) and trace > 0):
             return correction
         share = np.linalg.solve(
-            gram + 1e-12 * trace * np.eye(used), -self.corrections[:used] @ defect
+            gram + 1e-12 * trace * np.eye(used), -_products(self.corrections[:used], defect)
         )
-        return np.asarray(correction - share @ self.steps[:used] - share @ self.corrections[:used])
+        return np.asarray(correction - np.einsum("i,ij->j", share, self.sums[:used]))
+
+
+def _products(vectors: Floats, vector: Floats) -> Floats:
+    """Inner products, without the threads that BLAS starts for long vectors."""
+    return np.asarray(np.einsum("ij,j->i", vectors, vector))
 
 
 @dataclass

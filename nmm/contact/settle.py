@@ -69,7 +69,7 @@ def settle(
     kept, new = memory.factor_of(springs, linear)
     chord = Chord(springs, kept.factor, increment, springs.defect(increment))
     if new:
-        kept.factor.solve(chord.defect.force)
+        kept.factor.solve(springs.problem.force)
     factorisations = int(new)
     patience = budget.trial if new else 2 * kept.solves_when_new + 8
     done = chord.run(min(patience, RESIGNED if kept.stalled else budget.solves), tolerance)

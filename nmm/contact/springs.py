@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from nmm.contact import defect_kernel
 from nmm.contact.balance import weights
 from nmm.contact.law import project, shear_bound
 from nmm.contact.problem import StepProblem
@@ -68,14 +69,19 @@ class CutSprings:
 
     def defect(self, increment: Floats) -> "Defect":
         """Out-of-balance force of ``increment``."""
-        problem = self.problem
-        normal, shear = self.forces(increment)
-        inner = problem.matrix @ increment
-        contact = problem.normal_rows.T @ normal + problem.tangent_rows.T @ shear
-        force = inner + contact - problem.force
-        sizes = (np.linalg.norm(self.weight * part) for part in (inner, contact, problem.force))
-        size, rest = float(max(sizes)), float(np.linalg.norm(self.weight * force))
-        return Defect(force, rest / size if size > 0 else 0.0)
+        p = self.problem
+        force, size = defect_kernel.defect(
+            increment,
+            p.force,
+            self.weight,
+            *(p.matrix.indptr, p.matrix.indices, p.matrix.data),
+            *(p.normal_rows.indptr, p.normal_rows.indices, p.normal_rows.data),
+            *(p.tangent_rows.indptr, p.tangent_rows.indices, p.tangent_rows.data),
+            *(p.gap, p.slip, self.normal_stiffness, self.shear_stiffness),
+            *(self.normal_shift, self.shear_shift),
+            *(p.limits.tension, p.limits.cohesion, p.limits.friction),
+        )
+        return Defect(force, float(size))
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from nmm.contact.balance import relative_residual, with_springs
 from nmm.contact.enforcement import ENFORCEMENTS, make_enforcement
 from nmm.contact.oracle import all_solutions, is_one_of, obeys, random_problem
+from nmm.contact.pattern import SpringPattern
 from nmm.contact.problem import StepAnswer, StepProblem
+from nmm.contact.springs import CutSprings
 from nmm.solvers.linear import make_solver
 
 SOFT = {"penalty"}
@@ -90,3 +93,26 @@ def test_warm_start_and_kept_factor_change_the_cost_and_not_the_answer() -> None
         third = enforcement.solve(warm, solver, memory)
         np.testing.assert_allclose(again.normal_force, cold.normal_force, atol=1e-6)
         np.testing.assert_array_equal(third.state, again.state)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_compiled_defect_equals_the_whole_array_form(seed: int) -> None:
+    problem, rng = random_problem(seed, bonded=True), np.random.default_rng(seed)
+    shifts = rng.normal(size=(2, problem.n_contacts))
+    springs = CutSprings.of(problem).shifted(*shifts)
+    increment = rng.normal(size=len(problem.force))
+    forces = springs.forces(increment)
+    expected = problem.out_of_balance(increment, *forces)
+    found = springs.defect(increment)
+    np.testing.assert_allclose(found.force, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+    size = relative_residual(problem, springs.weight, increment, *forces)
+    assert found.size == pytest.approx(size, rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_assembled_pattern_equals_the_sparse_product(seed: int) -> None:
+    problem, rng = random_problem(seed), np.random.default_rng(seed)
+    normal, shear = rng.random((2, problem.n_contacts))
+    found = SpringPattern.of(problem).matrix(problem, normal, shear)
+    expected = with_springs(problem, normal, shear)
+    np.testing.assert_allclose(found.toarray(), expected.toarray(), rtol=0, atol=1e-12)

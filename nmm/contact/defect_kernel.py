@@ -1,0 +1,82 @@
+"""The out-of-balance force of cut springs in one compiled pass over matrix and contacts.
+
+`CutSprings.forces` and `StepProblem.out_of_balance` say the same in whole arrays and are what this
+is tested against.
+"""
+
+from typing import Any
+
+import numba as nb
+import numpy as np
+import numpy.typing as npt
+
+from integration.arrays import Floats
+
+Index = npt.NDArray[Any]
+
+
+@nb.njit(cache=True)
+def defect(
+    increment: Floats,
+    load: Floats,
+    weight: Floats,
+    pointers: Index,
+    columns: Index,
+    entries: Floats,
+    normal_pointers: Index,
+    normal_columns: Index,
+    normal_entries: Floats,
+    tangent_pointers: Index,
+    tangent_columns: Index,
+    tangent_entries: Floats,
+    gap: Floats,
+    slip: Floats,
+    normal_stiffness: Floats,
+    shear_stiffness: Floats,
+    normal_shift: Floats,
+    shear_shift: Floats,
+    tension: Floats,
+    cohesion: Floats,
+    friction: Floats,
+) -> tuple[Floats, float]:
+    """Out-of-balance force (n,) and its size over the largest of its parts.
+
+    The matrix is symmetric: its compressed columns serve as rows.
+    """
+    n = len(increment)
+    contact = np.zeros(n)
+    for c in range(len(gap)):
+        opening, sliding = gap[c], slip[c]
+        for k in range(normal_pointers[c], normal_pointers[c + 1]):
+            opening += normal_entries[k] * increment[normal_columns[k]]
+        for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
+            sliding += tangent_entries[k] * increment[tangent_columns[k]]
+        normal = normal_stiffness[c] * opening + normal_shift[c]
+        shear = shear_stiffness[c] * sliding + shear_shift[c]
+        bound = cohesion[c]
+        if normal > tension[c]:
+            if tension[c] <= 0.0:
+                bound = 0.0
+            normal = tension[c]
+        if normal < 0.0:
+            bound -= friction[c] * normal
+        shear = min(max(shear, -bound), bound)
+        if normal != 0.0:
+            for k in range(normal_pointers[c], normal_pointers[c + 1]):
+                contact[normal_columns[k]] += normal_entries[k] * normal
+        if shear != 0.0:
+            for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
+                contact[tangent_columns[k]] += tangent_entries[k] * shear
+    force = np.empty(n)
+    inner_size, contact_size, load_size, rest_size = 0.0, 0.0, 0.0, 0.0
+    for i in range(n):
+        inner = 0.0
+        for k in range(pointers[i], pointers[i + 1]):
+            inner += entries[k] * increment[columns[k]]
+        force[i] = inner + contact[i] - load[i]
+        inner_size += (weight[i] * inner) ** 2
+        contact_size += (weight[i] * contact[i]) ** 2
+        load_size += (weight[i] * load[i]) ** 2
+        rest_size += (weight[i] * force[i]) ** 2
+    largest = max(inner_size, contact_size, load_size)
+    return force, np.sqrt(rest_size / largest) if largest > 0.0 else 0.0
