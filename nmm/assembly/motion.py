@@ -143,12 +143,14 @@ def move(model: Model, state: State, increment: Floats) -> State:
     moved = Frames(
         frames.centre + frames.to_global(bodies, rigid[:, :2]), frames.angle + rigid[:, 2]
     )
+    # What the sum of angles has taken up, rounded: a velocity must not drift against its axes.
+    turn = moved.angle - frames.angle
     return replace(
         state,
         frames=moved,
         deformation=state.deformation + increment - modes @ rigid.ravel(),
-        velocity=_turn_translation(model, state.velocity, rigid[:, 2]),
-        acceleration=_turn_translation(model, state.acceleration, rigid[:, 2]),
+        velocity=_turn_translation(model, state.velocity, turn),
+        acceleration=_turn_translation(model, state.acceleration, turn),
     )
 
 
