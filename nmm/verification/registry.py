@@ -24,6 +24,7 @@ CASES = Registry[type[Case]](
         "B14 spin": f"{_HOME}.rotation:Spin",
         "B14 classical": f"{_HOME}.rotation:LinearSpin",
         "B14 stress": f"{_HOME}.rotation:TurnedStress",
+        "B15": f"{_HOME}.rocking:Rocking",
         "B18 column": f"{_HOME}.joints:JointedColumn",
         "B18 shear": f"{_HOME}.joints:DirectShear",
         "B25": f"{_HOME}.arches:ThreeHinges",
