@@ -119,7 +119,13 @@ class Factor:
 
     @classmethod
     def of(cls, solver: LinearSolver, matrix: csc_array) -> "Factor":
-        """Scale and factorise; a zero pivot leads to the shifted matrix."""
+        """Scale and factorise; a zero pivot leads to the shifted matrix.
+
+        Raises
+        ------
+        SolveError
+            When an entry is not finite, or the shifted matrix has a zero pivot too.
+        """
         if not np.isfinite(matrix.data).all():
             raise SolveError(
                 "linear system: the matrix holds numbers that are not finite: expected finite "
@@ -131,7 +137,14 @@ class Factor:
             return cls(solver, matrix, scale, solver.decompose(scaled))
         except RankDeficientError:
             shifted = solver.deflated()
-            parts = shifted.decompose(_scaled(matrix, scale, shifted.shift))
+            try:
+                parts = shifted.decompose(_scaled(matrix, scale, shifted.shift))
+            except RankDeficientError as fault:
+                raise SolveError(
+                    f"linear system of {len(scale)} unknowns: {fault}, though shifted by "
+                    f"{shifted.shift:.0e}: expected a supported system: add supports, contacts or "
+                    "inertia"
+                ) from fault
             return cls(shifted, matrix, scale, parts, deflated=True)
 
     def solve(self, rhs: Floats) -> Floats:
