@@ -59,11 +59,11 @@ class Outcome:
 def runs(names: Iterable[str] | None = None, slow: bool = False) -> Iterator[tuple[Case, str]]:
     """Yield every variant of the named benchmarks (all when None) with each formulation.
 
-    Variants of more than a few seconds are left out unless ``slow``.
+    Of "all" those of more than a few seconds are left out unless ``slow``.
     """
     for name in CASES.table if names is None else names:
         for case in CASES.load(name).variants():
-            if case.slow and not slow:
+            if case.slow and not slow and names is None:
                 continue
             for formulation in case.formulations:
                 yield case, formulation
@@ -87,6 +87,6 @@ def verify(names: Iterable[str] | None = None, slow: bool = False) -> list[Outco
     names
         Names of `CASES`; all that are not slow when None.
     slow
-        Whether variants of more than a few seconds are run too.
+        Whether "all" includes those of more than a few seconds.
     """
     return [judge(case, formulation) for case, formulation in runs(names, slow)]
