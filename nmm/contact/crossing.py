@@ -11,6 +11,9 @@ from nmm.contact.rules import DEPTH, cross
 from nmm.contact.search import near_pairs
 from nmm.contact.surface import Surface
 
+ROUNDING = 1e-9
+"""Share of the depth by which another edge must be nearer: a corner lies as far from both."""
+
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
@@ -48,7 +51,8 @@ def find_crossings(
 
     A vertex crosses an edge where it comes deeper than `rules.DEPTH` of the thinner body's
     thickness, over the edge itself: less is the penetration that enforcement allows and search
-    finds again, and a vertex that leaves over the end of the edge has not crossed.
+    finds again. A vertex that leaves over the end of the edge has not crossed, nor has one that
+    began inside and slides into the depth close below the surface of another edge.
 
     Parameters
     ----------
@@ -65,9 +69,9 @@ def find_crossings(
     The signed area of vertex and edge is a quadratic in time, so that the test is exact for a thin
     body that is left on its far side within the step (Provot 1997, for triangles in space).
     """
-    v, e = _meeting(before, after, within_bodies) if candidates is None else candidates
-    near = _can_meet(before, after, v, e)
-    v, e = v[near], e[near]
+    pairs = _meeting(before, after, within_bodies) if candidates is None else candidates
+    near = _can_meet(before, after, *pairs)
+    v, e = pairs[0][near], pairs[1][near]
     edge0, edge1 = before.end[e] - before.start[e], after.end[e] - after.start[e]
     offset0, offset1 = before.start[v] - before.start[e], after.start[v] - after.start[e]
     # Twice the area, positive inside: c0 + c1 t + c2 t^2.
@@ -80,8 +84,46 @@ def find_crossings(
     t = np.where(deep <= 1.0, deep, 0.0)[:, None]
     edge, offset = edge0 + t * (edge1 - edge0), offset0 + t * (offset1 - offset0)
     along, square = (edge * offset).sum(axis=1), (edge * edge).sum(axis=1)
-    hit = (deep <= 1.0) & (along >= 0.0) & (along <= square) & (square > 0.0)
+    hit = np.flatnonzero((deep <= 1.0) & (along >= 0.0) & (along <= square) & (square > 0.0))
+    if len(hit):
+        length = before.length[e[hit]]
+        depth = np.column_stack([c0[hit], allowed[hit]]) / length[:, None]
+        hit = hit[~_along_another(before, after, pairs, v[hit], e[hit], deep[hit], depth)]
     return Crossings(v[hit], e[hit], np.minimum(touch, deep)[hit])
+
+
+def _along_another(
+    before: Surface,
+    after: Surface,
+    pairs: tuple[Ints, Ints],
+    v: Ints,
+    e: Ints,
+    time: Floats,
+    depth: Floats,
+) -> Bools:
+    """Vertices (m,) nearer to another edge of the body than ``depth``, at 0 and at ``time``."""
+    first, last = np.searchsorted(pairs[0], v), np.searchsorted(pairs[0], v, side="right")
+    hit = np.repeat(np.arange(len(v)), last - first)
+    within = np.arange(len(hit)) - np.repeat(np.cumsum(last - first) - (last - first), last - first)
+    other = pairs[1][first[hit] + within]
+    keep = (other != e[hit]) & (before.body[other] == before.body[e[hit]])
+    hit, other = hit[keep], other[keep]
+    near = np.ones(len(hit), dtype=bool)
+    for t, below in zip((np.zeros_like(time), time), depth.T, strict=True):  # two moments
+        distance = _distance(before, after, v[hit], other, t[hit, None])
+        near &= distance < below[hit] * (1.0 - ROUNDING)
+    along = np.zeros(len(v), dtype=bool)
+    along[hit[near]] = True
+    return along
+
+
+def _distance(before: Surface, after: Surface, v: Ints, e: Ints, t: Floats) -> Floats:
+    """Distance (m,) of vertices from segments at the times ``t`` (m, 1)."""
+    start = (1.0 - t) * before.start[e] + t * after.start[e]
+    edge = (1.0 - t) * before.end[e] + t * after.end[e] - start
+    offset = (1.0 - t) * before.start[v] + t * after.start[v] - start
+    foot = np.clip((offset * edge).sum(axis=1) / (edge * edge).sum(axis=1), 0.0, 1.0)
+    return np.asarray(np.linalg.norm(offset - foot[:, None] * edge, axis=1))
 
 
 def _meeting(before: Surface, after: Surface, within_bodies: bool) -> tuple[Ints, Ints]:

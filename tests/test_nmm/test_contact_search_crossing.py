@@ -58,6 +58,21 @@ def test_sliding_off_an_edge_and_falling_beside_it_is_no_crossing():
     assert find_crossings(before, shifted(before, 1, (0.3, -0.2))).free_fraction < 1.0
 
 
+def test_sliding_deep_below_one_edge_along_another_is_no_crossing():
+    # A corner 1e-4 below the sloping face of a wedge of 30 degrees slides from its tip towards
+    # its heel: below the flat face it comes to 0.3, over that face, yet close to the surface.
+    slope = np.array([np.cos(np.pi / 6), -np.sin(np.pi / 6)])
+    wedge = np.array([[0.0, 0.0], [2.0, -2.0 * np.tan(np.pi / 6)], [2.0, 0.0]])
+    inward = np.array([-slope[1], slope[0]])
+    tip = 0.05 * slope + 1e-4 * inward
+    block = tip + np.array([[0.0, 0.0], [-1.0, -0.1], [0.1, -1.0]])
+    before = scene(wedge, block)
+    assert find_crossings(before, shifted(before, 1, 0.6 * slope)).free_fraction == 1.0
+    # Straight through the same flat face at the same place it is one.
+    through = shifted(before, 1, 0.6 * slope + 0.3 * inward)
+    assert find_crossings(before, through).free_fraction < 1.0
+
+
 def test_a_block_that_flies_past_and_one_that_stays_cross_nothing():
     before = scene(rectangle(0, 0, 1, 1), rectangle(-3, 1.001, 1, 1))
     assert len(find_crossings(before, shifted(before, 1, (8.0, 0.0)))) == 0
