@@ -49,6 +49,8 @@ class Manifold:
     dependent
         Number of functions known to depend on the others; above zero the system is singular and
         displacements are unique all the same (`covers.dependence`).
+    dependent_covers
+        Number of covers whose polynomials take part in them.
     fitted, enriched
         Number of covers whose coordinates fit what a cut has left of them, and of those that
         carry singular functions.
@@ -67,6 +69,7 @@ class Manifold:
     body_centroid: Floats
     body_area: Floats
     dependent: int = 0
+    dependent_covers: int = 0
     fitted: int = 0
     enriched: int = 0
 

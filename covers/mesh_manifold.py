@@ -80,11 +80,16 @@ def mesh_manifold(
     body_area, body_centroid = _bodies(cut)
     nodes = cover.patch_centre[cut.cover_patch] if cover.precision >= 1 else None
     modes = (kinds.functions, kinds.which, builder.covers, n_unknowns, body_centroid, nodes)
+    groups = tuple(builder.groups())
+    dependent = dependent_functions(
+        cover, cut, kinds.functions, kinds.which, lambda: (groups, n_unknowns)
+    )
+    higher = np.array([item.degree > 0 for item in kinds.functions])[kinds.which]
     return Manifold(
         elements=cut.elements,
         element_body=cut.element_body,
         element_region=cut.element_region,
-        groups=tuple(builder.groups()),
+        groups=groups,
         cover_offset=builder.offset,
         cover_patch=cut.cover_patch,
         cover_body=cut.cover_body,
@@ -93,7 +98,8 @@ def mesh_manifold(
         stretch_modes=stretch_modes(*modes),
         body_centroid=body_centroid,
         body_area=body_area,
-        dependent=dependent_functions(cover, cut, kinds.functions, kinds.which),
+        dependent=dependent,
+        dependent_covers=int(higher.sum()) if dependent else 0,
         fitted=int(builder.fitted.sum()),
         enriched=int((builder.enriched >= 0).sum()),
     )

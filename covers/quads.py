@@ -34,7 +34,7 @@ class Quads(PolynomialCover):
     """Patches are the stars of nodes, weights the bilinear hats; four patches in a cell.
 
     With local functions of degree 1 and more the unknowns are linearly dependent on regular grids
-    in a number that grows with the mesh; triangles do not have that defect.
+    in a number that grows with the mesh (`covers.dependence`); triangles do not have that defect.
     """
 
     @property

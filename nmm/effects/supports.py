@@ -130,6 +130,12 @@ class Supports(Effect):
             for i, s in enumerate(self._supports)
         }
 
+    def tied_unknowns(self) -> Ints:
+        """Return the unknowns in the ghost terms of Nitsche's supports."""
+        none = [np.empty(0, dtype=np.int64)]
+        ghosts = [s.ghost for s in self._supports if isinstance(s, Nitsche)]
+        return np.unique(np.concatenate(none + [ghost.nonzero()[0] for ghost in ghosts]))
+
     def _lag(self, number: int, state: State, end: Instant) -> Floats:
         support = self._supports[number]
         place = support.place.points.place(state.frames, state.deformation)

@@ -2,10 +2,13 @@
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from nmm.solvers.linear import LinearSolver, make_solver
 
 if TYPE_CHECKING:
     from covers.manifold import Manifold
+    from nmm.effects.supports import Supports
     from nmm.formulation import Solver
 
 
@@ -19,13 +22,25 @@ def solver_for(manifold: "Manifold", solver: "Solver") -> LinearSolver:
     return made.deflated() if manifold.dependent and not made.shift else made
 
 
-def cures(manifold: "Manifold", solver: LinearSolver) -> dict[str, int]:
+def cures(
+    manifold: "Manifold", solver: LinearSolver, supports: "Supports | None" = None
+) -> dict[str, int]:
     """Return the cures at work, each with the number of functions or covers it acts on."""
     found = {}
     if manifold.dependent:
         found[f"dependent functions, diagonal shift {solver.shift:g}"] = manifold.dependent
+        found["covers that hold dependent functions"] = manifold.dependent_covers
     if manifold.fitted:
         found["covers in coordinates fitted to the cut"] = manifold.fitted
     if manifold.enriched:
         found["covers with singular functions"] = manifold.enriched
+    tied = 0 if supports is None else _covers(manifold, supports)
+    if tied:
+        found["covers tied to their neighbours beside supports (ghost)"] = tied
     return found
+
+
+def _covers(manifold: "Manifold", supports: "Supports") -> int:
+    """Number of covers with unknowns in the ghost terms of supports."""
+    owner = np.repeat(np.arange(manifold.n_covers), np.diff(manifold.cover_offset))
+    return len(np.unique(owner[supports.tied_unknowns()]))

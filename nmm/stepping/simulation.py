@@ -148,7 +148,9 @@ class Simulation:
             elements=len(self.stepper.model.manifold.elements),
             covers=self.stepper.model.manifold.n_covers,
             unknowns=self.stepper.model.manifold.n_unknowns,
-            cures=cures(self.stepper.model.manifold, self.stepper.solver),
+            cures=cures(
+                self.stepper.model.manifold, self.stepper.solver, self.stepper.plan.supports
+            ),
             seed=seeds[0] if seeds else self.scene.seed,
             scene_hash=scene_hash(self.scene),
             formulation_hash=formulation_hash(self.formulation),

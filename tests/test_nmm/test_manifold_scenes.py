@@ -173,7 +173,11 @@ def test_the_summary_names_the_cures_and_how_many_they_act_on() -> None:
     found = simulate(BAR.replace("duration = 20.0", "duration = 0.1"), MESHES["quadratic"])
     cures = found.summary.cures
     assert cures["dependent functions, diagonal shift 1e-10"] == 16
-    assert cures["covers in coordinates fitted to the cut"] > 0
+    assert cures["covers that hold dependent functions"] == found.manifold.n_covers
+    assert 0 < cures["covers in coordinates fitted to the cut"] <= found.manifold.n_covers
+    tied = cures["covers tied to their neighbours beside supports (ghost)"]
+    # The bar is 15 cells long: a support at its end reaches the first two columns of them.
+    assert 0 < tied < found.manifold.n_covers / 3
     assert found.summary.covers == found.manifold.n_covers
 
 
