@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from nmm import verification_verbs
 from nmm.study_verbs import register, tell_cost
 from nmm.terminal import (
     FAILED,
@@ -157,6 +158,7 @@ def plot(
 
 
 register(app)
+verification_verbs.register(app)
 
 
 def _run(place: Path, formulation: Path | None, out: Path, quiet: bool) -> None:

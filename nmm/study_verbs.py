@@ -1,4 +1,4 @@
-"""The verbs of studies: cost, compare, verify, study, calibrate. What they need they import."""
+"""The verbs of studies: cost, compare, study, calibrate. What they need they import."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -8,12 +8,9 @@ import typer
 from nmm.terminal import console, faults_told, progress_bar, tell_files
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from nmm.formulation import Formulation
     from nmm.scene import Scene
     from nmm.stepping.simulation import Simulation
-    from nmm.verification import Case, Outcome
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene file, TOML.", metavar="SCENE")]
 Formulations = Annotated[
@@ -100,56 +97,6 @@ def compare(
         tell_files(files)
 
 
-def verify(
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(help="Benchmarks, module:Class of your own, or published case folders."),
-    ] = None,
-    slow: Annotated[bool, typer.Option(help="Also those of minutes, when none is named.")] = False,
-    out: Out = None,
-) -> None:
-    """Run benchmarks and print computed against reference; exit code 1 on a miss."""
-    import sys
-
-    with faults_told():
-        sys.path.append(str(Path.cwd()))
-        outcomes = [_judged(case, kind) for case, kind in _verified(names or [], slow)]
-        missed = sum(not one.passed for one in outcomes)
-        console().print(
-            f"{len(outcomes)} runs, {missed} missed"
-            if missed
-            else f"{len(outcomes)} runs, all within tolerance",
-            style="red" if missed else "green",
-            highlight=False,
-        )
-        if out is not None:
-            from nmm.verification.manual import write_manual
-
-            tell_files(write_manual(outcomes, out))
-    if missed:
-        raise typer.Exit(1)
-
-
-def publish(
-    scene: SceneFile,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Folder to write, new.")],
-    formulation: Annotated[
-        Path | None, typer.Option("--formulation", "-f", help="Formulation file, TOML.")
-    ] = None,
-    quantity: Annotated[
-        list[str] | None, typer.Option(help="Quantity to publish; the scene's [[reference]]s.")
-    ] = None,
-    tolerance: Annotated[float, typer.Option(min=0, help="Relative tolerance.")] = 1e-6,
-    source: Annotated[str, typer.Option(help="Who publishes it, and where.")] = "",
-) -> None:
-    """Write a case folder that others reproduce by `nmm verify FOLDER`."""
-    with faults_told():
-        from nmm.verification.published import publish as write
-
-        names = quantity or [item.quantity for item in _scene(scene).references] or ["energy"]
-        typer.echo(write(scene, formulation, names, tolerance, out, source))
-
-
 def study(
     plan: Annotated[Path, typer.Argument(help="Study file, TOML.", metavar="STUDY")],
     scheduler: Annotated[
@@ -226,7 +173,7 @@ def calibrate(
             )
 
 
-VERBS = (cost, compare, verify, publish, study, calibrate)
+VERBS = (cost, compare, study, calibrate)
 
 
 def tell_cost(simulation: "Simulation") -> None:
@@ -253,50 +200,6 @@ def register(app: typer.Typer) -> None:
     """Add the verbs to the command line."""
     for verb in VERBS:
         app.command()(verb)
-
-
-def _verified(names: list[str], slow: bool) -> "Iterator[tuple[Case, str]]":
-    """Yield benchmarks with their formulations; a name that is a case folder is that case."""
-    from nmm.verification import runs
-    from nmm.verification.published import PublishedCase, is_published
-
-    if not names:
-        yield from runs(None, slow)
-    for name in names:
-        if is_published(Path(name)):
-            case = PublishedCase(Path(name))
-            for remark in case.remarks:
-                typer.echo(f"{case.name}: {remark}", err=True)
-            yield case, case.formulations[0]
-        else:
-            yield from runs([name])
-
-
-def _judged(case: "Case", formulation: str) -> "Outcome":
-    """Run one benchmark and print its table as soon as it is there."""
-    from rich.table import Table
-
-    from nmm.verification import judge
-    from nmm.verification.manual import RELATION
-
-    outcome = judge(case, formulation)
-    table = Table(title=f"{outcome.label} ({outcome.seconds:.2g} s)", title_justify="left")
-    for head in ("quantity", "computed", "reference", "error", "allowed", ""):
-        table.add_column(head, overflow="fold")
-    for name, check in outcome.checks.items():
-        table.add_row(
-            name,
-            f"{check.computed:.7g}",
-            f"{RELATION[check.bound]}{check.reference:.7g}",
-            f"{check.error:.1e}",
-            f"{check.tolerance:.1e}",
-            "passed" if check.passed else f"MISSED: {check.reason}",
-            style=None if check.passed else "red",
-        )
-    if outcome.fault:
-        table.add_row("fault", outcome.fault, style="red")
-    console().print(table)
-    return outcome
 
 
 def _one_thread() -> None:

@@ -42,13 +42,21 @@ ROOMS = (
     "shipped",
     "terminal",
     "study_verbs",
+    "verification_verbs",
     "cli",
     "testing",
 )
 # Modules that belong to a room but for their place.
 IN_ROOM = {"formulation": "scene"}  # formulation files are read by the reader of scenes
 # The public face `nmm/__init__.py` imports any room, lazily; these rooms may use it.
-MAY_USE_THE_FACE = {"study", "verification", "study_verbs", "cli", "testing"}
+MAY_USE_THE_FACE = {
+    "study",
+    "verification",
+    "study_verbs",
+    "verification_verbs",
+    "cli",
+    "testing",
+}
 ONLY_PLOTS = {"matplotlib"}
 
 

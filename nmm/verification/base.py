@@ -5,7 +5,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
+from nmm.verification.series import Series
+
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from nmm.formulation import Formulation
     from nmm.scene import Scene
     from nmm.stepping.run import Run
@@ -27,6 +31,8 @@ class Check:
         What the error is divided by; the reference when None, or 1 where that is zero.
     bound
         "equal"; "at_most" and "at_least" make the reference a limit.
+    series
+        Of an order of convergence, the errors it was read off.
     """
 
     computed: float
@@ -35,6 +41,7 @@ class Check:
     reason: str
     scale: float | None = None
     bound: Literal["equal", "at_most", "at_least"] = "equal"
+    series: Series | None = None
 
     @property
     def error(self) -> float:
@@ -50,6 +57,28 @@ class Check:
     def passed(self) -> bool:
         """Whether the error is within the tolerance; what is not a number is not."""
         return self.error <= self.tolerance
+
+    @property
+    def shown(self) -> str:
+        """What was computed in digits; an order with its confidence."""
+        return f"{self.computed:.7g}" if self.series is None else str(self.series.observed)
+
+    @property
+    def wanted(self) -> str:
+        """The reference in digits, with its relation to what was computed."""
+        sign = {"equal": "", "at_most": "≤ ", "at_least": "≥ "}[self.bound]
+        return f"{sign}{self.reference:.7g}"
+
+    @property
+    def share(self) -> float:
+        """Error over tolerance; of a limit, the value over it; 0 or inf where that says nothing."""
+        if self.error != self.error:
+            return float("inf")
+        if self.bound == "at_most" and self.reference > 0 and not self.tolerance:
+            return max(self.computed / self.reference, 0.0)
+        if self.tolerance:
+            return self.error / self.tolerance
+        return 0.0 if self.passed else float("inf")
 
 
 Checks = dict[str, Check]
@@ -69,6 +98,13 @@ def limit(computed: float, reference: float, reason: str) -> Check:
 def holds(truth: bool, reason: str) -> Check:
     """Return the check of a statement."""
     return Check(float(truth), 1.0, 0.0, reason)
+
+
+def order(series: Series, tolerance: float, reason: str, at_least: bool = False) -> Check:
+    """Return the check that errors fall by the order of theory, within ``tolerance``."""
+    found = series.observed.value
+    bound: Literal["equal", "at_least"] = "at_least" if at_least else "equal"
+    return Check(found, series.theory, tolerance, reason, 1.0, bound, series)
 
 
 class Case(ABC):
@@ -110,6 +146,10 @@ class Case(ABC):
     def checks(self, formulation: str) -> Checks:
         """Compute all quantities under a formulation called ``formulation``."""
 
+    def sketch(self, path: "Path") -> bool:
+        """Draw the problem into a file; False where there is nothing to draw."""
+        return False
+
 
 class SceneCase(Case):
     """Benchmark that is the run of one scene."""
@@ -144,3 +184,10 @@ class SceneCase(Case):
         from nmm.verification.formulations import chosen
 
         return chosen(name, scene.formulation)
+
+    def sketch(self, path: "Path") -> bool:
+        """Draw blocks, supports and loads of the scene."""
+        from nmm.verification.sketches import sketch_scene
+
+        sketch_scene(self.parsed(), path)
+        return True

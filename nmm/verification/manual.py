@@ -2,57 +2,64 @@
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 
-from integration.arrays import Floats
-from nmm.results.frame import Frame, Topology
-from nmm.verification.base import Case, Check, SceneCase
+from nmm.verification.base import Check
 from nmm.verification.outcomes import Outcome
 
-RELATION = {"equal": "", "at_most": "≤ ", "at_least": "≥ "}
+GROUPS = {
+    "A": "Accuracy of the continuum",
+    "B": "Blocks, contact, friction, dynamics",
+    "C": "Fracture of concrete",
+    "D": "Numerically hard",
+    "": "Others",
+}
+"""What benchmarks are about, by the first letter of their names."""
 
-
-@dataclass(frozen=True)
-class Still:
-    """What a scene looks like before it is run, as pictures want it."""
-
-    topologies: list[Topology]
-    frames: list[Frame] = field(default_factory=list)
-    history: dict[str, Floats] = field(default_factory=dict)
+VERDICT = {True: "passed", False: "**missed**"}
 
 
 def write_manual(outcomes: Sequence[Outcome], out: Path) -> list[Path]:
-    """Write ``index.md``, ``margins.png`` and a page with a sketch for each benchmark."""
+    """Write the list of benchmarks, and a page for each with a sketch and how its errors fall.
+
+    Returns
+    -------
+    files
+        ``index.md``, ``margins.png``, then the pages with their pictures.
+    """
     from nmm.plots.verification import margins
 
     out.mkdir(parents=True, exist_ok=True)
-    names = [f"{one.label}: {name}" for one in outcomes for name in one.checks]
-    margins(
-        names,
-        [share(check) for one in outcomes for check in one.checks.values()],
-        out / "margins.png",
-    )
-    by_name: dict[str, list[Outcome]] = {}
-    for one in outcomes:
-        by_name.setdefault(one.case.name, []).append(one)
+    by_name = grouped(outcomes)
+    shares = {
+        name: [check.share for one in many for check in one.checks.values()]
+        for name, many in by_name.items()
+    }
     files = [out / "index.md", out / "margins.png"]
+    margins(shares, files[1])
     files[0].write_text(_index(by_name), encoding="utf-8")
     for name, many in by_name.items():
+        sketch = out / f"{stem(name)}.png"
+        drawn = many[0].case.sketch(sketch)
+        fall = out / f"{stem(name)}_convergence.png"
+        falls = _draw_convergence(many, fall)
         page = out / f"{stem(name)}.md"
-        sketch = _sketch(many[0].case, out / f"{stem(name)}.png")
-        page.write_text(_page(many, sketch), encoding="utf-8")
-        files += [page, *([sketch] if sketch else [])]
+        page.write_text(_page(many, drawn, falls), encoding="utf-8")
+        files += [page, *([sketch] if drawn else []), *([fall] if falls else [])]
     return files
 
 
-def share(check: Check) -> float:
-    """Error over tolerance; of a limit, the value over it; 0 or inf where that says nothing."""
-    if check.bound == "at_most" and check.reference > 0 and not check.tolerance:
-        return max(check.computed / check.reference, 0.0)
-    if check.tolerance:
-        return check.error / check.tolerance
-    return 0.0 if check.passed else float("inf")
+def grouped(outcomes: Iterable[Outcome]) -> dict[str, list[Outcome]]:
+    """Outcomes by benchmark, in the order of groups, numbers and the first run of each."""
+    found: dict[str, list[Outcome]] = {}
+    for one in outcomes:
+        found.setdefault(one.case.name, []).append(one)
+    return {name: found[name] for name in in_order(found)}
+
+
+def in_order(names: Iterable[str]) -> list[str]:
+    """Names of benchmarks by group and number: B2 before B10, a user's own last."""
+    return sorted(names, key=_rank)
 
 
 def stem(name: str) -> str:
@@ -60,56 +67,100 @@ def stem(name: str) -> str:
     return re.sub(r"\W+", "_", name).strip("_").lower()
 
 
+def nearest(one: Outcome) -> tuple[str, Check]:
+    """Quantity of a run that comes nearest to what is allowed, or misses it by most."""
+    return max(one.checks.items(), key=lambda item: item[1].share)
+
+
 def table(outcomes: Iterable[Outcome]) -> list[str]:
     """Rows of computed, reference and error of every quantity."""
     lines = [
-        "| variant | formulation | quantity | computed | reference | error | allowed | seconds | |",
+        "| variant | formulation | quantity | computed | reference | error | tolerance "
+        "| passed | seconds |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for one in outcomes:
-        start = f"| {one.case.variant} | {one.formulation} |"
+        start, end = f"| {one.case.variant} | {one.formulation} |", f"{one.seconds:.2g} |"
         if one.fault:
-            lines.append(f"{start} | | | | | {one.seconds:.2g} | **fault**: {one.fault} |")
-        for name, check in one.checks.items():
-            verdict = "passed" if check.passed else "**missed**"
-            lines.append(
-                f"{start} {name} | {check.computed:.7g} | {RELATION[check.bound]}"
-                f"{check.reference:.7g} | {check.error:.1e} | {check.tolerance:.1e} | "
-                f"{one.seconds:.2g} | {verdict} |"
-            )
+            lines.append(f"{start} **fault**: {one.fault} | | | | | {VERDICT[False]} | {end}")
+        lines += [
+            f"{start} {name} | {check.shown} | {check.wanted} | {check.error:.1e} | "
+            f"{check.tolerance:.1e} | {VERDICT[check.passed]} | {end}"
+            for name, check in one.checks.items()
+        ]
     return lines
+
+
+def group(name: str) -> str:
+    """Letter of `GROUPS` that a benchmark belongs to; empty for one of a user's own."""
+    found = re.match(r"([A-Z])\d", name)
+    return found[1] if found and found[1] in GROUPS else ""
+
+
+def _rank(name: str) -> tuple[int, int, str]:
+    number = re.match(r"\D*(\d+)", name)
+    return list(GROUPS).index(group(name)), int(number[1]) if number else 0, name
 
 
 def _index(by_name: dict[str, list[Outcome]]) -> str:
     total = [one for many in by_name.values() for one in many]
     missed = sum(not one.passed for one in total)
+    seconds = sum(one.seconds for one in total)
     lines = [
         "# Verification",
         "",
-        f"{len(total)} runs of {len(by_name)} benchmarks, {missed} missed. Written by "
-        "`nmm verify --out`.",
+        f"{len(total)} runs of {len(by_name)} benchmarks, {missed} missed, in {seconds:.0f} s. "
+        "Written by `make manual`, that is `nmm verify --slow --out docs/verification`. Each row "
+        "shows, of all variants under one formulation, the quantity that comes nearest to its "
+        "tolerance; the page behind the name has them all.",
         "",
-        "![margins](margins.png)",
+        "An error is relative to the reference unless the page says otherwise; a reference with ≤ "
+        "or ≥ is a limit, whose error is how far it is passed.",
         "",
-        "| benchmark | what | runs | seconds | |",
-        "|---|---|---|---|---|",
+        "![Errors over tolerances of all quantities](margins.png)",
+    ]
+    for letter, words in GROUPS.items():
+        chosen = {name: many for name, many in by_name.items() if group(name) == letter}
+        if chosen:
+            lines += ["", f"## {words}", "", *_rows(chosen)]
+    pages = [stem(name) for name in by_name]
+    return "\n".join([*lines, "", "```{toctree}", ":hidden:", "", *pages, "```"]) + "\n"
+
+
+def _rows(by_name: dict[str, list[Outcome]]) -> list[str]:
+    """One row a benchmark and formulation: the worst quantity of its variants."""
+    lines = [
+        "| benchmark | title | computed | reference | error | tolerance | formulation | passed "
+        "| seconds |",
+        "|---|---|---|---|---|---|---|---|---|",
     ]
     for name, many in by_name.items():
-        verdict = "passed" if all(one.passed for one in many) else "**missed**"
-        seconds = sum(one.seconds for one in many)
-        title = many[0].case.title
-        lines.append(
-            f"| [{name}]({stem(name)}.md) | {title} | {len(many)} | {seconds:.2g} | {verdict} |"
-        )
-    return "\n".join(lines) + "\n"
+        for formulation in dict.fromkeys(one.formulation for one in many):
+            ours = [one for one in many if one.formulation == formulation]
+            end = (
+                f"{formulation} | {VERDICT[all(one.passed for one in ours)]} | "
+                f"{sum(one.seconds for one in ours):.2g} |"
+            )
+            start = f"| [{name}]({stem(name)}.md) | {many[0].case.title} |"
+            made = [one for one in ours if one.checks]
+            if not made or any(one.fault for one in ours):
+                lines.append(f"{start} fault | | | | {end}")
+                continue
+            what, worst = max((nearest(one) for one in made), key=lambda pair: pair[1].share)
+            lines.append(
+                f"{start} {what}: {worst.shown} | {worst.wanted} | {worst.error:.1e} | "
+                f"{worst.tolerance:.1e} | {end}"
+            )
+    return lines
 
 
-def _page(many: Sequence[Outcome], sketch: Path | None) -> str:
+def _page(many: Sequence[Outcome], sketch: bool, falls: bool) -> str:
     case = many[0].case
     about = " ".join((type(case).__doc__ or "").split())
     reasons = {
         name: check.reason for one in many for name, check in one.checks.items() if check.reason
     }
+    name = stem(case.name)
     lines = [
         f"# {case.name}: {case.title}",
         "",
@@ -117,33 +168,56 @@ def _page(many: Sequence[Outcome], sketch: Path | None) -> str:
         "",
         f"Reference: {case.source}.",
         "",
-        *([f"![{case.name}]({sketch.name})", ""] if sketch else []),
+        *([f"![Sketch of {case.name}]({name}.png)", ""] if sketch else []),
         *table(many),
         "",
-        "Tolerances:",
+        *(["## Convergence", "", *_orders(many, f"{name}_convergence.png"), ""] if falls else []),
+        "## Tolerances",
         "",
-        *(f"- {name}: {reason}" for name, reason in reasons.items()),
+        *(f"- {quantity}: {reason}" for quantity, reason in reasons.items()),
+        "",
+        f"Run it: `nmm verify {_quoted(case.name)}`. "
+        f"It is `{type(case).__module__}:{type(case).__qualname__}`.",
     ]
     return "\n".join(lines) + "\n"
 
 
-def _sketch(case: Case, path: Path) -> Path | None:
-    """Draw the blocks, supports and loads of a benchmark that is one scene."""
-    if not isinstance(case, SceneCase):
-        return None
-    import numpy as np
+def _quoted(name: str) -> str:
+    return f'"{name}"' if " " in name else name
 
-    from nmm.geometry.regions import regions
-    from nmm.plots.blocks import blocks
 
-    scene = case.parsed()
-    found = regions(scene)
-    topology = Topology(
-        found.polygons,
-        np.arange(len(found.polygons)),
-        np.asarray(found.material),
-        tuple(scene.materials),
-        tuple(found.name),
-    )
-    blocks(Still([topology]), scene=scene, path=path)
-    return path
+def _orders(many: Sequence[Outcome], picture: str) -> list[str]:
+    """Orders with confidence beside theory, and the picture."""
+    return [
+        "Slopes are least squares through all points of a line, ± their 95 % confidence; dashed is "
+        "the slope of theory.",
+        "",
+        f"![Errors over sizes]({picture})",
+        "",
+        "| quantity | variant | formulation | observed order | theory |",
+        "|---|---|---|---|---|",
+        *(
+            f"| {name} | {one.case.variant} | {one.formulation} | {check.series.observed} | "
+            f"{check.series.theory:g} |"
+            for one in many
+            for name, check in one.checks.items()
+            if check.series is not None
+        ),
+    ]
+
+
+def _draw_convergence(many: Sequence[Outcome], path: Path) -> bool:
+    """Draw all series of a benchmark; False where it has none."""
+    from nmm.plots.verification import Fall, convergence
+
+    panels: dict[str, list[Fall]] = {}
+    for one in many:
+        for name, check in one.checks.items():
+            if (run := check.series) is not None:
+                words = ", ".join(filter(None, (one.case.variant, one.formulation)))
+                label = f"{words}: {run.observed}, theory {run.theory:g}"
+                fall = Fall(run.sizes, run.errors, run.theory, label, run.x)
+                panels.setdefault(name, []).append(fall)
+    if panels:
+        convergence(panels, path)
+    return bool(panels)

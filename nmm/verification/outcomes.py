@@ -48,22 +48,46 @@ class Outcome:
         if self.fault:
             yield f"{self.label}: {self.fault}"
         for name, check in self.checks.items():
-            relation = {"equal": "=", "at_most": "<=", "at_least": ">="}[check.bound]
             verdict = "passed" if check.passed else f"FAILED ({check.reason})"
             yield (
-                f"{self.label}: {name}: {check.computed:.9g} {relation} {check.reference:.9g}, "
+                f"{self.label}: {name}: {check.shown}, reference {check.wanted}, "
                 f"error {check.error:.1e}, allowed {check.tolerance:.1e}: {verdict}"
             )
+
+
+def named(text: str) -> list[str]:
+    """Names of `CASES` that a name stands for.
+
+    A name stands for itself, else for all that begin with it and go on with another word or
+    letter: "B" for all of that group, "B1" for "B1 friction" and "B1 cohesion" and not "B10".
+    What nothing begins with, such as ``module:Class``, is left as it is.
+    """
+    if text in CASES.table:
+        return [text]
+    wanted = text.lower()
+    found = [
+        name
+        for name in CASES.table
+        if name.lower().startswith(wanted)
+        and not (wanted[-1:].isdigit() and name[len(wanted) : len(wanted) + 1].isdigit())
+    ]
+    return (found if text else []) or [text]
 
 
 def runs(names: Iterable[str] | None = None, slow: bool = False) -> Iterator[tuple[Case, str]]:
     """Yield every variant of the named benchmarks (all when None) with each formulation.
 
-    Of "all" those of more than a few seconds are left out unless ``slow``.
+    Variants of more than a few seconds are left out unless ``slow``, or unless their benchmark is
+    named in full.
     """
-    for name in CASES.table if names is None else names:
+    chosen = {
+        name: text is None or text != name
+        for text in ([None] if names is None else names)
+        for name in (CASES.table if text is None else named(text))
+    }
+    for name, of_many in chosen.items():
         for case in CASES.load(name).variants():
-            if case.slow and not slow and names is None:
+            if case.slow and of_many and not slow:
                 continue
             for formulation in case.formulations:
                 yield case, formulation
@@ -85,8 +109,8 @@ def verify(names: Iterable[str] | None = None, slow: bool = False) -> list[Outco
     Parameters
     ----------
     names
-        Names of `CASES`; all that are not slow when None.
+        Names of `CASES`, or what they begin with; all when None.
     slow
-        Whether "all" includes those of more than a few seconds.
+        Whether those of more than a few seconds are run though they are not named in full.
     """
     return [judge(case, formulation) for case, formulation in runs(names, slow)]

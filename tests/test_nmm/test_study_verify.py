@@ -9,8 +9,9 @@ from typer.testing import CliRunner
 
 from nmm.cli import app
 from nmm.errors import NmmError
-from nmm.verification import Check
-from nmm.verification.manual import share
+from nmm.verification import CASES, Case, Check, runs
+from nmm.verification.manual import in_order
+from nmm.verification.outcomes import named
 from nmm.verification.published import PublishedCase
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -42,6 +43,19 @@ class Mine(Case):
 
     def checks(self, formulation):
         return {"sum": Check(2.0 + 2.0, %s, 0.0, "exact")}
+'''
+
+ORDERS = '''
+from nmm.verification.base import Case, order
+from nmm.verification.series import Series
+
+class Mine(Case):
+    """Errors that fall by eight."""
+    name, title, source = "mine", "a cube", "arithmetic"
+
+    def checks(self, formulation):
+        errors = Series.of([0.4, 0.2, 0.1, 0.05], [512.0, 62.5, 7.8, 1.0], 3.0)
+        return {"order": order(errors, 0.1, "chosen so")}
 '''
 
 
@@ -122,6 +136,61 @@ def test_an_unknown_benchmark_is_named():
 
 
 def test_the_share_of_a_limit_is_the_value_over_it():
-    assert share(Check(0.5, 1.0, 0.0, "", bound="at_most")) == 0.5
-    assert share(Check(1.1, 1.0, 0.2, "")) == pytest.approx(0.5)
-    assert share(Check(2.0, 1.0, 0.0, "")) == float("inf")
+    assert Check(0.5, 1.0, 0.0, "", bound="at_most").share == 0.5
+    assert Check(1.1, 1.0, 0.2, "").share == pytest.approx(0.5)
+    assert Check(2.0, 1.0, 0.0, "").share == float("inf")
+    assert Check(float("nan"), 1.0, 0.1, "").share == float("inf")
+
+
+def test_a_name_stands_for_all_that_begin_with_it():
+    assert named("B2") == ["B2"]
+    assert set(named("B1")) == {"B1 friction", "B1 cohesion"}
+    assert {"B1 friction", "B2", "B18 shear"} <= set(named("b"))
+    assert not any(name.startswith("C") for name in named("b"))
+    assert named("mine:Case") == ["mine:Case"]
+    assert named("") == [""]
+
+
+def test_slow_variants_run_when_their_benchmark_is_named_in_full(monkeypatch):
+    class Long(Case):
+        name, title, source = "B99 long", "", ""
+        slow = True
+
+        def checks(self, formulation):
+            return {}
+
+    monkeypatch.setitem(CASES.table, "B99 long", "anywhere:Long")
+    monkeypatch.setattr(type(CASES), "load", lambda self, name: Long)
+    assert list(runs(["B99"])) == []
+    assert len(list(runs(["B99 long"]))) == 1
+    assert len(list(runs(["B99"], slow=True))) == 1
+
+
+def test_the_list_of_benchmarks_runs_none():
+    result = call("verify", "--list", "B1")
+    assert result.exit_code == 0
+    assert "B1 friction" in result.stdout
+    assert "B2" not in result.stdout
+    assert "within tolerance" not in result.stdout
+
+
+def test_an_order_is_printed_with_its_confidence_and_drawn_on_its_page(tmp_path, monkeypatch):
+    (tmp_path / "orders_of_mine.py").write_text(ORDERS)
+    monkeypatch.chdir(tmp_path)
+    result = call("verify", "orders_of_mine:Mine", "--out", tmp_path / "manual")
+    assert result.exit_code == 0, result.output
+    # log2 of 8.2, 8, 7.8: by hand 3.001, and half width 12.706 * s / sqrt(sum x^2) of two values.
+    assert "3.00 +- " in result.stdout
+    page = (tmp_path / "manual/mine.md").read_text()
+    assert "![Errors over sizes](mine_convergence.png)" in page
+    assert (tmp_path / "manual/mine_convergence.png").stat().st_size < 60_000
+
+
+def test_groups_and_numbers_are_in_the_order_of_the_manual():
+    assert in_order(["own", "B10 cone", "D1", "B2", "A14"]) == [
+        "A14",
+        "B2",
+        "B10 cone",
+        "D1",
+        "own",
+    ]

@@ -1,0 +1,130 @@
+"""Sketches of benchmark problems: small pictures for the pages of a manual."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.plots.blocks import blocks
+from nmm.plots.canvas import PathLike, axes_grid, extent_of
+from nmm.plots.conditions import LOAD, SUPPORT
+from nmm.plots.shapes import EDGE, fill
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from covers.cut_cells import CutCells
+    from nmm.results.sink import RunData
+    from nmm.scene import Scene
+
+WIDTH, LEAST, MOST = 4.4, 1.3, 4.4  # inches
+DOTS = 100  # an inch
+MATERIAL, NET, CRACK = "#ddd8cb", "#a49d8b", "#b2182b"
+ARROWS = 40  # tractions drawn at most
+LENGTH = 0.09  # longest arrow relative to the body
+
+
+def scene_problem(run: "RunData", scene: "Scene", held: Sequence[int], path: PathLike) -> None:
+    """Draw a scene before its run; ``held`` are the numbers of blocks that cannot move."""
+    axes = axes_grid(1, 1, 4.0)[0]
+    blocks(run, scene=scene, ax=axes, title="")
+    polygons = run.topologies[0].elements
+    if held:
+        pattern = {"facecolors": "none", "edgecolors": "#8a8578", "linewidths": 0.0}
+        fill(axes, polygons.take(np.array(held)), hatch="////", **pattern)
+    if scene.gravity is not None:
+        _weight(axes)
+    _write(axes, path)
+
+
+def solid_problem(
+    cut: "CutCells", loads: Sequence[tuple[Floats, Floats]], held: Floats, path: PathLike
+) -> None:
+    """Draw a meshed body.
+
+    Parameters
+    ----------
+    cut
+        Its elements and edges are drawn.
+    loads
+        Points (m, 2) and the tractions (m, 2) there, to one scale.
+    held
+        (m, 2) points that are held in a direction or in both.
+    path
+        File to save the figure in.
+    """
+    from matplotlib.collections import LineCollection
+
+    axes = axes_grid(1, 1, 4.0)[0]
+    elements = cut.elements
+    width = float(np.clip(10.0 / np.sqrt(len(elements)), 0.1, 0.6))
+    fill(axes, elements, facecolors=MATERIAL, edgecolors=NET, linewidths=width)
+    edges = cut.boundary
+    lines = np.stack([edges.start, edges.end], axis=1)
+    crack = edges.crack >= 0
+    axes.add_collection(LineCollection(list(lines[~crack]), colors=EDGE, linewidths=0.9))
+    axes.add_collection(LineCollection(list(lines[crack]), colors=CRACK, linewidths=1.6))
+    axes.plot(*held.T, ".", color=SUPPORT, markersize=3.0, linestyle="none", zorder=4)
+    extent = _arrows(axes, loads, extent_of(elements.points))
+    margin = 0.03 * float(np.max(extent[1] - extent[0]))
+    axes.set_aspect("equal")
+    axes.set_xlim(extent[0, 0] - margin, extent[1, 0] + margin)
+    axes.set_ylim(extent[0, 1] - margin, extent[1, 1] + margin)
+    _write(axes, path)
+
+
+def _arrows(axes: "Axes", loads: Sequence[tuple[Floats, Floats]], extent: Floats) -> Floats:
+    """Draw tractions that start at the edge or, where they press, end there; return the extent."""
+    strongest = max(
+        (float(np.hypot(*force.T).max()) for _, force in loads if len(force)), default=0
+    )
+    if not strongest:
+        return extent
+    size = float(np.hypot(*(extent[1] - extent[0])))
+    middle, ends = extent.mean(axis=0), [extent]
+    for points, force in loads:  # a handful of loads
+        few = np.unique(np.linspace(0, len(points) - 1, ARROWS).astype(int))
+        way = LENGTH * size * force[few] / strongest
+        out = ((points[few] - middle) * way).sum(axis=1, keepdims=True) > 0
+        tail = np.where(out, points[few], points[few] - way)
+        axes.quiver(
+            *tail.T,
+            *way.T,
+            angles="xy",
+            scale_units="xy",
+            scale=1,
+            color=LOAD,
+            width=0.004,
+            zorder=3,
+        )
+        ends.append(np.concatenate([tail, tail + way]))
+    return extent_of(*ends)
+
+
+def _weight(axes: "Axes") -> None:
+    """Say that weight acts, by an arrow in the upper right corner."""
+    arrow = {"arrowstyle": "-|>", "color": LOAD, "lw": 1.2}
+    axes.annotate(
+        "g",
+        xy=(1.02, 0.80),
+        xytext=(1.02, 0.97),
+        xycoords="axes fraction",
+        ha="center",
+        color=LOAD,
+        arrowprops=arrow,
+        annotation_clip=False,
+    )
+
+
+def _write(axes: "Axes", path: PathLike) -> None:
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    height = np.clip((WIDTH - 0.7) * (high - low) / (right - left) + 0.6, LEAST, MOST)
+    axes.set_title("")
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel("y (m)")
+    figure = axes.figure.figure
+    figure.set_size_inches(WIDTH, float(height))
+    figure.savefig(path, dpi=DOTS)
