@@ -193,7 +193,7 @@ class _Builder:
     def _polynomial(
         self, elements: Ints, slots: Ints, active: Ints, functions: list[LocalFunctions]
     ) -> ElementGroup:
-        shapes = self._shapes(elements, active)
+        shapes = self._shapes(elements, slots, active)
         first = elements[shapes.first]
         size = 2 / diameters(self.cut.elements.take(first))
         cells = self.cut.element_cell[first]
@@ -213,8 +213,11 @@ class _Builder:
             self.covers,
         )
 
-    def _shapes(self, elements: Ints, active: Ints) -> Shapes:
-        """Congruent whole cells share a shape when all their covers are whole too."""
+    def _shapes(self, elements: Ints, slots: Ints, active: Ints) -> Shapes:
+        """Congruent whole cells share a shape when all their covers are whole too.
+
+        Where degrees vary, covers of one degree must stand at the same corners besides.
+        """
         cut = self.cut
         alike = cut.element_whole[elements] & ~self.fitted[active].any(axis=1)
         known = self.cover.cell_shape[cut.element_cell[elements]]
@@ -222,6 +225,9 @@ class _Builder:
         key = np.where(
             alike, known, self.cover.cell_shape.max(initial=0) + 1 + np.arange(len(known))
         )
+        if (slots != slots[:1]).any():
+            order = np.unique(slots, axis=0, return_inverse=True)[1].ravel()
+            key = key * (int(order.max()) + 1) + order
         _, first, shape = np.unique(key, return_index=True, return_inverse=True)
         corner = cut.elements.points[cut.elements.first_point[elements]]
         source = elements[first]

@@ -12,7 +12,19 @@ from pydantic import Field, model_validator
 
 from nmm.errors import FormulationError
 from nmm.scene.document import parse, read_text
-from nmm.scene.fields import Angle, Count, Frozen, Length, Number, PartName, Point, Time
+from nmm.scene.fields import (
+    Angle,
+    BlockName,
+    Count,
+    Frozen,
+    Length,
+    Number,
+    PartName,
+    Point,
+    Ring,
+    Time,
+    fault,
+)
 
 _PART = 'a registered name or "module:Name"'
 _OF_BLOCKS = ("block", "sub_blocks")
@@ -39,6 +51,47 @@ class Enrichment(Frozen):
     )
 
 
+class CoverRegion(Frozen):
+    """Covers of another degree: those in a polygon, of a block, or near a point.
+
+    A cover belongs to the place where the centroid of its material lies; of several regions that
+    hold it the last one counts.
+    """
+
+    degree: Count = Field(ge=0, le=3, description="a degree, 0 to 3", examples=[2])
+    polygon: Ring | None = Field(
+        default=None,
+        description="a list of three corners [x, y] in m or more",
+        examples=[[[0, 0], [1, 0], [1, 1]]],
+    )
+    block: BlockName | None = Field(
+        default=None, description='the name of a block, or of a piece "beam.12"', examples=["beam"]
+    )
+    point: Point | None = Field(
+        default=None, description="a point [x, y] in m, with a radius", examples=[[0.5, 0]]
+    )
+    radius: Length | None = Field(
+        default=None, gt=0, description="a distance to the point in m, > 0", examples=[0.2]
+    )
+
+    @model_validator(mode="after")
+    def _one_place(self) -> CoverRegion:
+        given = [name for name in ("polygon", "block", "point") if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise fault(
+                ", ".join(given) or "none",
+                "one of polygon, block, point",
+                "name one place a region; write a region for each further place",
+            )
+        if (self.point is None) != (self.radius is None):
+            raise fault(
+                f"point {self.point}, radius {self.radius}",
+                "a point with a radius",
+                "write both, or neither",
+            )
+        return self
+
+
 class Cover(_Part):
     """Physical covers and their local functions: block = DDA, meshes = manifold.
 
@@ -62,6 +115,14 @@ class Cover(_Part):
         examples=[[0.3, 0.2]],
     )
     enrichment: Enrichment | None = Field(default=None, description="a table [cover.enrichment]")
+    regions: tuple[CoverRegion, ...] | None = Field(
+        default=None, description="tables [[cover.regions]]"
+    )
+
+    @property
+    def highest_degree(self) -> int:
+        """Highest degree of the polynomials, over all regions."""
+        return max([self.degree or 0, *(item.degree for item in self.regions or ())])
 
     @property
     def of_blocks(self) -> bool:
@@ -123,6 +184,12 @@ class ContactMethod(_Part):
     )
     max_passes: Count = Field(
         default=20, gt=0, description="a number of passes, > 0", examples=[20]
+    )
+    points: Literal["auto", "vertices", "faces"] = Field(
+        default="auto",
+        description='"auto", "vertices" or "faces": where contacts that are no joints act: at '
+        "corners alone, or spread over the faces that lie on each other; auto is faces for meshes",
+        examples=["faces"],
     )
     joint_points: Literal["corners", "gauss"] = Field(
         default="corners", description='"corners" or "gauss"', examples=["corners"]

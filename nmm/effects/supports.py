@@ -246,7 +246,7 @@ def method_of(part: "SupportMethod", size: float | None, degree: int, mesh: bool
 def _support(setup: Setup, support: "SceneSupport") -> Support:
     cover = setup.formulation.cover
     mesh = not cover.of_blocks
-    method = method_of(setup.formulation.supports, cover.size, cover.degree or 0, mesh)
+    method = method_of(setup.formulation.supports, cover.size, cover.highest_degree, mesh)
     if method.kind == "lagrange" and setup.scene.contact is not None:
         raise FormulationError(
             '[supports] method: "lagrange": in a scene with [contact]: expected "nitsche" or '

@@ -56,6 +56,11 @@ def cover_regions(
     """
     lines = [*cracks, *np.asarray(regions.cracks)]
     functions = local_functions(cover)
+    if cover.regions and (cover.of_blocks or cover.functions != "monomials"):
+        raise FormulationError(
+            f'[[cover.regions]]: with type = "{cover.type}", functions = "{cover.functions}": '
+            'expected a mesh of polynomials: use type = "triangles" and functions = "monomials"'
+        )
     if cover.of_blocks:
         if lines:
             raise FormulationError(
@@ -98,6 +103,7 @@ def _mesh(
     from covers.cutting import cut
     from covers.mesh_manifold import mesh_manifold
     from covers.registry import cover_class
+    from nmm.stepping.degrees import kinds_by_region
 
     if cover.size is None:
         raise FormulationError(
@@ -113,7 +119,8 @@ def _mesh(
     except (ValueError, TypeError, ImportError) as fault:
         raise FormulationError(f"[cover] {fault}") from fault
     extra = [] if cover.enrichment is None else _enrichments(pieces, cover, kappa)
-    return Covering(mesh_manifold(laid, pieces, functions, extra), pieces, laid)
+    kinds = functions if not cover.regions else kinds_by_region(regions, pieces, cover)
+    return Covering(mesh_manifold(laid, pieces, kinds, extra), pieces, laid)
 
 
 def _enrichments(cut: "CutCells", cover: "Cover", kappa: Floats | None) -> "list[Enrichment]":

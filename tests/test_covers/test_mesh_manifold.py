@@ -232,6 +232,26 @@ def test_degree_may_vary_from_cover_to_cover() -> None:
     assert abs(stiffness @ manifold.rigid_modes).max() < 1e-12 * abs(stiffness).max()
 
 
+def test_degrees_may_vary_in_any_pattern_over_congruent_cells() -> None:
+    cover = Triangles.regular(_bounds(SQUARE), 0.12, angle=0.3, shift=(0.2, 0.4))
+    pieces = cut(cover, SQUARE)
+    away = np.hypot(*(cover.patch_centre[pieces.cover_patch] - 0.5).T)
+    kinds = Kinds((Monomials(1), Monomials(2)), (away < 0.3).astype(np.int64))
+    manifold = mesh_manifold(cover, pieces, kinds)
+    assert sum(group.n_shapes for group in manifold.groups) < len(pieces.elements)
+    # Covers of degree 1 and 2 stand at different corners of congruent cells.
+    assert residual_of_polynomials(manifold, 2) < 1e-10
+    unknowns = np.random.default_rng(5).normal(size=manifold.n_unknowns)
+    rule = polygon_rule(manifold.elements, 6)
+    index, rows = manifold.gradient_rows(rule.owner, rule.points)
+    g = np.einsum("mcjl,ml->mcj", rows, unknowns[index])
+    strain = np.stack([g[:, 0, 0], g[:, 1, 1], g[:, 0, 1] + g[:, 1, 0]], axis=1)
+    whole = model(manifold)
+    density = np.einsum("mi,mij,mj->m", strain, whole.elasticity[rule.owner], strain)
+    energy = unknowns @ (whole.stiffness @ unknowns)
+    assert energy == pytest.approx(rule.weights @ density, rel=1e-10)
+
+
 def effective_condition(matrix: Floats, null: int) -> float:
     scale = 1 / np.sqrt(matrix.diagonal())
     values = np.sort(np.abs(np.linalg.eigvalsh(matrix * scale * scale[:, None])))
