@@ -58,8 +58,8 @@ def _inside(
         if not shape.is_valid:
             reason = shapely.is_valid_reason(shape)
             raise FormulationError(
-                f"[[cover.regions]] {number}: polygon: {reason}: expected a ring with area that does not cross itself: "
-                "correct its corners"
+                f"[[cover.regions]] {number}: polygon: {reason}: expected a ring that does not "
+                "cross itself: correct its corners"
             )
         return np.asarray(shapely.intersects_xy(shape, *centre.T))
     if item.point is not None:

@@ -77,7 +77,7 @@ def test_a_polygon_and_a_block_choose_their_covers() -> None:
     assert sizes.tolist() == [2, 12]
     # Half of the square, but for the column of covers that the line runs through.
     assert counts[1] == pytest.approx(manifold.n_covers / 2, rel=0.15)
-    two = Polygons.from_vertices([SQUARE, SQUARE + [1.5, 0.0]])
+    two = Polygons.from_vertices([SQUARE, SQUARE + np.array([1.5, 0.0])])
     block = '[[cover.regions]]\ndegree = 1\nblock = "#1"\n'
     right = model_of(COVER.format(0) + block, two).manifold
     linear = np.diff(right.cover_offset) == 6
