@@ -35,6 +35,10 @@ def cost(
         list[str] | None,
         typer.Option(help="key=v1,v2,...: formulation.integrator.step=2e-3,1e-3; repeatable."),
     ] = None,
+    yardstick: Annotated[
+        str | None,
+        typer.Option(help="Also finite elements of scikit-fem, with commas: P1,P2,P3."),
+    ] = None,
     quantity: Annotated[
         str | None, typer.Option(help="What error is taken of; the scene's first [[reference]].")
     ] = None,
@@ -46,7 +50,7 @@ def cost(
     """Show what accuracy costs: error against seconds over formulations and sizes."""
     with faults_told():
         _one_thread()
-        from nmm.study.cost import cost_study
+        from nmm.study.cost import cost_study, yardsticks
         from nmm.study.cost_report import levels, write_cost_report
         from nmm.study.variants import SIZE
 
@@ -54,7 +58,8 @@ def cost(
         with progress_bar(quiet) as progress:
             study = cost_study(
                 _scene(scene),
-                _formulations(scene, [*(formulations or []), *(more or [])]),
+                _formulations(scene, [*(formulations or []), *(more or [])])
+                | yardsticks(_listed(yardstick)),
                 dict(_varied(text) for text in said),
                 quantity,
                 repeats,
@@ -226,6 +231,10 @@ def _formulations(scene: Path, paths: list[Path]) -> "dict[str, Formulation]":
         return read_formulations(paths)
     own = _scene(scene).formulation or Formulation()
     return {own.title or "the scene's own": own}
+
+
+def _listed(text: str | None) -> list[str]:
+    return [name.strip() for name in (text or "").split(",") if name.strip()]
 
 
 def _varied(text: str) -> tuple[str, list[object]]:

@@ -1,18 +1,18 @@
-"""Work-precision figures: error against seconds, unknowns and memory, and where the time goes."""
+"""Work-precision figures: error against seconds, unknowns, memory; time by phase and effect."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nmm.plots.canvas import SMALL, PathLike, axes_grid, frame, save
-from nmm.plots.families import colours
+from nmm.plots.families import styles
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h")
 PHASES = {
     "covers": "#6a4c93",
     "effects": "#b8a1cf",
@@ -22,6 +22,21 @@ PHASES = {
     "update": "#2a7f62",
     "rest": "#c9c5ba",
 }
+EFFECTS = {
+    "supports": "#1d4e89",
+    "loads": "#93aac2",
+    "body loads": "#4d9de0",
+    "gravity": "#2a7f62",
+    "inertia": "#7fb069",
+    "contact": "#e08e0b",
+    "seams": "#c1121f",
+    "artificial joints": "#7a1f3d",
+    "initial velocity": "#6a4c93",
+    "initial stress": "#b8a1cf",
+    "other effects": "#9c8b00",
+    "covers, elasticity, solution": "#e4e1d8",
+}
+VISIBLE = 0.5  # percent; parts that are nowhere more are not drawn
 FAILED = 0.96  # height, in fractions of the axes, at which failed runs are marked
 
 
@@ -39,8 +54,8 @@ class Series:
         Whether the run came to an answer.
     phases, effects
         Seconds of the dearest run by phase, and by effect.
-    family
-        "DDA" or "manifold".
+    family, method
+        "DDA", "manifold" or "elements"; what `nmm.plots.families.METHODS` knows it by.
     """
 
     error: Sequence[float]
@@ -52,6 +67,7 @@ class Series:
     phases: Mapping[str, float] = field(default_factory=dict)
     effects: Mapping[str, float] = field(default_factory=dict)
     family: str = "manifold"
+    method: str = ""
 
 
 def work_precision(
@@ -59,11 +75,12 @@ def work_precision(
     *,
     title: str = "",
     error_name: str = "relative error",
+    reference: str = "",
     uncertainty: float = 0.0,
     counted: str = "unknowns",
     path: PathLike | None = None,
 ) -> "list[Axes]":
-    """Draw four panels: error against seconds, counts and memory; where the time goes.
+    """Draw error against seconds, counts and memory; shares of time by phase and by effect.
 
     Parameters
     ----------
@@ -71,6 +88,8 @@ def work_precision(
         By name of the formulation.
     title, error_name
         Above the figure, and on the axis of the errors.
+    reference
+        What errors are taken against, in words, under the title.
     uncertainty
         Relative uncertainty of the reference; errors below it mean nothing and are shaded.
     counted
@@ -79,24 +98,38 @@ def work_precision(
         File to save the figure in.
     """
     rows = len(series)
-    panels = axes_grid(2, 2, 6.2 + 0.17 * rows + 0.14 * max(rows - 4, 0))
+    panels = axes_grid(3, 2, 7.2 + 0.16 * rows)
     costs = (("seconds", "processor seconds"), ("counts", counted), ("memory", "memory (MiB)"))
-    shades = colours([one.family for one in series.values()])
+    looks = styles([one.family for one in series.values()], [one.method for one in series.values()])
     for axes, (what, words) in zip(panels, costs, strict=False):
-        for number, one in enumerate(series.values()):
-            _line(axes, one, what, shades[number], MARKERS[number % len(MARKERS)])
+        for one, look in zip(series.values(), looks, strict=True):
+            _line(axes, one, what, *look)
         _scales(axes)
         _shade(axes, uncertainty)
         frame(axes, words, error_name, f"error against {words.partition(' (')[0]}")
         axes.grid(visible=True, which="major", linewidth=0.4, color="#e0e0e0")
         axes.set_axisbelow(True)
     _front(panels[0], series)
-    _phases(panels[3], series)
-    _legend(panels[0], series, shades, uncertainty)
+    _legend(panels[3], series, looks, uncertainty)
+    _shares(panels[4], {name: one.phases for name, one in series.items()}, PHASES, "by phase")
+    _shares(panels[5], _effects(series), EFFECTS, "by effect")
+    _seconds(panels[5], series)
     if title:
-        panels[0].figure.suptitle(title, fontsize=11, x=0.01, ha="left")
+        head = f"{title}\n{reference}" if reference else title
+        panels[0].figure.suptitle(head, fontsize=9.5, x=0.01, ha="left")
     save(panels[0], path)
+    _fewer_colours(path)
     return panels
+
+
+def _fewer_colours(path: PathLike | None) -> None:
+    """Store a PNG with a palette: a third of its size, so that reports can be committed."""
+    if path is not None and Path(path).suffix == ".png":
+        from PIL import Image
+
+        with Image.open(path) as picture:
+            few = picture.convert("RGB").quantize(96)
+        few.save(path, optimize=True)
 
 
 def _line(axes: "Axes", one: Series, what: str, colour: str, marker: str) -> None:
@@ -165,51 +198,73 @@ def _front(axes: "Axes", series: Mapping[str, Series]) -> None:
         axes.plot(seconds, error, color="#f3d98b", linewidth=8, zorder=0, solid_capstyle="round")
 
 
-def _phases(axes: "Axes", series: Mapping[str, Series]) -> None:
-    """Draw shares of the dearest run's time by phase, its processor seconds at the end."""
-    timed = {name: one for name, one in series.items() if one.phases}
+def _effects(series: Mapping[str, Series]) -> dict[str, Mapping[str, float]]:
+    """Seconds of each effect, of those that have no colour together, and what is left."""
+    found: dict[str, Mapping[str, float]] = {}
+    for name, one in series.items():
+        if one.phases:
+            known = {effect: spent for effect, spent in one.effects.items() if effect in EFFECTS}
+            total = sum(one.effects.values())
+            known["other effects"] = total - sum(known.values())
+            known["covers, elasticity, solution"] = max(sum(one.phases.values()) - total, 0.0)
+            found[name] = known
+    return found
+
+
+def _shares(
+    axes: "Axes",
+    spent: Mapping[str, Mapping[str, float]],
+    colours: Mapping[str, str],
+    words: str,
+) -> None:
+    """Draw how the dearest run's time is shared."""
+    timed = {name: one for name, one in spent.items() if one}
     names = list(timed)
-    total = np.array([sum(one.phases.values()) for one in timed.values()])
+    total = np.array([sum(one.values()) for one in timed.values()])
     left = np.zeros(len(names))
-    for phase, colour in PHASES.items():
-        spent = np.array([one.phases.get(phase, 0.0) for one in timed.values()])
-        share = 100 * spent / np.where(total > 0, total, 1.0)
-        if share.any():
-            axes.barh(names, share, left=left, color=colour, label=phase, height=0.65)
+    for part, colour in colours.items():
+        share = 100 * np.array([one.get(part, 0.0) for one in timed.values()])
+        share = share / np.where(total > 0, total, 1.0)
+        if share.max(initial=0.0) > VISIBLE:
+            axes.barh(names, share, left=left, color=colour, label=part, height=0.65)
         left = left + share
-    for row, one in enumerate(timed.values()):
-        seconds = np.nanmax(one.seconds)
-        axes.text(101, row, f"{seconds:.2g} s", va="center", fontsize=SMALL - 1.5)
     axes.set(xlim=(0, 100))
     axes.invert_yaxis()
-    axes.tick_params(axis="y", labelsize=SMALL - 1.5)
-    frame(axes, "share of the dearest run's time  (%)", "", "where the time goes")
+    axes.tick_params(axis="y", labelsize=SMALL - 2)
+    frame(axes, "share of the dearest run's time  (%)", "", f"where the time goes, {words}")
     if names:
         axes.legend(
             fontsize=SMALL - 2,
             frameon=False,
             ncols=3,
             loc="upper center",
-            bbox_to_anchor=(0.4, -0.2),
+            bbox_to_anchor=(0.45, -0.2),
             columnspacing=1.0,
             handlelength=1.0,
         )
 
 
+def _seconds(axes: "Axes", series: Mapping[str, Series]) -> None:
+    """Write the dearest run's seconds in place of the names, which stand at the left already."""
+    timed = [one for one in series.values() if one.phases]
+    axes.set_yticks(range(len(timed)), [f"{np.nanmax(one.seconds):.2g} s" for one in timed])
+
+
 def _legend(
-    axes: "Axes", series: Mapping[str, Series], shades: Sequence[str], uncertainty: float
+    axes: "Axes",
+    series: Mapping[str, Series],
+    looks: Sequence[tuple[str, str]],
+    uncertainty: float,
 ) -> None:
+    """Fill a panel with what the lines stand for."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
     entries: list[Line2D | Patch] = []
-    for number, (name, one) in enumerate(series.items()):
+    for (colour, marker), (name, one) in zip(looks, series.items(), strict=True):
         failed = len(one.valid) - sum(one.valid)
         text = f"{name} ({failed} of {len(one.valid)} failed)" if failed else name
-        marker = MARKERS[number % len(MARKERS)]
-        entries.append(
-            Line2D([], [], color=shades[number], marker=marker, markersize=4.5, label=text)
-        )
+        entries.append(Line2D([], [], color=colour, marker=marker, markersize=4.5, label=text))
     entries.append(Line2D([], [], color="#f3d98b", linewidth=7, label="Pareto front"))
     if not all(all(one.valid) for one in series.values()):
         entries.append(
@@ -217,11 +272,13 @@ def _legend(
         )
     if uncertainty > 0:
         entries.append(Patch(color="#00000014", label="uncertainty of the reference"))
-    columns = 3 if max(len(name) for name in series) < 24 else 2
-    axes.figure.figure.legend(
+    axes.axis("off")
+    axes.legend(
         handles=entries,
-        loc="outside lower center",
-        ncols=columns,
+        loc="center left",
+        ncols=2 if len(entries) > 12 else 1,
         frameon=False,
-        fontsize=SMALL - 0.5,
+        fontsize=SMALL - 1,
+        borderaxespad=0.0,
+        columnspacing=1.0,
     )

@@ -177,9 +177,9 @@ def compile_plan(setup: Setup) -> Plan:
     targets = [EFFECTS[name].target for name, wanted in called_for(setup.scene).items() if wanted]
     if setup.formulation.cover.glued:
         targets.append(GLUE)
-    effects = {}
+    plan = Plan({})
     for target in targets:
         module, _, attribute = target.partition(":")
         kind: type[Effect] = getattr(import_module(module), attribute)
-        effects[kind.name] = kind.from_setup(setup)
-    return Plan(effects)
+        plan.effects[kind.name] = plan._timed(kind.name, partial(kind.from_setup, setup))
+    return plan

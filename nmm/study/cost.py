@@ -5,12 +5,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from nmm.errors import NmmError
 from nmm.formulation import Formulation
 from nmm.scene import Scene
 from nmm.study.measure import Progress, measure
 from nmm.study.record import Record
 from nmm.study.reference import Reference, by_name, extrapolated_reference, stated_reference
+from nmm.study.running import SKFEM
 from nmm.study.variants import cases_of
+
+ELEMENTS = ("P1", "P2", "P3", "P4")
+# Keys of a scene that say how finely it is divided: its answer tends to a limit with them.
+FINENESS = (".blocks", ".spacing")
 
 
 @dataclass(frozen=True)
@@ -41,6 +47,9 @@ def cost_study(
 ) -> CostStudy:
     """Run a scene under every formulation at every setting.
 
+    The scene's own reference is for the scene as it stands: where ``vary`` divides it into more
+    blocks, errors are measured against an extrapolated value.
+
     Parameters
     ----------
     scene
@@ -59,13 +68,52 @@ def cost_study(
         Called with the share done and what is run.
     memory
         Whether memory is measured, in a process of its own for each case.
+
+    Raises
+    ------
+    NmmError
+        When ``vary`` changes the answer of the scene, or no reference can be found.
     """
+    divided = _divided(vary)
     stated = stated_reference(scene, name)
     quantity = name or (stated.quantity if stated else "energy")
     cases = cases_of(scene, formulations, vary)
     records = measure(cases, [quantity], repeats, memory, progress)
-    reference = stated or extrapolated_reference(records, quantity)
+    reference = extrapolated_reference(records, quantity) if stated is None or divided else stated
     return CostStudy(scene.title, records, reference)
+
+
+def yardsticks(names: Sequence[str]) -> dict[str, Formulation]:
+    """Return formulations of the finite elements of scikit-fem, ``P1`` to ``P4``, by title.
+
+    Raises
+    ------
+    NmmError
+        When a name is another one.
+    """
+    found = {}
+    for name in names:
+        if name not in ELEMENTS:
+            raise NmmError(
+                f"--yardstick {name}: expected some of {', '.join(ELEMENTS)}: choose one"
+            )
+        cover = {"type": SKFEM, "degree": int(name[1])}
+        title = f"scikit-fem {name}"
+        found[title] = Formulation.model_validate({"title": title, "cover": cover})
+    return found
+
+
+def _divided(vary: Mapping[str, Sequence[Any]]) -> bool:
+    """Whether values change how finely the scene is divided; refuse what changes its answer."""
+    changed = [key for key in vary if not key.startswith("formulation.")]
+    for key in changed:
+        if not key.endswith(FINENESS):
+            raise NmmError(
+                f"--vary {key}: changes the scene and so its answer, and errors have nothing in "
+                "common to be measured against: expected keys of the formulation, or a number of "
+                "blocks: use nmm study"
+            )
+    return bool(changed)
 
 
 def write_records(records: Sequence[Record], path: Path) -> None:

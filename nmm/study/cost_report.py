@@ -1,15 +1,17 @@
 """The page, figure and raw records of a cost study."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from textwrap import wrap
 
 import numpy as np
 
 from nmm.study.cost import CostStudy, write_records
-from nmm.study.front import costs_at_levels, front
-from nmm.study.orders import observed_order
+from nmm.study.front import Cost, costs_at_levels, front
+from nmm.study.orders import Order, observed_order
 from nmm.study.record import Record
-from nmm.study.reference import sizes_of
+from nmm.study.reference import Reference, sizes_of
+from nmm.study.theory import order_in_size, order_in_step
 
 # Wall over processor seconds above which something else took the processor.
 DISTURBED = 1.3
@@ -32,6 +34,7 @@ def draw(study: CostStudy, path: Path) -> None:
     on_front = _front(study)
     sizes = {one.unknowns for one in study.records if one.unknowns}
     counted = "unknowns" if len(sizes) > 1 else "steps"
+    methods = distinguished(study)
     series = {
         name: Series(
             error=_errors(study, many),
@@ -43,6 +46,7 @@ def draw(study: CostStudy, path: Path) -> None:
             phases=_finest(many).phases,
             effects=_finest(many).effects,
             family=many[0].family,
+            method=methods[name],
         )
         for name, many in study.by_formulation().items()
     }
@@ -52,10 +56,29 @@ def draw(study: CostStudy, path: Path) -> None:
         series,
         title=study.title,
         counted=counted,
+        reference=_against(reference),
         error_name=f"relative error of {reference.quantity.replace('_', ' ')}",
         uncertainty=reference.uncertainty / size if reference.extrapolated else 0.0,
         path=path,
     )
+
+
+def distinguished(study: CostStudy) -> dict[str, str]:
+    """Return what tells formulations apart: their cover, else their enforcement or integrator."""
+    groups = study.by_formulation()
+    for part in ("cover", "enforcement", "integrator"):
+        found = {name: many[0].method.get(part, "") for name, many in groups.items()}
+        if len(set(found.values())) == len(found):
+            return found
+    return {name: many[0].method.get("cover", "") for name, many in groups.items()}
+
+
+def _against(reference: Reference) -> str:
+    """Say under the title what errors are taken against."""
+    text = f"error against {reference.value:.6g}: {reference.source}"
+    if reference.extrapolated:
+        text += f", uncertainty {reference.uncertainty:.1g}"
+    return "\n".join(wrap(text, 105))
 
 
 def cost_page(study: CostStudy, picture: str) -> str:
@@ -80,32 +103,75 @@ def cost_page(study: CostStudy, picture: str) -> str:
         *_section("Where the runs go", _limits(study)),
         *_section("Failed runs", _failed(study)),
         *_section("Time by effect", _effects(study)),
-        *_section("Cost at equal error", levels(study)),
+        *_section("Cost at equal error", _level_table(study)),
         *_section("How it was measured", _conditions(study)),
     ]
     return "\n".join(lines).rstrip() + "\n"
 
 
 def levels(study: CostStudy) -> list[str]:
-    """Sentences: at error e, A costs r times B; only between measured points."""
-    points = {
-        name: ([one.median_seconds for one in many], _errors(study, many))
-        for name, many in study.by_formulation().items()
-    }
+    """Sentences: at error e, A costs r times B; only between measured points.
+
+    Where DDA, manifolds and finite elements stand side by side, the cheapest of each are compared.
+    """
+    groups = study.by_formulation()
+    families = {name: many[0].family for name, many in groups.items()}
     lines = []
-    for level, at in costs_at_levels(points).items():
+    for level, at in costs_at_levels(_points(study, "median_seconds")).items():
         if len(at) < 2 or all(cost.at_most for cost in at.values()):
             continue
-        best = min(at, key=lambda name: at[name].value)
-        ratios = ", ".join(
-            f"{name} {'at most ' * cost.at_most}{cost.value / at[best].value:.2g} times"
-            for name, cost in at.items()
-            if name != best
-        )
-        none = [name for name in points if name not in at]
-        missed = f"; not reached by {', '.join(none)}" if none else ""
-        lines.append(f"- at error {level:g}, {best} costs {at[best]} s; {ratios} that{missed}")
+        order = sorted(at, key=lambda name: at[name].value)
+        best = order[0]
+        shown = order[1:]
+        if len(set(families.values())) > 1:
+            cheapest = {families[name]: name for name in reversed(order)}
+            shown = [name for name in order[1:] if name in cheapest.values()]
+        ratios = [
+            f"{name} costs {'at most ' * at[name].at_most}{at[name].value / at[best].value:.2g} "
+            "times that"
+            for name in shown
+        ]
+        missed = ", ".join(name for name in groups if name not in at)
+        text = "; ".join([f"at error {level:g}, {best} costs {at[best]} s", *ratios])
+        lines.append(f"- {text}" + (f"; not reached by {missed}" if missed else ""))
     return lines
+
+
+def _points(study: CostStudy, cost: str) -> dict[str, tuple[list[float], list[float]]]:
+    """Return cost and error of the runs of each formulation."""
+    return {
+        name: ([float(getattr(one, cost) or np.nan) for one in many], _errors(study, many))
+        for name, many in study.by_formulation().items()
+    }
+
+
+def _level_table(study: CostStudy) -> list[str]:
+    """Table of seconds and unknowns at equal error, each over the least of its column."""
+    seconds = costs_at_levels(_points(study, "median_seconds"))
+    unknowns = costs_at_levels(_points(study, "unknowns"))
+    shown = [level for level, at in seconds.items() if len(at) > 1]
+    if not shown:
+        return []
+    lines = [
+        f"| seconds; unknowns at error | {' | '.join(f'{level:g}' for level in shown)} |",
+        f"|---|{'---|' * len(shown)}",
+    ]
+    for name in study.by_formulation():
+        cells = []
+        for level in shown:
+            first = _ratio(seconds[level], name)
+            cells.append(f"{first}; {unknowns[level][name].value:,.0f}" if first else "")
+        lines.append(f"| {name} | {' | '.join(cells)} |")
+    return [*lines, "", *levels(study)]
+
+
+def _ratio(at: Mapping[str, Cost], name: str) -> str:
+    """Seconds of one formulation and how many times the least they are; empty if not reached."""
+    if name not in at:
+        return ""
+    least = min(cost.value for cost in at.values())
+    sign = "<= " * at[name].at_most
+    return f"{sign}{at[name].value:.2g} s ({at[name].value / least:.2g} x)"
 
 
 def _section(title: str, lines: Sequence[str]) -> list[str]:
@@ -145,8 +211,27 @@ def _orders(study: CostStudy) -> list[str]:
         sizes = sizes_of(used)
         order = observed_order(sizes, [study.error(one) for one in used])
         if order.points > 1 and np.isfinite(order.value):
-            lines.append(f"- {name}: {order} in {_size_name(used)}")
+            told = _theory(used, study.reference.quantity, order)
+            lines.append(f"- {name}: {order} in {_size_name(used)}{told}")
     return lines
+
+
+def _theory(records: Sequence[Record], quantity: str, order: Order) -> str:
+    """Say what order theory promises, and whether it lies within the confidence."""
+    method = records[0].method
+    if len({one.unknowns for one in records}) > 1:
+        found, where = order_in_size(method.get("cover", ""), quantity), "for a smooth solution"
+    elif _size_name(records).endswith("integrator.step"):
+        found, where = order_in_step(method), "while contacts stay as they are"
+    else:
+        found = None
+    if found is None:
+        return ""
+    promised, formula = found
+    within = abs(order.value - promised) <= order.deviation
+    side = "within" if within else "above" if order.value > promised else "below"
+    verdict = f", observed {side} it" if np.isfinite(order.deviation) else ""
+    return f"; theory {promised:g} = {formula} {where}{verdict}"
 
 
 def _size_name(records: Sequence[Record]) -> str:
@@ -206,12 +291,14 @@ def _conditions(study: CostStudy) -> list[str]:
     repeats = max(len(one.seconds) for one in study.records)
     wall = [w / c for one in study.records for w, c in zip(one.wall, one.seconds, strict=True) if c]
     ratio = float(np.median(wall)) if wall else float("nan")
+    commit = f", commit {first.commit}" if first.commit else ""
+    seed = "" if first.seed is None else f", seed {first.seed}"
     shared = " (other work took the processor: read the processor seconds)" * (ratio > DISTURBED)
     return [
         f"Medians of {repeats} repeats after a warm-up, all runs in turn; processor seconds of the "
         f"whole run, covers included. Wall over processor seconds {ratio:.2f}{shared}. Memory is "
-        f"what a run adds to a fresh process at its peak. {first.machine}; {versions}. Scene "
-        f"{first.scene_hash[:12]}. Raw records with all hashes, seeds and repeats: "
+        f"what a run adds to a fresh process at its peak. {first.machine}; {versions}{commit}. "
+        f"Scene {first.scene_hash[:12]}{seed}. Raw records with all hashes, seeds and repeats: "
         "`records.jsonl`.",
     ]
 

@@ -14,13 +14,14 @@ from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
 
 from nmm.errors import NmmError
-from nmm.study.quantities import quantity
+from nmm.study.quantities import Measured, quantity
 from nmm.study.record import Record
+from nmm.study.running import commit, run_case
 from nmm.study.variants import Case
 
 if TYPE_CHECKING:
+    from nmm.formulation import Formulation
     from nmm.results.summary import Summary
-    from nmm.stepping.run import Run
 
 Progress = Callable[[float, str], None]
 
@@ -93,12 +94,11 @@ def machine() -> str:
 
 def _once(case: Case, names: Sequence[str]) -> tuple[Record, Spent]:
     from nmm.results.summary import Summary
-    from nmm.stepping.run import run
 
     cpu, wall = process_time(), perf_counter()
     summary = Summary()
     try:
-        done = run(case.scene, case.formulation)
+        done = run_case(case)
         summary = done.summary
         spent = Spent(process_time() - cpu, perf_counter() - wall, summary)
         return _record(case, done, names), spent
@@ -121,15 +121,31 @@ def _identity(case: Case) -> dict[str, Any]:
         "settings": dict(case.settings),
         "key": case.key,
         "cover": case.formulation.cover.type,
+        "method": method_of(case.formulation),
         "scene_hash": scene_hash(case.scene),
         "formulation_hash": formulation_hash(case.formulation),
         "seed": seeds[0] if seeds else case.scene.seed,
         "versions": installed_versions(),
         "machine": machine(),
+        "commit": commit(),
     }
 
 
-def _record(case: Case, done: "Run", names: Sequence[str]) -> Record:
+def method_of(formulation: "Formulation") -> dict[str, str]:
+    """Return what a formulation is in words: cover and degree, enforcement, integrator."""
+    cover = formulation.cover
+    linear = 1 if cover.of_blocks else 0
+    parts = [cover.type, str(cover.degree if cover.degree is not None else linear)]
+    if cover.enrichment is not None:
+        parts.append("enriched")
+    return {
+        "cover": " ".join(parts),
+        "enforcement": formulation.contact.enforcement,
+        "integrator": formulation.integrator.type,
+    }
+
+
+def _record(case: Case, done: Measured, names: Sequence[str]) -> Record:
     summary = done.summary
     usable = summary.status in ("converged", "failure_load")
     values = {name: quantity(done, name) if usable else float("nan") for name in names}
@@ -176,8 +192,6 @@ def added_memory(case: Case) -> int | None:
 
 
 def _added_memory(case: Case, modules: Sequence[str]) -> int | None:
-    from nmm.stepping.run import run
-
     for name in modules:
         try:
             import_module(name)
@@ -187,7 +201,7 @@ def _added_memory(case: Case, modules: Sequence[str]) -> int | None:
         # A new process keeps the peak of the one it was made by until it is reset.
         Path("/proc/self/clear_refs").write_text("5")
         before = _high_water()
-        run(case.scene, case.formulation)
+        run_case(case)
         return _high_water() - before
     except (OSError, ValueError):
         return None

@@ -31,9 +31,11 @@ class Record:
     memory
         Bytes that the run added to the process, at its peak; None when not measured.
     cover
-        Type of the cover; "block" is DDA.
-    scene_hash, formulation_hash, seed, versions, machine
-        What was run, and with what it was measured.
+        Type of the cover; "block" is DDA, "skfem" the elements of scikit-fem.
+    method
+        Cover and degree, enforcement, integrator in words.
+    scene_hash, formulation_hash, seed, versions, machine, commit
+        What was run, and with what it was measured; the commit when run from a checkout.
     """
 
     name: str
@@ -52,11 +54,13 @@ class Record:
     passes: int = 0
     memory: int | None = None
     cover: str = ""
+    method: Mapping[str, str] = field(default_factory=dict)
     scene_hash: str = ""
     formulation_hash: str = ""
     seed: int | None = None
     versions: Mapping[str, str] = field(default_factory=dict)
     machine: str = ""
+    commit: str = ""
 
     @property
     def valid(self) -> bool:
@@ -65,8 +69,10 @@ class Record:
 
     @property
     def family(self) -> str:
-        """Whether it is "DDA" (one cover a block) or "manifold" (any other cover)."""
-        return "DDA" if self.cover == "block" else "manifold"
+        """Whether it is "DDA" (one cover a block or sub-block), "elements" or "manifold"."""
+        return {"block": "DDA", "sub_blocks": "DDA", "skfem": "elements"}.get(
+            self.cover, "manifold"
+        )
 
     @property
     def median_seconds(self) -> float:

@@ -4,7 +4,7 @@ import hashlib
 import itertools
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -31,12 +31,15 @@ class Case:
         What is run.
     settings
         What this case differs in, by dotted key.
+    folder
+        Folder of the scene file, where parts of one's own lie; empty when there is no file.
     """
 
     name: str
     scene: Scene
     formulation: Formulation
     settings: Mapping[str, Any] = field(default_factory=dict)
+    folder: str = ""
 
     @property
     def key(self) -> str:
@@ -70,11 +73,11 @@ def with_settings(case: Case, settings: Mapping[str, Any]) -> Case:
             _set(method, rest, value)
         else:
             _set(tables, path, value)
-    return Case(
-        case.name,
-        build_scene(tables, case.scene.source.name),
-        build(method, Formulation, Source(case.name), FormulationError),
-        {**case.settings, **settings},
+    return replace(
+        case,
+        scene=build_scene(tables, case.scene.source.name),
+        formulation=build(method, Formulation, Source(case.name), FormulationError),
+        settings={**case.settings, **settings},
     )
 
 
@@ -86,11 +89,13 @@ def cases_of(
     The size of a cover means nothing to blocks: their formulations get no such setting.
     """
     found: dict[tuple[str, str], Case] = {}
+    file = Path(scene.source.name)
+    folder = str(file.resolve().parent) if file.is_file() else ""
     for name, formulation in formulations.items():
         blocks = formulation.cover.type == "block"
         for settings in grid(vary):
             apt = {key: value for key, value in settings.items() if not (blocks and key == SIZE)}
-            case = with_settings(Case(name, scene, formulation), apt)
+            case = with_settings(Case(name, scene, formulation, folder=folder), apt)
             found.setdefault((name, case.key), case)
     return list(found.values())
 

@@ -1,0 +1,55 @@
+"""Running one case of a study, wherever the process is and whatever carries the case."""
+
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from nmm.study.quantities import Measured
+
+if TYPE_CHECKING:
+    from nmm.study.variants import Case
+
+SKFEM = "skfem"
+"""Cover type of a formulation that asks for the finite elements of a yardstick."""
+
+
+def run_case(case: "Case") -> Measured:
+    """Run a case in this process.
+
+    Parts of one's own are imported from the folder of the scene file, behind all that is installed.
+    """
+    if case.folder and case.folder not in sys.path:
+        sys.path.append(case.folder)
+    if case.formulation.cover.type == SKFEM:
+        from nmm.study.yardstick import run_elements
+
+        return run_elements(case.scene, case.formulation)
+    from nmm.stepping.run import run
+
+    return run(case.scene, case.formulation)
+
+
+@cache
+def commit() -> str:
+    """Return the git commit of this program when it runs from a checkout, else nothing.
+
+    "+ changes" follows where files of the program differ from the commit.
+    """
+    root = Path(__file__).resolve().parents[2]
+    if not (root / ".git").exists():
+        return ""
+    try:
+        head = _git(root, "rev-parse", "HEAD")
+        changed = _git(root, "status", "--porcelain", "-uno", "--", "nmm", "covers", "integration")
+    except (OSError, subprocess.SubprocessError):
+        return ""
+    return f"{head} + changes" if changed else head
+
+
+def _git(root: Path, *words: str) -> str:
+    done = subprocess.run(
+        ["git", *words], cwd=root, capture_output=True, text=True, check=True, timeout=20
+    )
+    return done.stdout.strip()
