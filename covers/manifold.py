@@ -51,6 +51,9 @@ class Manifold:
         displacements are unique all the same (`covers.dependence`).
     dependent_covers
         Number of covers whose polynomials take part in them.
+    reproduction
+        Highest degree of the polynomials that displacements across elements hold everywhere; None
+        where every block has covers of its own.
     fitted, enriched
         Number of covers whose coordinates fit what a cut has left of them, and of those that
         carry singular functions.
@@ -70,6 +73,7 @@ class Manifold:
     body_area: Floats
     dependent: int = 0
     dependent_covers: int = 0
+    reproduction: int | None = None
     fitted: int = 0
     enriched: int = 0
 

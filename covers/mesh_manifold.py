@@ -100,6 +100,7 @@ def mesh_manifold(
         body_area=body_area,
         dependent=dependent,
         dependent_covers=int(higher.sum()) if dependent else 0,
+        reproduction=cover.precision + min(item.degree for item in kinds.functions),
         fitted=int(builder.fitted.sum()),
         enriched=int((builder.enriched >= 0).sum()),
     )

@@ -45,6 +45,8 @@ def tell_run(scene: "Scene", done: "Run") -> None:
     out.print(done.summary.sentence, style="red" if failed else "green", highlight=False)
     if (line := failure_line(done.summary)) is not None:
         out.print(line, style="bold", highlight=False)
+    for warning in done.summary.warnings:
+        out.print(f"warning: {warning}", style="yellow", highlight=False)
     for one in compare(done.summary, done.history, scene.references):
         found = "not found" if one.found is None else f"{one.found:.6g}"
         verdict = "within" if one.holds else "outside"

@@ -44,6 +44,9 @@ EDGE_STIFFNESS, STIFFEST = 100.0, 1e6
 # (lambda + 2 mu) / h^2: measured to keep the matrix positive down to cuts of 1e-6 of a cell.
 GAMMA = {0: 20.0, 1: 20.0, 2: 60.0, 3: 120.0}
 GHOST = 0.5
+# The ghost term takes lambda + 2 mu up to this many mu: a Poisson ratio of 1/3 in plane strain.
+# Above it the tie would lock what it ties; `least_penalty` makes up for a softer one.
+SOFTEST = 4.0
 
 
 class Supports(Effect):
@@ -198,11 +201,12 @@ class Method:
             basis = multiplier_basis(place, self.size, self.degree)
             return Multipliers(name, place, axes, displacement, weight, basis)
         hard = model.elasticity[:, :2, :2].max(axis=(1, 2))
+        soft = np.minimum(hard, SOFTEST * model.elasticity[:, 2, 2])
         gamma = GAMMA[min(self.degree, 3)] if self.gamma is None else self.gamma
         tie = ghost(
             model.manifold,
             self._cut(model, place),
-            self.ghost * model.thickness * hard / self.size**2,
+            self.ghost * model.thickness * soft / self.size**2,
             self.degree + 1,
         )
         traction = traction_rows(model, place)

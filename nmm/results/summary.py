@@ -3,7 +3,7 @@
 import json
 import math
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from importlib import metadata
 from typing import TYPE_CHECKING, Any
@@ -40,6 +40,8 @@ class Summary:
         Counts; covers are physical covers, passes are contact passes summed over steps.
     cures
         What was done about dependent functions and small cuts, and on how many of them.
+    warnings
+        What is known to spoil the answer of this scene under this formulation, in sentences.
     seconds, effect_seconds
         Wall-clock seconds by phase and by effect.
     peak_memory
@@ -69,6 +71,7 @@ class Summary:
     covers: int = 0
     unknowns: int = 0
     cures: Mapping[str, int] = field(default_factory=dict)
+    warnings: Sequence[str] = field(default_factory=list)
     steps: int = 0
     passes: int = 0
     seconds: Mapping[str, float] = field(default_factory=dict)

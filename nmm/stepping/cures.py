@@ -8,8 +8,14 @@ from nmm.solvers.linear import LinearSolver, make_solver
 
 if TYPE_CHECKING:
     from covers.manifold import Manifold
+    from nmm.assembly.model import Model
     from nmm.effects.supports import Supports
     from nmm.formulation import Solver
+
+
+# Constant covers lock from about this Poisson ratio on: at 0.49 a thick cylinder is 13 to 20 %
+# too stiff on cells of a quarter of its wall.
+LOCKING = 0.45
 
 
 def solver_for(manifold: "Manifold", solver: "Solver") -> LinearSolver:
@@ -38,6 +44,22 @@ def cures(
     if tied:
         found["covers tied to their neighbours beside supports (ghost)"] = tied
     return found
+
+
+def warnings(model: "Model") -> list[str]:
+    """Return what is known to spoil answers of the model: one sentence each.
+
+    Linear fields cannot keep the volume of every cell: the finer they must, the stiffer they are.
+    """
+    reproduced = model.manifold.reproduction
+    # In plane strain the ratio of these stiffnesses is nu / (1 - nu); in plane stress it is nu.
+    ratio = float((model.elasticity[:, 0, 1] / model.elasticity[:, 0, 0]).max(initial=0.0))
+    if reproduced is None or reproduced > 1 or ratio <= LOCKING / (1 - LOCKING):
+        return []
+    return [
+        f"covers of degree 0 lock in plane strain at a Poisson ratio of {ratio / (1 + ratio):.4g}: "
+        f"displacements come out too small above {LOCKING}; use degree 1, or 2 near 0.5"
+    ]
 
 
 def _covers(manifold: "Manifold", supports: "Supports") -> int:

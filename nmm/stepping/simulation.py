@@ -22,7 +22,7 @@ from nmm.results.summary import Summary
 from nmm.results.tee import Frames, Tee
 from nmm.scene import scene_hash
 from nmm.stepping.build import block_functions, build_model
-from nmm.stepping.cures import cures, solver_for
+from nmm.stepping.cures import cures, solver_for, warnings
 from nmm.stepping.dynamics import Schedule, run_in_time
 from nmm.stepping.integrators import INTEGRATORS, Integrator
 from nmm.stepping.plan import Plan, compile_plan
@@ -151,6 +151,7 @@ class Simulation:
             cures=cures(
                 self.stepper.model.manifold, self.stepper.solver, self.stepper.plan.supports
             ),
+            warnings=warnings(self.stepper.model),
             seed=seeds[0] if seeds else self.scene.seed,
             scene_hash=scene_hash(self.scene),
             formulation_hash=formulation_hash(self.formulation),

@@ -188,3 +188,51 @@ def test_block_and_mesh_agree_on_a_uniform_stress() -> None:
         assert found.history["monitor:end:ux"][-1] == pytest.approx(1e-2, rel=1e-9)
     # A block on springs of 1000 E: 1e-3 A / (1000 E) more at the support.
     assert simulate(static, DDA).history["monitor:end:ux"][-1] == pytest.approx(1e-2, rel=1e-3)
+
+
+CYLINDER = """
+plane = "strain"
+[materials.m]
+young_modulus = 1
+poisson_ratio = {nu}
+[[blocks]]
+name = "b"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[supports]]
+name = "left"
+segment = [[0, 0], [0, 1]]
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[1, 0], [1, 1]]
+traction = [1e-3, 0]
+"""
+
+
+@pytest.mark.parametrize(
+    ("nu", "plane", "mesh", "warned"),
+    [
+        (0.49, "strain", "finite elements", True),
+        (0.46, "strain", "meshless", True),
+        (0.44, "strain", "finite elements", False),
+        (0.49, "stress", "finite elements", False),
+        (0.49, "strain", "linear", False),
+        (0.49, "strain", "splines", False),
+    ],
+)
+def test_constant_covers_of_a_nearly_incompressible_material_warn_that_they_lock(
+    nu: float, plane: str, mesh: str, warned: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from nmm.terminal import tell_run
+
+    text = CYLINDER.format(nu=nu).replace('"strain"', f'"{plane}"')
+    found = simulate(text, MESHES[mesh])
+    assert len(found.summary.warnings) == warned
+    tell_run(parse_scene(text, "scene"), found)
+    assert capsys.readouterr().out.count("covers of degree 0 lock") == warned
+
+
+def test_blocks_of_one_cover_each_do_not_warn() -> None:
+    assert simulate(CYLINDER.format(nu=0.49), DDA).summary.warnings == []
