@@ -45,7 +45,9 @@ class Laws:
         """Return the largest forces of the contacts; those without an interface are smooth."""
         tension, cohesion, friction = (np.zeros(len(contacts)) for _ in range(3))
         for law, index in self._by_law(contacts):
-            limits = law.limits(contacts.length[index], contacts.damage[index], self.thickness)
+            # Cohesion is lost with the joint: what is found by search has none.
+            length = np.where(contacts.is_joint, contacts.length, 0.0)[index]
+            limits = law.limits(length, contacts.damage[index], self.thickness)
             tension[index], cohesion[index] = limits.tension, limits.cohesion
             friction[index] = limits.friction
         return Limits(tension, cohesion, friction)
@@ -59,8 +61,8 @@ class Laws:
         (m,), by default where the gap is positive.
         """
         own = contacts.is_joint
-        normal = np.where(own, self.normal_bond * contacts.slenderness, self.normal_penalty)
-        shear = np.where(own, self.shear_bond * contacts.slenderness, self.shear_penalty)
+        normal = np.where(own, self.normal_bond, self.normal_penalty) * contacts.slenderness
+        shear = np.where(own, self.shear_bond, self.shear_penalty) * contacts.slenderness
         for law, index in self._by_law(contacts):
             index = index[own[index]]
             area = contacts.length[index] * self.thickness

@@ -8,6 +8,7 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.joints import Joints, joint_ends, joint_points
 from nmm.contact.narrow import Contacts, pair_key
+from nmm.contact.overlaps import FaceContacts
 from nmm.contact.points import ContactPoints, concatenate
 from nmm.contact.problem import BONDED, BROKEN, OPEN, StepAnswer
 from nmm.contact.sides import tangents
@@ -48,6 +49,11 @@ class JointBook:
         """Which found contacts a followed joint carries already."""
         alive = np.isin(self.pair_joint, self.joint)
         return np.isin(found.key, self.pairs[alive])
+
+    def edges(self, n: int) -> Ints:
+        """Pairs of edges that followed joints carry, ``a * n + b`` with ``a < b``, sorted."""
+        a, b = self.points.edge_a, self.points.edge_b
+        return np.unique(np.minimum(a, b) * n + np.maximum(a, b))
 
     def now(self, surface: Surface, apart_of: Apart) -> ContactPoints:
         """Return the points with gap, slip and normal of the moved surface."""
@@ -141,20 +147,31 @@ def joint_book(
     )
 
 
-def searched_points(found: Contacts, interface: Ints) -> ContactPoints:
-    """Return found contacts as points without memory."""
+def searched_points(
+    found: Contacts, interface: Ints, surface: Surface | None = None
+) -> ContactPoints:
+    """Return found contacts as points without memory.
+
+    Those that stand for a stretch of a face are as stiff as that is long: as stiff as a vertex of
+    the body with the shorter edges on ``surface`` when it is half of such an edge.
+    """
     m = len(found.gap)
     zeros = np.zeros(m)
+    length, parameter_a, slenderness = zeros, zeros, np.ones(m)
+    if isinstance(found, FaceContacts) and surface is not None:
+        length, parameter_a = found.length, found.parameter_a
+        grain = np.minimum(surface.grain[found.vertex], surface.grain[found.edge])
+        slenderness = np.where(length > 0, length / grain, 1.0)
     return ContactPoints(
         edge_a=found.vertex,
-        parameter_a=zeros,
+        parameter_a=parameter_a,
         edge_b=found.edge,
         parameter_b=found.parameter,
         normal=found.normal,
         gap=found.gap,
         slip=zeros,
-        length=zeros,
-        slenderness=np.ones(m),
+        length=length,
+        slenderness=slenderness,
         interface=interface,
         key=found.key,
         damage=np.ones(m),

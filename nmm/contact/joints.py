@@ -114,7 +114,7 @@ def find_joints(
         keep &= surface.body[a] != surface.body[b]
     a, b = a[keep], b[keep]
 
-    on_a, on_b = _interval(surface, a, b, tolerance)
+    on_a, on_b = interval(surface, a, b, tolerance)
     at_a, at_b = _at(surface, a, on_a), _at(surface, b, on_b)
     apart = np.hypot(*np.moveaxis(at_a - at_b, -1, 0)).max(axis=1, initial=0.0)
     long = (on_a[:, 1] - on_a[:, 0]) * surface.length[a] > tolerance
@@ -199,8 +199,11 @@ def _pairs(surface: Surface, tolerance: float) -> tuple[Ints, Ints]:
     return a[order].astype(np.int64), b[order].astype(np.int64)
 
 
-def _interval(surface: Surface, a: Ints, b: Ints, tolerance: float) -> tuple[Floats, Floats]:
-    """Parameters (m, 2) of the overlap's ends on a and on b; those on b fall as those on a rise."""
+def interval(surface: Surface, a: Ints, b: Ints, tolerance: float) -> tuple[Floats, Floats]:
+    """Parameters (m, 2) of the overlap's ends on a and on b; those on b fall as those on a rise.
+
+    Ends of the two edges within the tolerance (m) of each other are one point.
+    """
     on_a = np.empty((len(a), 2))
     on_b = np.empty((len(a), 2))
     for k, (near_b, near_a) in enumerate(

@@ -25,6 +25,7 @@ the area over the perimeter) of the thinner of the two bodies.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from typing import Self
 
 import numpy as np
 
@@ -35,6 +36,7 @@ from nmm.contact.surface import Surface
 
 VERTEX_EDGE = 0
 VERTEX_VERTEX = 1
+FACE = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,9 +76,9 @@ class Contacts:
     def __len__(self) -> int:
         return len(self.vertex)
 
-    def take(self, index: Ints | Bools) -> Contacts:
+    def take(self, index: Ints | Bools) -> Self:
         """Return some of the contacts."""
-        return Contacts(*(getattr(self, part.name)[index] for part in fields(self)))
+        return type(self)(*(getattr(self, part.name)[index] for part in fields(self)))
 
 
 def find_contacts(
@@ -152,11 +154,12 @@ def follow(old: Contacts, new: Contacts) -> Ints:
         return found
     span = 1 + max(_top(old.vertex), _top(new.vertex), _top(old.body), _top(new.body))
     span = max(span, 1 + max(_top(old.corner), _top(new.corner)))
+    was_on, is_on = (part.vertex + span * (part.kind == FACE) for part in (old, new))
     # Roles change at corners only: elsewhere the swapped pair is another contact.
     swapped = np.where(new.kind == VERTEX_VERTEX, new.vertex * span + new.corner, -1)
     for was, now in (
         (old.key, new.key),
-        (old.vertex * span + old.body, new.vertex * span + new.body),
+        (was_on * span + old.body, is_on * span + new.body),
         (old.corner * span + old.vertex, swapped),
     ):
         free = np.ones(len(old), dtype=bool)

@@ -6,7 +6,7 @@ traction. So the points of joints are followed with the material itself.
 """
 
 from dataclasses import dataclass
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -29,6 +29,9 @@ class Stations:
         The two sides.
     unknowns, start, end, body
         Rows at the ends of all edges, then those of ``a`` and of ``b`` with both ends the same.
+    whole
+        Whether ``a`` and ``b`` are the sides of all contacts of a step, row by row, and the tables
+        hold nothing else.
     """
 
     a: MaterialPoints
@@ -37,6 +40,7 @@ class Stations:
     start: Floats
     end: Floats
     body: Ints
+    whole: bool = False
 
     @classmethod
     def of(cls, sides: Sides, points: ContactPoints) -> Self | None:
@@ -49,9 +53,7 @@ class Stations:
             (points.edge_a, points.parameter_a),
             (points.edge_b, points.parameter_b),
         ):
-            boundary, s = sides.manifold.boundary, parameter[:, None]
-            place = boundary.start[edge] + s * (boundary.end[edge] - boundary.start[edge])
-            found = material_points(sides.manifold, boundary.element[edge], place)
+            found = _material(sides, edge, parameter)
             chord = sides.at(edge, parameter).rows.values
             off = np.abs(found.rows.values - chord).max(initial=0.0)
             bent |= bool(off > ALIKE * np.abs(chord).max(initial=0.0))
@@ -70,8 +72,22 @@ class Stations:
             body=np.concatenate([sides.start.body, a.body, b.body]),
         )
 
+    @classmethod
+    def at(cls, sides: Sides, contacts: ContactPoints) -> Self:
+        """Return the stations of all contacts of a step, joints or not."""
+        a = _material(sides, contacts.edge_a, contacts.parameter_a)
+        b = _material(sides, contacts.edge_b, contacts.parameter_b)
+        width = max(a.rows.unknowns.shape[1], b.rows.unknowns.shape[1])
+        unknowns = [_padded(part.rows.unknowns, width) for part in (a, b)]
+        values = np.concatenate([_padded(part.rows.values, width) for part in (a, b)])
+        body = np.concatenate([a.body, b.body])
+        return cls(a, b, np.concatenate(unknowns), values, values, body, whole=True)
+
     def rows_of(self, contacts: ContactPoints) -> tuple[Ints, Ints]:
         """Rows (m,) of the tables above for both sides of contacts, joints or not."""
+        if self.whole:
+            count = np.arange(len(contacts))
+            return count, len(contacts) + count
         first = len(self.body) - 2 * len(self.a.body)
         at_a = first - 1 - contacts.key
         joint = contacts.is_joint
@@ -82,6 +98,19 @@ class Stations:
 
     def apart(self, points: ContactPoints, frames: Frames, deformation: Floats) -> Floats:
         """Where sides a of joints are from sides b (m, 2)."""
-        k = -1 - points.key
+        k = np.arange(len(points)) if self.whole else -1 - points.key
         side_a, side_b = self.a.take(k), self.b.take(k)
         return np.asarray(side_a.place(frames, deformation) - side_b.place(frames, deformation))
+
+
+def _material(sides: Sides, edge: Ints, parameter: Floats) -> MaterialPoints:
+    """Points of the material that lie at fractions of edges in the reference place."""
+    boundary, s = sides.manifold.boundary, parameter[:, None]
+    place = boundary.start[edge] + s * (boundary.end[edge] - boundary.start[edge])
+    return material_points(sides.manifold, boundary.element[edge], place)
+
+
+def _padded(values: Any, width: int) -> Any:
+    """Rows of elements with fewer functions, filled up with zeros."""
+    more = width - values.shape[-1]
+    return np.pad(values, [(0, 0)] * (values.ndim - 1) + [(0, more)]) if more else values

@@ -66,6 +66,16 @@ class Surface:
         size = np.divide(np.abs(twice), around, out=np.zeros(len(first)), where=around > 0.0)
         return np.asarray(size[self.body])
 
+    @cached_property
+    def grain(self) -> Floats:
+        """(n,) half the mean edge of each edge's body (m)."""
+        count = np.maximum(np.bincount(self.body), 1)
+        return np.asarray((np.bincount(self.body, self.length) / (2 * count))[self.body])
+
+    def at(self, edge: Ints, parameter: Floats) -> Floats:
+        """Points (m, 2) at fractions of edges."""
+        return self.start[edge] + parameter[:, None] * (self.end[edge] - self.start[edge])
+
     def moved(self, start: Floats, end: Floats) -> Surface:
         """Return the same rings with their edges elsewhere."""
         return Surface(start, end, self.body, self.next, self.previous)
