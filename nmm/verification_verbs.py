@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from nmm.verification import Case, Outcome
+    from nmm.verification.base import Checks
 
 
 def verify(
@@ -20,7 +21,7 @@ def verify(
         typer.Argument(
             help="Benchmarks (B2), what their names begin with (A, B1), a class of your own "
             "(module:Class), or published case folders; all when none is named.",
-            metavar="[NAME]...",
+            metavar="NAME",
         ),
     ] = None,
     slow: Annotated[bool, typer.Option(help="Also runs of more than a few seconds.")] = False,
@@ -32,10 +33,11 @@ def verify(
 ) -> None:
     """Run problems whose answers are known from elsewhere; exit code 1 when one is missed.
 
-    Prints, for every quantity, what was computed, the reference, the error and what is allowed. A
-    benchmark is one small class: derive your own from nmm.verification.Case and name it
-    module:Class. Runs of more than a few seconds are left out unless --slow is given or their
-    benchmark is named in full.
+    Every quantity is printed with its reference, its error and what is allowed.
+
+    Runs of more than a few seconds need --slow, or the benchmark's full name.
+
+    Your own: derive a class from nmm.verification.Case, and name it module:Class.
     """
     with faults_told():
         sys.path.append(str(Path.cwd()))
@@ -102,29 +104,23 @@ def _chosen(names: list[str], slow: bool) -> "Iterator[tuple[Case, str]]":
 
 
 def _list(names: list[str]) -> None:
-    """Print names, titles and how many runs there are."""
-    from rich.table import Table
-
+    """Print names, titles and how many runs there are; with names given, the formulations too."""
     from nmm.verification import CASES
     from nmm.verification.manual import in_order
     from nmm.verification.outcomes import named
 
-    table = Table(box=None, pad_edge=False, header_style="dim")
-    for head in ("name", "what", "runs", "slow", "formulations"):
-        table.add_column(head, overflow="fold")
-    wanted = {found for name in names for found in named(name)} if names else set(CASES.table)
-    for name in in_order(wanted):
+    wanted = in_order({found for name in names for found in named(name)} or CASES.table)
+    wide = max(map(len, wanted))
+    for name in wanted:
         kind = CASES.load(name)
         cases = kind.variants()
+        runs = sum(len(case.formulations) for case in cases)
         lasting = sum(len(case.formulations) for case in cases if case.slow)
-        table.add_row(
-            name,
-            kind.title,
-            str(sum(len(case.formulations) for case in cases)),
-            str(lasting or ""),
-            ", ".join(dict.fromkeys(one for case in cases for one in case.formulations)),
-        )
-    console().print(table)
+        slow = f", {lasting} of them slow" if lasting else ""
+        typer.echo(f"{name:{wide}}  {kind.title} ({runs} run{'s' if runs > 1 else ''}{slow})")
+        if names:
+            all_of_them = (one for case in cases for one in case.formulations)
+            typer.echo(f"{'':{wide}}  {', '.join(dict.fromkeys(all_of_them))}")
 
 
 def _judged(case: "Case", formulation: str, quiet: bool) -> "Outcome":
@@ -139,35 +135,31 @@ def _judged(case: "Case", formulation: str, quiet: bool) -> "Outcome":
 
 def _tell(outcome: "Outcome", misses_only: bool = False) -> None:
     """Print a run: a line of its own, then one line a quantity."""
-    from rich.table import Table
-    from rich.text import Text
-
-    verdict = "passed" if outcome.passed else "MISSED"
-    console().print(
-        Text(
-            f"{outcome.label}: {verdict} ({outcome.seconds:.2g} s)",
-            style="green" if outcome.passed else "bold red",
-        )
+    out, verdict = console(), "passed" if outcome.passed else "MISSED"
+    out.print(
+        f"{outcome.label}: {verdict} ({outcome.seconds:.2g} s)",
+        style="green" if outcome.passed else "bold red",
+        highlight=False,
+        markup=False,
     )
     if outcome.fault:
-        console().print(Text(f"  {outcome.fault}", style="red"))
-    table = Table(box=None, show_header=False, pad_edge=False)
-    for _ in range(6):
-        table.add_column(overflow="fold")
-    for name, check in outcome.checks.items():
-        if misses_only and check.passed:
-            continue
-        table.add_row(
-            f"  {name}",
-            Text(check.shown),
-            Text(f"reference {check.wanted}"),
-            f"error {check.error:.1e}",
-            f"allowed {check.tolerance:.1e}",
-            "passed" if check.passed else f"MISSED: {check.reason}",
+        out.print(f"  {outcome.fault}", style="red", highlight=False, markup=False)
+    checks = {n: one for n, one in outcome.checks.items() if not (misses_only and one.passed)}
+    wide = [max(map(len, column), default=0) for column in zip(*_columns(checks), strict=True)]
+    for (name, computed, reference), check in zip(_columns(checks), checks.values(), strict=True):
+        error = f"error {check.error:.1e} of {check.tolerance:.1e}" if check.tolerance else ""
+        out.print(
+            f"  {name:{wide[0]}}  {computed:{wide[1]}}  {reference:{wide[2]}}  {error:24}  "
+            + ("passed" if check.passed else f"MISSED: {check.reason}"),
             style=None if check.passed else "red",
+            highlight=False,
+            markup=False,
         )
-    if table.row_count:
-        console().print(table)
+
+
+def _columns(checks: "Checks") -> list[tuple[str, str, str]]:
+    """Name, computed value and reference of each quantity in words."""
+    return [(name, one.shown, f"reference {one.wanted}") for name, one in checks.items()]
 
 
 def _sum_up(outcomes: "list[Outcome]", missed: "list[Outcome]") -> None:

@@ -1,7 +1,7 @@
 """Sketches of benchmark problems: small pictures for the pages of a manual."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -25,6 +25,14 @@ ARROWS = 40  # tractions drawn at most
 LENGTH = 0.09  # longest arrow relative to the body
 
 
+class Tractions(NamedTuple):
+    """Tractions (m, 2) at points (m, 2) of faces with outward normals (m, 2)."""
+
+    points: Floats
+    force: Floats
+    normals: Floats
+
+
 def scene_problem(run: "RunData", scene: "Scene", held: Sequence[int], path: PathLike) -> None:
     """Draw a scene before its run; ``held`` are the numbers of blocks that cannot move."""
     axes = axes_grid(1, 1, 4.0)[0]
@@ -39,7 +47,7 @@ def scene_problem(run: "RunData", scene: "Scene", held: Sequence[int], path: Pat
 
 
 def solid_problem(
-    cut: "CutCells", loads: Sequence[tuple[Floats, Floats]], held: Floats, path: PathLike
+    cut: "CutCells", loads: Sequence[Tractions], held: Floats, path: PathLike
 ) -> None:
     """Draw a meshed body.
 
@@ -48,7 +56,7 @@ def solid_problem(
     cut
         Its elements and edges are drawn.
     loads
-        Points (m, 2) and the tractions (m, 2) there, to one scale.
+        To one scale.
     held
         (m, 2) points that are held in a direction or in both.
     path
@@ -74,20 +82,18 @@ def solid_problem(
     _write(axes, path)
 
 
-def _arrows(axes: "Axes", loads: Sequence[tuple[Floats, Floats]], extent: Floats) -> Floats:
+def _arrows(axes: "Axes", loads: Sequence[Tractions], extent: Floats) -> Floats:
     """Draw tractions that start at the edge or, where they press, end there; return the extent."""
-    strongest = max(
-        (float(np.hypot(*force.T).max()) for _, force in loads if len(force)), default=0
-    )
+    strengths = [float(np.hypot(*one.force.T).max(initial=0.0)) for one in loads]
+    strongest = max(strengths, default=0.0)
     if not strongest:
         return extent
-    size = float(np.hypot(*(extent[1] - extent[0])))
-    middle, ends = extent.mean(axis=0), [extent]
-    for points, force in loads:  # a handful of loads
-        few = np.unique(np.linspace(0, len(points) - 1, ARROWS).astype(int))
-        way = LENGTH * size * force[few] / strongest
-        out = ((points[few] - middle) * way).sum(axis=1, keepdims=True) > 0
-        tail = np.where(out, points[few], points[few] - way)
+    size, ends = float(np.hypot(*(extent[1] - extent[0]))), [extent]
+    for one in loads:  # a handful of loads
+        few = np.unique(np.linspace(0, len(one.points) - 1, ARROWS).astype(int))
+        way = LENGTH * size * one.force[few] / strongest
+        pulls = (one.normals[few] * way).sum(axis=1, keepdims=True) > -1e-12 * size
+        tail = np.where(pulls, one.points[few], one.points[few] - way)
         axes.quiver(
             *tail.T,
             *way.T,
@@ -120,7 +126,7 @@ def _weight(axes: "Axes") -> None:
 def _write(axes: "Axes", path: PathLike) -> None:
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
     height = np.clip((WIDTH - 0.7) * (high - low) / (right - left) + 0.6, LEAST, MOST)
-    axes.set_title("")
+    axes.set_title("", loc="left")
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     axes.set_xlabel("x (m)")

@@ -7,13 +7,28 @@ from nmm.formulation import Formulation
 
 _POLYNOMIALS = {"functions": "monomials"}
 
+
+def _mesh(kind: str, degree: int) -> dict[str, Any]:
+    return {"type": kind, "size": 0.5, **_POLYNOMIALS, "degree": degree}
+
+
 CHOICES: dict[str, dict[str, dict[str, Any]]] = {
     "dda": {},
     "rigid": {"cover": {"functions": "rigid"}},
     "degree 2": {"cover": {"functions": "monomials", "degree": 2}},
     "degree 3": {"cover": {"functions": "monomials", "degree": 3}},
-    "finite elements": {"cover": {"type": "triangles", "size": 0.5, **_POLYNOMIALS, "degree": 0}},
-    "manifold": {"cover": {"type": "triangles", "size": 0.5, **_POLYNOMIALS, "degree": 1}},
+    "finite elements": {"cover": _mesh("triangles", 0)},
+    "manifold": {"cover": _mesh("triangles", 1)},
+    "manifold degree 2": {"cover": _mesh("triangles", 2)},
+    "manifold degree 3": {"cover": _mesh("triangles", 3)},
+    "bilinear quads": {"cover": _mesh("quads", 0)},
+    "quads": {"cover": _mesh("quads", 1)},
+    "quads degree 2": {"cover": _mesh("quads", 2)},
+    "splines": {"cover": _mesh("bspline", 0)},
+    "meshless": {"cover": _mesh("mls", 0)},
+    "multipliers": {"cover": _mesh("triangles", 1), "supports": {"method": "lagrange"}},
+    "multipliers degree 2": {"cover": _mesh("triangles", 2), "supports": {"method": "lagrange"}},
+    "springs": {"cover": _mesh("triangles", 1), "supports": {"method": "penalty"}},
     "classical": {"rotation": {"update": "linear"}},
     "newmark": {"integrator": {"type": "newmark"}},
     "open-close": {"contact": {"options": {"iteration": "open_close"}}},

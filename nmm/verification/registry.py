@@ -8,6 +8,12 @@ _HOME = "nmm.verification.problems"
 CASES = Registry[type[Case]](
     "benchmark",
     {
+        "A1 displacements": f"{_HOME}.patch:HeldPatch",
+        "A1 tractions": f"{_HOME}.patch:PulledPatch",
+        "A1 meshless": f"{_HOME}.patch:MeshlessPatch",
+        "A1 quadratic": f"{_HOME}.patch:QuadraticPatch",
+        "A1 turn": f"{_HOME}.patch:RigidTurn",
+        "A1 jump": f"{_HOME}.patch:Jump",
         "B1 friction": f"{_HOME}.incline:Threshold",
         "B1 cohesion": f"{_HOME}.incline:CohesiveThreshold",
         "B2": f"{_HOME}.incline:Sliding",

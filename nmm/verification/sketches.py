@@ -51,12 +51,16 @@ def sketch_solid(
     path: Path,
 ) -> None:
     """Draw the elements of a meshed body, the points that are held and the tractions."""
-    from nmm.plots.problems import solid_problem
+    from nmm.plots.problems import Tractions, solid_problem
 
     held = [one.place.position for one in supports]
     solid_problem(
         cut,
-        [(one.place.position, one.force / one.place.weight[:, None]) for one in loads],
+        [
+            Tractions(one.place.position, one.force / one.place.weight[:, None], one.place.normal)
+            for one in loads
+            if one.place.normal is not None
+        ],
         np.concatenate(held) if held else np.zeros((0, 2)),
         path,
     )
