@@ -72,10 +72,13 @@ def run(
     formulation: FormulationFile = None,
     out: Out = None,
     quiet: Quiet = False,
+    steps: Annotated[
+        bool, typer.Option("--steps", help="A line after each step: passes, states of contacts.")
+    ] = False,
 ) -> None:
     """Run a scene; write its folder with pictures and ParaView files."""
     with faults_told():
-        _run(scene, formulation, out or _free(RUNS / scene.stem), quiet)
+        _run(scene, formulation, out or _free(RUNS / scene.stem), quiet, steps)
 
 
 @app.command()
@@ -161,7 +164,9 @@ register(app)
 verification_verbs.register(app)
 
 
-def _run(place: Path, formulation: Path | None, out: Path, quiet: bool) -> None:
+def _run(
+    place: Path, formulation: Path | None, out: Path, quiet: bool, steps: bool = False
+) -> None:
     import nmm
     from nmm.results.summary import render
 
@@ -169,7 +174,7 @@ def _run(place: Path, formulation: Path | None, out: Path, quiet: bool) -> None:
     scene = nmm.read_scene(place)
     chosen = _read_formulation(formulation)
     try:
-        with progress_bar(quiet) as progress:
+        with progress_bar(quiet, steps) as progress:
             done = nmm.run(scene, chosen, out=out, progress=progress)
     except KeyboardInterrupt:
         typer.secho(f"stopped; what was written can be drawn: nmm plot {out}", err=True)

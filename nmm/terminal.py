@@ -70,9 +70,15 @@ def tell_next(*commands: str) -> None:
 
 
 @contextmanager
-def progress_bar(quiet: bool) -> "Iterator[Progress]":
-    """Show a progress bar while the run goes, unless quiet or not in a terminal."""
+def progress_bar(quiet: bool, steps: bool = False) -> "Iterator[Progress]":
+    """Show a progress bar while the run goes, unless quiet or not in a terminal.
+
+    With ``steps`` print a line after each step instead.
+    """
     out = console()
+    if steps:
+        yield lambda fraction, text: typer.echo(f"{100 * fraction:5.1f} %  {text}")
+        return
     if quiet or not out.is_terminal:
         yield lambda fraction, text: None
         return

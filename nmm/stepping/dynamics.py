@@ -58,7 +58,7 @@ def run_in_time(
             return state, RunVerdict(FAILED, _failure(attempt, state, schedule))
         taken = attempt.state.time - state.time
         after, contacts = stepper.accept(attempt)
-        recorder.step(state, attempt, contacts)
+        said = recorder.step(state, attempt, contacts)
         state = after
         # After a cut the step grows back slowly: what made it fail is rarely over at once.
         step = min(schedule.step, 2 * taken) if taken < schedule.step else schedule.step
@@ -66,7 +66,7 @@ def run_in_time(
         if share * schedule.frames >= outputs + 1 - 1e-9:
             outputs = int(share * schedule.frames + 1e-9)
             recorder.frame(state, schedule.stage, contacts)
-        progress(share, f"time {state.time:.4g} s of {end:.4g} s")
+        progress(share, "  ".join([f"time {state.time:.4g} s of {end:.4g} s", said]).rstrip())
     return state, RunVerdict(CONVERGED, f"every step to {state.time:.6g} s converged")
 
 

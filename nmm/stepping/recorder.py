@@ -79,9 +79,10 @@ class Recorder:
     penetration: float = 0.0
     energies: dict[str, float] = field(default_factory=dict)
     largest: dict[str, int] = field(default_factory=dict)
+    counts: dict[str, int] = field(default_factory=dict)
 
-    def step(self, before: State, attempt: Attempt, contacts: "ContactPoints | None") -> None:
-        """Record an accepted step in the history."""
+    def step(self, before: State, attempt: Attempt, contacts: "ContactPoints | None") -> str:
+        """Record an accepted step in the history; say its passes and the states of contacts."""
         plan, after = self.stepper.plan, attempt.state
         if not self.steps:
             first = self._energies(before)
@@ -113,6 +114,9 @@ class Recorder:
             way = monitor.points.place(after.frames, after.deformation)[0] - monitor.start
             row[f"monitor:{monitor.name}:ux"], row[f"monitor:{monitor.name}:uy"] = way
         self.sink.row(row)
+        held = [f"{count} {name}" for name, count in self.counts.items() if count]
+        noun = "pass" if attempt.passes == 1 else "passes"
+        return f"{attempt.passes} {noun}, contacts: {', '.join(held)}" if held else ""
 
     def frame(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over a frame."""
@@ -174,6 +178,7 @@ class Recorder:
         self.penetration = max(self.penetration, -float(contacts.gap.min(initial=0.0)))
         counts = {s.name.lower(): int(np.sum(contacts.state == s)) for s in ContactState}
         counts["broken"] = contact.broken_bonds
+        self.counts = counts
         for name, count in counts.items():
             self.largest[name] = max(self.largest.get(name, 0), count)
         return {

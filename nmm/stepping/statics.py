@@ -82,10 +82,11 @@ def run_load(
         found = settle(stepper, state, Instant(factor, factor), "worst" if fine else "stop")
         broke = stepper.broken_bonds > bonds
         if found.attempt.converged:
-            recorder.step(state, found.attempt, found.contacts)
+            said = recorder.step(state, found.attempt, found.contacts)
             state = found.attempt.state
             recorder.frame(state, "load", found.contacts)
-            progress(min(factor / schedule.target, 1.0), f"load factor {factor:.5g}")
+            done = min(factor / schedule.target, 1.0)
+            progress(done, "  ".join([f"load factor {factor:.5g}", said]).rstrip())
             increment = increment if broke else min(2 * increment, schedule.increment)
             continue
         stepper.restore(start)

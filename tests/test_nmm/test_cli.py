@@ -78,6 +78,15 @@ def test_quiet_prints_the_verdict_only(scene, tmp_path):
     assert str(tmp_path) not in result.stdout
 
 
+def test_each_step_says_how_many_contacts_stick_and_slide_when_asked(scene, tmp_path):
+    lines = call("run", scene, "--out", tmp_path / "run", "--steps").stdout.splitlines()
+    told = [line for line in lines if "contacts:" in line]
+    assert len(told) == 5
+    # The slope is steeper than the angle of friction: both corners of the block slide.
+    assert told[-1].startswith("100.0 %")
+    assert told[-1].endswith("contacts: 2 slide")
+
+
 def test_a_run_without_out_takes_a_free_name(scene, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "runs/short").mkdir(parents=True)
