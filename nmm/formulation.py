@@ -92,6 +92,23 @@ class CoverRegion(Frozen):
         return self
 
 
+class CoverNet(Frozen):
+    """A net of its own for a block; what is not given is that of the common net."""
+
+    block: BlockName = Field(description="the name of a block", examples=["beam"])
+    size: Length | None = Field(
+        default=None, gt=0, description="a cover size in m, > 0", examples=[0.02]
+    )
+    angle: Angle | None = Field(
+        default=None, description="a turn of the mesh in rad", examples=["17 deg"]
+    )
+    shift: tuple[Number, Number] | None = Field(
+        default=None,
+        description="a displacement of the mesh in fractions of a cell",
+        examples=[[0.3, 0.2]],
+    )
+
+
 class Cover(_Part):
     """Physical covers and their local functions: block = DDA, meshes = manifold.
 
@@ -118,6 +135,13 @@ class Cover(_Part):
     regions: tuple[CoverRegion, ...] | None = Field(
         default=None, description="tables [[cover.regions]]"
     )
+    nets: tuple[CoverNet, ...] | None = Field(default=None, description="tables [[cover.nets]]")
+
+    @property
+    def finest(self) -> float | None:
+        """Smallest size of a net (m)."""
+        sizes = [self.size, *(item.size for item in self.nets or ())]
+        return min((size for size in sizes if size is not None), default=None)
 
     @property
     def highest_degree(self) -> int:
@@ -166,6 +190,29 @@ class SupportMethod(Frozen):
     )
 
 
+class Glue(Frozen):
+    """How blocks are glued whose interface is bonded and names no stiffness, without contact."""
+
+    method: Literal["auto", "spring", "nitsche", "lagrange"] = Field(
+        default="auto",
+        description='"auto", "spring", "nitsche" or "lagrange"; auto is Nitsche\'s method, and '
+        "springs where functions have no strain",
+        examples=["nitsche"],
+    )
+    stiffness: Number | None = Field(
+        default=None,
+        gt=0,
+        description="springs in E / longest edge that elements share, > 0",
+        examples=[1e4],
+    )
+    gamma: Number | None = Field(
+        default=None,
+        gt=0,
+        description="Nitsche's penalty in multiples of the measured bound, 4 by default, > 1",
+        examples=[4.0],
+    )
+
+
 class ContactMethod(_Part):
     """Enforcement of contact and joint conditions."""
 
@@ -201,6 +248,11 @@ class Integrator(_Part):
 
     type: PartName = Field(default="shi", description=_PART, examples=["newmark"])
     step: Time = Field(default=1e-3, gt=0, description="a step in s, > 0", examples=["1 ms"])
+    mass: Literal["consistent", "lumped"] = Field(
+        default="consistent",
+        description='"consistent" or "lumped": a block for each cover',
+        examples=["lumped"],
+    )
     kinetic_factor: Number = Field(
         default=1.0, ge=0, le=1, description="a kept fraction of velocity in [0, 1]", examples=[1.0]
     )
@@ -242,6 +294,7 @@ class Formulation(Frozen):
     title: str = Field(default="", description="a title", examples=["DDA"])
     cover: Cover = Field(default=Cover(), description="a table [cover]")
     supports: SupportMethod = Field(default=SupportMethod(), description="a table [supports]")
+    glue: Glue = Field(default=Glue(), description="a table [glue]")
     contact: ContactMethod = Field(default=ContactMethod(), description="a table [contact]")
     integrator: Integrator = Field(default=Integrator(), description="a table [integrator]")
     rotation: Rotation = Field(default=Rotation(), description="a table [rotation]")

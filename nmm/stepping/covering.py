@@ -1,7 +1,7 @@
 """From the formulation's ``[cover]`` to a manifold: blocks for DDA, meshes for all else."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -61,6 +61,11 @@ def cover_regions(
             f'[[cover.regions]]: with type = "{cover.type}", functions = "{cover.functions}": '
             'expected a mesh of polynomials: use type = "triangles" and functions = "monomials"'
         )
+    if cover.nets and cover.of_blocks:
+        raise FormulationError(
+            f'[[cover.nets]]: with type = "{cover.type}" every block has its own cover: expected a '
+            'mesh: use type = "triangles", or remove the nets'
+        )
     if cover.of_blocks:
         if lines:
             raise FormulationError(
@@ -100,22 +105,16 @@ def _mesh(
     lines: "Sequence[Floats]",
     kappa: Floats | None,
 ) -> Covering:
-    from covers.cutting import cut
     from covers.mesh_manifold import mesh_manifold
-    from covers.registry import cover_class
     from nmm.stepping.degrees import kinds_by_region
+    from nmm.stepping.nets import laid_and_cut
 
     if cover.size is None:
         raise FormulationError(
             f'[cover] size: not given: expected the size of a cell in m with type = "{cover.type}"'
         )
-    points = regions.polygons.points
-    bounds = np.stack([points.min(axis=0), points.max(axis=0)])
-    options: dict[str, Any] = dict(cover.options)
     try:
-        kind: Any = cover_class(cover.type)
-        laid = kind.regular(bounds, cover.size, angle=cover.angle, shift=cover.shift, **options)
-        pieces = cut(laid, regions.polygons, lines)
+        laid, pieces = laid_and_cut(regions, cover, lines)
     except (ValueError, TypeError, ImportError) as fault:
         raise FormulationError(f"[cover] {fault}") from fault
     extra = [] if cover.enrichment is None else _enrichments(pieces, cover, kappa)

@@ -1,0 +1,79 @@
+"""The nets of a formulation: one over all blocks, and those that blocks have of their own."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from covers.base import Cover as MathematicalCover
+from covers.cut_cells import CutCells
+from covers.cutting import cut
+from covers.nets import joined_cover, joined_cut
+from covers.polynomial_cover import PolynomialCover
+from covers.registry import cover_class
+from integration.arrays import Floats, Ints
+
+if TYPE_CHECKING:
+    from nmm.formulation import Cover, CoverNet
+    from nmm.geometry.blocks import Regions
+
+
+def laid_and_cut(
+    regions: "Regions", cover: "Cover", lines: Sequence[Floats]
+) -> tuple[MathematicalCover, CutCells]:
+    """Lay the nets of ``[cover]`` over the blocks and cut them by blocks and lines.
+
+    Raises
+    ------
+    ValueError
+        A net that cannot be laid or cut, or that names no block.
+    """
+    if not cover.nets:
+        whole = _laid(cover, None, regions.polygons.points)
+        return whole, cut(whole, regions.polygons, lines)
+    members = _members(regions, cover.nets)
+    parts = [(net, own) for net, own in zip([None, *cover.nets], members, strict=True) if len(own)]
+    nets, cuts = [], []
+    for net, own in parts:  # a handful of nets
+        blocks = regions.polygons.take(own)
+        around = regions.polygons.points if net is None else blocks.points
+        laid = _laid(cover, net, around)
+        if not isinstance(laid, PolynomialCover):
+            raise ValueError(
+                f'nets: type "{cover.type}": triangles or quads expected where blocks have nets of '
+                "their own: use one of these, or remove [[cover.nets]]"
+            )
+        nets.append(laid)
+        cuts.append(cut(laid, blocks, lines))
+    return joined_cover(nets), joined_cut(nets, cuts, [own for _, own in parts])
+
+
+def _members(regions: "Regions", nets: "Sequence[CoverNet]") -> list[Ints]:
+    """Blocks of the common net, and of each of the others; the last net that names a block has it.
+
+    Raises
+    ------
+    ValueError
+        A name that no block has.
+    """
+    which = np.zeros(len(regions), dtype=np.int64)
+    for number, net in enumerate(nets, 1):  # a handful of nets
+        chosen = regions.select(net.block)
+        if not len(chosen):
+            raise ValueError(
+                f'nets: block "{net.block}": no block of this name: expected one of '
+                f"{', '.join(regions.name[:8])}: correct the name"
+            )
+        which[chosen] = number
+    return [np.flatnonzero(which == number) for number in range(len(nets) + 1)]
+
+
+def _laid(cover: "Cover", net: "CoverNet | None", points: Floats) -> MathematicalCover:
+    bounds = np.stack([points.min(axis=0), points.max(axis=0)])
+    chosen: dict[str, Any] = {name: getattr(cover, name) for name in ("size", "angle", "shift")}
+    if net is not None:
+        own = {name: getattr(net, name) for name in chosen}
+        chosen |= {name: value for name, value in own.items() if value is not None}
+    kind: Any = cover_class(cover.type)
+    laid: MathematicalCover = kind.regular(bounds, **chosen, **cover.options)
+    return laid
