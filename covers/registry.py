@@ -9,6 +9,7 @@ from covers.base import Cover
 COVERS = {
     "triangles": "covers.triangles:Triangles",
     "quads": "covers.quads:Quads",
+    "graded": "covers.graded:Graded",
     "bspline": "covers.bspline:BSplines",
     "mls": "covers.moving_least_squares:MovingLeastSquares",
 }

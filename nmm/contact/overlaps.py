@@ -86,7 +86,7 @@ def face_points(formulation: Formulation) -> int:
     if wanted == "vertices" or (wanted == "auto" and cover.of_blocks):
         return 0
     # Hats add one degree to the polynomials, bilinear weights two; others are no polynomials.
-    known = {"triangles": 1, "quads": 2} if cover.enrichment is None else {}
+    known = {"triangles": 1, "graded": 1, "quads": 2} if cover.enrichment is None else {}
     more = 0 if cover.of_blocks else known.get(cover.type, 5)
     degree = max(cover.highest_degree + more, 1)
     return int(np.clip((degree + 4) // 2, 2, max(LOBATTO)))

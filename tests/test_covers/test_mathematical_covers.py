@@ -6,6 +6,7 @@ import shapely
 from skfem import MeshQuad, MeshTri
 
 from covers.bspline import BSplines, cardinal_pieces
+from covers.graded import Graded
 from covers.kernels import KERNELS
 from covers.mesh_edges import mesh_edges
 from covers.moving_least_squares import MovingLeastSquares
@@ -49,6 +50,7 @@ def _jitter(points):
 EXAMPLES = {
     "triangles": lambda: Triangles.regular(BOUNDS, 0.23, **TURNED),
     "triangles of a mesh": jittered_triangles,
+    "graded triangles": lambda: Graded.regular(BOUNDS, 0.05, **TURNED, focus=[[0.7, 0.4]]),
     "quads": lambda: Quads.regular(BOUNDS, (0.2, 0.3), **TURNED),
     "parallelograms": sheared_quads,
     "distorted quads": jittered_quads,
@@ -282,3 +284,31 @@ def test_a_point_far_from_its_cell_is_refused_by_distorted_quads():
 def test_overlapping_cells_are_refused():
     with pytest.raises(ValueError, match="edge of another cell"):
         mesh_edges(np.array([[0, 1, 2], [0, 1, 3]]))
+
+
+def test_a_graded_net_is_fine_at_its_foci_and_grows_no_faster_than_asked():
+    focus = np.array([[0.5, 0.2], [1.7, 0.9]])
+    net = Graded.regular(BOUNDS, 0.01, focus=focus, radius=0.05, growth=0.3, coarsest=0.15)
+    assert net.vertices.min(axis=0) == pytest.approx([0, 0], abs=1e-15)
+    assert (net.vertices.max(axis=0) >= [2, 1]).all()
+    for axis in (0, 1):
+        lines = np.unique(net.vertices[:, axis])
+        steps = np.diff(lines)
+        middle = (lines[1:] + lines[:-1]) / 2
+        off = np.abs(middle[:, None] - focus[:, axis]).min(axis=1)
+        # A whole number of lines makes all steps a little shorter; a step has two ends.
+        allowed = np.minimum(0.01 + 0.3 * np.maximum(off + steps / 2 - 0.05, 0), 0.15)
+        assert (steps <= allowed * (1 + 1e-6)).all()
+        assert steps[off < 0.04] == pytest.approx(0.01, rel=0.05)
+        assert steps.max() == pytest.approx(0.15, rel=0.2) if axis == 0 else True
+
+
+def test_a_graded_net_without_focus_is_even():
+    lines = np.unique(Graded.regular(BOUNDS, 0.25).vertices[:, 0])
+    assert lines == pytest.approx(np.linspace(0, 2, 9), abs=1e-12)
+
+
+@pytest.mark.parametrize("options", [{"growth": -1}, {"coarsest": 0.01}, {"radius": -1}])
+def test_a_graded_net_that_cannot_be_is_refused(options):
+    with pytest.raises(ValueError, match="correct the options"):
+        Graded.regular(BOUNDS, 0.1, focus=[[1, 1]], **options)
