@@ -67,6 +67,14 @@ class ElementGroup(ABC):
         """Integrals of ``phi_s phi_t`` (d, S, S)."""
 
     @abstractmethod
+    def lumped_products(self) -> Floats:
+        """Integrals of ``w_k f_s f_t`` (d, S, S) of functions of one cover, zero between covers.
+
+        With ``phi_s = w_k f_s`` the sum over all covers is that of products of the local fields,
+        each weighted once (Yang, Zheng and Sivaselvan 2017).
+        """
+
+    @abstractmethod
     def gradient_products(self) -> Floats:
         """Integrals (d, 3, S, S) of ``s_x t_x``, ``s_x t_y``, ``s_y t_y``."""
 
@@ -109,6 +117,10 @@ class PolynomialGroup(ElementGroup):
         Degree of the polynomials.
     table
         (d, S, K) coefficients over the monomials of ``matrix (x - origin)``.
+    local
+        (d, S, K) the same of the functions without their weights, of degree ``local_degree``.
+    cover
+        (S,) place of each function's cover among those of an element.
     origin, matrix
         (n, 2) and (d, 2, 2) the elements' local coordinates.
     moments
@@ -117,6 +129,9 @@ class PolynomialGroup(ElementGroup):
 
     degree: int
     table: Floats
+    local_degree: int
+    local: Floats
+    cover: Ints
     origin: Floats
     matrix: Floats
     moments: Floats
@@ -134,6 +149,12 @@ class PolynomialGroup(ElementGroup):
     def products(self) -> Floats:
         """See `ElementGroup.products`."""
         return self._contract(self.table, self.table, self.degree)
+
+    def lumped_products(self) -> Floats:
+        """See `ElementGroup.lumped_products`."""
+        index = product_index(self.degree)[:, : count(self.local_degree)]
+        found = self.table @ self.moments[:, index] @ np.swapaxes(self.local, 1, 2)
+        return one_cover(found, self.cover)
 
     def gradient_products(self) -> Floats:
         """See `ElementGroup.gradient_products`."""
@@ -175,6 +196,12 @@ class PolynomialGroup(ElementGroup):
     def _contract(self, left: Floats, right: Floats, degree: int) -> Floats:
         gram = self.moments[:, product_index(degree)]
         return np.asarray(left @ gram @ np.swapaxes(right, 1, 2))
+
+
+def one_cover(products: Floats, cover: Ints) -> Floats:
+    """Symmetric products (d, S, S) of functions of the same cover (S,), zero for others."""
+    same = cover[:, None] == cover
+    return np.where(same, (products + np.swapaxes(products, 1, 2)) / 2, 0.0)
 
 
 def product_index(degree: int) -> Ints:

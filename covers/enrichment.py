@@ -103,6 +103,17 @@ class EnrichedFields(Fields):
     which: Ints
     side: Floats
 
+    @property
+    def cover(self) -> Ints:
+        """See `Fields.cover`."""
+        each = 2 * self.enrichments[0].functions.number
+        return np.concatenate([self.base.cover, np.repeat(np.arange(self.n_enriched), each)])
+
+    def local_values(self, index: Ints, points: Floats) -> Floats:
+        """See `Fields.local_values`."""
+        singular = [self._singular(index, slot, points)[0] for slot in range(self.n_enriched)]
+        return np.concatenate([self.base.local_values(index, points), *singular], axis=1)
+
     def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
         """See `Fields.evaluate`."""
         values, gradients = self.base.evaluate(index, points)

@@ -78,7 +78,10 @@ def mesh_manifold(
     builder = _Builder.of(cover, cut, kinds, tuple(enrichments))
     n_unknowns = int(builder.offset[-1])
     body_area, body_centroid = _bodies(cut)
-    nodes = cover.patch_centre[cut.cover_patch] if cover.precision >= 1 else None
+    # Covers hold rigid motions themselves where all can, as their mass block by block asks.
+    lowest = min(item.degree for item in kinds.functions)
+    by_nodes = cover.precision >= 1 and lowest == 0
+    nodes = cover.patch_centre[cut.cover_patch] if by_nodes else None
     modes = (kinds.functions, kinds.which, builder.covers, n_unknowns, body_centroid, nodes)
     groups = tuple(builder.groups())
     dependent = dependent_functions(
@@ -100,7 +103,7 @@ def mesh_manifold(
         body_area=body_area,
         dependent=dependent,
         dependent_covers=int(higher.sum()) if dependent else 0,
-        reproduction=cover.precision + min(item.degree for item in kinds.functions),
+        reproduction=cover.precision + lowest,
         fitted=int(builder.fitted.sum()),
         enriched=int((builder.enriched >= 0).sum()),
     )

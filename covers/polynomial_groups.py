@@ -95,12 +95,13 @@ def polynomial_group(
     """
     highest = max(item.degree for item in functions)
     degree = weights.degree + highest
-    parts = []
+    parts, plain = [], []
     for slot, item in enumerate(functions):  # three or four covers
         local = _local_functions(item, covers, active[shapes.first, slot], shapes)
         weight = weights.table[:, slot, None]
         table = multiply(weight, weights.degree, local, item.degree)
         parts.append(np.pad(table, ((0, 0), (0, 0), (0, count(degree) - table.shape[2]))))
+        plain.append(np.pad(local, ((0, 0), (0, 0), (0, count(highest) - local.shape[2]))))
     return PolynomialGroup(
         elements=shapes.elements,
         unknowns=unknowns_of(functions, covers, active),
@@ -108,6 +109,9 @@ def polynomial_group(
         shape=shapes.shape,
         degree=degree,
         table=np.concatenate(parts, axis=1),
+        local_degree=highest,
+        local=np.concatenate(plain, axis=1),
+        cover=covers_of(functions),
         origin=shapes.origin,
         matrix=shapes.matrix,
         moments=_moments(polygons, 2 * degree, shapes),
@@ -120,6 +124,11 @@ def unknowns_of(functions: Sequence[LocalFunctions], covers: PhysicalCovers, act
     return np.concatenate(
         [first[:, [k]] + np.arange(item.n_unknowns) for k, item in enumerate(functions)], axis=1
     )
+
+
+def covers_of(functions: Sequence[LocalFunctions]) -> Ints:
+    """Place (S,) of the cover of each scalar function."""
+    return np.repeat(np.arange(len(functions)), [item.n_functions for item in functions])
 
 
 def combined(functions: Sequence[LocalFunctions]) -> Floats | None:

@@ -1,12 +1,13 @@
 """Element groups integrated by point rules: weights or local functions that are no polynomials."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from covers.element_groups import ElementGroup
+from covers.element_groups import ElementGroup, one_cover
 from integration.arrays import Floats, Ints
 from integration.rules import PointRule
 
@@ -21,6 +22,15 @@ class Fields(ABC):
     def extends(self) -> bool:
         """Whether they have values beyond the element."""
         return False
+
+    @property
+    @abstractmethod
+    def cover(self) -> Ints:
+        """(S,) place of the cover of each function among those of an element."""
+
+    @abstractmethod
+    def local_values(self, index: Ints, points: Floats) -> Floats:
+        """Values (m, S) of the functions without their weights."""
 
     @abstractmethod
     def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
@@ -59,6 +69,17 @@ class QuadratureGroup(ElementGroup):
         """See `ElementGroup.products`."""
         return self._integrals[0]
 
+    def lumped_products(self) -> Floats:
+        """See `ElementGroup.lumped_products`."""
+        found = np.zeros((len(self.elements), self._size, self._size))
+        for some, points in self._batches():
+            value, _, weight = self._at(some, points)
+            flat = np.repeat(some, points.shape[1])
+            local = self.fields.local_values(flat, self.rule.points[points.ravel()])
+            heavy = weight[:, :, None] * value
+            found[some] = np.swapaxes(heavy, 1, 2) @ local.reshape(value.shape)
+        return one_cover(found, self.fields.cover)
+
     def gradient_products(self) -> Floats:
         """See `ElementGroup.gradient_products`."""
         return self._integrals[1]
@@ -76,23 +97,27 @@ class QuadratureGroup(ElementGroup):
         n, size = len(self.elements), self._size
         products, gradient_products = np.zeros((n, size, size)), np.zeros((n, 3, size, size))
         integrals, gradient_integrals = np.zeros((n, size)), np.zeros((n, size, 2))
-        counts = np.bincount(self.rule.owner, minlength=n)
+        for some, points in self._batches():
+            value, slope, weight = self._at(some, points)
+            heavy = weight[:, :, None] * value
+            products[some] = np.swapaxes(heavy, 1, 2) @ value
+            x, y = slope[..., 0], slope[..., 1]
+            wx, wy = (np.swapaxes(weight[:, :, None] * g, 1, 2) for g in (x, y))
+            gradient_products[some] = np.stack([wx @ x, wx @ y, wy @ y], axis=1)
+            integrals[some] = heavy.sum(axis=1)
+            gradient_integrals[some] = np.einsum("nq,nqsj->nsj", weight, slope)
+        return products, gradient_products, integrals, gradient_integrals
+
+    def _batches(self) -> Iterator[tuple[Ints, Ints]]:
+        """Elements (k,) and their points (k, q), in batches of equal numbers of points."""
+        counts = np.bincount(self.rule.owner, minlength=len(self.elements))
         begin = np.cumsum(counts) - counts
         for number in np.unique(counts[counts > 0]):  # elements of equal numbers of points
             alike = np.flatnonzero(counts == number)
             most = max(CHUNK // int(number), 1)
             for first in range(0, len(alike), most):
                 some = alike[first : first + most]
-                points = begin[some, None] + np.arange(number)
-                value, slope, weight = self._at(some, points)
-                heavy = weight[:, :, None] * value
-                products[some] = np.swapaxes(heavy, 1, 2) @ value
-                x, y = slope[..., 0], slope[..., 1]
-                wx, wy = (np.swapaxes(weight[:, :, None] * g, 1, 2) for g in (x, y))
-                gradient_products[some] = np.stack([wx @ x, wx @ y, wy @ y], axis=1)
-                integrals[some] = heavy.sum(axis=1)
-                gradient_integrals[some] = np.einsum("nq,nqsj->nsj", weight, slope)
-        return products, gradient_products, integrals, gradient_integrals
+                yield some, begin[some, None] + np.arange(number)
 
     def _at(self, elements: Ints, points: Ints) -> tuple[Floats, Floats, Floats]:
         n, q = points.shape

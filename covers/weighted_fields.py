@@ -7,7 +7,7 @@ import numpy as np
 
 from covers.base import Cover
 from covers.local_functions import LocalFunctions
-from covers.polynomial_groups import PhysicalCovers
+from covers.polynomial_groups import PhysicalCovers, covers_of
 from covers.quadrature_groups import Fields
 from integration.arrays import Floats, Ints
 from integration.monomials import count, differentiate, evaluate
@@ -19,7 +19,7 @@ class WeightedFields(Fields):
 
     Attributes
     ----------
-    cover
+    weighted
         The mathematical cover.
     cells, slots
         (n,) cell of each element, (n, k) places of its covers among the cell's patches.
@@ -31,7 +31,7 @@ class WeightedFields(Fields):
         All physical covers.
     """
 
-    cover: Cover
+    weighted: Cover
     cells: Ints
     slots: Ints
     active: Ints
@@ -41,7 +41,20 @@ class WeightedFields(Fields):
     @property
     def extends(self) -> bool:
         """Polynomial weights do; others know their own cell alone."""
-        return self.cover.weight_degree is not None
+        return self.weighted.weight_degree is not None
+
+    @property
+    def cover(self) -> Ints:
+        """See `Fields.cover`."""
+        return covers_of(self.functions)
+
+    def local_values(self, index: Ints, points: Floats) -> Floats:
+        """See `Fields.local_values`."""
+        parts = [
+            self.local(item, self.active[index, slot], points)[0]
+            for slot, item in enumerate(self.functions)
+        ]
+        return np.concatenate(parts, axis=1)
 
     def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
         """See `Fields.evaluate`."""
@@ -56,7 +69,7 @@ class WeightedFields(Fields):
 
     def weights(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
         """Weights (m, k) and gradients (m, k, 2) of the active covers."""
-        weight, slope = self.cover.evaluate(self.cells[index], points)
+        weight, slope = self.weighted.evaluate(self.cells[index], points)
         slots = self.slots[index]
         row = np.arange(len(index))[:, None]
         return weight[row, slots], slope[row, slots]

@@ -14,6 +14,7 @@ from integration.arrays import Floats, Ints
 from integration.polygons import areas
 from nmm.assembly import element_matrices
 from nmm.assembly.blocks import Part, assemble
+from nmm.assembly.lumping import check_positive
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,8 @@ class Model:
         (E,) Young's modulus (Pa), the unit of penalties.
     thickness
         Out-of-plane thickness (m).
+    lumped
+        Whether the mass couples no cover with another.
     cut
         How the cut left a mathematical cover; None for blocks.
     """
@@ -42,6 +45,7 @@ class Model:
     modulus: Floats
     thickness: float
     cut: CutCells | None = None
+    lumped: bool = False
 
     @cached_property
     def stiffness(self) -> csc_array:
@@ -50,7 +54,23 @@ class Model:
 
     @cached_property
     def mass(self) -> csc_array:
-        """Consistent mass."""
+        """Mass: consistent, or a block for each cover.
+
+        Raises
+        ------
+        FormulationError
+            A lumped mass that is not positive, of weights that are not.
+        """
+        if not self.lumped:
+            return self.consistent_mass
+        found = self._matrix(element_matrices.lumped_mass, self.thickness * self.density)
+        found.eliminate_zeros()
+        check_positive(found, self.manifold.cover_offset)
+        return found
+
+    @cached_property
+    def consistent_mass(self) -> csc_array:
+        """Mass of the displacement field, whatever the choice for `mass`."""
         return self._matrix(element_matrices.mass, self.thickness * self.density)
 
     @cached_property

@@ -37,6 +37,7 @@ def build_model(scene: "Scene", formulation: "Formulation", regions: "Regions") 
         modulus=np.array([law.modulus for law in laws])[material],
         thickness=scene.thickness,
         cut=covering.cut,
+        lumped=formulation.integrator.mass == "lumped",
     )
 
 

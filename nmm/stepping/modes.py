@@ -13,6 +13,8 @@ from nmm.solvers.linear import jacobi_scale
 # Part of its diagonal added to the stiffness: dependent functions, which have no mass, get infinite
 # frequencies by it.
 SHIFT = 1e-10
+# Part of the mass of a mode that its displacements carry, at least.
+CARRIED = 0.5
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,9 @@ def lowest_modes(model: Model, number: int, held: csc_array | None = None) -> Mo
 
     Stiffness and mass share the null space of dependent functions. A small part of the diagonal
     added to the stiffness makes it definite there; as null functions carry no mass, every product
-    with the mass takes them out of the iterates.
+    with the mass takes them out of the iterates. A lumped mass gives them one, and modes to
+    differences between covers that overlap: modes whose displacements carry less than half of
+    their mass are left out.
 
     Parameters
     ----------
@@ -77,10 +81,28 @@ def lowest_modes(model: Model, number: int, held: csc_array | None = None) -> Mo
 
     operator = LinearOperator((n, n), matvec=inverse, dtype=np.float64)
     start = mass @ np.random.default_rng(0).normal(size=n)
-    values, vectors = eigsh(
-        stiffness, k=number, M=mass, sigma=sigma, OPinv=operator, v0=inverse(start)
-    )
-    order = np.argsort(values)
+    least, many = len(start) - 2, number
+    while True:
+        values, vectors = eigsh(
+            stiffness, k=many, M=mass, sigma=sigma, OPinv=operator, v0=inverse(start)
+        )
+        if model.lumped:
+            values, vectors = _of_displacements(model, values, vectors)
+        if len(values) >= number or many >= least:
+            break
+        many = min(2 * many + model.manifold.dependent, least)
+    order = np.argsort(values)[:number]
     # Rounding of K leaves rigid motions with squares of either sign near zero.
     squares = np.where(values > 1e-8 * np.abs(values).max(), values, 0.0)[order]
     return Modes(np.sqrt(squares), vectors[:, order])
+
+
+def _of_displacements(model: Model, values: Floats, vectors: Floats) -> tuple[Floats, Floats]:
+    """Modes whose displacements carry their mass; among those of frequency zero they are sought."""
+    still = np.abs(values) <= 1e-8 * np.abs(values).max()
+    zero = vectors[:, still]
+    _, turn = np.linalg.eigh(zero.T @ (model.consistent_mass @ zero))
+    vectors = np.concatenate([zero @ turn, vectors[:, ~still]], axis=1)
+    values = np.concatenate([np.zeros(int(still.sum())), values[~still]])
+    share = np.einsum("nk,nk->k", vectors, model.consistent_mass @ vectors)
+    return values[share > CARRIED], vectors[:, share > CARRIED]

@@ -24,6 +24,7 @@ def solid(
     cracks: Sequence[npt.ArrayLike] = (),
     density: Sequence[float] | None = None,
     thickness: float = 1.0,
+    lumped: bool = False,
 ) -> Model:
     """Return the model of blocks under a cover.
 
@@ -41,6 +42,8 @@ def solid(
         (N,) material of each block; the first for all when not given.
     cracks
         Polylines (n, 2), m.
+    lumped
+        Whether the mass couples no cover with another.
     """
     n = len(polygons)
     own = np.zeros(n, dtype=np.int64) if material is None else material
@@ -58,4 +61,5 @@ def solid(
         modulus=np.array([law.modulus for law in laws])[of_element],
         thickness=thickness,
         cut=covering.cut,
+        lumped=lumped,
     )
