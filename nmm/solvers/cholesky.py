@@ -9,12 +9,14 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats
 from nmm.solvers import fronts
 from nmm.solvers.blas import addresses, one_thread
-from nmm.solvers.elimination import Fronts
+from nmm.solvers.elimination import Fronts, skew
 from nmm.solvers.linear import Decomposition, LinearSolver
 from nmm.solvers.superlu import SuperLU
 
 _PLANS: list[Fronts] = []
 _KEPT = 4
+SKEW = 1e-12
+"""Part of the largest entry by which a symmetric matrix and its mirror image may differ."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,7 @@ class Factorised:
 class Cholesky(LinearSolver):
     """``A = L L^T`` by dense fronts (Duff, Reid 1983; LAPACK within a front).
 
-    A matrix that is not positive definite, or whose pattern is not symmetric, goes to SuperLU. On
+    A matrix that is not positive definite, or not symmetric to rounding, goes to SuperLU. On
     walls of bricks a factorisation takes a quarter of SuperLU's time once the pattern is known
     (benchmark `benchmarks/enforcement.py`).
     """
@@ -82,14 +84,15 @@ class Cholesky(LinearSolver):
 
 
 def _plan(matrix: csc_array) -> Fronts | None:
-    """Plan of the pattern, kept from the last few; None where the pattern is not symmetric."""
-    for plan in _PLANS:
-        if plan.fits(matrix):
-            return plan
-    turned = csc_array(matrix.T)
-    turned.sort_indices()
-    if not np.array_equal(turned.indices, matrix.indices):
+    """Plan of the pattern, kept from the last few; None where the matrix is not symmetric."""
+    plan = next((one for one in _PLANS if one.fits(matrix)), None)
+    if plan is not None and plan.mirrored:
+        return plan
+    off, mirrored = skew(matrix.indptr, matrix.indices, matrix.data)
+    if off > SKEW * np.abs(matrix.data).max(initial=0.0):
         return None
-    _PLANS.insert(0, Fronts.of(matrix))
-    del _PLANS[_KEPT:]
-    return _PLANS[0]
+    if plan is None:
+        plan = Fronts.of(matrix, mirrored)
+        _PLANS.insert(0, plan)
+        del _PLANS[_KEPT:]
+    return plan

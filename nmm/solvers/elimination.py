@@ -1,9 +1,9 @@
 """Order of elimination and the fronts it leads to, for the pattern of a symmetric matrix.
 
-Unknowns with equal columns (those of a block) are eliminated together, so the graph that is
-ordered has one node for each such group. Minimum degree (Liu 1985) orders the nodes; columns with
-nested structure make up supernodes, small ones are merged with their parents at the price of a few
-explicit zeros (Ashcraft, Grimes 1989).
+Unknowns with nearly equal columns (those of a block, of a cover) are eliminated together, so the
+graph that is ordered has one node for each such group. Minimum degree (Liu 1985) orders the nodes;
+columns with nested structure make up supernodes, small ones are merged with their parents at the
+price of a few explicit zeros (Ashcraft, Grimes 1989).
 """
 
 from dataclasses import dataclass
@@ -13,9 +13,13 @@ import numpy as np
 import numpy.typing as npt
 from scipy.sparse import csc_array
 
-from integration.arrays import Ints
+from integration.arrays import Floats, Ints
 
 Index = npt.NDArray[np.int32]
+
+ALIKE = 0.75
+"""Part of their rows that columns share which are eliminated together. Entries that round to zero
+drop out of sums of matrices, so the columns of one cover are not quite equal."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +44,9 @@ class Fronts:
         Entries of the matrix in its lower triangle, after ordering, and their place in the panels.
     stack_size
         Largest stack of updates.
+    mirrored
+        Whether the pattern is symmetric. Sums of sparse matrices drop an entry that rounds to zero
+        and may keep its mirror image; the plan has room for both.
     """
 
     indptr: Index
@@ -53,15 +60,18 @@ class Fronts:
     source: Ints
     target: Ints
     stack_size: int
+    mirrored: bool = True
 
     @classmethod
-    def of(cls, matrix: csc_array) -> "Fronts":
-        """Plan the factorisation of a matrix with symmetric, sorted pattern."""
+    def of(cls, matrix: csc_array, mirrored: bool = True) -> "Fronts":
+        """Plan the factorisation of a symmetric matrix with sorted rows."""
         indptr = matrix.indptr.astype(np.int32, copy=False)
         indices = matrix.indices.astype(np.int32, copy=False)
         node_of = _groups(indptr, indices)
         weight = np.bincount(node_of)
         graph_ptr, graph = _quotient(indptr, indices, node_of, len(weight))
+        if not mirrored:
+            graph_ptr, graph = _both_ways(graph_ptr, graph)
         node_order = _minimum_degree(graph_ptr, graph)
         parent, postorder = _tree(graph_ptr, graph, node_order)
         node_order = node_order[postorder]
@@ -75,13 +85,50 @@ class Fronts:
         order = np.argsort(rank[node_of], kind="stable")
         source, target = _places(indptr, indices, order, *fronts)
         n_children, stack = _stack(*fronts[:3])
-        return cls(indptr, indices, order, *fronts, n_children, source, target, int(stack))
+        places = n_children, source, target, int(stack)
+        return cls(indptr, indices, order, *fronts, *places, mirrored)
 
     def fits(self, matrix: csc_array) -> bool:
         """Whether the matrix has the pattern of this plan."""
         return np.array_equal(self.indptr, matrix.indptr) and np.array_equal(
             self.indices, matrix.indices
         )
+
+
+def _both_ways(graph_ptr: Index, graph: Index) -> tuple[Index, Index]:
+    n = len(graph_ptr) - 1
+    one = csc_array((np.ones(len(graph)), graph, graph_ptr), shape=(n, n))
+    both = csc_array(one + one.T)
+    both.sort_indices()
+    return both.indptr.astype(np.int32), both.indices.astype(np.int32)
+
+
+@nb.njit(cache=True)
+def skew(indptr: Index, indices: Index, data: Floats) -> tuple[float, bool]:
+    """Largest difference of a matrix with sorted rows from its mirror image; alike in pattern."""
+    n = len(indptr) - 1
+    at = np.empty(n, dtype=np.int64)  # next entry below the diagonal of each column
+    most, alike = 0.0, True
+    for j in range(n):
+        k = indptr[j]
+        while k < indptr[j + 1] and indices[k] < j:
+            i = indices[k]
+            while at[i] < indptr[i + 1] and indices[at[i]] < j:
+                most, alike = max(most, abs(data[at[i]])), False
+                at[i] += 1
+            if at[i] < indptr[i + 1] and indices[at[i]] == j:
+                most = max(most, abs(data[k] - data[at[i]]))
+                at[i] += 1
+            else:
+                most, alike = max(most, abs(data[k])), False
+            k += 1
+        if k < indptr[j + 1] and indices[k] == j:
+            k += 1
+        at[j] = k
+    for j in range(n):
+        for k in range(at[j], indptr[j + 1]):
+            most, alike = max(most, abs(data[k])), False
+    return most, alike
 
 
 def _minimum_degree(graph_ptr: Index, graph: Index) -> Ints:
@@ -106,48 +153,56 @@ def _minimum_degree(graph_ptr: Index, graph: Index) -> Ints:
 
 @nb.njit(cache=True)
 def _groups(indptr: Index, indices: Index) -> Ints:
+    """Node of every column: columns follow each other into one that differ by few rows.
+
+    Alike is judged against the first column of the node, and both must be coupled.
+    """
     n = len(indptr) - 1
     node_of = np.zeros(n, dtype=np.int64)
-    node = 0
+    node, head = 0, 0
     for j in range(1, n):
-        a, b, length = indptr[j - 1], indptr[j], indptr[j + 1] - indptr[j]
-        same = length == b - a
-        k = 0
-        while same and k < length:
-            same = indices[a + k] == indices[b + k]
-            k += 1
-        if not same:
+        a, end_a = indptr[head], indptr[head + 1]
+        b, end_b = indptr[j], indptr[j + 1]
+        most = max(end_a - a, end_b - b)
+        common, coupled = 0, False
+        while a < end_a and b < end_b:
+            if indices[a] == indices[b]:
+                coupled = coupled or indices[a] == head
+                common += 1
+                a += 1
+                b += 1
+            elif indices[a] < indices[b]:
+                a += 1
+            else:
+                b += 1
+        if common < most and (not coupled or common < ALIKE * most):
             node += 1
+            head = j
         node_of[j] = node
     return node_of
 
 
 @nb.njit(cache=True)
 def _quotient(indptr: Index, indices: Index, node_of: Ints, n: int) -> tuple[Index, Index]:
+    """Graph of the nodes, each with itself, rows ascending."""
     ptr = np.zeros(n + 1, dtype=np.int32)
     graph = np.empty(len(indices) + n, dtype=np.int32)
-    total, last = 0, -1
-    for j in range(len(node_of)):
-        node = node_of[j]
-        if node == last:
-            continue
-        last = node
-        previous = -1
-        seen = False
-        for k in range(indptr[j], indptr[j + 1]):
-            other = node_of[indices[k]]
-            if other != previous:
-                if not seen and other > node:
-                    graph[total] = node
+    mark = np.full(n, -1, dtype=np.int64)
+    total, first, j = 0, 0, 0
+    for node in range(n):
+        first = total
+        mark[node] = node
+        graph[total] = node
+        total += 1
+        while j < len(node_of) and node_of[j] == node:
+            for k in range(indptr[j], indptr[j + 1]):
+                other = node_of[indices[k]]
+                if mark[other] != node:
+                    mark[other] = node
+                    graph[total] = other
                     total += 1
-                    seen = True
-                seen = seen or other == node
-                graph[total] = other
-                total += 1
-                previous = other
-        if not seen:
-            graph[total] = node
-            total += 1
+            j += 1
+        graph[first:total].sort()
         ptr[node + 1] = total
     return ptr, graph[:total].copy()
 
