@@ -31,8 +31,8 @@ class Turns:
         The contacts at the start of the step, and with the damage of this turn.
     twins
         Bonds that have opened once.
-    lift
-        (m,) by how much sliding has lifted the faces (m).
+    rise, lift
+        (m,) by how much sliding has lifted the faces at the start, and by the end (m).
     done
         Whether the last answer agrees with the damage and rise it was found with.
     """
@@ -47,7 +47,7 @@ class Turns:
         self._stiffness = whole
         index = np.flatnonzero(self._soft & (opened < (1 - 1e-9) * whole))
         self.twins = Twins(index, opened[index] / whole[index])
-        self.lift = laws.lift(start, start.worn)
+        self.rise = self.lift = laws.lift(start, start.worn)
         self.done = False
         self._count = 0
         self._iteration = FixedPoint()

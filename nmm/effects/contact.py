@@ -30,9 +30,12 @@ from nmm.contact.following import (
     remember,
     searched_points,
 )
+from nmm.contact.halfway import Rows, halfway_rows, middle, missing_moments
 from nmm.contact.joints import Joints, find_joints
+from nmm.contact.mean_springs import MeanSprings, end_shares
 from nmm.contact.memory import Memory
 from nmm.contact.narrow import Contacts, find_contacts, follow
+from nmm.contact.overlaps import face_points, faced
 from nmm.contact.points import ContactPoints, concatenate, rows
 from nmm.contact.problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.search import NeighbourList
@@ -67,6 +70,9 @@ WHERE_GIVEN = (
     "damping",
 )
 
+# Share of the penetrations by which gaps may be off for the turn of bodies within a step.
+HALFWAY = 1e-4
+
 Breaking = Literal["all", "worst", "stop"]
 
 
@@ -88,6 +94,8 @@ class Solved:
         Whether a bond could not hold and the step was given up for it.
     sliding
         (m,) how far contacts slid under load (m); empty when the step is not accepted.
+    rows
+        What the forces acted through.
     """
 
     contacts: ContactPoints
@@ -96,6 +104,7 @@ class Solved:
     loss: float
     stopped: bool = False
     sliding: Floats = field(default_factory=lambda: np.zeros(0))
+    rows: Rows | None = None
 
 
 @dataclass(frozen=True)
@@ -134,13 +143,17 @@ class Contact(Effect):
         start: State,
         held: Bools,
         cracked: bool = False,
+        face_points: int = 0,
     ) -> None:
         self._model = model
+        self._face_points = face_points
         self._cracked = cracked
         self._held = held
         self._laws = laws
         self._interface_of = interface_of
         self._enforcement = enforcement
+        # All but the penalty replace springs that are not the joints' own by exact conditions.
+        self._exact = enforcement.name != "penalty"
         self._memory = Memory()
         self._solved: tuple[StepProblem, StepAnswer] | None = None
         self._sides = sides(model.manifold)
@@ -178,6 +191,7 @@ class Contact(Effect):
             setup.start,
             _held_bodies(setup),
             cracked=bool(setup.scene.cracks),
+            face_points=face_points(setup.formulation),
         )
 
     def candidates(self, state: State, reach: float) -> ContactPoints:
@@ -186,7 +200,10 @@ class Contact(Effect):
         record = self.record
         joints = record.book.now(surface, self._apart(state))
         found = self._search(surface, 2 * reach)
-        new = searched_points(found, self._interfaces(found.vertex, found.edge))
+        new = searched_points(found, self._interfaces(found.vertex, found.edge), surface)
+        if self._bends:
+            apart = Stations.at(self._sides, new).apart(new, state.frames, state.deformation)
+            new = replace(new, gap=np.einsum("ij,ij->i", apart, new.normal))
         if record.found is not None and record.known is not None:
             new = remember(new, record.known, follow(record.found, found))
         self._last = found
@@ -201,32 +218,35 @@ class Contact(Effect):
         solver: LinearSolver,
         breaking: Breaking = "all",
         step: float | None = None,
+        weight: float = 1.0,
+        halfway: State | None = None,
     ) -> Solved:
         """Solve one step; bonds that cannot hold break and the step is solved again.
 
         ``breaking`` says which break at a time: "all", the "worst" alone, or "stop": none, the step
-        ends there and is no equilibrium. ``step`` is its length (s), None in statics.
+        ends there and is no equilibrium. ``step`` is its length (s), None in statics; ``weight``
+        the share of its end in the stretch of springs (`nmm.contact.mean_springs`). ``halfway`` is
+        where forces act; at the start of the step when None.
         """
-        n_unknowns = self._model.manifold.n_unknowns
-        normal_rows, tangent_rows = rows(
-            contacts, self._sides, state.frames, n_unknowns, self._stations
-        )
+        through = self._rows(contacts, state, halfway)
         turns = Turns(self._laws, contacts)
         nowhere = np.zeros(len(contacts), dtype=bool)
         passes, loss = 0, 0.0
         while True:
             normal, shear, own = self._laws.springs(turns.start, nowhere)
-            dashpots = self._dashpots(turns.start, normal, normal_rows, step)
-            shift = turns.lift + dashpots.lag
+            dashpots = self._dashpots(turns.start, normal, through.normal, step)
+            shares = end_shares(weight, self._exact, own, self._laws.softening(turns.start))
+            springs = MeanSprings.of(turns.start, (normal, shear), shares, turns.rise, dashpots)
+            shift = turns.lift + springs.lag
             problem = StepProblem(
                 matrix=matrix,
                 force=force,
-                normal_rows=normal_rows,
-                tangent_rows=tangent_rows,
+                normal_rows=through.normal,
+                tangent_rows=through.tangent,
                 gap=contacts.gap - shift,
-                slip=contacts.slip,
-                normal_stiffness=normal + dashpots.stiffness,
-                shear_stiffness=shear,
+                slip=contacts.slip + springs.lead,
+                normal_stiffness=springs.normal,
+                shear_stiffness=springs.shear,
                 limits=self._laws.limits(turns.contacts),
                 state=contacts.state,
                 normal_force=contacts.normal_force,
@@ -240,8 +260,8 @@ class Contact(Effect):
             self._solved = (problem, answer)
             if not answer.verdict.converged:
                 return Solved(turns.contacts, answer, passes, loss)
-            answer = replace(answer, gap=answer.gap + shift)
             sliding = slid_under_load(problem, answer)
+            answer = springs.unshifted(answer, shift)
             fault = turns.settled(answer, sliding)
             if fault is not None:
                 return Solved(turns.contacts, replace(answer, verdict=fault), passes, loss)
@@ -254,15 +274,63 @@ class Contact(Effect):
                 loss += dashpots.loss(
                     normal,
                     (contacts.gap, answer.gap),
-                    (contacts.normal_force, answer.normal_force),
+                    (
+                        np.where(shares < 1, answer.normal_force, contacts.normal_force),
+                        answer.normal_force,
+                    ),
                 )
-                return Solved(turns.contacts, answer, passes, loss, sliding=sliding)
+                return Solved(turns.contacts, answer, passes, loss, False, sliding, through)
             if breaking == "stop":
                 return Solved(turns.contacts, answer, passes, loss, stopped=True)
             elastic = answer.normal_force**2 / normal + answer.shear_force**2 / shear
             loss += float(elastic[broken].sum()) / 2
             contacts = break_bonds(contacts, broken)
             turns = Turns(self._laws, contacts)
+
+    def halfway(
+        self, solved: Solved, before: State, after: State, used: State | None
+    ) -> State | None:
+        """Where the forces of a step should have acted; None if ``used`` (None: before) will do.
+
+        Gaps are off by about a turn times a motion; that matters beside the penetrations.
+        """
+        acts = solved.answer.normal_force != 0
+        if not acts.any() or not self._of_blocks or self._bends or self._stations is not None:
+            return None
+        half = middle(before, after)
+        was = before if used is None else used
+        edges = self._model.manifold.boundary.body
+        body = np.unique(edges[[solved.contacts.edge_a[acts], solved.contacts.edge_b[acts]]])
+        turn, turned = (_largest_turn(one, half, body) for one in (before, was))
+        way, moved = (_largest_way(one, half, body) for one in (before, was))
+        way += turn * float(np.sqrt(self._model.manifold.body_area[body].max()))
+        off = 2 * (turned * way + moved * turn)
+        return half if off > HALFWAY * np.abs(solved.answer.gap[acts]).max() else None
+
+    def kept_momentum(
+        self, solved: Solved, before: State, after: State, step: float, balance: Floats
+    ) -> Floats:
+        """Velocity (n,) that a step lacks of what keeps momentum and angular momentum.
+
+        The moments that contact forces owe (`halfway.missing_moments`), and the sum of what is
+        left of the forces ``balance`` (n,), load less inner forces, when contact has taken its own.
+        """
+        assert solved.rows is not None
+        through, modes = solved.rows, self._model.manifold.rigid_modes
+        forces = solved.answer.normal_force, solved.answer.shear_force
+        half = middle(before, after)
+        push = through.normal.T @ forces[0] + through.tangent.T @ forces[1]
+        owed = np.asarray(modes.T @ (balance - push)).reshape(-1, 3)
+        owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, modes)
+        return np.asarray(modes @ (step * self._ease_of_all * owed.ravel()))
+
+    def _rows(self, contacts: ContactPoints, state: State, halfway: State | None) -> Rows:
+        if halfway is not None:
+            return halfway_rows(contacts, self._sides, self._model, state, halfway)
+        n_unknowns = self._model.manifold.n_unknowns
+        stations = Stations.at(self._sides, contacts) if self._bends else self._stations
+        found = rows(contacts, self._sides, state.frames, n_unknowns, stations)
+        return Rows(*found, contacts.normal)
 
     def commit(self, solved: Solved, state: State) -> ContactPoints:
         """Keep the accepted contacts as the start of the next step, and return them."""
@@ -341,12 +409,27 @@ class Contact(Effect):
         return Dashpots.of(coefficient, step, normal, contacts.gap)
 
     @cached_property
-    def _ease(self) -> Floats:
-        """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those that are held."""
+    def _of_blocks(self) -> bool:
+        """Whether every body is one element, whose points' rows hold all its unknowns."""
+        manifold = self._model.manifold
+        return len(manifold.elements) == manifold.n_bodies == manifold.n_covers
+
+    @cached_property
+    def _ease_of_all(self) -> Floats:
+        """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those without mass."""
         modes = self._model.manifold.rigid_modes
         rigid = (modes.T @ (self._model.mass @ modes)).diagonal()
-        ease = np.divide(1.0, rigid, out=np.zeros_like(rigid), where=rigid > 0)
-        return np.where(np.repeat(self._held, 3), 0.0, ease)
+        return np.asarray(np.divide(1.0, rigid, out=np.zeros_like(rigid), where=rigid > 0))
+
+    @property
+    def _ease(self) -> Floats:
+        """(3 B,) the same; 0 of bodies that are held."""
+        return np.where(np.repeat(self._held, 3), 0.0, self._ease_of_all)
+
+    @property
+    def _bends(self) -> bool:
+        """Whether contacts act at points of the material because faces bend between corners."""
+        return self._face_points > 2
 
     def _surface(self, state: State) -> Surface:
         """Edges of a state; those of the last one asked for are kept."""
@@ -365,6 +448,8 @@ class Contact(Effect):
             self._neighbours = NeighbourList(4 * reach, within_bodies=self._cracked)
         vertex, edge = self._neighbours.update(surface)
         found = find_contacts(surface, vertex, edge, reach, last=self.record.found)
+        if self._face_points:
+            found = faced(surface, found, self._face_points, self.record.book.edges(len(surface)))
         interface = self._interfaces(found.vertex, found.edge)
         missing = (interface == MISSING) & (found.gap <= 0)
         if missing.any():
@@ -397,6 +482,14 @@ class Contact(Effect):
         middle = centroids(manifold.elements)[manifold.boundary.element]
         apart = middle[joints.edge_a] - middle[joints.edge_b]
         return np.asarray(np.abs(np.einsum("ij,ij->i", apart, joints.normal)))
+
+
+def _largest_turn(one: State, other: State, body: Ints) -> float:
+    return float(np.abs(other.frames.angle - one.frames.angle)[body].max())
+
+
+def _largest_way(one: State, other: State, body: Ints) -> float:
+    return float(np.hypot(*(other.frames.centre - one.frames.centre)[body].T).max())
 
 
 def interface_law(item: Any) -> InterfaceLaw:

@@ -1,7 +1,12 @@
-"""Time integration of ``M a + internal = external`` over one step, in increments of displacement.
+"""Time integration of ``M a + internal = external + contact`` over one step.
 
-Each integrator turns the dynamic step into ``(m M + s K) d = force + M p`` and says what
-the rates are afterwards. Contact forces act at the end of the step in all of them.
+Each integrator turns the dynamic step into ``(m M + s K) d = force + M p + c N``, in increments
+``d`` of displacement, and says what the rates are afterwards. ``N`` is the mean contact force of
+the step. It acts as an impulse of its own, ``dt N`` on the momentum and ``dt^2 / 2 N`` on the place
+(Kane, Repetto, Ortiz and Marsden 1999), so that ``N d`` is the work that it does. What the spring
+of a contact may push with is its stretch at the end and at the start of the step, weighted; at the
+start no contact pulls, so that closing and opening never give more than the spring has stored
+(`Integrator.contact_weight`).
 """
 
 from abc import ABC, abstractmethod
@@ -51,10 +56,42 @@ class Integrator(ABC):
         """Share ``s`` of the end of the step in elastic and applied forces."""
         return 1.0
 
+    @property
+    def contact_factor(self) -> float:
+        """Factor ``c`` of the mean contact force."""
+        return 1.0
+
+    @property
+    def contact_weight(self) -> float:
+        """Share of the end of the step in the stretch of contact springs, from 1/2 to 1.
+
+        At 1/2 a contact that stays closed keeps its energy, beyond it loses some; closing and
+        opening lose some at every weight, and none of them gains any.
+        """
+        return 1.0
+
+    @property
+    def carries(self) -> bool:
+        """Whether a step needs the acceleration, without contact forces, at its start."""
+        return False
+
+    @property
+    def contact_kick(self) -> tuple[float, float]:
+        """Factors of ``dt a`` and ``a``, ``M a`` the contact force, in velocity and acceleration.
+
+        They are added to what `rates` finds from the displacement alone.
+        """
+        return 0.0, 0.0
+
 
 @dataclass(frozen=True)
 class Newmark(Integrator):
-    """Newmark (1959): ``beta``, ``gamma``; (1/4, 1/2) conserves energy and has order 2."""
+    """Newmark (1959): ``beta``, ``gamma``; (1/4, 1/2) conserves energy and has order 2.
+
+    With ``gamma = 2 beta`` the velocity follows from the displacement alone, ``v1 = 2 d / dt - v``,
+    and elastic and applied forces act with the weights ``gamma`` at the end and ``1 - gamma`` at
+    the start of the step: no acceleration is carried.
+    """
 
     beta: float = 0.25
     gamma: float = 0.5
@@ -67,20 +104,48 @@ class Newmark(Integrator):
                 "gamma >= 0.5 (stable, implicit): use 0.25 and 0.5 for no damping"
             )
 
+    @property
+    def carries(self) -> bool:
+        """See `Integrator.carries`."""
+        return abs(self.gamma - 2 * self.beta) > 1e-12 or self.gamma > 1
+
+    @property
+    def end_weight(self) -> float:
+        """``gamma``, or 1 where the acceleration carries the start's forces."""
+        return 1.0 if self.carries else self.gamma
+
+    @property
+    def contact_weight(self) -> float:
+        """``gamma``, at most 1."""
+        return min(self.gamma, 1.0)
+
+    @property
+    def contact_factor(self) -> float:
+        """``1 / (2 beta)``, or 1: the place gains ``dt^2 / 2`` of contact's acceleration."""
+        return 0.5 / self.beta if self.carries else 1.0
+
+    @property
+    def contact_kick(self) -> tuple[float, float]:
+        """``1 - gamma / (2 beta)`` and ``- 1 / (2 beta)``."""
+        return 1 - self.gamma / (2 * self.beta), -0.5 / self.beta
+
     def mass_factor(self, step: float) -> float:
-        """``1 / (beta dt^2)``."""
-        return 1 / (self.beta * step**2)
+        """``1 / (beta dt^2)``, or ``2 / dt^2``."""
+        return 1 / (self.beta * step**2) if self.carries else 2 / step**2
 
     def momentum(self, velocity: Floats, acceleration: Floats, step: float) -> Floats:
-        """``(v dt + (1/2 - beta) a dt^2) / (beta dt^2)``."""
-        return self._start(velocity, acceleration, step)
+        """``(v dt + (1/2 - beta) a dt^2) / (beta dt^2)``, or ``2 v / dt``."""
+        return self._start(velocity, acceleration, step) if self.carries else 2 / step * velocity
 
     def rates(
         self, increment: Floats, velocity: Floats, acceleration: Floats, step: float
     ) -> tuple[Floats, Floats]:
         """``a1`` from the displacement, ``v1 = v + dt ((1 - gamma) a + gamma a1)``."""
-        end = increment / (self.beta * step**2) - self._start(velocity, acceleration, step)
-        return velocity + step * ((1 - self.gamma) * acceleration + self.gamma * end), end
+        if not self.carries:
+            end = 2 / step * increment - velocity
+            return end, (end - velocity) / step
+        last = increment / (self.beta * step**2) - self._start(velocity, acceleration, step)
+        return velocity + step * ((1 - self.gamma) * acceleration + self.gamma * last), last
 
     def _start(self, velocity: Floats, acceleration: Floats, step: float) -> Floats:
         """Share of the start of the step in the acceleration at its end, with the sign changed."""
@@ -136,9 +201,24 @@ class GeneralizedAlpha(Newmark):
         return self.rho_inf / (self.rho_inf + 1)
 
     @property
+    def carries(self) -> bool:
+        """See `Integrator.carries`."""
+        return True
+
+    @property
     def end_weight(self) -> float:
         """``1 - alpha_f``."""
         return 1 - self._alpha_f
+
+    @property
+    def contact_weight(self) -> float:
+        """``1 - alpha_f``, that of elastic forces."""
+        return self.end_weight
+
+    @property
+    def contact_factor(self) -> float:
+        """``(1 - alpha_m) / (2 beta)``."""
+        return (1 - self._alpha_m) / (2 * self.beta)
 
     def mass_factor(self, step: float) -> float:
         """``(1 - alpha_m) / (beta dt^2)``."""

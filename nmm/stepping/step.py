@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csc_array
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, move, strain_only, vertex_points
 from nmm.effects.base import Instant
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 # Contacts are sought as far as points can move in a step. The first step has no motion to go by
 # and looks this far, in sizes of the domain; a step that moves further is solved again.
 FIRST_REACH = 1e-6
+# How often a step is solved again with contact forces where they act half way.
+HALVES = 4
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,8 @@ class Stepper:
         self._reach = FIRST_REACH * self._size
         self._factor: Factor | None = None
         self._kept: tuple[float, tuple[csc_array, csc_array], csc_array] | None = None
+        self._weighted: tuple[csc_array, float, csc_array] | None = None
+        self._masses: tuple[csc_array, Ints, Factor] | None = None
         self._places: list[tuple[State, Floats]] = []
 
     @property
@@ -142,11 +146,17 @@ class Stepper:
         return 0 if self.plan.contact is None else self.plan.contact.broken_bonds
 
     @property
+    def _still(self) -> bool:
+        """Whether the bodies' axes stay as they are."""
+        return self.small or self._lay is not None
+
+    @property
     def _rule(self) -> Integrator:
         """The integrator of the step.
 
-        The first step is Shi's: no acceleration is known at its start, least of all of bodies in
-        contact. Its error of the velocity, once of order 2 in the step, leaves orders as they are.
+        The first step is Shi's: no acceleration is known at its start, and it damps the waves of
+        loads that come all at once. Its error of the velocity, once of order 2 in the step, leaves
+        orders as they are.
         """
         return self._integrator if self._begun else self._starter
 
@@ -163,10 +173,18 @@ class Stepper:
         velocity = integrator.kinetic_factor * state.velocity
         momentum = integrator.momentum(velocity, state.acceleration, step)
         base = self._base(integrator.mass_factor(step) / weight, inertia.mass)
-        matrix = self.plan.matrix(state, base)
-        if weight < 1:
-            matrix = csc_array(weight * matrix)
-        return matrix, force + inertia.mass @ momentum
+        share = 1.0 if self.plan.contact is None else integrator.contact_factor
+        matrix = self._times(weight / share, self.plan.matrix(state, base))
+        return matrix, (force + inertia.mass @ momentum) / share
+
+    def _times(self, factor: float, matrix: csc_array) -> csc_array:
+        """Return ``factor * matrix``, the same object of the same matrix."""
+        if factor == 1:
+            return matrix
+        kept = self._weighted
+        if kept is None or kept[0] is not matrix or kept[1] != factor:
+            kept = self._weighted = matrix, factor, csc_array(factor * matrix)
+        return kept[2]
 
     def _base(self, mass_factor: float, mass: csc_array) -> csc_array:
         """Return elasticity and inertia, the same object as long as the step's length stays."""
@@ -188,32 +206,57 @@ class Stepper:
     ) -> Attempt:
         if self.plan.contact is None:
             return self._solve_alone(state, end, step, matrix, force)
-        passes, reach = 0, self._reach
+        contact = self.plan.contact
+        weight = 1.0 if step is None else self._rule.contact_weight
+        passes, reach, halves = 0, self._reach, 0
+        contacts, halfway = self._candidates(state, reach), None
         while True:
             started = perf_counter()
-            contacts = self.plan.contact.candidates(state, reach)
-            self._spend("search", started)
-            started = perf_counter()
-            solved = self.plan.contact.solve(
-                contacts, state, matrix, force, self.solver, breaking, step
+            solved = contact.solve(
+                contacts, state, matrix, force, self.solver, breaking, step, weight, halfway
             )
             self._spend("solve", started)
             passes += solved.passes
-            verdict = solved.answer.verdict
-            result = self._result(state, end, step, solved.answer.increment)
+            verdict, increment = solved.answer.verdict, solved.answer.increment
+            push = matrix @ increment - force if self._integrator.carries and step else None
+            result = self._result(state, end, step, increment, push)
             far = result.motion
-            if far <= reach or solved.stopped or not verdict.converged or far > self._size:
-                good = verdict.converged and far <= self._size and not solved.stopped
-                through = self.plan.contact.passage(state, result.state) if good else ""
-                return replace(
-                    result,
-                    converged=good and not through,
-                    sentence=through or verdict.sentence,
-                    residual=solved.answer.residual,
-                    passes=passes,
-                    solved=solved,
+            good = verdict.converged and far <= self._size and not solved.stopped
+            if good and far > reach:
+                reach = 1.5 * far
+                contacts, halfway = self._candidates(state, reach), None
+                continue
+            if good and step is not None and not self._still:
+                half = contact.halfway(solved, state, result.state, halfway)
+                if half is not None and halves < HALVES:
+                    halfway, halves = half, halves + 1
+                    continue
+                rest = force - matrix @ increment
+                result = self._faster(
+                    result, contact.kept_momentum(solved, state, result.state, step, rest)
                 )
-            reach = 1.5 * far
+            through = contact.passage(state, result.state) if good else ""
+            return replace(
+                result,
+                converged=good and not through,
+                sentence=through or verdict.sentence,
+                residual=solved.answer.residual,
+                passes=passes,
+                solved=solved,
+            )
+
+    def _candidates(self, state: State, reach: float) -> "ContactPoints":
+        assert self.plan.contact is not None
+        started = perf_counter()
+        contacts = self.plan.contact.candidates(state, reach)
+        self._spend("search", started)
+        return contacts
+
+    @staticmethod
+    def _faster(result: Attempt, change: Floats) -> Attempt:
+        """Return the attempt with its velocity changed."""
+        state = replace(result.state, velocity=result.state.velocity + change)
+        return replace(result, state=state)
 
     def _solve_alone(
         self, state: State, end: Instant, step: float | None, matrix: csc_array, force: Floats
@@ -228,14 +271,22 @@ class Stepper:
             self._factor = solver.factorise(matrix)
         increment = self._factor.solve(force)
         residual = self._factor.relative_residual(increment, force)
-        if border is not None and self.plan.supports is not None:
-            self.plan.supports.keep(increment[n:])
+        if border is not None:
+            self.plan.keep(increment[n:])
             increment = increment[:n]
         self._spend("solve", started)
         result = self._result(state, end, step, increment)
         return replace(result, residual=residual)
 
-    def _result(self, state: State, end: Instant, step: float | None, increment: Floats) -> Attempt:
+    def _result(
+        self,
+        state: State,
+        end: Instant,
+        step: float | None,
+        increment: Floats,
+        push: Floats | None = None,
+    ) -> Attempt:
+        """Move by ``increment``; ``push`` (n,) is the contact force if its acceleration counts."""
         started = perf_counter()
         after = state
         if step is not None:
@@ -245,14 +296,30 @@ class Stepper:
                 state.acceleration,
                 step,
             )
+            if push is not None:
+                fast, more = self._rule.contact_kick
+                kick = self._accelerated(push)
+                velocity, acceleration = velocity + fast * step * kick, acceleration + more * kick
             after = replace(state, velocity=velocity, acceleration=acceleration)
-        still = self.small or self._lay is not None
-        moved = (strain_only if still else move)(self.model, after, increment)
+        moved = (strain_only if self._still else move)(self.model, after, increment)
         moved = replace(moved, time=end.time, load_factor=end.load_factor)
         way = self.place(moved) - self.place(state)
         motion = float(np.sqrt((way**2).sum(axis=1).max()))
         self._spend("update", started)
         return Attempt(True, "converged", moved, increment, motion, 0.0, 1)
+
+    def _accelerated(self, push: Floats) -> Floats:
+        """Return the acceleration (n,) by a force; none of what has no mass."""
+        assert self.plan.inertia is not None
+        mass = self.plan.inertia.mass
+        if self._masses is None or self._masses[0] is not mass:
+            heavy = np.flatnonzero(mass.diagonal() > 0)
+            factor = self.solver.factorise(csc_array(mass[heavy][:, heavy]))
+            self._masses = mass, heavy, factor
+        _, heavy, factor = self._masses
+        found = np.zeros_like(push)
+        found[heavy] = factor.solve(push[heavy])
+        return found
 
     def place(self, state: State) -> Floats:
         """Return where the elements' vertices are (P, 2)."""
