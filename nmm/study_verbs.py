@@ -42,6 +42,10 @@ def cost(
     quantity: Annotated[
         str | None, typer.Option(help="What error is taken of; the scene's first [[reference]].")
     ] = None,
+    exponent: Annotated[
+        float | None,
+        typer.Option(help="Of the strongest singularity, 0.5 at crack tips: for theory's orders."),
+    ] = None,
     repeats: Annotated[int, typer.Option(min=1, help="Counted repeats of each run.")] = 3,
     memory: Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")] = True,
     out: Out = None,
@@ -65,6 +69,7 @@ def cost(
                 repeats,
                 progress,
                 memory,
+                exponent,
             )
         files = write_cost_report(study, out or Path("runs") / f"{scene.stem}-cost")
         lost = sum(not one.valid for one in study.records)

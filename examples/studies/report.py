@@ -1,33 +1,126 @@
-"""Write the report on what accuracy costs anew: Cook's membrane and the beam over 12 seeds.
+"""Write the report on what accuracy costs anew: all studies of `docs/accuracy_cost`.
 
-Takes about two minutes of one processor. Records are measured in one session; run it on a machine
-that does nothing else, and read the ratio of wall to processor seconds that the page states.
+``python examples/studies/report.py docs/accuracy_cost`` takes about half an hour of one processor;
+names after the folder choose studies. Records are measured in one session: run it on a machine that
+does nothing else, and read the ratio of wall to processor seconds that each page states.
 """
 
 import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from nmm.study.threads import one_thread
 
 one_thread()  # before numpy is imported
 
 HERE = Path(__file__).resolve().parent
-COOK = ("dda_1", "dda_2", "dda_3", "nmm_triangles_0", "nmm_triangles_1", "nmm_triangles_2")
-COOK += ("nmm_quads_0", "nmm_quads_1", "nmm_quads_2", "mls")
+SIZE = "formulation.cover.size"
+BODIES = ("dda", "dda_2", "dda_3", "sub_blocks")
+BODIES += ("nmm_triangles_0", "nmm_triangles_1", "nmm_triangles_2")
+BODIES += ("nmm_quads_0", "nmm_quads_1", "nmm_quads_2", "mls")
+ELEMENTS = ("P1", "P2", "P3")
+STEP = "formulation.integrator.step"
+INTEGRATORS = ("shi", "newmark", "generalized_alpha")
+ENFORCEMENTS = ("penalty", "augmented", "lagrange", "cone", "barrier")
 
 
-def cook(
-    out: Path, sizes: tuple[float, ...] = (16, 8, 4, 2), repeats: int = 3, memory: bool = True
+@dataclass(frozen=True)
+class Study:
+    """One page of the report: a scene, formulation files by name, values by dotted key.
+
+    ``common`` are tables that all formulations get.
+    """
+
+    scene: str
+    formulations: tuple[str, ...]
+    vary: Mapping[str, Sequence[Any]] = field(default_factory=dict)
+    common: Mapping[str, Any] = field(default_factory=dict)
+    quantity: str = "external_work"
+    yardstick: tuple[str, ...] = ()
+    exponent: float | None = None
+
+
+def body(scene: str, sizes: Sequence[float], *more: str, exponent: float | None = None) -> Study:
+    """Return the study of one elastic body under every cover, beside scikit-fem.
+
+    The exponent is that of the strongest corner: clamped and free edges by Williams (1952), with
+    kappa sin(lambda a)^2 = ((kappa + 1) / 2)^2 - (lambda sin a)^2 at an angle a.
+    """
+    kinds = (*BODIES, *more)
+    return Study(scene, kinds, {SIZE: sizes}, yardstick=ELEMENTS, exponent=exponent)
+
+
+STUDIES = {
+    "cantilever": body("studies/cantilever.toml", (6, 3, 1.5, 0.75), exponent=0.7583),
+    "cook": body("studies/cook/cook.toml", (16, 8, 4, 2), exponent=0.6772),
+    "lshape": body(
+        "lshape/cross.toml",
+        (0.5, 0.25, 0.125, 0.0625),
+        "nmm_triangles_0_corner",
+        "nmm_triangles_1_corner",
+        exponent=0.5445,
+    ),
+    "plate_with_hole": body("plate_with_hole/plate.toml", (1, 0.5, 0.25, 0.125)),
+    "edge_crack": body(
+        "edge_crack/plate.toml",
+        (0.2, 0.1, 0.05, 0.025),
+        "nmm_triangles_0_tip",
+        "nmm_triangles_1_tip",
+        exponent=0.5,
+    ),
+    "cantilever_swings": Study(
+        "studies/cantilever_swings.toml",
+        INTEGRATORS,
+        {STEP: (8e-3, 4e-3, 2e-3, 1e-3, 5e-4)},
+        {"cover": {"type": "quads", "degree": 1, "size": 6}},
+        "monitor:tip:uy",
+    ),
+    "incline_steps": Study(
+        "incline/slide.toml",
+        INTEGRATORS,
+        {STEP: (0.02, 0.01, 0.005, 0.0025)},
+        quantity="monitor:toe:ux",
+    ),
+    "incline_enforcements": Study(
+        "incline/slide.toml",
+        ENFORCEMENTS,
+        {STEP: (0.04, 0.02, 0.01)},
+        quantity="monitor:toe:ux",
+    ),
+    "arch": Study(
+        "arch/shaken.toml",
+        ENFORCEMENTS,
+        {"formulation.loading.tolerance": (0.05, 0.01, 0.002)},
+        {"loading": {"increment": 0.05}},
+        "failure_factor",
+    ),
+}
+
+
+def measured(
+    name: str,
+    out: Path,
+    repeats: int = 3,
+    memory: bool = True,
+    vary: Mapping[str, Sequence[Any]] | None = None,
 ) -> list[Path]:
-    """Measure the membrane under every formulation."""
+    """Measure one study and write its page into a folder; ``vary`` replaces its values."""
     import nmm
-    from nmm.study.cost import cost_study
+    from nmm.study.cost import cost_study, yardsticks
     from nmm.study.cost_report import write_cost_report
-    from nmm.study.variants import SIZE, read_formulations
+    from nmm.study.variants import read_formulations
 
-    scene = nmm.read_scene(HERE / "cook/cook.toml")
-    kinds = read_formulations([HERE / f"cook/{name}.toml" for name in COOK])
-    study = cost_study(scene, kinds, {SIZE: sizes}, repeats=repeats, memory=memory)
+    plan = STUDIES[name]
+    files = [HERE / "formulations" / f"{one}.toml" for one in plan.formulations]
+    kinds = {
+        title: nmm.Formulation.model_validate(one.model_dump(exclude_unset=True) | plan.common)
+        for title, one in read_formulations(files).items()
+    } | yardsticks(plan.yardstick)
+    scene = nmm.read_scene(HERE.parent / plan.scene)
+    values = plan.vary if vary is None else vary
+    study = cost_study(scene, kinds, values, plan.quantity, repeats, None, memory, plan.exponent)
     return write_cost_report(study, out)
 
 
@@ -41,9 +134,13 @@ def seeds(out: Path, cases: int | None = None) -> list[Path]:
     return write_sweep(run_study(plan, found[:cases], out, processes=1), out)
 
 
-def main(out: str = "runs/accuracy_cost") -> list[Path]:
-    """Write both into a folder."""
-    return [*cook(Path(out) / "cook"), *seeds(Path(out) / "kitoh_seeds")]
+def main(out: str = "runs/accuracy_cost", *names: str) -> list[Path]:
+    """Write the studies named, or all, into a folder."""
+    files = []
+    for name in names or (*STUDIES, "kitoh_seeds"):
+        folder = Path(out) / name
+        files += seeds(folder) if name == "kitoh_seeds" else measured(name, folder)
+    return files
 
 
 if __name__ == "__main__":

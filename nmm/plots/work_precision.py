@@ -29,6 +29,7 @@ EFFECTS = {
     "gravity": "#2a7f62",
     "inertia": "#7fb069",
     "contact": "#e08e0b",
+    "solution with contact": "#f3d98b",
     "seams": "#c1121f",
     "artificial joints": "#7a1f3d",
     "initial velocity": "#6a4c93",

@@ -12,7 +12,7 @@ from nmm.study.measure import Progress, measure
 from nmm.study.record import Record
 from nmm.study.reference import Reference, by_name, extrapolated_reference, stated_reference
 from nmm.study.running import SKFEM
-from nmm.study.variants import cases_of
+from nmm.study.variants import Case, cases_of
 
 ELEMENTS = ("P1", "P2", "P3", "P4")
 # Keys of a scene that say how finely it is divided: its answer tends to a limit with them.
@@ -21,11 +21,16 @@ FINENESS = (".blocks", ".spacing")
 
 @dataclass(frozen=True)
 class CostStudy:
-    """Measured records and the reference their errors are taken against."""
+    """Measured records and the reference their errors are taken against.
+
+    ``exponent`` is that of the strongest singularity of the solution, None where it is smooth or
+    not known; theory's orders depend on it.
+    """
 
     title: str
     records: list[Record]
     reference: Reference
+    exponent: float | None = None
 
     def by_formulation(self) -> dict[str, list[Record]]:
         """Return the records of each formulation, in the order given."""
@@ -44,6 +49,7 @@ def cost_study(
     repeats: int = 3,
     progress: Progress | None = None,
     memory: bool = True,
+    exponent: float | None = None,
 ) -> CostStudy:
     """Run a scene under every formulation at every setting.
 
@@ -68,6 +74,8 @@ def cost_study(
         Called with the share done and what is run.
     memory
         Whether memory is measured, in a process of its own for each case.
+    exponent
+        Of the strongest singularity: displacements are like r^exponent there. 1/2 at crack tips.
 
     Raises
     ------
@@ -75,12 +83,31 @@ def cost_study(
         When ``vary`` changes the answer of the scene, or no reference can be found.
     """
     divided = _divided(vary)
+    cases = cases_of(scene, formulations, vary)
+    return measured_study(cases, name, repeats, progress, memory, exponent, divided)
+
+
+def measured_study(
+    cases: Sequence[Case],
+    name: str | None = None,
+    repeats: int = 3,
+    progress: Progress | None = None,
+    memory: bool = True,
+    exponent: float | None = None,
+    divided: bool = False,
+) -> CostStudy:
+    """Run cases of one scene; they may differ in whatever leaves its answer as it is.
+
+    ``divided`` says that they differ in how finely the scene is divided, so that its own reference
+    is not theirs. The rest is as in `cost_study`.
+    """
+    scene = cases[0].scene
     stated = stated_reference(scene, name)
     quantity = name or (stated.quantity if stated else "energy")
-    cases = cases_of(scene, formulations, vary)
     records = measure(cases, [quantity], repeats, memory, progress)
-    reference = extrapolated_reference(records, quantity) if stated is None or divided else stated
-    return CostStudy(scene.title, records, reference)
+    usable = None if divided else stated
+    reference = usable or extrapolated_reference(records, quantity)
+    return CostStudy(scene.title, records, reference, exponent)
 
 
 def yardsticks(names: Sequence[str]) -> dict[str, Formulation]:

@@ -44,7 +44,7 @@ def draw(study: CostStudy, path: Path) -> None:
             on_front=[id(one) in on_front for one in many],
             valid=[one.valid for one in many],
             phases=_finest(many).phases,
-            effects=_finest(many).effects,
+            effects=_by_effect(_finest(many)),
             family=many[0].family,
             method=methods[name],
         )
@@ -71,6 +71,15 @@ def distinguished(study: CostStudy) -> dict[str, str]:
         if len(set(found.values())) == len(found):
             return found
     return {name: many[0].method.get("cover", "") for name, many in groups.items()}
+
+
+def _by_effect(one: Record) -> dict[str, float]:
+    """Return seconds by effect: the search is contact's, its solution is named as such."""
+    found = dict(one.effects)
+    if "contact" in found:
+        found["contact"] += one.phases.get("search", 0.0)
+        found["solution with contact"] = one.phases.get("solve", 0.0)
+    return found
 
 
 def _against(reference: Reference) -> str:
@@ -211,16 +220,18 @@ def _orders(study: CostStudy) -> list[str]:
         sizes = sizes_of(used)
         order = observed_order(sizes, [study.error(one) for one in used])
         if order.points > 1 and np.isfinite(order.value):
-            told = _theory(used, study.reference.quantity, order)
+            told = _theory(study, used, order)
             lines.append(f"- {name}: {order} in {_size_name(used)}{told}")
     return lines
 
 
-def _theory(records: Sequence[Record], quantity: str, order: Order) -> str:
+def _theory(study: CostStudy, records: Sequence[Record], order: Order) -> str:
     """Say what order theory promises, and whether it lies within the confidence."""
     method = records[0].method
     if len({one.unknowns for one in records}) > 1:
-        found, where = order_in_size(method.get("cover", ""), quantity), "for a smooth solution"
+        cover, quantity = method.get("cover", ""), study.reference.quantity
+        found = order_in_size(cover, quantity, study.exponent)
+        where = "for a smooth solution" if study.exponent is None else "at the corner"
     elif _size_name(records).endswith("integrator.step"):
         found, where = order_in_step(method), "while contacts stay as they are"
     else:
@@ -259,7 +270,9 @@ def _effects(study: CostStudy) -> list[str]:
     lines = []
     for many in study.by_formulation().values():
         one = _finest(many)
-        spent = ", ".join(f"{effect} {seconds:.2g} s" for effect, seconds in one.effects.items())
+        spent = ", ".join(
+            f"{effect} {seconds:.2g} s" for effect, seconds in _by_effect(one).items()
+        )
         if spent:
             lines.append(f"- {one.label}: {spent}")
     return lines

@@ -10,6 +10,8 @@ from nmm.scene import Scene
 from nmm.study.orders import Extrapolated, richardson
 from nmm.study.record import Record
 
+UNSETTLED = 10.0
+
 
 @dataclass(frozen=True)
 class Reference:
@@ -68,7 +70,7 @@ def sizes_of(records: Sequence[Record]) -> list[float]:
 def extrapolated_reference(records: Sequence[Record], name: str) -> Reference:
     """Extrapolate from the finest runs of the formulation that leaves the least uncertainty.
 
-    Formulations whose three finest values approach each other come before all others.
+    The doubt about one whose three finest values do not approach each other counts ten times.
 
     Raises
     ------
@@ -80,7 +82,7 @@ def extrapolated_reference(records: Sequence[Record], name: str) -> Reference:
     known = {title: limit for title, limit in limits.items() if np.isfinite(limit.uncertainty)}
     if not known:
         raise NmmError(_without_reference(records, name))
-    best = min(known, key=lambda title: (not np.isfinite(known[title].order), _doubt(known[title])))
+    best = min(known, key=lambda title: _doubt(known[title]))
     found = known[best]
     order = f", order {found.order:.2f}" if np.isfinite(found.order) else ""
     source = f"Richardson extrapolation of the finest runs of {best}{order}"
@@ -102,7 +104,8 @@ def _limit(records: Sequence[Record], name: str) -> Extrapolated:
 
 
 def _doubt(limit: Extrapolated) -> float:
-    return limit.uncertainty / (abs(limit.value) or 1.0)
+    settled = np.isfinite(limit.order)
+    return limit.uncertainty / (abs(limit.value) or 1.0) * (1.0 if settled else UNSETTLED)
 
 
 def _number(value: object) -> float:

@@ -25,14 +25,19 @@ def spanned_degree(cover: str) -> int | None:
     return int(degree) if kind in ("skfem", "sub_blocks") else None
 
 
-def order_in_size(cover: str, quantity: str) -> tuple[float, str] | None:
-    """Order in the size of a cover for a smooth solution, with its formula; None if unknown.
+def order_in_size(
+    cover: str, quantity: str, exponent: float | None = None
+) -> tuple[float, str] | None:
+    """Order in the size of a cover, with its formula; None if unknown.
 
     The energy norm falls with s + p, so an energy with its double (Babuska & Aziz 1972), and a
-    displacement at a point with s + p + 1.
+    displacement at a point with s + p + 1. Where displacements are like r^exponent at a corner or
+    crack tip that nothing resolves, the energy norm falls with the exponent at most.
     """
     if (degree := spanned_degree(cover)) is None:
         return None
+    if quantity in ENERGIES and exponent is not None and exponent < degree:
+        return 2 * exponent, f"2 lambda, lambda = {exponent:g}"
     if quantity in ENERGIES:
         return 2.0 * degree, "2 (s + p)"
     if quantity.startswith("monitor:"):
@@ -43,4 +48,4 @@ def order_in_size(cover: str, quantity: str) -> tuple[float, str] | None:
 def order_in_step(method: Mapping[str, str]) -> tuple[float, str] | None:
     """Order of an integrator in its step while contacts do not change."""
     order = INTEGRATORS.get(method.get("integrator", ""))
-    return None if order is None else (float(order), method["integrator"])
+    return None if order is None else (float(order), f"order of {method['integrator']}")
