@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
+from nmm.contact.alternation import Budget
 from nmm.contact.answer import answer, singular_answer
 from nmm.contact.cone import exact_round
 from nmm.contact.enforcement import Enforcement
 from nmm.contact.memory import Memory
 from nmm.contact.problem import StepAnswer, StepProblem
 from nmm.contact.rounds import converged_rounds, first_round, rounds_verdict, stiff_springs
-from nmm.contact.settle import Budget
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
 

@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from nmm.contact.alternation import Budget
 from nmm.contact.answer import free_part, singular_answer, worst_contacts
 from nmm.contact.balance import relative_residual
 from nmm.contact.enforcement import Enforcement
@@ -14,7 +15,7 @@ from nmm.contact.memory import Memory
 from nmm.contact.pattern import SpringPattern
 from nmm.contact.problem import StepAnswer, StepProblem, Verdict
 from nmm.contact.rounds import compliances, stiff_springs
-from nmm.contact.settle import Budget, settle
+from nmm.contact.settle import settle
 from nmm.contact.springs import CutSprings, Settled
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
@@ -62,7 +63,7 @@ class Barrier(Enforcement):
         memory = memory or Memory()
         springs = stiff_springs(problem, 1.0)
         try:
-            rough = settle(springs, linear_solver, memory, 1e-2, budget=Budget(20, 20, 0))
+            rough = settle(springs, linear_solver, memory, 1e-2, budget=Budget(20, 2, 0))
         except SolveError as fault:
             return singular_answer(springs, linear_solver, fault)
         force = max(float(np.abs(f).max(initial=0.0)) for f in springs.forces(rough.increment))

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
+from nmm.contact.alternation import Budget
 from nmm.contact.answer import answer, singular_answer
 from nmm.contact.enforcement import Enforcement
 from nmm.contact.interior import InteriorPoint
@@ -18,7 +19,7 @@ from nmm.contact.rounds import (
     stiff_springs,
     updated,
 )
-from nmm.contact.settle import FINE, SMALL, Budget
+from nmm.contact.settle import FINE, SMALL
 from nmm.contact.springs import CutSprings
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
@@ -97,7 +98,7 @@ def exact_round(
         When even with all contacts acting the load moves a free part.
     """
     at = first_round(springs)
-    budget = Budget(solves, solves, 0)
+    budget = Budget(solves, 4, 0)
     allowed = 1 if memory.redundant else rounds
     at = converged_rounds(at, linear, memory, tolerance, allowed, 1.0, budget)
     how = f"{at.count} rounds"

@@ -28,8 +28,6 @@ class KeptFactor:
     solver: LinearSolver
     springs: CutSprings
     diagonal: Floats
-    solves_when_new: int = 0
-    stalled: bool = False
 
     def serves(self, springs: CutSprings, solver: LinearSolver) -> bool:
         """Whether it is near enough to the matrix of ``springs``."""
@@ -63,6 +61,10 @@ class Memory:
     ----------
     pattern
         Pattern of matrix and springs.
+    start
+        Unknowns to start the next solution from, of the same step.
+    last
+        Unknowns found last, from which the next step may start.
     kept
         Factor with all springs acting.
     redundant
@@ -73,6 +75,7 @@ class Memory:
 
     pattern: SpringPattern | None = None
     start: Floats | None = None
+    last: Floats | None = None
     kept: KeptFactor | None = None
     redundant: bool = False
     barrier_width: float | None = None

@@ -5,11 +5,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.contact.alternation import Budget
 from nmm.contact.answer import judge
 from nmm.contact.memory import Memory
 from nmm.contact.newton import polish
 from nmm.contact.problem import StepProblem, Verdict
-from nmm.contact.settle import Budget, settle
+from nmm.contact.settle import settle
 from nmm.contact.springs import CutSprings, Settled
 from nmm.solvers.linear import LinearSolver
 
