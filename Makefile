@@ -5,7 +5,7 @@ PYTHON ?=
 PY := .venv/bin/python
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint verify bench docs clean
+.PHONY: help demo test lint verify bench report docs clean
 
 help:
 	@echo "make demo     run the four-point bending beam and draw it"
@@ -13,6 +13,7 @@ help:
 	@echo "make lint     ruff and mypy"
 	@echo "make verify   the studies of minutes against reference answers"
 	@echo "make bench    measured ratios, all in one session"
+	@echo "make report   what accuracy costs, measured anew into docs/accuracy_cost"
 	@echo "make docs     the manual as HTML in docs/_build"
 	@echo "make clean    remove everything that can be made again"
 
@@ -33,6 +34,9 @@ verify: .venv/.dev
 bench: .venv/.dev
 	@set -e; for script in $$(grep -l __main__ benchmarks/*.py); do \
 	  echo "== $$script"; $(PY) $$script; done
+
+report: .venv/.runtime
+	$(PY) examples/studies/report.py docs/accuracy_cost
 
 docs: .venv/.docs
 	$(PY) -m sphinx -q -W --keep-going docs docs/_build

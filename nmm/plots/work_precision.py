@@ -37,6 +37,8 @@ EFFECTS = {
     "other effects": "#9c8b00",
     "covers, elasticity, solution": "#e4e1d8",
 }
+MOST_IN_A_COLUMN = 12
+BELOW = 30.0  # points below the axes at which the legend of bars begins
 VISIBLE = 0.5  # percent; parts that are nowhere more are not drawn
 FAILED = 0.96  # height, in fractions of the axes, at which failed runs are marked
 
@@ -129,7 +131,7 @@ def _fewer_colours(path: PathLike | None) -> None:
         from PIL import Image
 
         with Image.open(path) as picture:
-            few = picture.convert("RGB").quantize(96)
+            few = picture.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE)
         few.save(path, optimize=True)
 
 
@@ -234,12 +236,16 @@ def _shares(
     axes.tick_params(axis="y", labelsize=SMALL - 2)
     frame(axes, "share of the dearest run's time  (%)", "", f"where the time goes, {words}")
     if names:
+        from matplotlib.transforms import ScaledTranslation
+
+        down = ScaledTranslation(0, -BELOW / 72, axes.figure.figure.dpi_scale_trans)
         axes.legend(
             fontsize=SMALL - 2,
             frameon=False,
             ncols=3,
             loc="upper center",
-            bbox_to_anchor=(0.45, -0.2),
+            bbox_to_anchor=(0.45, 0.0),
+            bbox_transform=axes.transAxes + down,
             columnspacing=1.0,
             handlelength=1.0,
         )
@@ -277,9 +283,12 @@ def _legend(
     axes.legend(
         handles=entries,
         loc="center left",
-        ncols=2 if len(entries) > 12 else 1,
+        bbox_to_anchor=(-0.14, 0.5),
+        ncols=2 if len(entries) > MOST_IN_A_COLUMN else 1,
         frameon=False,
-        fontsize=SMALL - 1,
+        fontsize=SMALL - 1.5,
         borderaxespad=0.0,
-        columnspacing=1.0,
+        columnspacing=0.8,
+        handlelength=1.6,
+        handletextpad=0.8,
     )

@@ -87,7 +87,7 @@ def _against(reference: Reference) -> str:
     text = f"error against {reference.value:.6g}: {reference.source}"
     if reference.extrapolated:
         text += f", uncertainty {reference.uncertainty:.1g}"
-    return "\n".join(wrap(text, 105))
+    return "\n".join(wrap(text, 98))
 
 
 def cost_page(study: CostStudy, picture: str) -> str:
