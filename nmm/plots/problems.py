@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from integration.arrays import Floats
+from integration.polygons import Polygons
 from nmm.plots.blocks import blocks
 from nmm.plots.canvas import PathLike, axes_grid, extent_of
 from nmm.plots.conditions import LOAD, SUPPORT
@@ -74,12 +75,23 @@ def solid_problem(
     axes.add_collection(LineCollection(list(lines[~crack]), colors=EDGE, linewidths=0.9))
     axes.add_collection(LineCollection(list(lines[crack]), colors=CRACK, linewidths=1.6))
     axes.plot(*held.T, ".", color=SUPPORT, markersize=3.0, linestyle="none", zorder=4)
-    extent = _arrows(axes, loads, extent_of(elements.points))
+    _limits(axes, _arrows(axes, loads, extent_of(elements.points)))
+    _write(axes, path)
+
+
+def polygons_problem(polygons: Polygons, path: PathLike) -> None:
+    """Draw polygons alone."""
+    axes = axes_grid(1, 1, 4.0)[0]
+    fill(axes, polygons, facecolors=MATERIAL, edgecolors=EDGE, linewidths=0.9)
+    _limits(axes, extent_of(polygons.points))
+    _write(axes, path)
+
+
+def _limits(axes: "Axes", extent: Floats) -> None:
     margin = 0.03 * float(np.max(extent[1] - extent[0]))
     axes.set_aspect("equal")
     axes.set_xlim(extent[0, 0] - margin, extent[1, 0] + margin)
     axes.set_ylim(extent[0, 1] - margin, extent[1, 1] + margin)
-    _write(axes, path)
 
 
 def _arrows(axes: "Axes", loads: Sequence[Tractions], extent: Floats) -> Floats:

@@ -12,6 +12,7 @@ from nmm.results.frame import Frame, Topology
 
 if TYPE_CHECKING:
     from covers.cut_cells import CutCells
+    from integration.polygons import Polygons
     from nmm.effects.loads import Load
     from nmm.effects.support_methods import Support
     from nmm.scene import Scene
@@ -64,3 +65,10 @@ def sketch_solid(
         np.concatenate(held) if held else np.zeros((0, 2)),
         path,
     )
+
+
+def sketch_polygons(polygons: "Polygons", path: Path) -> None:
+    """Draw polygons alone."""
+    from nmm.plots.problems import polygons_problem
+
+    polygons_problem(polygons, path)

@@ -1,0 +1,224 @@
+"""Round bodies: a cylinder under inner pressure, a disc in a ring of another material."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.places import on_edges
+from nmm.formulation import Formulation
+from nmm.materials.elastic import Elastic
+from nmm.verification import text
+from nmm.verification.base import MESHES, Check, Checks, SceneCase, limit
+from nmm.verification.continuum import (
+    ContinuumCase,
+    Problem,
+    displacement_at,
+    load,
+    middles,
+    polygon,
+    quarter,
+    rollers,
+    stress_at,
+)
+from nmm.verification.reading import last_way
+
+if TYPE_CHECKING:
+    from nmm.scene import Scene
+    from nmm.stepping.run import Run
+
+SEGMENTS = 128
+RESIDUAL = "relative to the forces of all unknowns"
+
+
+@dataclass(frozen=True)
+class Cylinder(ContinuumCase):
+    """A thick cylinder under inner pressure, up to nearly incompressible.
+
+    The displacement needs more and more of the functions as Poisson's ratio nears 1/2; constant
+    covers lock there, and are not run.
+    """
+
+    name: ClassVar[str] = "A6"
+    title: ClassVar[str] = "Thick cylinder"
+    source: ClassVar[str] = "Closed form of Lamé, inner radius 1, outer 2, pressure 1, E = 1"
+    formulations: ClassVar[tuple[str, ...]] = ("manifold", "manifold degree 2", "quads degree 2")
+    size: ClassVar[float] = 0.25
+    poisson: float = 0.3
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return a compressible, a nearly incompressible and an almost incompressible one."""
+        return [cls(0.3), cls(0.49), cls(0.4999)]
+
+    @property
+    def variant(self) -> str:
+        """Poisson's ratio."""
+        return f"nu = {self.poisson:g}"
+
+    def problem(self, formulation: Formulation) -> Problem:
+        """Return a quarter with rollers on its axes of symmetry."""
+        from nmm.stepping.solid import solid
+
+        inner = quarter(1.0, SEGMENTS)
+        region = polygon([*inner, *(2 * inner[::-1])])
+        model = solid(region, formulation.cover, [Elastic(1.0, self.poisson)], "strain")
+        x, y = middles(model).T
+        inside = (np.hypot(x, y) < 1.01) & (x > 1e-9) & (y > 1e-9)
+        pressure = load(model, on_edges(model.manifold, inside, 8), lambda p, n: -n)
+        sides = [rollers(model, formulation, x < 1e-9, 0), rollers(model, formulation, y < 1e-9, 1)]
+        return Problem(model, sides, [pressure])
+
+    def checks(self, formulation: str) -> Checks:
+        """Compare the widening and, where pressure is well defined, stresses half way."""
+        found, nu, linear = self.solved(formulation), self.poisson, formulation == "manifold"
+        widening = 4 / 3 * (1 + nu) * ((1 - 2 * nu) / 4 + 1)
+        aim = {0.3: 5e-3, 0.49: 8e-3 if linear else 5e-3, 0.4999: 2e-2}[nu]
+        reason = {
+            0.3: "the aim",
+            0.49: "the aim is 0.5 %; linear covers miss it by a quarter",
+            0.4999: "the aim with quadratic covers; linear ones meet it too",
+        }[nu]
+        checks = {
+            "ux at (1, 0) (m)": Check(displacement_at(found, [1, 0])[0], widening, aim, reason),
+            "residual": limit(found.residual, 1e-8, RESIDUAL),
+        }
+        if nu < 0.4:
+            place = [1.5 * np.cos(0.7), 1.5 * np.sin(0.7)]
+            radial, hoop = polar(stress_at(found, place), 0.7)
+            near = "a point in one element, of the pressure"
+            checks["radial stress at r = 1.5 (Pa)"] = Check(radial, -7 / 27, 0.03, near, scale=1.0)
+            checks["hoop stress at r = 1.5 (Pa)"] = Check(hoop, 25 / 27, 0.03, near, scale=1.0)
+        return checks
+
+
+def polar(stress: Floats, angle: float) -> tuple[float, float]:
+    """Radial and hoop stress of a stress (3,) at a polar angle (rad)."""
+    c, s = np.cos(angle), np.sin(angle)
+    xx, yy, xy = stress
+    return (
+        float(xx * c**2 + yy * s**2 + 2 * xy * c * s),
+        float(xx * s**2 + yy * c**2 - 2 * xy * c * s),
+    )
+
+
+@dataclass(frozen=True)
+class Bars(SceneCase):
+    """Two bars in series carry one stress, whatever the ratio of their stiffnesses.
+
+    They are glued by springs of a stiffness that is known, so their give is part of the answer.
+    """
+
+    name: ClassVar[str] = "A9 bars"
+    title: ClassVar[str] = "Bars of two materials in series"
+    source: ClassVar[str] = "u = t (L1 / E1 + L2 / E2 + 1 / k)"
+    formulations: ClassVar[tuple[str, ...]] = ("dda", *MESHES)
+    ratio: float = 1e4
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return two ratios of stiffness."""
+        return [cls(1e4), cls(1e9)]
+
+    @property
+    def variant(self) -> str:
+        """The ratio of the stiffnesses."""
+        return f"ratio {self.ratio:.0e}"
+
+    def scene(self) -> str:
+        """Return unit squares of E = 1 and of ``ratio``, pulled by 1 Pa, glued by 1e4 Pa/m."""
+        bond = {"bonded": True, "normal_stiffness": 1e4, "shear_stiffness": 1e4}
+        return text.scene(
+            'title = "Bars in series"\nplane = "stress"\n',
+            [
+                text.material("soft", modulus=1.0, poisson=0.0, density=None),
+                text.material("hard", modulus=self.ratio, poisson=0.0, density=None),
+                text.interface("glue", 0.0, more=bond),
+                text.box("left", (0, 0), (1, 1), "soft"),
+                text.box("right", (1, 0), (1, 1), "hard"),
+                '[[supports]]\nname = "wall"\nsegment = [[0, 0], [0, 1]]\nfix = ["x", "y"]\n',
+                '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[2, 0], [2, 1]]\n'
+                "traction = [1, 0]\n",
+                text.monitor("root", (0, 0.5), "left"),
+                text.monitor("tip", (2, 0.5), "right"),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare stretch and stresses."""
+        stretch = last_way(run, "tip")[0] - last_way(run, "root")[0]
+        stress = run.stress[:, 0]
+        soft = run.manifold.element_region == 0
+        reason = "the hard bar's motion of 1 leaves roundings of 1e-16 times its stiffness"
+        allowed = 1e-8 + 1e-14 * self.ratio
+        return {
+            "stretch (m)": Check(stretch, 1 + 1 / self.ratio + 1e-4, allowed, reason),
+            "stress of the soft bar, worst (Pa)": Check(worst(stress[soft]), 1.0, allowed, reason),
+            "stress of the hard bar, worst (Pa)": Check(worst(stress[~soft]), 1.0, allowed, reason),
+        }
+
+
+def worst(stress: Floats) -> float:
+    """Value farthest from 1."""
+    return float(stress[np.argmax(np.abs(stress - 1))])
+
+
+@dataclass(frozen=True)
+class Core(SceneCase):
+    """A disc glued into a ring of another material, whose rim is widened by 1 of 2.
+
+    The rim's displacement is given edge by edge, a quarter is modelled.
+    """
+
+    name: ClassVar[str] = "A9 disc"
+    title: ClassVar[str] = "Disc glued into a ring of another material"
+    source: ClassVar[str] = (
+        "Closed form: core u = 2.692970577 r, ring u = 0.9294595593 r + 0.2821617629 / r, energy "
+        "217.7953532 J"
+    )
+    formulations: ClassVar[tuple[str, ...]] = ("manifold",)
+    size: ClassVar[float] = 0.15
+
+    def formulation(self, scene: "Scene", name: str) -> Formulation:
+        """Return covers fine enough for the core."""
+        found = super().formulation(scene, name)
+        cover = found.cover.model_copy(update={"size": self.size, "angle": 0.3})
+        return found.model_copy(update={"cover": cover})
+
+    def scene(self) -> str:
+        """Return a quarter of core and ring."""
+        c = quarter(1.0, 32)[::-1]
+        middle = (c[1:] + c[:-1]).tolist()
+        rim = (
+            f'[[supports]]\nname = "o{i}"\nsegment = {(2 * c[i : i + 2]).tolist()}\n'
+            f'fix = ["x", "y"]\ndisplacement = {middle[i]}\n'
+            for i in range(len(middle))
+        )
+        return text.scene(
+            'title = "Disc in a ring"\nplane = "strain"\n',
+            [
+                text.material("core", modulus=1.0, poisson=0.25, density=None),
+                text.material("ring", modulus=10.0, poisson=0.3, density=None),
+                text.interface("glue", 0.0, more={"bonded": True}),
+                text.block("core", "core", np.concatenate([[[0.0, 0.0]], 0.4 * c])),
+                text.block("ring", "ring", np.concatenate([2 * c, 0.4 * c[::-1]])),
+                '[[supports]]\nname = "x"\nsegment = [[0, 0], [0, 2]]\nfix = ["x"]\n',
+                '[[supports]]\nname = "y"\nsegment = [[0, 0], [2, 0]]\nfix = ["y"]\n',
+                *rim,
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the energy and the stress of the core."""
+        inside = run.manifold.element_region == 0
+        area = run.manifold.elements.areas[inside]
+        mean = area @ run.stress[inside] / area.sum()
+        energy = float(run.history["strain_energy"][-1])
+        aim = "the benchmark's aim"
+        return {
+            "energy of a quarter (J)": Check(energy, 217.7953532 / 4, 5e-3, aim),
+            "mean sxx of the core (Pa)": Check(float(mean[0]), 4.3087529, 2e-2, aim),
+            "mean syy of the core (Pa)": Check(float(mean[1]), 4.3087529, 2e-2, aim),
+        }

@@ -1,0 +1,60 @@
+"""Free vibration of a square."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from nmm.formulation import Formulation
+from nmm.materials.elastic import Elastic
+from nmm.verification.base import Check, Checks, limit
+from nmm.verification.continuum import ContinuumCase, Problem, on_mesh, polygon
+
+LAME = 2.755359030
+
+
+@dataclass(frozen=True)
+class FreeSquare(ContinuumCase):
+    """A free square has three motions without frequency, and the mode of Lamé is among the next.
+
+    In that mode the square keeps its area and shears along its diagonals; its frequency has a
+    closed form, pi sqrt(2 mu / rho).
+    """
+
+    name: ClassVar[str] = "A14"
+    title: ClassVar[str] = "Modes of a free square"
+    source: ClassVar[str] = "Lamé's mode: omega = pi sqrt(2 mu / rho)"
+    formulations: ClassVar[tuple[str, ...]] = ("manifold", "manifold degree 2", "quads")
+    size: ClassVar[float] = 0.2
+
+    def problem(self, formulation: Formulation) -> Problem:
+        """Return the unit square of E = 1, nu = 0.3, density 1."""
+        from nmm.stepping.solid import solid
+
+        square = polygon([[0, 0], [1, 0], [1, 1], [0, 1]])
+        law = Elastic(1.0, 0.3)
+        return Problem(solid(square, formulation.cover, [law], "stress", density=[1.0]))
+
+    def checks(self, formulation: str) -> Checks:
+        """Compare the lowest nine frequencies, and that modes are orthonormal in the mass."""
+        from nmm.stepping.modes import lowest_modes
+
+        model = self.problem(on_mesh(formulation, self.size)).model
+        modes = lowest_modes(model, 9)
+        mass = modes.shape.T @ (model.mass @ modes.shape)
+        near = modes.frequency[np.abs(modes.frequency - LAME).argmin()]
+        tolerance = 1e-4 if formulation == "manifold degree 2" else 1e-3
+        return {
+            "largest rigid frequency (rad/s)": limit(
+                float(modes.frequency[:3].max()), 1e-3, "root of a shift of 1e-10"
+            ),
+            "lowest elastic frequency (rad/s)": Check(
+                float(modes.frequency[3]), 2.0, 0.0, "above the rigid ones", bound="at_least"
+            ),
+            "frequency of Lamé's mode (rad/s)": Check(
+                float(near), LAME, tolerance, "measured 2.5e-4 and 1.2e-5"
+            ),
+            "error of orthonormality": limit(
+                float(np.abs(mass - np.eye(9)).max()), 1e-9, "rounding of the iteration"
+            ),
+        }
