@@ -74,14 +74,18 @@ class Model:
         return self._matrix(element_matrices.mass, self.thickness * self.density)
 
     @cached_property
+    def measure(self) -> csc_array:
+        """Integral of the product of two displacements (m2): mass of unit density and thickness."""
+        return self._matrix(element_matrices.mass, np.ones(len(self.density)))
+
+    @cached_property
     def rigid_projection(self) -> csr_array:
         """Rows (3 B, n_unknowns): mean translation x, y and mean rotation of each body.
 
         The mean is the area-weighted least-squares fit of a rigid motion about the centroid.
         """
         modes = self.manifold.rigid_modes
-        unit = self._matrix(element_matrices.mass, np.ones(len(self.density)))
-        weighted = (unit @ modes).T.tocsr()
+        weighted = (self.measure @ modes).T.tocsr()
         norm = (weighted @ modes).diagonal()
         return csr_array(diags_array(1 / norm) @ weighted)
 

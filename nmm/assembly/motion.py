@@ -27,10 +27,14 @@ class Frames:
         (B, 2) where the bodies' centroids are now (m).
     angle
         (B,) how far the bodies have turned, counter-clockwise (rad).
+    tilt
+        (B,) linear rotations besides, of small displacements that are kept apart from the strain;
+        None is none.
     """
 
     centre: Floats
     angle: Floats
+    tilt: Floats | None = None
 
     @cached_property
     def rotation(self) -> Floats:
@@ -104,6 +108,9 @@ class MaterialPoints:
     def place(self, frames: Frames, deformation: Floats) -> Floats:
         """Return the current place (m, 2)."""
         local = self.arm + self.rows.apply(deformation)
+        if frames.tilt is not None:
+            across = np.stack([-self.arm[:, 1], self.arm[:, 0]], axis=1)
+            local = local + frames.tilt[self.body, None] * across
         return frames.centre[self.body] + frames.to_global(self.body, local)
 
     def along(self, frames: Frames, directions: Floats) -> Floats:
@@ -141,7 +148,9 @@ def move(model: Model, state: State, increment: Floats) -> State:
     frames = state.frames
     bodies = np.arange(len(rigid))
     moved = Frames(
-        frames.centre + frames.to_global(bodies, rigid[:, :2]), frames.angle + rigid[:, 2]
+        frames.centre + frames.to_global(bodies, rigid[:, :2]),
+        frames.angle + rigid[:, 2],
+        frames.tilt,
     )
     # What the sum of angles has taken up, rounded: a velocity must not drift against its axes.
     turn = moved.angle - frames.angle
@@ -165,6 +174,18 @@ def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
     return np.asarray(rate + model.manifold.rigid_modes @ change.ravel())
 
 
-def strain_only(model: Model, state: State, increment: Floats) -> State:
-    """Return the state after ``increment`` in small displacements: the bodies' axes stay."""
-    return replace(state, deformation=state.deformation + increment)
+def strain_only(
+    model: Model, state: State, increment: Floats, rigid: Floats | None = None
+) -> State:
+    """Return the state after ``increment`` in small displacements: the bodies' axes stay.
+
+    Rigid motions (3 B,) that the increment does not hold move the frames, rotations as tilts.
+    """
+    after = replace(state, deformation=state.deformation + increment)
+    if rigid is None:
+        return after
+    way, frames = rigid.reshape(-1, 3), state.frames
+    bodies = np.arange(len(way))
+    centre = frames.centre + frames.to_global(bodies, way[:, :2])
+    tilt = way[:, 2] if frames.tilt is None else frames.tilt + way[:, 2]
+    return replace(after, frames=replace(frames, centre=centre, tilt=tilt))

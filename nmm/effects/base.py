@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
@@ -82,6 +82,14 @@ class Effect(ABC):
 
     def matrix(self, state: State) -> csc_array:
         """Symmetric matrix (n, n) that joins the stiffness in the step that starts at ``state``."""
+        raise NotImplementedError
+
+    def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
+        """Conditions ``rows @ d = sides`` on the step's unknowns (k, n); None without any."""
+        raise NotImplementedError
+
+    def keep(self, multipliers: Floats) -> Floats:
+        """Take the first of the multipliers: those of these conditions; return the others."""
         raise NotImplementedError
 
     def work(self, before: State, after: State) -> float:

@@ -1,51 +1,39 @@
-"""Seams: bonded interfaces in scenes without contact, tied by springs that never fail.
+"""Seams: bonded interfaces in scenes without contact, tied for good.
 
 Where the interface names its stiffness these are Goodman's joint elements (Goodman, Taylor and
-Brekke 1968) along the edges that two blocks share; where it names none they are glue. The springs
+Brekke 1968) along the edges that two blocks share. Where it names none they are glue, and the
+formulation's ``[glue]`` says how it holds: by springs, by Nitsche's method or by multipliers. All
 act at Gauss points of the shared edges, whatever the covers on either side.
 """
 
-from dataclasses import dataclass
-from typing import Self
+from dataclasses import replace
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats, Ints
 from integration.segments import segment_rule
 from nmm.assembly.model import Model
-from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.motion import State, material_points
 from nmm.contact.joints import Joints, find_joints
 from nmm.contact.sides import sides
+from nmm.effects.averages import averages
 from nmm.effects.base import Effect, Instant, Setup
-from nmm.errors import SceneError
+from nmm.effects.multiplier_space import Pieces, multipliers
+from nmm.effects.multiplier_ties import MultiplierGlue, independent
+from nmm.effects.ties import Pairs, Springs, Tie
+from nmm.errors import FormulationError, SceneError
+
+if TYPE_CHECKING:
+    from nmm.formulation import Glue
 
 # Springs of glue in E / length of the longest edge that elements share: it opens by 1e-4 of that
 # length under a strain of one. At 1e6 the traction along a cut interface oscillates by 10 %, at
 # 1e4 by 1 %.
 GLUE = 1e4
-# Degree of the work of the springs along a seam.
+# Least degree of the work along a seam that is integrated exactly.
 ORDER = 8
-
-
-@dataclass(frozen=True)
-class Ties:
-    """Points of seams.
-
-    Attributes
-    ----------
-    first, second
-        The same m points on both sides.
-    normal
-        (m, 2) from the second to the first body, in the axes of the second.
-    spring
-        (m, 2) normal and shear stiffness (N/m).
-    """
-
-    first: MaterialPoints
-    second: MaterialPoints
-    normal: Floats
-    spring: Floats
 
 
 class Seams(Effect):
@@ -53,102 +41,170 @@ class Seams(Effect):
 
     name = "seams"
 
-    def __init__(self, ties: Ties, n_unknowns: int) -> None:
+    def __init__(
+        self, ties: list[Tie], n_unknowns: int, glue: MultiplierGlue | None = None
+    ) -> None:
         self.ties = ties
+        self.glue = glue
         self._n = n_unknowns
         self._kept: tuple[Floats, csc_array] | None = None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Find the edges that blocks with a bonded interface share."""
-        model = setup.model
+        model, method = setup.model, setup.formulation.glue
         points = sides(model.manifold)
-        found = find_joints(points.surface(setup.start.frames, setup.start.deformation))
-        spring = _springs(setup, found)
-        tied = spring[:, 0] > 0
-        return cls(_ties(model, found.take(tied), spring[tied]), model.manifold.n_unknowns)
+        joints = find_joints(points.surface(setup.start.frames, setup.start.deformation))
+        spring, glued = _interfaces(setup, joints)
+        sprung = spring[:, 0] > 0
+        ties: list[Tie] = []
+        if sprung.any():
+            ties.append(_springs(model, joints.take(sprung), spring[sprung]))
+        n = model.manifold.n_unknowns
+        if not glued.any():
+            return cls(ties, n)
+        glue = joints.take(glued)
+        kind = method.method
+        if kind == "spring":
+            return cls([*ties, _springs(model, glue, _stiffness(model, glue, method))], n)
+        if kind == "lagrange":
+            return cls(ties, n, _multipliers(setup, glue))
+        return cls([*ties, *_averages(model, glue, method)], n)
 
     def matrix(self, state: State) -> csc_array:
-        """Return the springs' stiffness, the same object while no body turns."""
+        """Return the stiffness of the ties, the same object while no body turns."""
         if self._kept is None or not np.array_equal(self._kept[0], state.frames.angle):
             total = csc_array((self._n, self._n))
-            for axis in (0, 1):
-                rows = self._rows(state, axis)
-                total = total + rows.T @ rows.multiply(self.ties.spring[:, [axis]])
+            for tie in self.ties:  # at most two
+                total = total + tie.matrix(state, self._n)
             self._kept = state.frames.angle, csc_array(total)
         return self._kept[1]
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the springs' pull."""
-        stretch = self.stretch(state)
+        """Return the pull of the ties."""
         total = np.zeros(self._n)
-        for axis in (0, 1):
-            total -= self._rows(state, axis).T @ (self.ties.spring[:, axis] * stretch[:, axis])
+        for tie in self.ties:  # at most two
+            total += tie.force(state, self._n)
         return total
 
     def energy(self, state: State) -> float:
-        """Return the energy of the springs (J)."""
-        return 0.5 * float(np.sum(self.ties.spring * self.stretch(state) ** 2))
+        """Return the energy of the ties (J)."""
+        return sum(tie.energy(state) for tie in self.ties)
 
-    def stretch(self, state: State) -> Floats:
-        """Opening and slip (m, 2) at the points (m)."""
-        frames, ties = state.frames, self.ties
-        apart = ties.first.place(frames, state.deformation)
-        apart = apart - ties.second.place(frames, state.deformation)
-        return np.stack(
-            [np.einsum("mi,mi->m", apart, self._axis(state, k)) for k in (0, 1)], axis=1
-        )
+    def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
+        """Conditions that multipliers hold; None without multipliers."""
+        return None if self.glue is None else self.glue.border(state, self._n)
 
-    def _axis(self, state: State, axis: int) -> Floats:
-        normal = state.frames.to_global(self.ties.second.body, self.ties.normal)
-        return normal if axis == 0 else np.stack([normal[:, 1], -normal[:, 0]], axis=1)
-
-    def _rows(self, state: State, axis: int) -> csr_array:
-        toward = self._axis(state, axis)
-        one, two = self.ties.first, self.ties.second
-        values = np.concatenate(
-            [one.along(state.frames, toward), -two.along(state.frames, toward)], axis=1
-        )
-        columns = np.concatenate([one.rows.unknowns, two.rows.unknowns], axis=1)
-        offsets = np.arange(len(values) + 1) * values.shape[1]
-        return csr_array((values.ravel(), columns.ravel(), offsets), shape=(len(values), self._n))
+    def keep(self, multipliers: Floats) -> Floats:
+        """See `Effect.keep`."""
+        if self.glue is None:
+            return multipliers
+        size = self.glue.basis.shape[1]
+        self.glue.found["traction"] = multipliers[:size]
+        return multipliers[size:]
 
 
-def _springs(setup: Setup, joints: Joints) -> Floats:
-    """Normal and shear stiffness (j, 2) in Pa/m; zero where bodies are not tied."""
-    model = setup.model
-    edges, region = model.manifold.boundary, model.manifold.element_region
-    one, two = edges.element[joints.edge_a], edges.element[joints.edge_b]
-    glue = (
-        GLUE * np.minimum(model.modulus[one], model.modulus[two]) / joints.length.max(initial=0.0)
+def pairs_of(model: Model, joints: Joints, order: int = ORDER) -> tuple[Pairs, Ints, Ints, Ints]:
+    """Gauss points of joints, the elements on both sides and the joint of each point."""
+    edges = model.manifold.boundary
+    points, weight = segment_rule(joints.start, joints.end, order)
+    q = weight.shape[1]
+    flat = points.reshape(-1, 2)
+    one = np.repeat(edges.element[joints.edge_a], q)
+    two = np.repeat(edges.element[joints.edge_b], q)
+    first = material_points(model.manifold, one, flat)
+    second = material_points(model.manifold, two, flat)
+    pairs = Pairs(
+        first,
+        second,
+        np.repeat(joints.normal, q, axis=0),
+        weight.ravel() * model.thickness,
+        np.zeros_like(flat),
     )
+    return pairs, one, two, np.repeat(np.arange(len(joints)), q)
+
+
+def _springs(model: Model, joints: Joints, spring: Floats) -> Springs:
+    pairs, _, _, joint = pairs_of(model, joints)
+    return Springs(pairs, spring[joint])
+
+
+def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
+    """Nitsche's terms, and springs where neither side has stress."""
+    order = max(ORDER, 2 * _degree(model) + 2)
+    pairs, one, two, joint = pairs_of(model, joints, order)
+    found, free = averages(model, pairs, (one, two), method.gamma)
+    if not free.any():
+        return [found]
+    if method.method == "nitsche":
+        x, y = joints.start[joint[free][0]]
+        raise FormulationError(
+            f'[glue] method: "nitsche": at [{x:.6g}, {y:.6g}] neither side has functions with '
+            'strain: expected one: use method = "spring"'
+        )
+    spring = np.where(free[:, None], _stiffness(model, joints, method)[joint], 0.0)
+    return [found, Springs(pairs, spring)]
+
+
+def _multipliers(setup: Setup, joints: Joints) -> MultiplierGlue:
+    model = setup.model
+    cover, degree = setup.formulation.cover, _degree(model)
+    pairs, _, _, joint = pairs_of(model, joints, max(ORDER, 2 * degree + 2))
+    body = model.manifold.boundary.body
+    a, b = body[joints.edge_a], body[joints.edge_b]
+    turned = (a > b)[:, None]
+    pieces = Pieces(
+        np.where(turned, joints.end, joints.start),
+        np.where(turned, joints.start, joints.end),
+        np.minimum(a, b) * model.manifold.n_bodies + np.maximum(a, b),
+        joint,
+        model.manifold.body_centroid[pairs.first.body] + pairs.first.arm,
+        pairs.normal,
+        pairs.weight,
+    )
+    # A block is one cell: each of its joints has multipliers of its own.
+    size = 0.0 if cover.size is None else cover.size
+    size = size if not cover.of_blocks else float(joints.length.sum())
+    basis = multipliers(pieces, size, max(degree - 1, 0), np.ones(2, dtype=bool))
+    glue = MultiplierGlue(pairs, basis)
+    rows, _ = glue.border(setup.start, model.manifold.n_unknowns)
+    return replace(glue, basis=csr_array(basis[:, independent(rows, model.stiffness.diagonal())]))
+
+
+def _degree(model: Model) -> int:
+    """Degree of the displacements, as far as it is known."""
+    found = [getattr(group, "degree", 2) for group in model.manifold.groups]
+    return max(found, default=1)
+
+
+def _stiffness(model: Model, joints: Joints, method: "Glue") -> Floats:
+    """Springs (j, 2) of glue in Pa/m."""
+    element = model.manifold.boundary.element
+    one, two = (model.modulus[element[edge]] for edge in (joints.edge_a, joints.edge_b))
+    factor = GLUE if method.stiffness is None else method.stiffness
+    found = factor * np.minimum(one, two) / joints.length.max(initial=0.0)
+    return np.repeat(found[:, None], 2, axis=1)
+
+
+def _interfaces(setup: Setup, joints: Joints) -> tuple[Floats, Bools]:
+    """Stiffness (j, 2) in Pa/m of joints that name one, zero elsewhere, and which are glued."""
+    edges, region = setup.model.manifold.boundary, setup.model.manifold.element_region
+    one, two = edges.element[joints.edge_a], edges.element[joints.edge_b]
     materials, found = list(setup.scene.materials), np.zeros((len(one), 2))
+    glued = np.zeros(len(one), dtype=bool)
     first, second = setup.region_material[region[one]], setup.region_material[region[two]]
+    glue = _stiffness(setup.model, joints, setup.formulation.glue)
     for a, b in np.unique(np.stack([first, second], axis=1), axis=0):  # pairs of materials
         try:
             item = setup.scene.interface(materials[a], materials[b])
         except SceneError:
             continue
-        chosen = (first == a) & (second == b)
-        for axis, own in enumerate((item.normal_stiffness, item.shear_stiffness)):
-            if item.bonded:
-                found[chosen, axis] = glue[chosen] if own is None else own
-    # Sub-blocks of one block are the formulation's to tie.
-    found[region[one] == region[two]] = 0.0
-    return found
-
-
-def _ties(model: Model, joints: Joints, spring: Floats) -> Ties:
-    edges = model.manifold.boundary
-    points, weight = segment_rule(joints.start, joints.end, ORDER)
-    q = weight.shape[1]
-    flat = points.reshape(-1, 2)
-    first = material_points(model.manifold, np.repeat(edges.element[joints.edge_a], q), flat)
-    second = material_points(model.manifold, np.repeat(edges.element[joints.edge_b], q), flat)
-    area = weight.ravel() * model.thickness
-    return Ties(
-        first,
-        second,
-        np.repeat(joints.normal, q, axis=0),
-        area[:, None] * np.repeat(spring, q, axis=0),
-    )
+        # Sub-blocks of one block are the formulation's to tie.
+        chosen = (first == a) & (second == b) & (region[one] != region[two]) & item.bonded
+        own = (item.normal_stiffness, item.shear_stiffness)
+        if own == (None, None):
+            glued |= chosen
+            continue
+        for axis in (0, 1):
+            found[chosen, axis] = glue[chosen, axis] if own[axis] is None else own[axis]
+    return found, glued

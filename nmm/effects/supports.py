@@ -100,13 +100,14 @@ class Supports(Effect):
             [side for _, side in found]
         )
 
-    def keep(self, multipliers: Floats) -> None:
-        """Remember the multipliers of the last solution, for reactions."""
+    def keep(self, multipliers: Floats) -> Floats:
+        """Remember the multipliers of the last solution, for reactions; return the others."""
         for support in self._supports:
             if isinstance(support, Multipliers):
                 size = int(support.held.sum()) * support.basis.shape[1]
                 support.found["traction"] = multipliers[:size]
                 multipliers = multipliers[size:]
+        return multipliers
 
     def energy(self, state: State) -> float:
         """Energy of the springs as they stand in ``state``, with places of its own instant."""

@@ -10,7 +10,14 @@ Map = Callable[[Floats], Floats]
 
 
 def minimal_residual(
-    product: Map, inverse: Map, rhs: Floats, *, directions: int, tolerance: float, rounds: int = 3
+    product: Map,
+    inverse: Map,
+    rhs: Floats,
+    *,
+    directions: int,
+    tolerance: float,
+    rounds: int = 3,
+    start: Floats | None = None,
 ) -> Floats:
     """Solve ``product(x) = rhs`` by GMRES with ``inverse`` on the right.
 
@@ -28,9 +35,12 @@ def minimal_residual(
         Most steps before a restart, and number of starts.
     tolerance
         Residual over load at which to stop.
+    start
+        Where to start, zero when not given; it may be of another size than the load where a
+        solution has more than one form.
     """
     size = float(np.linalg.norm(rhs))
-    x, rest = np.zeros_like(rhs), rhs
+    x, rest = (np.zeros_like(rhs), rhs) if start is None else (start, rhs - product(start))
     last = np.inf
     for _ in range(rounds):
         found = float(np.linalg.norm(rest))
@@ -70,7 +80,7 @@ def _round(product: Map, inverse: Map, rest: Floats, directions: int, goal: floa
         if left <= goal or table[k + 1, k] <= 1e-14 * whole:
             break
         basis.append(image / table[k + 1, k])
-    total = np.zeros_like(rest)
+    total = np.zeros_like(steps[0])
     for share, step in zip(answer, steps, strict=True):
         total = total + share * step
     return total

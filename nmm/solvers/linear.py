@@ -72,7 +72,10 @@ class LinearSolver(ABC):
         SolveError
             When an entry is not finite.
         """
-        return Factor.of(self, csc_array(matrix))
+        found = csc_array(matrix)
+        # Decompositions sort indices in place, which scaled copies share with their original.
+        found.sort_indices()
+        return Factor.of(self, found)
 
     def indefinite(self) -> "LinearSolver":
         """Return the solver with settings for symmetric matrices with pivots of both signs."""

@@ -21,7 +21,10 @@ from nmm.effects.supports import Method, Supports
 from nmm.formulation import Solver
 from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor
+from nmm.solvers.rigid_apart import ROUNDED, rounding, solve_apart
+from nmm.stepping.bodies import rigid_bodies
 from nmm.stepping.cures import solver_for
+from nmm.stepping.plan import Plan
 
 Field = Callable[[Floats], Floats]
 
@@ -67,22 +70,28 @@ def equilibrium(
         No equilibrium: a part is free and the load moves it.
     """
     start = initial_state(model.manifold)
-    matrix, force = model.stiffness, np.zeros(model.manifold.n_unknowns)
-    linear, border = solver_for(model.manifold, solver or Solver()), None
+    n = model.manifold.n_unknowns
+    held, force = csc_array((n, n)), np.zeros(n)
+    linear = solver_for(model.manifold, solver or Solver())
     for effect in effects:
         if defines(effect, "matrix"):
-            matrix = csc_array(matrix + effect.matrix(start))
+            held = csc_array(held + effect.matrix(start))
         if defines(effect, "force"):
             force = force + effect.force(start, END)
-        if isinstance(effect, Supports):
-            border = effect.border(start, END)
-    n = len(force)
+    matrix = csc_array(model.stiffness + held)
+    border = Plan({str(number): effect for number, effect in enumerate(effects)}).border(start, END)
     if border is not None:
         matrix, force = bordered(matrix, border[0]), np.concatenate([force, border[1]])
         linear = linear.indefinite()
     factor = linear.factorise(matrix)
     found = factor.solve(force)
     residual = factor.relative_residual(found, force)
+    bodies = rigid_bodies(model)
+    if model.manifold.n_bodies > 1 and rounding(factor, bodies, found, force) > ROUNDED:
+        apart = solve_apart(factor, bodies, held, force, None if border is None else border[0])
+        if apart.residual < residual:
+            state = strain_only(model, start, apart.strain, apart.rigid)
+            return Equilibrium(model, state, apart.residual, factor)
     return Equilibrium(model, strain_only(model, start, found[:n]), residual, factor)
 
 

@@ -118,7 +118,19 @@ class Plan:
 
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Return conditions on the step's unknowns that multipliers hold, None without any."""
-        return None if self.supports is None else self.supports.border(state, end)
+        from scipy.sparse import vstack
+
+        found = [effect.border(state, end) for effect in self._with("border")]
+        parts = [part for part in found if part is not None]
+        if not parts:
+            return None
+        rows = csr_array(vstack([part[0] for part in parts]))
+        return rows, np.concatenate([part[1] for part in parts])
+
+    def keep(self, multipliers: Floats) -> None:
+        """Hand the multipliers of a solution to the effects whose conditions they hold."""
+        for effect in self._with("border"):
+            multipliers = effect.keep(multipliers)
 
     def work(self, before: State, after: State) -> float:
         """Return the work of all applied forces (J)."""

@@ -6,7 +6,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
@@ -15,6 +15,8 @@ from nmm.effects.base import Instant
 from nmm.errors import SolveError
 from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor, LinearSolver
+from nmm.solvers.rigid_apart import ROUNDED, Apart, rounding, solve_apart
+from nmm.stepping.bodies import rigid_bodies
 from nmm.stepping.integrators import Integrator, Shi
 from nmm.stepping.plan import Plan
 from nmm.stepping.relay import Lay, relay
@@ -271,12 +273,38 @@ class Stepper:
             self._factor = solver.factorise(matrix)
         increment = self._factor.solve(force)
         residual = self._factor.relative_residual(increment, force)
+        apart = None if step is not None else self._apart(state, increment, force, border, residual)
         if border is not None:
-            self.plan.keep(increment[n:])
+            self.plan.keep(increment[n:] if apart is None else apart.multipliers)
             increment = increment[:n]
         self._spend("solve", started)
         result = self._result(state, end, step, increment)
-        return replace(result, residual=residual)
+        if apart is None:
+            return replace(result, residual=residual)
+        moved = strain_only(self.model, state, apart.strain, apart.rigid)
+        moved = replace(moved, time=end.time, load_factor=end.load_factor)
+        return replace(result, state=moved, residual=apart.residual)
+
+    def _apart(
+        self,
+        state: State,
+        increment: Floats,
+        force: Floats,
+        border: tuple[csr_array, Floats] | None,
+        residual: float,
+    ) -> Apart | None:
+        """Solution with rigid motions apart where rounding would spoil the stress; else None."""
+        if not self.small or self.model.manifold.n_bodies == 1:
+            return None
+        assert self._factor is not None
+        bodies = rigid_bodies(self.model)
+        if rounding(self._factor, bodies, increment, force) <= ROUNDED:
+            return None
+        none = csc_array(self.model.stiffness.shape)
+        held = self.plan.matrix(state, none)
+        rows = None if border is None else border[0]
+        found = solve_apart(self._factor, bodies, held, force, rows)
+        return found if found.residual < residual else None
 
     def _result(
         self,

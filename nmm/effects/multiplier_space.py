@@ -1,0 +1,198 @@
+"""Multipliers that boundaries through a mesh can carry: tractions of polynomial stresses.
+
+A multiplier on every cut piece of boundary is more than the displacements can answer (Béchet, Moës
+and Wohlmuth 2009). So the pieces of an edge are gathered in groups of two cells and more, and on
+each group the multipliers are the tractions ``sigma n`` of all polynomial stresses of a degree:
+along a straight line polynomials of the arc, around corners what no line of its own has room for.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Bools, Floats, Ints
+from integration.monomials import evaluate, exponents
+from nmm.assembly.places import Place
+
+# Length of a group in cells; kink (rad) at which a line ends; a function that the others resemble
+# to this share is left out: what is left of it alternates from piece to piece.
+CELLS, KINK, ALIKE = 2.0, 0.5, 0.1
+# Ends of pieces within this many cells are one point.
+TOUCH = 1e-6
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """Pieces of boundary with their Gauss points.
+
+    Attributes
+    ----------
+    start, end
+        (s, 2) ends (m); pieces that follow one another run in one direction.
+    line
+        (s,) what a piece belongs to: pieces of different numbers are never gathered.
+    piece
+        (m,) the piece of each point.
+    position, normal
+        (m, 2) of the points.
+    weight
+        (m,) area of boundary (m2).
+    """
+
+    start: Floats
+    end: Floats
+    line: Ints
+    piece: Ints
+    position: Floats
+    normal: Floats
+    weight: Floats
+
+
+def pieces_of(place: Place, thickness: float, size: float) -> Pieces:
+    """Return the pieces that points along edges came from: one element and one normal each."""
+    assert place.normal is not None
+    x, n = place.position, place.normal
+    new = np.ones(len(x), dtype=bool)
+    new[1:] = place.elements[1:] != place.elements[:-1]
+    new[1:] |= np.abs(n[1:] - n[:-1]).max(axis=1) > TOUCH
+    new[1:] |= np.abs(np.sum((x[1:] - x[:-1]) * n[1:], axis=1)) > TOUCH * size
+    piece = np.cumsum(new) - 1
+    count = int(piece[-1]) + 1 if len(piece) else 0
+    length = np.bincount(piece, place.weight, minlength=count)
+    middle = np.stack(
+        [np.bincount(piece, place.weight * x[:, k], minlength=count) / length for k in (0, 1)],
+        axis=1,
+    )
+    # The material is on the left of an edge, and its normal points to the right.
+    first = n[new]
+    along = np.stack([-first[:, 1], first[:, 0]], axis=1) * length[:, None] / 2
+    line = np.zeros(count, dtype=np.int64)
+    weight = place.weight * thickness
+    return Pieces(middle - along, middle + along, line, piece, x, n, weight)
+
+
+def multipliers(pieces: Pieces, size: float, degree: int, held: Bools) -> csr_array:
+    """Multipliers (2m, k) at the points, component minor, alike in size.
+
+    Parameters
+    ----------
+    size
+        Size of a cell (m).
+    degree
+        Of the stresses.
+    held
+        (2,) whether x and y are held.
+    """
+    group, alone = groups(pieces, size)
+    of_point = group[pieces.piece]
+    order = np.argsort(of_point, kind="stable")
+    bounds = np.searchsorted(of_point[order], np.arange(len(alone) + 1))
+    rows, columns, values, k = [], [], [], 0
+    for number in range(len(alone)):  # groups: a few for every ten cells of boundary
+        chosen = order[bounds[number] : bounds[number + 1]]
+        # One constant would leave the turn about the middle free.
+        p = max(degree, 1) if alone[number] else degree
+        basis = _tractions(
+            pieces.position[chosen], pieces.normal[chosen], pieces.weight[chosen], p, held
+        )
+        row = (2 * chosen[:, None] + np.arange(2)).ravel()
+        rows.append(np.repeat(row, basis.shape[1]))
+        columns.append(np.tile(k + np.arange(basis.shape[1]), len(row)))
+        values.append(basis.ravel())
+        k += basis.shape[1]
+    entries = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))
+    return csr_array(entries, shape=(2 * len(pieces.weight), k))
+
+
+def groups(pieces: Pieces, size: float) -> tuple[Ints, Bools]:
+    """Group (s,) of each piece, and whether a group (g,) is the only one of its chain."""
+    group = np.empty(len(pieces.start), dtype=np.int64)
+    alone: list[bool] = []
+    for chain in _chains(pieces, size):  # chains: one for each edge or interface
+        parts = _parts(pieces, chain, CELLS * size)
+        for part in parts:
+            group[part] = len(alone)
+            alone.append(len(parts) == 1)
+    return group, np.array(alone, dtype=bool)
+
+
+def _chains(pieces: Pieces, size: float) -> list[Ints]:
+    """Pieces in the order in which they follow one another."""
+    n = len(pieces.start)
+    every = np.round(np.concatenate([pieces.start, pieces.end]) / (TOUCH * size)).astype(np.int64)
+    key = np.column_stack([np.tile(pieces.line, 2), every])
+    _, point = np.unique(key, axis=0, return_inverse=True)
+    start, end = point.ravel()[:n], point.ravel()[n:]
+    # Where more than one piece starts or ends the chain is cut.
+    starts, ends = (np.bincount(p, minlength=2 * n) for p in (start, end))
+    at = np.full(2 * n, -1, dtype=np.int64)
+    at[start] = np.arange(n)
+    after = np.where((starts[end] == 1) & (ends[end] == 1), at[end], -1)
+    after = np.where(after == np.arange(n), -1, after)
+    headed = np.zeros(n, dtype=bool)
+    headed[after[after >= 0]] = True
+    chains, seen = [], np.zeros(n, dtype=bool)
+    for first in [*np.flatnonzero(~headed).tolist(), *range(n)]:  # closed chains start anywhere
+        chain, piece = [], first
+        while piece >= 0 and not seen[piece]:  # pieces one after the other
+            seen[piece] = True
+            chain.append(piece)
+            piece = int(after[piece])
+        if chain:
+            chains.append(np.array(chain, dtype=np.int64))
+    return chains
+
+
+def _parts(pieces: Pieces, chain: Ints, wanted: float) -> list[Ints]:
+    """Parts of a chain at least as long as wanted: of its straight runs, or of short ones joined.
+
+    A part ends where the chain has a kink if it is long enough by then.
+    """
+    along = pieces.end[chain] - pieces.start[chain]
+    length = np.hypot(*along.T)
+    angle = np.arctan2(along[:, 1], along[:, 0])
+    turn = np.abs((np.diff(angle) + np.pi) % (2 * np.pi) - np.pi)
+    runs = np.split(np.arange(len(chain)), np.flatnonzero(turn > KINK) + 1)
+    joined: list[list[int]] = []
+    open_length = np.inf
+    for piece in runs:  # straight runs of a chain
+        own = float(length[piece].sum())
+        if joined and ((open_length < wanted and own < wanted) or own < wanted / 4):
+            joined[-1].extend(piece.tolist())
+            open_length += own
+        else:
+            joined.append(piece.tolist())
+            open_length = own
+    parts = []
+    for places in joined:
+        run = np.array(places, dtype=np.int64)
+        reach = np.cumsum(length[run])
+        number = max(int(reach[-1] / wanted + 1e-9), 1)
+        at = (reach - length[run] / 2) * number / reach[-1]
+        interval = np.minimum(at.astype(int), number - 1)
+        parts += [chain[run[interval == i]] for i in range(number)]
+    return [part for part in parts if len(part)]
+
+
+def _tractions(x: Floats, normal: Floats, weight: Floats, degree: int, held: Bools) -> Floats:
+    """Orthonormal tractions (2m, k) of polynomial stresses at points."""
+    middle = weight @ x / weight.sum()
+    scale = max(float(np.abs(x - middle).max()), 1e-300)
+    powers = exponents(degree).sum(axis=1)
+    monomial = evaluate((x - middle) / scale, degree)
+    nx, ny = normal.T
+    zero = np.zeros_like(nx)
+    unit = np.stack([np.stack([nx, zero, ny], -1), np.stack([zero, ny, nx], -1)], axis=1)
+    unit = unit * held[:, None]
+    root = np.repeat(np.sqrt(weight), 2)[:, None]
+    basis = np.zeros((2 * len(x), 0))
+    for power in range(degree + 1):  # degree by degree, so that lower ones are all there
+        new = np.einsum("mcj,mk->mckj", unit, monomial[:, powers == power])
+        part = root * new.reshape(2 * len(x), -1)
+        size = float(np.sqrt((part**2).sum(axis=0).max(initial=0.0)))
+        for _ in range(2):  # orthogonal to rounding
+            part = part - basis @ (basis.T @ part)
+        left, value, _ = np.linalg.svd(part, full_matrices=False)
+        basis = np.concatenate([basis, left[:, value > ALIKE * size]], axis=1)
+    return np.asarray(basis / root * np.sqrt(weight.sum()))
