@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
@@ -47,6 +47,8 @@ class Setup:
         Name and material (index in the scene's order) of each input region.
     start
         State at the start of the run.
+    origin
+        (2,) where the axes of model and states lie in those of the scene (m).
     """
 
     scene: "Scene"
@@ -55,6 +57,7 @@ class Setup:
     region_name: tuple[str, ...]
     region_material: Ints
     start: State
+    origin: Floats = field(default_factory=lambda: np.zeros(2))
 
     def regions(self, name: str | None) -> Bools | None:
         """Return which regions a name means: a block, all blocks of a tessellation, or "all"."""

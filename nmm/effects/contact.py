@@ -2,6 +2,10 @@
 
 Joints (shared edges whose interface has strength or stiffness) are followed from the start; all
 other contacts are found by search as bodies move. Both are contact points of one step problem.
+
+Which bodies meet: every two, by the interface of their materials. Where the scene has none, they
+must not touch: at the start that is a fault of the scene, later it ends the run at the step before.
+The sub-blocks of one block are glued and never meet.
 """
 
 from collections.abc import Mapping
@@ -49,8 +53,9 @@ from nmm.interfaces.base import INTERFACE_LAWS, InterfaceLaw
 from nmm.interfaces.restitution import damping_of
 from nmm.solvers.linear import LinearSolver
 
-# Numbers that stand in for an interface: bodies that never meet, and those that must not.
-NONE, MISSING = -1, -2
+# Numbers that stand in for an interface: pieces of one block, which are glued and never meet, and
+# bodies that must not touch.
+GLUED, MISSING = -1, -2
 
 # Keys of a scene's interface that every law has, and those that a law need not know.
 ALWAYS = (
@@ -144,7 +149,9 @@ class Contact(Effect):
         held: Bools,
         cracked: bool = False,
         face_points: int = 0,
+        origin: Floats | None = None,
     ) -> None:
+        self._origin = np.zeros(2) if origin is None else origin
         self._model = model
         self._face_points = face_points
         self._cracked = cracked
@@ -192,6 +199,7 @@ class Contact(Effect):
             _held_bodies(setup),
             cracked=bool(setup.scene.cracks),
             face_points=face_points(setup.formulation),
+            origin=setup.origin,
         )
 
     def candidates(self, state: State, reach: float) -> ContactPoints:
@@ -350,11 +358,14 @@ class Contact(Effect):
         start = self._surface(before)
         end = self._sides.surface(after.frames, after.deformation)
         vertex, edge = self._neighbours.update(start)
-        meets = self._interfaces(vertex, edge) >= 0
+        meets = self._interfaces(vertex, edge) != GLUED
         found = find_crossings(start, end, (vertex[meets], edge[meets]))
         if not len(found):
             return ""
-        x, y = start.start[found.vertex[int(found.fraction.argmin())]]
+        first = np.array([int(found.fraction.argmin())])
+        x, y = start.start[found.vertex[first]][0] + self._origin
+        if self._interfaces(found.vertex[first], found.edge[first])[0] == MISSING:
+            return _no_interface(x, y)
         return (
             f"the corner at [{x:.6g}, {y:.6g}] goes through an edge of another block after "
             f"{100 * found.free_fraction:.2g} % of the step, deeper than a tenth of the thinner "
@@ -453,11 +464,8 @@ class Contact(Effect):
         interface = self._interfaces(found.vertex, found.edge)
         missing = (interface == MISSING) & (found.gap <= 0)
         if missing.any():
-            x, y = surface.start[found.vertex[missing]][0]
-            raise SceneError(
-                f"[interfaces]: blocks meet at ({x:.6g}, {y:.6g}) whose materials have none: "
-                'expected an interface between the two: add one, or one with between = "any"'
-            )
+            x, y = surface.start[found.vertex[missing]][0] + self._origin
+            raise (SceneError if self.record.found is None else SolveError)(_no_interface(x, y))
         meets = interface >= 0
         return found.take(meets & ~self.record.book.hides(found))
 
@@ -482,6 +490,13 @@ class Contact(Effect):
         middle = centroids(manifold.elements)[manifold.boundary.element]
         apart = middle[joints.edge_a] - middle[joints.edge_b]
         return np.asarray(np.abs(np.einsum("ij,ij->i", apart, joints.normal)))
+
+
+def _no_interface(x: float, y: float) -> str:
+    return (
+        f"[interfaces]: blocks meet at ({x:.10g}, {y:.10g}) whose materials have none: "
+        'expected an interface between the two: add one, or one with between = "any"'
+    )
 
 
 def _largest_turn(one: State, other: State, body: Ints) -> float:
@@ -531,5 +546,5 @@ def _interface_of_regions(setup: Setup) -> Ints:
     material = setup.region_material
     found = table[np.ix_(material, material)]
     if setup.formulation.cover.glued:
-        np.fill_diagonal(found, NONE)  # sub-blocks of one block never meet
+        np.fill_diagonal(found, GLUED)
     return found

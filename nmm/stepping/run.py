@@ -40,6 +40,9 @@ class Run:
         What solved it, for further steps by hand.
     topologies
         Elements that the frames belong to, as plots and exports need them.
+    origin
+        (2,) where the axes of manifold and state lie (m); zero unless the scene lies far away.
+        Frames and topologies have the axes of the scene.
     """
 
     summary: Summary
@@ -50,6 +53,7 @@ class Run:
     state: State
     stepper: Stepper
     topologies: list[Topology]
+    origin: Floats
 
     @property
     def displacement(self) -> Floats:
@@ -107,4 +111,5 @@ def run(
         state=state,
         stepper=simulation.stepper,
         topologies=memory.topologies,
+        origin=simulation.origin,
     )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from covers.block_cover import block_manifold
+from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, initial_state
 from nmm.effects.base import Setup
@@ -25,6 +26,7 @@ from nmm.stepping.build import block_functions, build_model
 from nmm.stepping.cures import cures, solver_for, warnings
 from nmm.stepping.dynamics import Schedule, run_in_time
 from nmm.stepping.integrators import INTEGRATORS, Integrator
+from nmm.stepping.origin import MovedBack, own_origin, shifted, shifted_regions
 from nmm.stepping.plan import Plan, compile_plan
 from nmm.stepping.recorder import Monitor, Recorder, monitors
 from nmm.stepping.relay import Lay, check_relay
@@ -58,6 +60,8 @@ class Simulation:
         Points whose displacement is recorded.
     begun
         When the preparation began, for the seconds of the summary.
+    origin
+        (2,) where the axes of model and states lie (m); what is written has those of the scene.
     """
 
     scene: "Scene"
@@ -67,6 +71,7 @@ class Simulation:
     start: State
     monitors: list[Monitor]
     begun: float
+    origin: Floats
 
     def folder(self, path: Path) -> RunFolder:
         """Return the run folder at ``path`` with scene and formulation as run."""
@@ -79,7 +84,9 @@ class Simulation:
 
     def run(self, sinks: list[Sink], progress: Progress) -> State:
         """Run to the end, or to the step that cannot be solved; return the last state."""
-        sink = Tee(sinks)
+        sink: Sink = Tee(sinks)
+        if self.origin.any():
+            sink = MovedBack(sink, self.origin)
         sink.begin(
             self.stepper.model.manifold.elements,
             self.stepper.model.manifold.element_region,
@@ -185,13 +192,17 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
     begun = perf_counter()
     regions = build_regions(scene)
     _check(scene, formulation)
+    asked, origin = (scene, formulation), own_origin(regions.polygons.points)
+    if origin.any():
+        regions = shifted_regions(regions, -origin)
+        scene, formulation = shifted(scene, -origin), shifted(formulation, -origin)
     model = build_model(scene, formulation, regions)
     built = perf_counter()
     start = initial_state(model.manifold)
     if scene.inertia is not None:
         start = replace(start, load_factor=1.0)
     setup = Setup(
-        scene, formulation, model, tuple(regions.name), np.asarray(regions.material), start
+        scene, formulation, model, tuple(regions.name), np.asarray(regions.material), start, origin
     )
     plan = compile_plan(setup)
     stepper = Stepper(
@@ -204,9 +215,7 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
     )
     stepper.seconds["covers"] = built - begun
     stepper.seconds["effects"] = perf_counter() - built
-    return Simulation(
-        scene, formulation, regions, stepper, plan.begin(start), monitors(setup), begun
-    )
+    return Simulation(*asked, regions, stepper, plan.begin(start), monitors(setup), begun, origin)
 
 
 def _integrator(formulation: Formulation) -> Integrator:

@@ -286,18 +286,43 @@ def test_the_faces_of_a_crack_within_one_body_press_on_each_other():
     assert found.stress[:, 1] == pytest.approx(-1e5, rel=0.02)
 
 
-def test_blocks_whose_materials_have_no_interface_do_not_pass_through_each_other_unsaid():
-    """Clay lies on rock, and the scene has an interface of rock with rock alone."""
+def two_materials(top, **more):
+    """Clay above rock; the scene has an interface of rock with rock alone."""
     clay = {"young_modulus": 1e9, "poisson_ratio": 0.2, "density": 2000.0}
-    scene = {
-        "title": "two materials",
-        "plane": "strain",
-        "materials": {**ROCK, "clay": clay},
-        "interfaces": {"i": {"friction_angle": 0.5, "between": ["r", "r"]}},
-        "blocks": [block("base", -2, -1, 4, 1), {**block("top", 0, 0), "material": "clay"}],
-        "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
-        "gravity": {},
-        "contact": {},
-    }
+    return Scene.model_validate(
+        {
+            "title": "two materials",
+            "plane": "strain",
+            "materials": {**ROCK, "clay": clay},
+            "interfaces": {"i": {"friction_angle": 0.5, "between": ["r", "r"]}},
+            "blocks": [block("base", -2, -1, 4, 1), {**top, "material": "clay"}],
+            "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
+            "gravity": {},
+            "contact": {},
+            **more,
+        }
+    )
+
+
+def test_blocks_that_lie_on_each_other_without_an_interface_are_a_fault_of_the_scene():
     with pytest.raises(SceneError, match="materials have none"):
-        run(Scene.model_validate(scene))
+        run(two_materials(block("top", 0, 0)))
+
+
+@pytest.mark.parametrize(("size", "velocity"), [(1.0, 0.0), (0.05, -100.0)])
+def test_blocks_that_meet_later_without_an_interface_end_the_run_where_they_do(size, velocity):
+    """A fall of 0.1 m lasts 0.143 s; at 100 m/s a small block would be through within a step."""
+    scene = two_materials(
+        block("top", 0, 0.1, size, size),
+        duration=0.3,
+        inertia={},
+        initial_velocities=[{"block": "top", "velocity": [0, velocity]}],
+        monitors=[{"name": "foot", "point": [0, 0.1], "block": "top"}],
+    )
+    found = run(scene, Formulation.model_validate({"integrator": {"step": 0.01}}))
+    assert found.summary.status == "failed"
+    assert "materials have none" in found.summary.sentence
+    # What was reached is kept; the fast block is never deeper than contact looks, a tenth.
+    assert found.frames[-1].points[4:, 1].min() > -0.1 * size
+    touch = 0.1 / 100 if velocity else np.sqrt(2 * 0.1 / 9.81)
+    assert found.history["time"][-1] == pytest.approx(touch, abs=0.01)
