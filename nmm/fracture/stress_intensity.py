@@ -4,7 +4,7 @@ With the auxiliary fields of unit K_I and K_II (Williams 1957), ``q`` 1 near the
 radius of the domain, and axes 1 ahead of the crack and 2 across it (Yau, Wang and Corten 1980;
 Moran and Shih 1987; Shih and Asaro 1988)
 
-    I = int (s_ij v_i,1 + r_ij u_i,1 - s_mn e(v)_mn delta_1j) q_,j + b_i v_i,1 q  dA
+    I = int (s_ij v_i,1 + r_ij u_i,1 - s_mn e(v)_mn delta_1j) q_,j - b_i v_i,1 q  dA
         - int_faces t_i v_i,1 q  ds,     K = E' I / 2,
 
 ``s`` the stress and ``b`` the body force of the displacement ``u``, ``r`` the stress of the
@@ -144,6 +144,8 @@ def _domain(
     # About the tip fields are singular; further out the cut-off is what is not polynomial.
     for chosen, singular in ((close, True), (~close, False)):
         index = np.flatnonzero(chosen)
+        if not len(index):
+            continue
         part = polygons.take(index)
         rule = tip_rule(part, point, ORDER) if singular else polygon_rule(part, ORDER)
         owner = near[index][rule.owner]
@@ -155,7 +157,7 @@ def _domain(
             total[mode] += rule.weights @ _density(model, owner, gradient, v, ahead, dq)
             if body_force is not None:
                 work = np.einsum("mi,mij,j->m", body_force(rule.points), v, ahead)
-                total[mode] += rule.weights @ (work * q)
+                total[mode] -= rule.weights @ (work * q)
     return total
 
 

@@ -326,3 +326,23 @@ def test_stress_turns_with_the_body_under_any_cover(name: str) -> None:
     after = Recorder(stepper, MemorySink(), []).stress(state) / 1e8
     # Benchmark B14: xx and yy change places, shear its sign, element by element.
     np.testing.assert_allclose(after, start[:, [1, 0, 2]] * [1, 1, -1], atol=1e-6)
+
+
+CRACKED = (
+    CYLINDER.format(nu=0.3)
+    + """
+[[cracks]]
+name = "edge"
+points = [[0.5, 1.1], [0.5, 0.6]]
+"""
+)
+
+
+def test_crack_tips_without_functions_are_told() -> None:
+    plain = simulate(CRACKED, MESHES["linear"])
+    assert [text[:40] for text in plain.summary.warnings] == [
+        "1 crack tips without tip functions: crac"
+    ]
+    enriched = simulate(CRACKED, MESHES["linear"], "[cover.enrichment]\n")
+    assert enriched.summary.warnings == []
+    assert enriched.summary.cures["covers with singular functions"] > 0
