@@ -12,6 +12,7 @@ help:
 	@echo "make test     all tests but those of minutes"
 	@echo "make lint     ruff and mypy"
 	@echo "make verify   the studies of minutes against reference answers"
+	@echo "make manual   all benchmarks, and the pages that show them in docs/verification"
 	@echo "make bench    measured ratios, all in one session"
 	@echo "make report   what accuracy costs, measured anew into docs/accuracy_cost"
 	@echo "make docs     the manual as HTML in docs/_build"
@@ -30,6 +31,9 @@ lint: .venv/.dev
 
 verify: .venv/.dev
 	$(PY) -m pytest -m slow --durations=0
+
+manual: .venv/.runtime
+	.venv/bin/nmm verify --slow --out docs/verification
 
 bench: .venv/.dev
 	@set -e; for script in $$(grep -l __main__ benchmarks/*.py); do \

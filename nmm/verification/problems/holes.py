@@ -133,6 +133,11 @@ class HoleRates(HoledPlate):
     formulations: ClassVar[tuple[str, ...]] = ("finite elements", "manifold", "manifold degree 2")
     plane: str = "strain"
 
+    @property
+    def slow(self) -> bool:
+        """Ten seconds."""
+        return True
+
     def checks(self, formulation: str) -> Checks:
         """Refine the covers three times."""
         power = degree(on_mesh(formulation, self.size))

@@ -120,6 +120,11 @@ class WavesOnQuads(Waves):
     title: ClassVar[str] = "Smooth manufactured solution on quads, orders of convergence"
     formulations: ClassVar[tuple[str, ...]] = ("bilinear quads", "quads")
 
+    @property
+    def slow(self) -> bool:
+        """Ten seconds."""
+        return True
+
 
 @dataclass(frozen=True)
 class WavesOfDegreeTwo(Waves):

@@ -144,6 +144,11 @@ class Reproduction(Case):
         """The degree of the covers."""
         return f"degree {self.degree}"
 
+    @property
+    def slow(self) -> bool:
+        """Dense least squares of a thousand unknowns."""
+        return self.degree > 2
+
     def checks(self, formulation: str) -> Checks:
         """Fit monomials of the next two degrees."""
         cover = net(formulation)
