@@ -5,7 +5,7 @@ PYTHON ?=
 PY := .venv/bin/python
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint verify bench report docs clean
+.PHONY: help demo test lint verify manual bench report docs clean
 
 help:
 	@echo "make demo     run the four-point bending beam and draw it"
