@@ -82,7 +82,7 @@ class Alternation:
                 self._steps(factor, NARROW, LOOK)
             if self._open and not self.defect.size < QUICK * before:
                 if not kept.as_new(self.springs.problem):
-                    self.memory.forget_factor()
+                    self.memory.forget(kept)
                     kept = self._all_acting()
                 self._steps(kept.factor, WIDE)
         story = f"{self.solves} solves with {self.factorisations or 'no'} new factors"

@@ -5,11 +5,17 @@ from typing import ClassVar
 
 from nmm.contact.alternation import Budget
 from nmm.contact.answer import answer, singular_answer
-from nmm.contact.cone import exact_round
+from nmm.contact.cone import interior_round
 from nmm.contact.enforcement import Enforcement
 from nmm.contact.memory import Memory
 from nmm.contact.problem import StepAnswer, StepProblem
-from nmm.contact.rounds import converged_rounds, first_round, rounds_verdict, stiff_springs
+from nmm.contact.rounds import (
+    converged_rounds,
+    first_round,
+    gap_goal,
+    rounds_verdict,
+    stiff_springs,
+)
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
 
@@ -29,24 +35,27 @@ class Augmented(Enforcement):
         ``p c`` (-), from which ``p`` of each contact follows; None takes the stiffnesses of the
         problem.
     growth
-        Factor on ``p`` (-) after a round that reduced the error by less than four, as happens
-        where many contacts share few unknowns; 1 keeps ``p``.
+        Factor on ``p`` (-) after a round that reduced the error by less than fifty, up to 300
+        times the first ``p``; 1 keeps ``p``.
     max_rounds
         Most updates of the multipliers a step.
     rescue
         Most factorisations of the interior point, which takes over when the rounds fail; 0
         reports the failure instead.
     tolerance
-        Largest relative out-of-balance force (-), and largest gap or slip that should not be over
-        the compliance times the largest force (-).
+        Largest relative out-of-balance force (-).
+    gap_tolerance
+        Largest gap or slip that should not be, over the compliance times the largest force (-);
+        ``tolerance`` stands in for it in problems of up to 120 unknowns.
     """
 
     name: ClassVar[str] = "augmented"
-    scale: float | None = 100.0
+    scale: float | None = 10.0
     growth: float = 10.0
     max_rounds: int = 50
     rescue: int = 100
     tolerance: float = 1e-8
+    gap_tolerance: float = 1e-5
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
@@ -55,21 +64,24 @@ class Augmented(Enforcement):
         problem.check()
         memory = memory or Memory()
         at = first_round(stiff_springs(problem, self.scale))
-        budget = Budget(interior=0) if self.rescue else Budget()
-        rounds = 1 if self.rescue and memory.redundant else self.max_rounds
+        goal = gap_goal(problem, self.tolerance, self.gap_tolerance)
+        budget = Budget(400, 20, 0) if self.rescue else Budget()
         try:
             at = converged_rounds(
-                at, linear_solver, memory, self.tolerance, rounds, self.growth, budget
+                at,
+                linear_solver,
+                memory,
+                self.tolerance,
+                goal,
+                self.max_rounds,
+                self.growth,
+                budget,
             )
         except SolveError as fault:
             return singular_answer(at.settled.springs, linear_solver, fault)
         how = f"{at.count} rounds"
-        if self.rescue and not at.meets(self.tolerance):
-            memory.redundant = memory.redundant or at.count > 1
-            soft = stiff_springs(problem, 10.0)
-            at, rest = exact_round(
-                soft, linear_solver, memory, self.tolerance, factorisations=self.rescue
-            )
-            how = f"{how}, then {rest}"
-        verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, how)
+        if self.rescue and not at.meets(self.tolerance, goal):
+            at = interior_round(at, linear_solver, memory, self.tolerance, goal, self.rescue)
+            how = f"{how}, then {at.settled.story}"
+        verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, goal, how)
         return answer(at.settled, linear_solver, verdict)

@@ -59,7 +59,8 @@ class InteriorPoint:
 
     Contacts marked ``exact`` obey ``gap >= 0`` and a sharp bound instead of a spring. Their spring
     only measures how far force and gap are from the law, and a part ``SOFT`` of its compliance
-    regularises the matrix (Friedlander, Orban 2012), so that redundant contacts do no harm.
+    regularises the matrix (Friedlander, Orban 2012), so that redundant contacts do no harm. What
+    their forces still lack counts by the part ``slack`` beside the out-of-balance force.
     """
 
     def __init__(
@@ -68,8 +69,9 @@ class InteriorPoint:
         pattern: SpringPattern,
         linear: LinearSolver,
         exact: Bools | None = None,
+        slack: float = 1.0,
     ) -> None:
-        self.springs, self.pattern = springs, pattern
+        self.springs, self.pattern, self.slack = springs, pattern, slack
         self.exact = np.zeros(springs.problem.n_contacts, dtype=bool) if exact is None else exact
         self.linear = linear.unsymmetric()
         limits = springs.problem.limits
@@ -148,7 +150,7 @@ class InteriorPoint:
         found = np.concatenate(springs.forces(point.increment))
         meant = np.concatenate([point.normal, point.shear])
         size = float(np.abs(found).max())
-        return float(np.abs(found - meant).max()) / size if size > 0 else 0.0
+        return self.slack * float(np.abs(found - meant).max()) / size if size > 0 else 0.0
 
     def _start(self, start: Settled) -> Point:
         springs, limits = self.springs, self.springs.problem.limits

@@ -14,7 +14,14 @@ from nmm.contact.law import shear_bound
 from nmm.contact.memory import Memory
 from nmm.contact.passes import Springs, changes, first_springs
 from nmm.contact.problem import StepAnswer, StepProblem
-from nmm.contact.rounds import Round, compliances, measured, rounds_verdict, stiff_springs
+from nmm.contact.rounds import (
+    Round,
+    compliances,
+    gap_goal,
+    measured,
+    rounds_verdict,
+    stiff_springs,
+)
 from nmm.contact.springs import CutSprings, Settled
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
@@ -46,14 +53,17 @@ class Lagrange(Enforcement):
     rescue
         Most factorisations of the interior point.
     tolerance
-        Largest relative out-of-balance force (-), and largest gap or slip that should not be over
-        the compliance times the largest force (-).
+        Largest relative out-of-balance force (-).
+    gap_tolerance
+        Largest gap or slip that should not be, over the compliance times the largest force (-);
+        ``tolerance`` stands in for it in problems of up to 120 unknowns.
     """
 
     name: ClassVar[str] = "lagrange"
     max_passes: int = 20
     rescue: int = 100
     tolerance: float = 1e-8
+    gap_tolerance: float = 1e-5
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
@@ -62,17 +72,23 @@ class Lagrange(Enforcement):
         problem.check()
         memory = memory or Memory()
         springs = stiff_springs(problem, 1.0)
+        goal = gap_goal(problem, self.tolerance, self.gap_tolerance)
         at, how = self._active_set(springs, linear_solver)
-        if at is None or not at.meets(self.tolerance):
+        if at is None or not at.meets(self.tolerance, goal):
             springs = stiff_springs(problem, 10.0)
             try:
                 at, rest = exact_round(
-                    springs, linear_solver, memory, self.tolerance, factorisations=self.rescue
+                    springs,
+                    linear_solver,
+                    memory,
+                    self.tolerance,
+                    goal,
+                    factorisations=self.rescue,
                 )
             except SolveError as fault:
                 return singular_answer(springs, linear_solver, fault)
             how = f"{how}, then {rest}"
-        verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, how)
+        verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, goal, how)
         return answer(at.settled, linear_solver, verdict)
 
     def _active_set(self, springs: CutSprings, linear: LinearSolver) -> tuple[Round | None, str]:

@@ -1,6 +1,6 @@
 """What the contact solution keeps from step to step."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from nmm.solvers.linear import Factor, LinearSolver
 
 DRIFT = 1.25
 """A kept factor serves while no diagonal entry of the matrix has changed by more than this."""
+KEPT = 3
+"""Factors kept."""
 TURN = 1e-3
 """A kept factor is as good as new while the rows have changed by less than this part."""
 
@@ -66,9 +68,10 @@ class Memory:
     last
         Unknowns found last, from which the next step may start.
     kept
-        Factor with all springs acting.
-    redundant
-        Forces were not determined one by one in the last step.
+        Last factors with all springs acting: rounds of multipliers use springs of several
+        stiffnesses in one step.
+    resigned
+        Steps for which rounds of multipliers are not tried, after one in which they failed.
     barrier_width
         Width of the barrier chosen in the first step (m).
     """
@@ -76,8 +79,8 @@ class Memory:
     pattern: SpringPattern | None = None
     start: Floats | None = None
     last: Floats | None = None
-    kept: KeptFactor | None = None
-    redundant: bool = False
+    kept: list[KeptFactor] = field(default_factory=list)
+    resigned: int = 0
     barrier_width: float | None = None
 
     def pattern_of(self, problem: StepProblem) -> SpringPattern:
@@ -88,14 +91,16 @@ class Memory:
 
     def factor_of(self, springs: CutSprings, solver: LinearSolver) -> tuple[KeptFactor, bool]:
         """Factor with all springs acting, and whether it was made just now."""
-        if self.kept is not None and self.kept.serves(springs, solver):
-            return self.kept, False
+        for kept in self.kept:
+            if kept.serves(springs, solver):
+                return kept, False
         pattern = self.pattern_of(springs.problem)
         normal, shear = springs.normal_stiffness, springs.shear_stiffness
         factor = solver.factorise(pattern.matrix(springs.problem, normal, shear))
-        self.kept = KeptFactor(factor, solver, springs, springs.weight**-2)
-        return self.kept, True
+        kept = KeptFactor(factor, solver, springs, springs.weight**-2)
+        self.kept = [kept, *self.kept[: KEPT - 1]]
+        return kept, True
 
-    def forget_factor(self) -> None:
-        """Drop the factor: it no longer serves."""
-        self.kept = None
+    def forget(self, kept: KeptFactor) -> None:
+        """Drop a factor that no longer serves."""
+        self.kept = [other for other in self.kept if other is not kept]

@@ -8,16 +8,17 @@ from integration.arrays import Floats
 from nmm.contact.alternation import Budget
 from nmm.contact.answer import judge
 from nmm.contact.memory import Memory
-from nmm.contact.newton import polish
 from nmm.contact.problem import StepProblem, Verdict
-from nmm.contact.settle import settle
+from nmm.contact.settle import SMALL, settle
 from nmm.contact.springs import CutSprings, Settled
 from nmm.solvers.linear import LinearSolver
 
-STIFFEST = 1e4
-"""Largest factor by which rounds may stiffen springs: more costs digits of the forces."""
-WARM = 40
-"""Solves a round above which Newton's method is tried first in later rounds."""
+STIFFEST = 300.0
+"""Largest factor by which rounds may stiffen springs: beyond, a round costs more than it gains."""
+GAIN = 0.02
+"""Part of the error that a round must leave at most for its springs to stay as they are."""
+NEAR = 3.0
+"""Errors this many times the tolerance are likely within it after the next round."""
 FAILURES = 2
 """Rounds that may miss their own tolerance before the iteration is given up."""
 
@@ -47,9 +48,9 @@ class Round:
     gap: float = np.inf
     error: float = np.inf
 
-    def meets(self, tolerance: float) -> bool:
-        """Whether balance and error are within ``tolerance``."""
-        return self.settled.size <= tolerance and self.error <= tolerance
+    def meets(self, tolerance: float, gap_tolerance: float) -> bool:
+        """Whether balance and error are within their tolerances."""
+        return self.settled.size <= tolerance and self.error <= gap_tolerance
 
 
 def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
@@ -101,6 +102,11 @@ def stiffened(springs: CutSprings, factor: float) -> CutSprings:
     )
 
 
+def gap_goal(problem: StepProblem, tolerance: float, gap_tolerance: float) -> float:
+    """Tolerance of gaps: that of balance where a problem is small enough for it to cost nothing."""
+    return min(tolerance, gap_tolerance) if len(problem.force) <= SMALL else gap_tolerance
+
+
 def first_round(springs: CutSprings) -> Round:
     """Round zero: no unknowns yet."""
     return Round(Settled(springs, np.zeros_like(springs.problem.force), 1.0, 0, 0, ""))
@@ -115,12 +121,8 @@ def multiplier_round(
 ) -> Round:
     """Settle the springs and measure by how much their forces differ from the multipliers."""
     before = last.settled
-    warm = last.count > 0 and before.solves > WARM * last.count
-    if warm:
-        pattern = memory.pattern_of(before.springs.problem)
-        found = polish(before.springs, pattern, linear.unsymmetric(), before.increment, tolerance)
-    if not warm or found.size > tolerance:
-        found = settle(before.springs, linear, memory, tolerance, before.increment, budget)
+    start = before.increment if last.count else None
+    found = settle(before.springs, linear, memory, tolerance, start, budget)
     total = replace(
         found,
         solves=before.solves + found.solves,
@@ -161,11 +163,14 @@ def converged_rounds(
     linear: LinearSolver,
     memory: Memory,
     tolerance: float,
+    gap_tolerance: float,
     max_rounds: int,
     growth: float,
     budget: Budget | None = None,
 ) -> Round:
-    """Repeat rounds until balance and error meet ``tolerance``; return the last.
+    """Repeat rounds until balance and error meet their tolerances; return the last.
+
+    Balance is sought no finer than the error allows, and to its tolerance in the end.
 
     Raises
     ------
@@ -176,24 +181,32 @@ def converged_rounds(
     while at.count < max_rounds:
         last, at = at, multiplier_round(at, linear, memory, inner, budget)
         failures += at.settled.size > inner
-        if at.meets(tolerance) or failures > FAILURES or at.count == max_rounds:
+        if at.meets(tolerance, gap_tolerance) or failures > FAILURES or at.count == max_rounds:
             break
-        inner = float(np.clip(0.01 * at.change, 0.1 * tolerance, inner))
-        slow = at.error > 0.25 * last.error and stiffness * growth <= STIFFEST
-        at = updated(at, growth if slow else 1.0)
-        stiffness *= growth if slow else 1.0
+        fine = at.error <= NEAR * gap_tolerance
+        inner = tolerance if fine else float(np.clip(0.1 * at.error, tolerance, inner))
+        if at.error <= gap_tolerance:
+            continue
+        times = min(growth, STIFFEST / stiffness) if at.error > GAIN * last.error else 1.0
+        at = updated(at, times)
+        stiffness *= times
     return at
 
 
 def rounds_verdict(
-    at: Round, linear: LinearSolver, memory: Memory, tolerance: float, how: str
+    at: Round,
+    linear: LinearSolver,
+    memory: Memory,
+    tolerance: float,
+    gap_tolerance: float,
+    how: str,
 ) -> Verdict:
     """Verdict on balance and on what the multipliers still lack; ``how`` they were found."""
     found = replace(at.settled, story=f"{how}, {at.settled.solves} solves")
     verdict = judge(found, linear, memory, tolerance)
     if not verdict.converged:
         return verdict
-    if at.error > tolerance:
+    if at.error > gap_tolerance:
         sentence = (
             f"gaps of {at.gap:.1e} m left after {how}, {at.error:.1e} of what the largest force "
             "would press in: allow more rounds, raise the scale or shorten the step"
