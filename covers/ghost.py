@@ -1,10 +1,9 @@
 """Ghost stabilisation: small cut elements follow the fields of their neighbours."""
 
 import numpy as np
-from scipy.sparse import csc_array, diags_array
+from scipy.sparse import coo_array, csc_array, eye_array, kron
 
 from covers.manifold import Manifold
-from covers.rows import Rows
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import polygon_rule
 
@@ -42,20 +41,40 @@ def ghost(manifold: Manifold, elements: Ints, weight: Floats, degree: int) -> cs
     first, second = first[both], second[both]
     if not len(first):
         return csc_array((n, n))
-    pair = np.tile(np.arange(len(first)), 2)
     rule = polygon_rule(manifold.elements.take(np.concatenate([first, second])), 2 * degree)
-    pair = pair[rule.owner]
+    pair = rule.owner % len(first)
     factor = rule.weights * weight[first[pair]]
-    one = manifold.rows(first[pair], rule.points)
-    two = manifold.rows(second[pair], rule.points)
-    jump = Rows(
-        np.concatenate([one.unknowns, two.unknowns], axis=1),
-        np.concatenate([one.values, -two.values], axis=2),
-    ).matrix(n)
-    # Neighbours share covers, and half of the entries are those of the other component.
-    jump.sum_duplicates()
-    jump.eliminate_zeros()
-    return csc_array(jump.T @ (diags_array(np.repeat(factor, 2)) @ jump))
+    if all(group.combination is None for group in manifold.groups):
+        # Both components alike: half the unknowns, and one form for both.
+        one, ours = manifold.scalar_rows(first[pair], rule.points)
+        two, theirs = manifold.scalar_rows(second[pair], rule.points)
+        jump = np.concatenate([ours, -theirs], axis=1)
+        form = _summed(pair, factor, np.concatenate([one, two], axis=1), jump, n // 2)
+        return csc_array(kron(form, eye_array(2), format="csc"))
+    near, far = manifold.rows(first[pair], rule.points), manifold.rows(second[pair], rule.points)
+    unknowns = np.concatenate([near.unknowns, far.unknowns], axis=1)
+    jump = np.concatenate([near.values, -far.values], axis=2).reshape(2 * len(pair), -1)
+    return _summed(
+        np.repeat(pair, 2), np.repeat(factor, 2), np.repeat(unknowns, 2, axis=0), jump, n
+    )
+
+
+def _summed(pair: Ints, factor: Floats, unknowns: Ints, jump: Floats, n: int) -> csc_array:
+    """Sum over points of ``factor jump^T jump``, dense by pair first: points of a pair are many."""
+    order = np.argsort(pair, kind="stable")
+    counts = np.bincount(pair)
+    begin = np.cumsum(counts) - counts
+    rows, columns, values = [], [], []
+    for number in np.unique(counts[counts > 0]):  # pairs of equal numbers of points
+        some = order[begin[counts == number, None] + np.arange(number)]
+        part = jump[some]
+        square = np.swapaxes(part * factor[some][:, :, None], 1, 2) @ part
+        mine = unknowns[some[:, 0]]
+        rows.append(np.repeat(mine, mine.shape[1], axis=1).ravel())
+        columns.append(np.tile(mine, mine.shape[1]).ravel())
+        values.append(square.ravel())
+    places = np.concatenate(rows), np.concatenate(columns)
+    return csc_array(coo_array((np.concatenate(values), places), shape=(n, n)))
 
 
 def _extend(manifold: Manifold) -> Bools:

@@ -110,6 +110,15 @@ class Manifold:
         """Evaluation rows of the displacement at ``points`` (m, 2) in ``elements`` (m,)."""
         return Rows(*self._stack(elements, points, "displacement_rows"))
 
+    def scalar_rows(self, elements: Ints, points: Floats) -> tuple[Ints, Floats]:
+        """Numbers (m, S) of the scalar functions at ``points`` and their values (m, S).
+
+        Function ``k`` goes with the unknowns ``2 k`` of x and ``2 k + 1`` of y. Only where no
+        group combines its functions.
+        """
+        unknowns, values = self._stack(elements, points, "values")
+        return unknowns[:, ::2] // 2, values[:, : unknowns.shape[1] // 2]
+
     def gradient_rows(self, elements: Ints, points: Floats) -> tuple[Ints, Floats]:
         """Unknowns (m, L) and rows (m, 2, 2, L) of ``d u_c / d x_j`` at reference points."""
         return self._stack(elements, points, "gradient_rows")

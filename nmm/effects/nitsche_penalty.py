@@ -6,14 +6,18 @@ from scipy.sparse import csc_array, csr_array, diags_array
 from covers.ghost import neighbours
 from integration.arrays import Floats
 from nmm.assembly import element_matrices
+from nmm.assembly.blocks import Part, assemble
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
+from nmm.solvers.linear import make_solver
 
 # Part of the diagonal that makes the energy definite for fields without traction.
 SHIFT = 1e-9
 # The form is positive from a penalty of once the ratio on; twice keeps away from the
 # limit, and from the tolerance of the estimate.
 SAFETY = 2.0
+# Directions that the estimate keeps; its tolerance is a twentieth, far inside the safety.
+FEW = 8
 
 
 def least_penalty(model: Model, place: Place, traction: Floats, ghost: csc_array) -> float:
@@ -23,7 +27,7 @@ def least_penalty(model: Model, place: Place, traction: Floats, ghost: csc_array
     2003 take the same estimate element by element, which knows no bound on small cuts; the ghost
     term gives one).
     """
-    from scipy.sparse.linalg import LinearOperator, eigsh, splu
+    from scipy.sparse.linalg import LinearOperator, eigsh
 
     energy = csc_array(_energy(model, place) + ghost)
     n = energy.shape[0]
@@ -37,12 +41,8 @@ def least_penalty(model: Model, place: Place, traction: Floats, ghost: csc_array
     energy, rows = energy[active][:, active], csr_array(rows[:, active])
     scale = 1 / np.sqrt(energy.diagonal())
     scaled = csc_array(diags_array(scale) @ energy @ diags_array(scale))
-    factor = splu(
-        csc_array(scaled + SHIFT * diags_array(np.ones(len(scale)))),
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )
+    shifted = csc_array(scaled + SHIFT * diags_array(np.ones(len(scale))))
+    factor = make_solver().decompose(shifted)
     rows = csr_array(rows @ diags_array(scale))
 
     def product(x: Floats) -> Floats:
@@ -50,7 +50,8 @@ def least_penalty(model: Model, place: Place, traction: Floats, ghost: csc_array
 
     operator = LinearOperator((2 * m, 2 * m), matvec=product, dtype=np.float64)
     start = np.random.default_rng(0).normal(size=2 * m)
-    largest = eigsh(operator, k=1, which="LA", v0=start, tol=1e-2, return_eigenvectors=False)
+    few = {"ncv": min(FEW, 2 * m), "tol": 5e-2, "return_eigenvectors": False}
+    largest = eigsh(operator, k=1, which="LA", v0=start, **few)
     return SAFETY * float(largest[0])
 
 
@@ -62,16 +63,10 @@ def _energy(model: Model, place: Place) -> csc_array:
     near = np.zeros(len(manifold.elements), dtype=bool)
     near[own] = near[first] = near[second] = True
     n = manifold.n_unknowns
-    total = csc_array((n, n))
+    parts = []
     for group in manifold.groups:  # a handful of groups
         chosen = np.flatnonzero(near[group.elements])
-        if not len(chosen):
-            continue
         elasticity = model.thickness * model.elasticity[group.elements[chosen]]
         values = element_matrices.stiffness(group, group.shape[chosen], elasticity)
-        unknowns = group.unknowns[chosen]
-        length = unknowns.shape[1]
-        row, column = np.repeat(unknowns, length, axis=1), np.tile(unknowns, length)
-        entries = (values.ravel(), (row.ravel(), column.ravel()))
-        total = total + csc_array(entries, shape=(n, n))
-    return csc_array(total)
+        parts.append(Part(group.unknowns[chosen], values, np.arange(len(chosen))))
+    return assemble(parts, n, manifold.cover_offset)

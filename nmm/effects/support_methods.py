@@ -129,13 +129,16 @@ class Nitsche(Support):
         """See `Support.stiffness`."""
         points = self.place.points
         m, size = points.rows.unknowns.shape
-        total = np.zeros((m, size, size))
+        together = _points_together(self.place.elements)
+        runs = (m // together, together, size)
+        total = np.zeros((runs[0], size, size))
         for axis in np.flatnonzero(self.held).tolist():
-            rows, traction = self._along(state, axis)
-            cross = np.einsum("ma,m,mb->mab", rows, self.weight, traction)
+            rows, traction = (part.reshape(runs) for part in self._along(state, axis))
+            weighted = np.swapaxes(rows * self.weight.reshape(runs[:2])[:, :, None], 1, 2)
+            cross = weighted @ traction
             total -= cross + np.swapaxes(cross, 1, 2)
-            total += np.einsum("ma,m,mb->mab", rows, self.weight * self.penalty, rows)
-        row, column, value = _triplets(points.rows.unknowns, total)
+            total += weighted @ (rows * self.penalty.reshape(runs[:2])[:, :, None])
+        row, column, value = _triplets(points.rows.unknowns[::together], total)
         tie = self.ghost.tocoo()
         return (
             np.concatenate([row, tie.coords[0]]),
@@ -285,6 +288,13 @@ def _on_line(points: Floats, size: float, degree: int) -> Floats:
     basis = np.zeros((len(s), number, degree + 1))
     basis[np.arange(len(s)), interval] = values
     return basis.reshape(len(s), -1)
+
+
+def _points_together(elements: Ints) -> int:
+    """Length of runs of points, all equally long, that lie in one element each."""
+    change = np.flatnonzero(np.diff(elements)) + 1
+    lengths = np.diff(np.concatenate([[0], change, [len(elements)]]))
+    return int(np.gcd.reduce(lengths)) or 1
 
 
 def _triplets(unknowns: Ints, matrices: Floats) -> Triplets:
