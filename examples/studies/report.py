@@ -30,7 +30,7 @@ ENFORCEMENTS = ("penalty", "augmented", "lagrange", "cone", "barrier")
 class Study:
     """One page of the report: a scene, formulation files by name, values by dotted key.
 
-    ``common`` are tables that all formulations get.
+    ``common`` are tables that all formulations get; ``zero`` says why the quantity should be zero.
     """
 
     scene: str
@@ -40,6 +40,7 @@ class Study:
     quantity: str = "external_work"
     yardstick: tuple[str, ...] = ()
     exponent: float | None = None
+    zero: str = ""
 
 
 def body(scene: str, sizes: Sequence[float], *more: str, exponent: float | None = None) -> Study:
@@ -86,14 +87,22 @@ STUDIES = {
     "incline_enforcements": Study(
         "incline/slide.toml",
         ENFORCEMENTS,
-        {STEP: (0.04, 0.02, 0.01)},
+        {STEP: (0.08, 0.04, 0.02)},
         quantity="monitor:toe:ux",
+    ),
+    "incline_overlap": Study(
+        "incline/slide.toml",
+        ENFORCEMENTS,
+        {"formulation.contact.normal_penalty": (1, 10, 100)},
+        {"integrator": {"step": 0.05}},
+        "largest_penetration",
+        zero="bodies do not overlap (m)",
     ),
     "arch": Study(
         "arch/shaken.toml",
         ENFORCEMENTS,
-        {"formulation.loading.tolerance": (0.05, 0.01, 0.002)},
-        {"loading": {"increment": 0.05}},
+        {"formulation.loading.tolerance": (0.1, 0.02, 0.004)},
+        {"loading": {"increment": 0.1}},
         "failure_factor",
     ),
 }
@@ -110,6 +119,7 @@ def measured(
     import nmm
     from nmm.study.cost import cost_study, yardsticks
     from nmm.study.cost_report import write_cost_report
+    from nmm.study.reference import Reference
     from nmm.study.variants import read_formulations
 
     plan = STUDIES[name]
@@ -120,7 +130,10 @@ def measured(
     } | yardsticks(plan.yardstick)
     scene = nmm.read_scene(HERE.parent / plan.scene)
     values = plan.vary if vary is None else vary
-    study = cost_study(scene, kinds, values, plan.quantity, repeats, None, memory, plan.exponent)
+    reference = Reference(plan.quantity, 0.0, 0.0, plan.zero) if plan.zero else None
+    study = cost_study(
+        scene, kinds, values, plan.quantity, repeats, None, memory, plan.exponent, reference
+    )
     return write_cost_report(study, out)
 
 

@@ -13,17 +13,21 @@ from nmm.formulation import Formulation
 from nmm.results.frame import Frame
 from nmm.scene import Scene
 from nmm.stepping.run import Run, run
-from nmm.study.measure import Progress, added_memory, machine
+from nmm.study.measure import Progress, added_memory, machine, method_of
 from nmm.study.samples import Fields, Raster, fields, raster
 from nmm.study.variants import Case
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A formulation and what it came to; ``run`` is None when it could not be run."""
+    """A formulation and what it came to; ``run`` is None when it could not be run.
+
+    ``method`` is its cover with the degree, by which every figure gives it one colour.
+    """
 
     name: str
     family: str
+    method: str
     run: Run | None
     fields: Fields | None
     seconds: float
@@ -76,19 +80,21 @@ def compare_formulations(
 
 
 def _compared(case: Case, grid: Raster, memory: bool) -> Compared:
-    family = "DDA" if case.formulation.cover.type == "block" else "manifold"
+    family = "DDA" if case.formulation.cover.of_blocks else "manifold"
+    method = method_of(case.formulation)["cover"]
     try:
         run(case.scene, case.formulation)
         started = process_time()
         done = run(case.scene, case.formulation)
         seconds = process_time() - started
         peak = added_memory(case) if memory else None
-        return Compared(case.name, family, done, fields(done, grid.points), seconds, peak)
+        seen = fields(done, grid.points)
+        return Compared(case.name, family, method, done, seen, seconds, peak)
     # Whatever breaks under one formulation is told on the page beside the others.
     except Exception as fault:
         kind = "" if isinstance(fault, NmmError) else f"{type(fault).__name__}: "
         sentence = " ".join(f"{kind}{fault}".split())
-        return Compared(case.name, family, None, None, float("nan"), None, sentence)
+        return Compared(case.name, family, method, None, None, float("nan"), None, sentence)
 
 
 def write_comparison(study: Comparison, out: Path) -> list[Path]:
@@ -111,6 +117,7 @@ def draw(study: Comparison, path: Path) -> None:
         Shown(
             one.name,
             one.family,
+            one.method,
             image(np.hypot(*values.displacement.T)),
             image(values.mises),
             last_frame(done).contact_position,

@@ -12,7 +12,7 @@ from nmm.study.measure import Progress, measure
 from nmm.study.record import Record
 from nmm.study.reference import Reference, by_name, extrapolated_reference, stated_reference
 from nmm.study.running import SKFEM
-from nmm.study.variants import Case, cases_of
+from nmm.study.variants import cases_of
 
 ELEMENTS = ("P1", "P2", "P3", "P4")
 # Keys of a scene that say how finely it is divided: its answer tends to a limit with them.
@@ -50,6 +50,7 @@ def cost_study(
     progress: Progress | None = None,
     memory: bool = True,
     exponent: float | None = None,
+    reference: Reference | None = None,
 ) -> CostStudy:
     """Run a scene under every formulation at every setting.
 
@@ -76,6 +77,8 @@ def cost_study(
         Whether memory is measured, in a process of its own for each case.
     exponent
         Of the strongest singularity: displacements are like r^exponent there. 1/2 at crack tips.
+    reference
+        What errors are taken against, in place of the scene's own or an extrapolated value.
 
     Raises
     ------
@@ -84,30 +87,12 @@ def cost_study(
     """
     divided = _divided(vary)
     cases = cases_of(scene, formulations, vary)
-    return measured_study(cases, name, repeats, progress, memory, exponent, divided)
-
-
-def measured_study(
-    cases: Sequence[Case],
-    name: str | None = None,
-    repeats: int = 3,
-    progress: Progress | None = None,
-    memory: bool = True,
-    exponent: float | None = None,
-    divided: bool = False,
-) -> CostStudy:
-    """Run cases of one scene; they may differ in whatever leaves its answer as it is.
-
-    ``divided`` says that they differ in how finely the scene is divided, so that its own reference
-    is not theirs. The rest is as in `cost_study`.
-    """
-    scene = cases[0].scene
-    stated = stated_reference(scene, name)
+    stated = reference or stated_reference(scene, name)
     quantity = name or (stated.quantity if stated else "energy")
     records = measure(cases, [quantity], repeats, memory, progress)
     usable = None if divided else stated
-    reference = usable or extrapolated_reference(records, quantity)
-    return CostStudy(scene.title, records, reference, exponent)
+    found = usable or extrapolated_reference(records, quantity)
+    return CostStudy(scene.title, records, found, exponent)
 
 
 def yardsticks(names: Sequence[str]) -> dict[str, Formulation]:

@@ -57,7 +57,7 @@ def draw(study: CostStudy, path: Path) -> None:
         title=study.title,
         counted=counted,
         reference=_against(reference),
-        error_name=f"relative error of {reference.quantity.replace('_', ' ')}",
+        error_name=f"{_kind(reference)} of {reference.quantity.replace('_', ' ')}",
         uncertainty=reference.uncertainty / size if reference.extrapolated else 0.0,
         path=path,
     )
@@ -71,6 +71,11 @@ def distinguished(study: CostStudy) -> dict[str, str]:
         if len(set(found.values())) == len(found):
             return found
     return {name: many[0].method.get("cover", "") for name, many in groups.items()}
+
+
+def _kind(reference: Reference) -> str:
+    """Errors are relative but for a reference of zero."""
+    return "relative error" if reference.value else "error"
 
 
 def _by_effect(one: Record) -> dict[str, float]:
@@ -104,7 +109,7 @@ def cost_page(study: CostStudy, picture: str) -> str:
         f"![work-precision]({picture})",
         "",
         "| formulation | settings | unknowns | steps | passes | seconds: median | least | memory |"
-        " value | relative error | front | verdict |",
+        f" value | {_kind(reference)} | front | verdict |",
         "|---|---|---|---|---|---|---|---|---|---|---|---|",
         *(_row(study, one, id(one) in _front(study)) for one in study.records),
         "",
@@ -310,8 +315,8 @@ def _conditions(study: CostStudy) -> list[str]:
     return [
         f"Medians of {repeats} repeats after a warm-up, all runs in turn; processor seconds of the "
         f"whole run, covers included. Wall over processor seconds {ratio:.2f}{shared}. Memory is "
-        f"what a run adds to a fresh process at its peak. {first.machine}; {versions}{commit}. "
-        f"Scene {first.scene_hash[:12]}{seed}. Raw records with all hashes, seeds and repeats: "
+        f"what a run adds at its peak to a process that has run once before. {first.machine}; "
+        f"{versions}{commit}. Scene {first.scene_hash[:12]}{seed}. Raw records with all hashes, seeds and repeats: "
         "`records.jsonl`.",
     ]
 

@@ -9,6 +9,9 @@ from integration.arrays import Bools
 
 # Levels of relative error at which costs are compared.
 LEVELS = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5)
+# At least so many of them lie among the errors, else so many decades at most are taken; errors that
+# are smaller than the smallest are rounding.
+FEWEST, MOST, SMALLEST = 2, 6, 1e-16
 
 
 @dataclass(frozen=True)
@@ -51,11 +54,27 @@ def cost_at(level: float, cost: Sequence[float], error: Sequence[float]) -> Cost
     return Cost(float(c[first - 1] * (c[first] / c[first - 1]) ** share))
 
 
+def levels_of(errors: Sequence[float]) -> tuple[float, ...]:
+    """Return levels at which costs are compared: `LEVELS`, or decades where errors lie below them.
+
+    Errors are of all formulations; those that are zero or not finite say nothing.
+    """
+    e = np.asarray(errors, dtype=float)
+    e = e[np.isfinite(e) & (e > SMALLEST)]
+    if not len(e) or sum(e.min() <= level <= e.max() for level in LEVELS) >= FEWEST:
+        return LEVELS
+    high, low = int(np.floor(np.log10(e.max()))), int(np.ceil(np.log10(e.min())))
+    every = max(-(-(high - low + 1) // MOST), 1)
+    return tuple(float(f"1e{power}") for power in range(high, low - 1, -every))
+
+
 def costs_at_levels(
     points: Mapping[str, tuple[Sequence[float], Sequence[float]]],
-    levels: Sequence[float] = LEVELS,
+    levels: Sequence[float] | None = None,
 ) -> dict[float, dict[str, Cost]]:
     """Return, for each level, the cost of each formulation (cost, error) that reaches it."""
+    if levels is None:
+        levels = levels_of([one for _, errors in points.values() for one in errors])
     return {
         level: {
             name: cost

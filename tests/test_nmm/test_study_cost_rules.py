@@ -12,6 +12,7 @@ from nmm.plots.families import METHODS, styles
 from nmm.study import running
 from nmm.study.cost import CostStudy, cost_study
 from nmm.study.cost_report import cost_page, levels
+from nmm.study.front import LEVELS, levels_of
 from nmm.study.pool import run_here
 from nmm.study.record import Record
 from nmm.study.reference import Reference
@@ -111,6 +112,15 @@ def test_the_cheapest_of_each_family_are_compared_at_equal_error():
     found = [line for line in levels(study) if line.startswith("- at error 0.01,")]
     # error 1/100 at n = 100: 100/80 s by the elements, four times that by T1, eight by T0
     assert found == ["- at error 0.01, P1 costs 1.25 s; T1 costs 4 times that; not reached by DDA"]
+
+
+def test_levels_lie_among_errors_however_small():
+    assert levels_of([0.3, 1e-4, float("nan")]) == LEVELS
+    assert levels_of([7e-7, 3e-9, 0.0]) == (1e-7, 1e-8)
+    many = levels_of([7e-7, 3e-16])
+    assert len(many) <= 6
+    assert many[0] == 1e-7
+    assert min(many) > 3e-16
 
 
 def test_a_method_has_one_look_whatever_stands_beside_it():
