@@ -6,6 +6,7 @@ from integration.arrays import Floats
 from nmm.contact.law import label
 from nmm.contact.memory import Memory
 from nmm.contact.problem import StepAnswer, Verdict
+from nmm.contact.rounding import rounding
 from nmm.contact.settle import settle
 from nmm.contact.springs import CutSprings, Settled
 from nmm.errors import SolveError
@@ -54,7 +55,7 @@ def kept_slip(found: Settled, shear: Floats) -> Floats:
 def judge(found: Settled, linear: LinearSolver, memory: Memory, tolerance: float) -> Verdict:
     """Verdict on unknowns whose forces are admissible by construction."""
     springs = found.springs
-    if found.size <= tolerance:
+    if found.size <= tolerance or found.size <= rounding(springs, found.increment):
         return Verdict(True, "converged", f"settled by {found.story}")
     free = free_part(found, linear, memory)
     if free is not None:
