@@ -54,8 +54,8 @@ def covers_at(result: CutCells, point: Floats) -> int:
 
 WHOLE = cut(NET, BLOCK).n_covers
 
-# Cracks; covers of the star of NODE; bodies; tips; covers more than without cracks (None: not counted
-# by hand).
+# Cracks; covers of the star of NODE; bodies; tips; covers more than without cracks (None: not
+# counted by hand).
 CASES = {
     # Along a row of nodes from side to side: the stars of the nodes 1 to 5 of the row have a
     # half above and one below, and those of 0 and 6, which the block enters, too.
@@ -66,8 +66,8 @@ CASES = {
     "tip on a node, along edges": ([along(0.0, ahead=0.0)], 1, 1, 1, 3),
     # A half edge further: NODE is behind the tip, and the tip lies on an edge of the next node.
     "tip on an edge it runs along": ([along(0.0, ahead=0.5)], 1, 1, 1, 3),
-    # Up from NODE the line meets the middle of the opposite edge: the star of NODE alone is left whole,
-    # the crack starts and ends in its hexagon.
+    # Up from NODE the line meets the middle of the opposite edge: the crack starts and ends in the
+    # star of NODE, which is left whole.
     "tip on an edge it meets": ([arm(90.0, HIGH)], 1, 1, 2, 0),
     "two cracks that meet in a node": ([arm(0.0), arm(100.0)], 2, 2, 0, None),
     "two cracks in a line that meet in a node": ([arm(0.0), arm(180.0)], 2, 2, 0, 7),
