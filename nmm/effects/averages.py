@@ -18,7 +18,8 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.donors import donors, traction_bound, traction_rows
-from nmm.effects.ties import Pairs, Tie, sparse_rows
+from nmm.effects.rows import sparse_rows
+from nmm.effects.ties import Pairs, Tie
 
 # Twice the least penalty with which the form is positive.
 SAFETY = 4.0

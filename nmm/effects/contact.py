@@ -35,6 +35,7 @@ from nmm.contact.following import (
     searched_points,
 )
 from nmm.contact.halfway import Rows, halfway_rows, middle, missing_moments
+from nmm.contact.held import Conditioned, Held
 from nmm.contact.joints import Joints, find_joints
 from nmm.contact.mean_springs import MeanSprings, end_shares
 from nmm.contact.memory import Memory
@@ -228,14 +229,17 @@ class Contact(Effect):
         step: float | None = None,
         weight: float = 1.0,
         halfway: State | None = None,
+        held: Held | None = None,
     ) -> Solved:
         """Solve one step; bonds that cannot hold break and the step is solved again.
 
         ``breaking`` says which break at a time: "all", the "worst" alone, or "stop": none, the step
         ends there and is no equilibrium. ``step`` is its length (s), None in statics; ``weight``
         the share of its end in the stretch of springs (`nmm.contact.mean_springs`). ``halfway`` is
-        where forces act; at the start of the step when None.
+        where forces act; at the start of the step when None. ``held`` are conditions on the
+        unknowns besides.
         """
+        enforcement = self._enforcement if held is None else Conditioned(self._enforcement, held)
         through = self._rows(contacts, state, halfway)
         turns = Turns(self._laws, contacts)
         nowhere = np.zeros(len(contacts), dtype=bool)
@@ -262,10 +266,10 @@ class Contact(Effect):
                 compliant=own | (dashpots.stiffness > 0),
             )
             answer = turns.twins.merged(
-                self._enforcement.solve(turns.twins.joined(problem), solver, self._memory)
+                enforcement.solve(turns.twins.joined(problem), solver, self._memory)
             )
             passes += answer.passes
-            self._solved = (problem, answer)
+            self._solved = (problem if held is None else held.reduced(problem), answer)
             if not answer.verdict.converged:
                 return Solved(turns.contacts, answer, passes, loss)
             sliding = slid_under_load(problem, answer)

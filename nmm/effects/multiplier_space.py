@@ -6,6 +6,7 @@ each group the multipliers are the tractions ``sigma n`` of all polynomial stres
 along a straight line polynomials of the arc, around corners what no line of its own has room for.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,6 +71,15 @@ def pieces_of(place: Place, thickness: float, size: float) -> Pieces:
     line = np.zeros(count, dtype=np.int64)
     weight = place.weight * thickness
     return Pieces(middle - along, middle + along, line, piece, x, n, weight)
+
+
+def join(parts: Sequence[Pieces]) -> Pieces:
+    """Return pieces of several places as those of one."""
+    first = np.cumsum([0] + [len(part.start) for part in parts])
+    piece = [part.piece + before for part, before in zip(parts, first, strict=False)]
+    names = ("start", "end", "line", "position", "normal", "weight")
+    joined = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
+    return Pieces(**joined, piece=np.concatenate(piece))
 
 
 def multipliers(pieces: Pieces, size: float, degree: int, held: Bools) -> csr_array:

@@ -15,7 +15,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Bools, Floats, Ints
 from integration.segments import segment_rule
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, material_points
+from nmm.assembly.motion import State, initial_state, material_points
 from nmm.contact.joints import Joints, find_joints
 from nmm.contact.sides import sides
 from nmm.effects.averages import averages
@@ -53,23 +53,19 @@ class Seams(Effect):
     def from_setup(cls, setup: Setup) -> Self:
         """Find the edges that blocks with a bonded interface share."""
         model, method = setup.model, setup.formulation.glue
-        points = sides(model.manifold)
-        joints = find_joints(points.surface(setup.start.frames, setup.start.deformation))
+        joints = shared_edges(model)
         spring, glued = _interfaces(setup, joints)
         sprung = spring[:, 0] > 0
         ties: list[Tie] = []
         if sprung.any():
             ties.append(_springs(model, joints.take(sprung), spring[sprung]))
-        n = model.manifold.n_unknowns
-        if not glued.any():
-            return cls(ties, n)
-        glue = joints.take(glued)
-        kind = method.method
-        if kind == "spring":
-            return cls([*ties, _springs(model, glue, _stiffness(model, glue, method))], n)
-        if kind == "lagrange":
-            return cls(ties, n, _multipliers(setup, glue))
-        return cls([*ties, *_averages(model, glue, method)], n)
+        cover = setup.formulation.cover
+        held = None
+        if glued.any():
+            size = None if cover.of_blocks else cover.finest
+            more, held = glue(model, joints.take(glued), method, size)
+            ties += more
+        return cls(ties, model.manifold.n_unknowns, held)
 
     def matrix(self, state: State) -> csc_array:
         """Return the stiffness of the ties, the same object while no body turns."""
@@ -104,6 +100,23 @@ class Seams(Effect):
         return multipliers[size:]
 
 
+def shared_edges(model: Model) -> Joints:
+    """Return the edges that bodies share in the reference place."""
+    start = initial_state(model.manifold)
+    return find_joints(sides(model.manifold).surface(start.frames, start.deformation))
+
+
+def glue(
+    model: Model, joints: Joints, method: "Glue", size: float | None
+) -> tuple[list[Tie], MultiplierGlue | None]:
+    """Return what holds edges together; ``size`` is that of a mesh's cells, None for blocks (m)."""
+    if method.method == "spring":
+        return [_springs(model, joints, _stiffness(model, joints, method))], None
+    if method.method == "lagrange":
+        return [], _multipliers(model, joints, size)
+    return _averages(model, joints, method), None
+
+
 def pairs_of(model: Model, joints: Joints, order: int = ORDER) -> tuple[Pairs, Ints, Ints, Ints]:
     """Gauss points of joints, the elements on both sides and the joint of each point."""
     edges = model.manifold.boundary
@@ -119,7 +132,6 @@ def pairs_of(model: Model, joints: Joints, order: int = ORDER) -> tuple[Pairs, I
         second,
         np.repeat(joints.normal, q, axis=0),
         weight.ravel() * model.thickness,
-        np.zeros_like(flat),
     )
     return pairs, one, two, np.repeat(np.arange(len(joints)), q)
 
@@ -146,9 +158,8 @@ def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
     return [found, Springs(pairs, spring)]
 
 
-def _multipliers(setup: Setup, joints: Joints) -> MultiplierGlue:
-    model = setup.model
-    cover, degree = setup.formulation.cover, _degree(model)
+def _multipliers(model: Model, joints: Joints, size: float | None) -> MultiplierGlue:
+    degree = _degree(model)
     pairs, _, _, joint = pairs_of(model, joints, max(ORDER, 2 * degree + 2))
     body = model.manifold.boundary.body
     a, b = body[joints.edge_a], body[joints.edge_b]
@@ -163,12 +174,11 @@ def _multipliers(setup: Setup, joints: Joints) -> MultiplierGlue:
         pairs.weight,
     )
     # A block is one cell: each of its joints has multipliers of its own.
-    size = 0.0 if cover.size is None else cover.size
-    size = size if not cover.of_blocks else float(joints.length.sum())
-    basis = multipliers(pieces, size, max(degree - 1, 0), np.ones(2, dtype=bool))
-    glue = MultiplierGlue(pairs, basis)
-    rows, _ = glue.border(setup.start, model.manifold.n_unknowns)
-    return replace(glue, basis=csr_array(basis[:, independent(rows, model.stiffness.diagonal())]))
+    cell = float(joints.length.sum()) if size is None else size
+    basis = multipliers(pieces, cell, max(degree - 1, 0), np.ones(2, dtype=bool))
+    found = MultiplierGlue(pairs, basis)
+    rows, _ = found.border(initial_state(model.manifold), model.manifold.n_unknowns)
+    return replace(found, basis=csr_array(basis[:, independent(rows, model.stiffness.diagonal())]))
 
 
 def _degree(model: Model) -> int:

@@ -3,24 +3,23 @@
 - springs: Shi's fixed points (1988); a stiff spring for every point.
 - Nitsche (1971): consistent, symmetric; the penalty of order ``gamma / h`` only has to outweigh the
   traction on small cuts, with a ghost term that ties cut elements to their neighbours.
-- Lagrange: multipliers on intervals longer than cells, polynomials of the degree of the stress.
+- Lagrange: multipliers on intervals longer than cells, tractions of polynomial stresses.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
+from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
 from nmm.effects.base import Instant
-
-# (x, y) in which a support may hold a point.
-AXES = np.eye(2)
+from nmm.effects.multiplier_space import join, multipliers, pieces_of
+from nmm.effects.rows import AXES, sparse_rows
 
 Triplets = tuple[Ints, Ints, Floats]
 
@@ -178,6 +177,22 @@ class Nitsche(Support):
         return points.rows.along(toward), np.einsum("mcl,mc->ml", self.traction, toward)
 
 
+@dataclass
+class Tractions:
+    """Multipliers that supports share, as they were found last.
+
+    Attributes
+    ----------
+    size
+        Number k of multipliers.
+    values
+        (k,) Pa.
+    """
+
+    size: int
+    values: Floats | None = None
+
+
 @dataclass(frozen=True)
 class Multipliers(Support):
     """Lagrange multipliers.
@@ -187,14 +202,14 @@ class Multipliers(Support):
     weight
         (m,) area of boundary of each point (m2).
     basis
-        (m, k) multiplier functions at the points.
-    found
-        Tractions of the last solution, (held axes k,), Pa.
+        (2m, k) multipliers at the points, component minor.
+    shared
+        The multipliers; supports along one edge share them.
     """
 
     weight: Floats
-    basis: Floats
-    found: dict[str, Floats] = field(default_factory=dict)
+    basis: csr_array
+    shared: Tractions
 
     def stiffness(self, state: State) -> Triplets:
         """Nothing joins the stiffness."""
@@ -207,27 +222,45 @@ class Multipliers(Support):
 
     def reaction(self, state: State, lag: Floats) -> Floats:
         """See `Support.reaction`."""
-        force = np.zeros(2)
-        if "traction" in self.found:
-            share = self.weight @ self.basis
-            values = self.found["traction"].reshape(-1, self.basis.shape[1])
-            force[self.held] = -values @ share
-        return force
+        if self.shared.values is None:
+            return np.zeros(2)
+        traction = (self.basis @ self.shared.values).reshape(-1, 2)
+        return np.asarray(-self.weight @ traction)
 
     def border(self, state: State, lag: Floats, n: int) -> tuple[csr_array, Floats]:
         """Rows (k, n) and right-hand sides of the conditions on the step's unknowns."""
-        points = self.place.points
-        rows, sides = [], []
-        heavy = self.weight[:, None] * self.basis
-        for axis in np.flatnonzero(self.held).tolist():
-            values = points.along(state.frames, np.tile(AXES[axis], (len(self.weight), 1)))
-            offsets = np.arange(len(values) + 1) * values.shape[1]
-            flat = (values.ravel(), points.rows.unknowns.ravel(), offsets)
-            rows.append(csr_array(heavy.T) @ csr_array(flat, shape=(len(values), n)))
-            sides.append(heavy.T @ lag[:, axis])
-        from scipy.sparse import vstack
+        points, m = self.place.points, len(self.weight)
+        values = [points.along(state.frames, np.tile(axis, (m, 1))) for axis in AXES]
+        rows = sparse_rows(points.rows.unknowns, np.stack(values, axis=1), n)
+        heavy = csr_array((diags_array(np.repeat(self.weight, 2)) @ self.basis).T)
+        return csr_array(heavy @ rows), heavy @ lag.ravel()
 
-        return csr_array(vstack(rows)), np.concatenate(sides)
+
+def share_multipliers(
+    supports: Sequence[Support], size: float, degree: int, thickness: float
+) -> list[Support]:
+    """Return the supports, those by multipliers that hold the same axes with multipliers in common.
+
+    An edge of many short supports has room for no more multipliers than one support along it.
+    """
+    found = list(supports)
+    axes = {tuple(s.held.tolist()) for s in supports if isinstance(s, Multipliers)}
+    for held in sorted(axes):  # at most three
+        number = [
+            i
+            for i, s in enumerate(supports)
+            if isinstance(s, Multipliers) and tuple(s.held.tolist()) == held
+        ]
+        parts = [supports[i] for i in number]
+        pieces = join([pieces_of(part.place, thickness, size) for part in parts])
+        basis = multipliers(pieces, size, degree, parts[0].held)
+        shared, first = Tractions(int(basis.shape[1])), 0
+        for i, part in zip(number, parts, strict=True):  # supports: a handful
+            assert isinstance(part, Multipliers)
+            last = first + 2 * len(part.weight)
+            found[i] = replace(part, basis=csr_array(basis[first:last]), shared=shared)
+            first = last
+    return found
 
 
 def traction_rows(model: Model, place: Place) -> Floats:
@@ -246,48 +279,6 @@ def traction_rows(model: Model, place: Place) -> Floats:
         ],
         axis=1,
     )
-
-
-def multiplier_basis(place: Place, size: float, degree: int) -> Floats:
-    """Legendre polynomials (m, k) on intervals of two cells or more along each straight line held.
-
-    Multipliers on every cut piece of boundary would be too many for the displacements to answer
-    (Béchet, Moës and Wohlmuth 2009); on intervals longer than cells they are not.
-    """
-    parts = []
-    lines = _lines(place, size)
-    for number in range(int(lines.max(initial=-1)) + 1):  # the straight lines of a support
-        chosen = np.flatnonzero(lines == number)
-        part = _on_line(place.position[chosen], size, degree)
-        parts.append(np.zeros((len(lines), part.shape[1])))
-        parts[-1][chosen] = part
-    return np.concatenate(parts, axis=1)
-
-
-def _lines(place: Place, size: float) -> Ints:
-    """The straight line (m,) on which each point lies."""
-    assert place.normal is not None
-    offset = np.einsum("mi,mi->m", place.normal, place.position) / size
-    rows = np.round(np.column_stack([place.normal, offset]) / 1e-6).astype(np.int64)
-    return np.unique(rows, axis=0, return_inverse=True)[1].ravel()
-
-
-def _on_line(points: Floats, size: float, degree: int) -> Floats:
-    from numpy.polynomial.legendre import legvander
-
-    away = points - points[0]
-    along = away[np.argmax(np.abs(away).sum(axis=1))]
-    s = away @ along / max(float(np.hypot(*along)), 1e-300)
-    low, high = float(s.min()), float(s.max())
-    number = max(int((high - low) / (2 * size)), 1)
-    # One constant would leave the turn about the middle free.
-    degree = max(degree, 1) if number == 1 else degree
-    width = max(high - low, 1e-300) / number
-    interval = np.clip(((s - low) / width).astype(int), 0, number - 1)
-    values = legvander(2 * (s - low - interval * width) / width - 1, degree)
-    basis = np.zeros((len(s), number, degree + 1))
-    basis[np.arange(len(s)), interval] = values
-    return basis.reshape(len(s), -1)
 
 
 def _points_together(elements: Ints) -> int:

@@ -18,13 +18,15 @@ from nmm.assembly.motion import State
 from nmm.assembly.places import Place, at_point, on_block, on_segment
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import displacement_factor
+from nmm.effects.multiplier_space import multipliers, pieces_of
 from nmm.effects.nitsche_penalty import least_penalty
 from nmm.effects.support_methods import (
     Multipliers,
     Nitsche,
     Springs,
     Support,
-    multiplier_basis,
+    Tractions,
+    share_multipliers,
     traction_rows,
 )
 from nmm.errors import FormulationError, GeometryError
@@ -66,6 +68,9 @@ class Supports(Effect):
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[supports]]``."""
         found = [_support(setup, support) for support in setup.scene.supports]
+        method = _method(setup)
+        if method.size is not None:
+            found = share_multipliers(found, method.size, method.degree, setup.model.thickness)
         return cls(found, setup.model.manifold.n_unknowns, setup.start)
 
     def matrix(self, state: State) -> csc_array:
@@ -89,24 +94,28 @@ class Supports(Effect):
         """Conditions ``rows @ d = sides`` on the step's unknowns; None without multipliers."""
         from scipy.sparse import vstack
 
-        found = [
-            support.border(state, self._lag(number, state, end), self._n)
-            for number, support in enumerate(self._supports)
-            if isinstance(support, Multipliers)
-        ]
-        if not found:
+        spaces: dict[int, list[tuple[csr_array, Floats]]] = {}
+        for number, support in enumerate(self._supports):
+            if isinstance(support, Multipliers):
+                own = support.border(state, self._lag(number, state, end), self._n)
+                spaces.setdefault(id(support.shared), []).append(own)
+        if not spaces:
             return None
-        return csr_array(vstack([rows for rows, _ in found])), np.concatenate(
-            [side for _, side in found]
-        )
+        rows = [sum((row for row, _ in parts[1:]), parts[0][0]) for parts in spaces.values()]
+        sides = [sum((side for _, side in parts[1:]), parts[0][1]) for parts in spaces.values()]
+        return csr_array(vstack(rows)), np.concatenate(sides)
+
+    @property
+    def multipliers(self) -> int:
+        """Number of conditions that multipliers hold."""
+        spaces = {id(s.shared): s.shared for s in self._supports if isinstance(s, Multipliers)}
+        return sum(shared.size for shared in spaces.values())
 
     def keep(self, multipliers: Floats) -> Floats:
         """Remember the multipliers of the last solution, for reactions; return the others."""
-        for support in self._supports:
-            if isinstance(support, Multipliers):
-                size = int(support.held.sum()) * support.basis.shape[1]
-                support.found["traction"] = multipliers[:size]
-                multipliers = multipliers[size:]
+        spaces = {id(s.shared): s.shared for s in self._supports if isinstance(s, Multipliers)}
+        for shared in spaces.values():
+            shared.values, multipliers = multipliers[: shared.size], multipliers[shared.size :]
         return multipliers
 
     def energy(self, state: State) -> float:
@@ -199,8 +208,10 @@ class Method:
             spring = self._factor(place) * model.modulus[place.elements] / self.size * weight
             return Springs(name, place, axes, displacement, spring)
         if self.kind == "lagrange":
-            basis = multiplier_basis(place, self.size, self.degree)
-            return Multipliers(name, place, axes, displacement, weight, basis)
+            pieces = pieces_of(place, model.thickness, self.size)
+            basis = multipliers(pieces, self.size, self.degree, axes)
+            shared = Tractions(int(basis.shape[1]))
+            return Multipliers(name, place, axes, displacement, weight, basis, shared)
         hard = model.elasticity[:, :2, :2].max(axis=(1, 2))
         soft = np.minimum(hard, SOFTEST * model.elasticity[:, 2, 2])
         gamma = GAMMA[min(self.degree, 3)] if self.gamma is None else self.gamma
@@ -248,15 +259,15 @@ def method_of(part: "SupportMethod", size: float | None, degree: int, mesh: bool
     return Method(kind, size, degree, part.stiffness, part.gamma, part.ghost)
 
 
-def _support(setup: Setup, support: "SceneSupport") -> Support:
+def _method(setup: Setup) -> Method:
     cover = setup.formulation.cover
     mesh = not cover.of_blocks
-    method = method_of(setup.formulation.supports, cover.size, cover.highest_degree, mesh)
-    if method.kind == "lagrange" and setup.scene.contact is not None:
-        raise FormulationError(
-            '[supports] method: "lagrange": in a scene with [contact]: expected "nitsche" or '
-            '"penalty": change the method'
-        )
+    return method_of(setup.formulation.supports, cover.finest, cover.highest_degree, mesh)
+
+
+def _support(setup: Setup, support: "SceneSupport") -> Support:
+    method = _method(setup)
+    mesh = not setup.formulation.cover.of_blocks
     place = _place(setup, support, method.order if mesh else 4)
     to = np.array(support.displacement)
     held = ("x" in support.fix, "y" in support.fix)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import bsr_array, csc_array, csr_array
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats
 from nmm.assembly.motion import MaterialPoints, State
-from nmm.effects.support_methods import AXES
+from nmm.effects.rows import AXES, sparse_rows
 
 
 @dataclass(frozen=True)
@@ -23,21 +23,17 @@ class Pairs:
         (m, 2) from the second to the first body, in the reference place.
     weight
         (m,) area of interface (m2).
-    apart
-        (m, 2) first from second in the reference place (m): rounding, for edges that fit.
     """
 
     first: MaterialPoints
     second: MaterialPoints
     normal: Floats
     weight: Floats
-    apart: Floats
 
     def jump(self, state: State) -> Floats:
         """Return by how much the first side has moved from the second (m, 2), in global axes."""
         frames, q = state.frames, state.deformation
-        now = self.first.place(frames, q) - self.second.place(frames, q)
-        return np.asarray(now - frames.to_global(self.second.body, self.apart))
+        return np.asarray(self.first.place(frames, q) - self.second.place(frames, q))
 
     def rows(self, state: State, n: int) -> csr_array:
         """Rows (2m, n) of the jump, component minor."""
@@ -107,16 +103,6 @@ class Springs(Tie):
         axes = np.stack([normal, along], axis=1)
         stiff = self.pairs.weight[:, None] * self.stiffness
         return np.asarray(np.einsum("mka,mk,mkb->mab", axes, stiff, axes))
-
-
-def sparse_rows(unknowns: Ints, values: Floats, n: int) -> csr_array:
-    """Matrix (2m, n) of rows (m, 2, L) with unknowns (m, L), component minor."""
-    m, _, length = values.shape
-    columns = np.repeat(unknowns[:, None, :], 2, axis=1)
-    offsets = np.arange(2 * m + 1) * length
-    found = csr_array((values.ravel(), columns.ravel(), offsets), shape=(2 * m, n))
-    found.sum_duplicates()
-    return found
 
 
 def _diagonal(blocks: Floats) -> bsr_array:

@@ -17,8 +17,9 @@ from nmm.assembly.places import Place
 from nmm.effects.base import Effect, Instant, defines
 from nmm.effects.field_loads import FieldLoad
 from nmm.effects.loads import Load, Loads
+from nmm.effects.seams import Seams, glue, shared_edges
 from nmm.effects.supports import Method, Supports
-from nmm.formulation import Solver
+from nmm.formulation import Glue, Solver
 from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor
 from nmm.solvers.rigid_apart import ROUNDED, rounding, solve_apart
@@ -106,6 +107,15 @@ def hold(
     values = np.zeros(2) if displacement is None else displacement(place.position)
     support = method.hold(model, place, lambda end: values, held)
     return Supports([support], model.manifold.n_unknowns, initial_state(model.manifold))
+
+
+def glued(model: Model, method: str, size: float | None) -> Seams:
+    """Glue all blocks along the edges they share: "spring", "nitsche" or "lagrange".
+
+    ``size`` is that of a mesh's cells (m), None for blocks.
+    """
+    ties, held = glue(model, shared_edges(model), Glue.model_validate({"method": method}), size)
+    return Seams(ties, model.manifold.n_unknowns, held)
 
 
 def traction(model: Model, place: Place, field: Callable[[Floats, Floats], Floats]) -> Loads:

@@ -22,6 +22,7 @@ from nmm.stepping.plan import Plan
 from nmm.stepping.relay import Lay, relay
 
 if TYPE_CHECKING:
+    from nmm.contact.held import Held
     from nmm.contact.points import ContactPoints
     from nmm.effects.contact import Breaking, ContactRecord, Solved
 
@@ -94,6 +95,7 @@ class Stepper:
         self._weighted: tuple[csc_array, float, csc_array] | None = None
         self._masses: tuple[csc_array, Ints, Factor] | None = None
         self._places: list[tuple[State, Floats]] = []
+        self._held: Held | None = None
 
     @property
     def size(self) -> float:
@@ -212,15 +214,19 @@ class Stepper:
         weight = 1.0 if step is None else self._rule.contact_weight
         passes, reach, halves = 0, self._reach, 0
         contacts, halfway = self._candidates(state, reach), None
+        held = self._conditions(state, end)
         while True:
             started = perf_counter()
             solved = contact.solve(
-                contacts, state, matrix, force, self.solver, breaking, step, weight, halfway
+                contacts, state, matrix, force, self.solver, breaking, step, weight, halfway, held
             )
             self._spend("solve", started)
             passes += solved.passes
             verdict, increment = solved.answer.verdict, solved.answer.increment
-            push = matrix @ increment - force if self._integrator.carries and step else None
+            rest = force - matrix @ increment
+            if held is not None and solved.rows is not None:
+                rest = rest - self._holding(held, solved, rest)
+            push = -rest if self._integrator.carries and step else None
             result = self._result(state, end, step, increment, push)
             far = result.motion
             good = verdict.converged and far <= self._size and not solved.stopped
@@ -233,7 +239,6 @@ class Stepper:
                 if half is not None and halves < HALVES:
                     halfway, halves = half, halves + 1
                     continue
-                rest = force - matrix @ increment
                 result = self._faster(
                     result, contact.kept_momentum(solved, state, result.state, step, rest)
                 )
@@ -246,6 +251,25 @@ class Stepper:
                 passes=passes,
                 solved=solved,
             )
+
+    def _conditions(self, state: State, end: Instant) -> "Held | None":
+        """Return the conditions of supports by multipliers in a step with contact."""
+        border = self.plan.border(state, end)
+        if border is None:
+            return None
+        from nmm.contact.held import Held
+
+        self._held = Held.of(*border, self._held)
+        return self._held
+
+    def _holding(self, held: "Held", solved: "Solved", rest: Floats) -> Floats:
+        """Return the forces (n,) of the multipliers, which the supports are told."""
+        assert solved.rows is not None
+        answer, through = solved.answer, solved.rows
+        rest = rest - through.normal.T @ answer.normal_force
+        multipliers = held.multipliers(rest - through.tangent.T @ answer.shear_force)
+        self.plan.keep(multipliers)
+        return np.asarray(held.rows.T @ multipliers)
 
     def _candidates(self, state: State, reach: float) -> "ContactPoints":
         assert self.plan.contact is not None
