@@ -124,10 +124,6 @@ class Alternation:
     def _steps(self, factor: Factor, budget: int, look: int | None = None) -> None:
         """Take chord steps; every ``look`` of them must halve the out-of-balance force."""
         chord = Chord(self.springs, factor, self.increment, self.defect)
-        while chord.solves < budget:
-            before = chord.defect.size
-            done = chord.run(min(look or budget, budget - chord.solves), self.tolerance)
-            if done or not chord.defect.size < 0.5 * before:
-                break
+        chord.run(budget, self.tolerance, look)
         self.solves += chord.solves
         self.increment, self.defect = chord.increment, chord.defect

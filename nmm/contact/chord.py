@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.contact import mixing_kernel
 from nmm.contact.springs import CutSprings, Defect
 from nmm.solvers.linear import Factor
 
@@ -36,31 +37,22 @@ class History:
         self.sums, self.corrections = np.empty((2, self.depth, n))
         self.gram = np.zeros((self.depth, self.depth))
 
-    def add(self, step: Floats, correction: Floats, defect: Floats) -> None:
-        """Remember one step in the place of the oldest."""
+    def add(
+        self, step: Floats, new: Floats, old: Floats, force_new: Floats, force_old: Floats
+    ) -> None:
+        """Remember a step in the place of the oldest: corrections and defects after and before."""
         at, self.count = self.count % self.depth, self.count + 1
-        self.sums[at], self.corrections[at] = step + correction, correction
         used = min(self.count, self.depth)
-        self.gram[at, :used] = self.gram[:used, at] = -_products(self.corrections[:used], defect)
+        mixing_kernel.add(
+            *(self.sums, self.corrections, self.gram, at, used),
+            *(step, new, old, force_new, force_old),
+        )
 
     def mixed(self, correction: Floats, defect: Floats) -> Floats:
         """Step that combines ``correction`` with the remembered ones (least squares in ``M``)."""
         used = min(self.count, self.depth)
-        if not used:
-            return correction
-        gram = self.gram[:used, :used]
-        trace = float(np.trace(gram))
-        if not (np.isfinite(trace) and trace > 0):
-            return correction
-        share = np.linalg.solve(
-            gram + 1e-12 * trace * np.eye(used), -_products(self.corrections[:used], defect)
-        )
-        return np.asarray(correction - np.einsum("i,ij->j", share, self.sums[:used]))
-
-
-def _products(vectors: Floats, vector: Floats) -> Floats:
-    """Inner products, without the threads that BLAS starts for long vectors."""
-    return np.asarray(np.einsum("ij,j->i", vectors, vector))
+        step = mixing_kernel.mixed(self.sums, self.corrections, self.gram, used, correction, defect)
+        return np.asarray(step)
 
 
 @dataclass
@@ -77,8 +69,6 @@ class Chord:
         Best unknowns so far and their out-of-balance force.
     solves
         Linear solves so far.
-    sizes
-        Relative defect after every solve.
     """
 
     springs: CutSprings
@@ -87,40 +77,42 @@ class Chord:
     defect: Defect
     depth: int = 10
     solves: int = 0
-    sizes: list[float] = field(default_factory=list)
 
-    def run(self, budget: int, tolerance: float) -> bool:
-        """Take at most ``budget`` solves; return whether ``tolerance`` was reached."""
+    def run(self, budget: int, tolerance: float, look: int | None = None) -> bool:
+        """Take at most ``budget`` solves; return whether ``tolerance`` was reached.
+
+        Every ``look`` solves must halve the best defect, or the run ends.
+        """
+        most, mark, due = self.solves + budget, self.defect.size, self.solves + (look or 0)
         history = History(self.depth)
         history.start(len(self.increment))
         at, defect = self.increment, self.defect
         correction = None
-        while self.defect.size > tolerance and budget > 0:
+        while self.defect.size > tolerance and self.solves < most:
             if correction is None:
-                correction, budget = self._correction(defect), budget - 1
+                correction = self._correction(defect)
             step = history.mixed(correction, defect.force)
             found = self.springs.defect(at + step)
             if history.count and not found.size < GROWTH * self.defect.size:
                 history.count = 0
                 at, defect, correction = self.increment, self.defect, None
                 continue
-            new, budget = self._correction(found), budget - 1
-            history.add(step, new - correction, found.force - defect.force)
+            if found.size <= tolerance:
+                self.increment, self.defect = at + step, found
+                break
+            new = self._correction(found)
+            history.add(step, new, correction, found.force, defect.force)
             at, defect, correction = at + step, found, new
             if not np.isfinite(found.size):
                 break
             if found.size < self.defect.size:
                 self.increment, self.defect = at, found
+            if look is not None and self.solves >= due:
+                if not self.defect.size < 0.5 * mark:
+                    break
+                mark, due = self.defect.size, due + look
         return self.defect.size <= tolerance
-
-    def rate(self, window: int = 20) -> float:
-        """Mean factor by which a solve reduced the best defect, over the last solves."""
-        if len(self.sizes) < window + 1:
-            return 0.0
-        before, now = min(self.sizes[:-window]), min(self.sizes)
-        return float((now / before) ** (1 / window))
 
     def _correction(self, defect: Defect) -> Floats:
         self.solves += 1
-        self.sizes.append(defect.size)
         return -self.factor.apply(defect.force)

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -69,9 +70,13 @@ class CutSprings:
 
     def defect(self, increment: Floats) -> "Defect":
         """Out-of-balance force of ``increment``."""
+        force, size = defect_kernel.defect(increment, *self._columns)
+        return Defect(force, float(size))
+
+    @cached_property
+    def _columns(self) -> tuple[Any, ...]:
         p = self.problem
-        force, size = defect_kernel.defect(
-            increment,
+        return (
             p.force,
             self.weight,
             *(p.matrix.indptr, p.matrix.indices, p.matrix.data),
@@ -81,7 +86,6 @@ class CutSprings:
             *(self.normal_shift, self.shear_shift),
             *(p.limits.tension, p.limits.cohesion, p.limits.friction),
         )
-        return Defect(force, float(size))
 
 
 @dataclass(frozen=True)
