@@ -203,12 +203,17 @@ class Contact(Effect):
             origin=setup.origin,
         )
 
-    def candidates(self, state: State, reach: float) -> ContactPoints:
-        """Return the contact points of a step in which no point moves further than ``reach``."""
+    def candidates(
+        self, state: State, reach: float, step: float | None = None
+    ) -> ContactPoints:
+        """Return the contact points of a step in which no point moves further than ``reach``.
+
+        ``step`` is its length (s), None in statics: bodies in flight meet where they fly to.
+        """
         surface = self._surface(state)
         record = self.record
         joints = record.book.now(surface, self._apart(state))
-        found = self._search(surface, 2 * reach)
+        found = self._search(surface, 2 * reach, self._flight(state, step))
         new = searched_points(found, self._interfaces(found.vertex, found.edge), surface)
         if self._bends:
             apart = Stations.at(self._sides, new).apart(new, state.frames, state.deformation)
@@ -458,11 +463,19 @@ class Contact(Effect):
             return partial(apart_on, self._surface(state))
         return partial(self._stations.apart, frames=state.frames, deformation=state.deformation)
 
-    def _search(self, surface: Surface, reach: float) -> Contacts:
+    def _flight(self, state: State, step: float | None) -> Floats | None:
+        """Return how far (n, 2) the vertices fly in a step; None where nothing does."""
+        if step is None or not state.velocity.any():
+            return None
+        vertices = self._sides.start
+        rate = state.frames.to_global(vertices.body, vertices.rows.apply(state.velocity))
+        return np.asarray(step * rate)
+
+    def _search(self, surface: Surface, reach: float, motion: Floats | None) -> Contacts:
         if self._neighbours is None or self._neighbours.skin < 2 * reach:
             self._neighbours = NeighbourList(4 * reach, within_bodies=self._cracked)
         vertex, edge = self._neighbours.update(surface)
-        found = find_contacts(surface, vertex, edge, reach, last=self.record.found)
+        found = find_contacts(surface, vertex, edge, reach, self.record.found, motion)
         if self._face_points:
             found = faced(surface, found, self._face_points, self.record.book.edges(len(surface)))
         interface = self._interfaces(found.vertex, found.edge)

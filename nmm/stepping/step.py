@@ -213,7 +213,7 @@ class Stepper:
         contact = self.plan.contact
         weight = 1.0 if step is None else self._rule.contact_weight
         passes, reach, halves = 0, self._reach, 0
-        contacts, halfway = self._candidates(state, reach), None
+        contacts, halfway = self._candidates(state, reach, step), None
         held = self._conditions(state, end)
         while True:
             started = perf_counter()
@@ -232,7 +232,7 @@ class Stepper:
             good = verdict.converged and far <= self._size and not solved.stopped
             if good and far > reach:
                 reach = 1.5 * far
-                contacts, halfway = self._candidates(state, reach), None
+                contacts, halfway = self._candidates(state, reach, step), None
                 continue
             if good and step is not None and not self._still:
                 half = contact.halfway(solved, state, result.state, halfway)
@@ -271,10 +271,10 @@ class Stepper:
         self.plan.keep(multipliers)
         return np.asarray(held.rows.T @ multipliers)
 
-    def _candidates(self, state: State, reach: float) -> "ContactPoints":
+    def _candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
         assert self.plan.contact is not None
         started = perf_counter()
-        contacts = self.plan.contact.candidates(state, reach)
+        contacts = self.plan.contact.candidates(state, reach, step)
         self._spend("search", started)
         return contacts
 

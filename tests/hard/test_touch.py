@@ -89,10 +89,9 @@ def test_a_corner_that_falls_on_a_corner_gains_no_energy(aside):
     assert found.summary.largest_penetration < 1e-4
 
 
-@pytest.mark.parametrize("thickness", [0.05, 1e-3])
-def test_a_fast_block_does_not_pass_through_a_thin_plate(thickness):
-    """At 100 m/s and steps of 10 ms a block of 0.1 m moves by ten times its size in a step."""
-    shape = text.turned(text.rectangle((-0.05, -0.05), (0.05, 0.05)), 0.3) + np.array([0.3, 0.5])
+def shot(thickness, turn, integrator="shi"):
+    """A block of 0.1 m flies at 100 m/s at a plate: in a step of 10 ms ten times its size; run."""
+    shape = text.turned(text.rectangle((-0.05, -0.05), (0.05, 0.05)), turn) + np.array([0.3, 0.5])
     tables = [
         text.interface("contact", 20.0),
         text.box("plate", (-1, -thickness), (2, thickness)),
@@ -101,9 +100,24 @@ def test_a_fast_block_does_not_pass_through_a_thin_plate(thickness):
         '[[initial_velocities]]\nblock = "block"\nvelocity = [0, -100]\n',
         text.monitor("middle", (0.3, 0.5), "block"),
     ]
-    found = done(text.weighty(0.01, duration=0.1), tables)
+    head = text.weighty(0.01, duration=0.1) + f'type = "{integrator}"\n'
+    return done(head, tables)
+
+
+@pytest.mark.parametrize("integrator", ["shi", "newmark", "generalized_alpha"])
+@pytest.mark.parametrize("thickness", [0.05, 1e-3])
+def test_a_fast_block_does_not_pass_through_a_thin_plate(thickness, integrator):
+    found = shot(thickness, 0.3, integrator)
     assert 0.5 + last_way(found, "middle")[1] > 0
     assert rates(found)[1, 1] > 0
+
+
+@pytest.mark.parametrize("turn", [0.0, np.pi / 4])
+def test_a_fast_block_that_hits_head_on_needs_no_shorter_steps(turn):
+    """It finds its partner before it crosses; without friction it would not turn either."""
+    found = shot(1e-3, turn)
+    assert found.summary.steps == 10
+    assert 0.5 + last_way(found, "middle")[1] > 0
 
 
 def test_springs_too_soft_for_a_fall_end_the_run_with_their_name():
