@@ -23,6 +23,8 @@ BODIES += ("nmm_quads_0", "nmm_quads_1", "nmm_quads_2", "mls")
 ELEMENTS = ("P1", "P2", "P3")
 STEP = "formulation.integrator.step"
 INTEGRATORS = ("shi", "newmark", "generalized_alpha")
+QUANTITY = "external_work"
+LEVELS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
 ENFORCEMENTS = ("penalty", "augmented", "lagrange", "cone", "barrier")
 
 
@@ -41,6 +43,8 @@ class Study:
     yardstick: tuple[str, ...] = ()
     exponent: float | None = None
     zero: str = ""
+    repeats: int = 3
+    memory: bool = True
 
 
 def body(scene: str, sizes: Sequence[float], *more: str, exponent: float | None = None) -> Study:
@@ -89,14 +93,16 @@ STUDIES = {
         ENFORCEMENTS,
         {STEP: (0.08, 0.04, 0.02)},
         quantity="monitor:toe:ux",
+        memory=False,
     ),
     "incline_overlap": Study(
         "incline/slide.toml",
         ENFORCEMENTS,
         {"formulation.contact.normal_penalty": (1, 10, 100)},
-        {"integrator": {"step": 0.05}},
+        {"integrator": {"step": 0.1}},
         "largest_penetration",
         zero="bodies do not overlap (m)",
+        memory=False,
     ),
     "arch": Study(
         "arch/shaken.toml",
@@ -104,6 +110,17 @@ STUDIES = {
         {"formulation.loading.tolerance": (0.1, 0.02, 0.004)},
         {"loading": {"increment": 0.1}},
         "failure_factor",
+        repeats=1,
+        memory=False,
+    ),
+    "kitoh": Study(
+        "kitoh_beam/kitoh_130.toml",
+        ("penalty", "augmented", "dda_2"),
+        {"formulation.loading.tolerance": (0.05, 0.005)},
+        {"loading": {"increment": 1.0}},
+        "failure_factor",
+        repeats=1,
+        memory=False,
     ),
 }
 
@@ -111,11 +128,11 @@ STUDIES = {
 def measured(
     name: str,
     out: Path,
-    repeats: int = 3,
-    memory: bool = True,
+    repeats: int | None = None,
+    memory: bool | None = None,
     vary: Mapping[str, Sequence[Any]] | None = None,
 ) -> list[Path]:
-    """Measure one study and write its page into a folder; ``vary`` replaces its values."""
+    """Measure one study and write its page into a folder; what is given replaces its values."""
     import nmm
     from nmm.study.cost import cost_study, yardsticks
     from nmm.study.cost_report import write_cost_report
@@ -130,11 +147,62 @@ def measured(
     } | yardsticks(plan.yardstick)
     scene = nmm.read_scene(HERE.parent / plan.scene)
     values = plan.vary if vary is None else vary
+    repeats = plan.repeats if repeats is None else repeats
+    memory = plan.memory if memory is None else memory
     reference = Reference(plan.quantity, 0.0, 0.0, plan.zero) if plan.zero else None
     study = cost_study(
         scene, kinds, values, plan.quantity, repeats, None, memory, plan.exponent, reference
     )
     return write_cost_report(study, out)
+
+
+def summary(out: Path) -> list[Path]:
+    """Write one table over all bodies: the cheapest of each family at equal error."""
+    import nmm
+    from nmm.study.cost import read_records
+    from nmm.study.front import costs_at_levels
+    from nmm.study.reference import by_name, stated_reference
+
+    lines = [
+        "# The cheapest of each family",
+        "",
+        "Processor seconds at equal error in energy, whole run; least of each family. Names with a",
+        "sign of at most are better than the error already with their cheapest run.",
+        "",
+        "| scene | error | DDA | manifold | + singular fields | scikit-fem | manifold over it |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for name in (one for one in STUDIES if (out / one / "records.jsonl").exists()):
+        if not STUDIES[name].yardstick:
+            continue
+        reference = stated_reference(nmm.read_scene(HERE.parent / STUDIES[name].scene), QUANTITY)
+        assert reference is not None
+        groups = {
+            title: [one for one in many if one.valid]
+            for title, many in by_name(read_records(out / name / "records.jsonl")).items()
+        }
+        points = {
+            title: ([one.median_seconds for one in many], [reference.error(one) for one in many])
+            for title, many in groups.items()
+            if many
+        }
+        for level, at in costs_at_levels(points, LEVELS).items():
+            best: dict[str, str] = {}
+            for title in sorted(at, key=lambda one: at[one].value):
+                enriched = "enriched" in groups[title][0].method["cover"]
+                best.setdefault("fields" if enriched else groups[title][0].family, title)
+            cells = [
+                f"{best[one]} {at[best[one]]} s" if one in best else ""
+                for one in ("DDA", "manifold", "fields", "elements")
+            ]
+            both = "manifold" in best and "elements" in best
+            ratio = at[best["manifold"]].value / at[best["elements"]].value if both else None
+            over = f"{ratio:.2g}" if ratio else ""
+            if best:
+                lines.append(f"| {name} | {level:g} | {' | '.join(cells)} | {over} |")
+    path = out / "summary.md"
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return [path]
 
 
 def seeds(out: Path, cases: int | None = None) -> list[Path]:
@@ -153,7 +221,7 @@ def main(out: str = "runs/accuracy_cost", *names: str) -> list[Path]:
     for name in names or (*STUDIES, "kitoh_seeds"):
         folder = Path(out) / name
         files += seeds(folder) if name == "kitoh_seeds" else measured(name, folder)
-    return files
+    return [*files, *summary(Path(out))]
 
 
 if __name__ == "__main__":

@@ -316,8 +316,8 @@ def _conditions(study: CostStudy) -> list[str]:
         f"Medians of {repeats} repeats after a warm-up, all runs in turn; processor seconds of the "
         f"whole run, covers included. Wall over processor seconds {ratio:.2f}{shared}. Memory is "
         f"what a run adds at its peak to a process that has run once before. {first.machine}; "
-        f"{versions}{commit}. Scene {first.scene_hash[:12]}{seed}. Raw records with all hashes, seeds and repeats: "
-        "`records.jsonl`.",
+        f"{versions}{commit}. Scene {first.scene_hash[:12]}{seed}. Raw records with all hashes, "
+        "seeds and repeats: `records.jsonl`.",
     ]
 
 
