@@ -8,7 +8,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.plots.canvas import SMALL, STYLE, WIDTH, PathLike, frame, save
-from nmm.plots.families import colours
+from nmm.plots.families import styles
 from nmm.plots.units import label, prefixed, unit_of, words_of
 
 if TYPE_CHECKING:
@@ -25,8 +25,8 @@ class Shown:
 
     Attributes
     ----------
-    name, family
-        Name of the formulation; "DDA" or "manifold".
+    name, family, method
+        Name of the formulation; "DDA" or "manifold"; the cover with its degree, "triangles 1".
     displacement, stress
         Images of the size of displacement (m) and of the von Mises stress (Pa).
     contact_position, contact_vector
@@ -37,6 +37,7 @@ class Shown:
 
     name: str
     family: str
+    method: str
     displacement: Floats
     stress: Floats
     contact_position: Floats
@@ -75,7 +76,8 @@ def comparison(
     contacts = any(len(one.contact_vector) for one in runs)
     curves = any(len(one.x) > 1 for one in runs)
     figure, panels = _panels(2 + contacts, columns, extent, curves)
-    shades = colours([one.family for one in runs])
+    looks = styles([one.family for one in runs], [one.method for one in runs])
+    shades = [colour for colour, _ in looks]
     rows: list[tuple[str, str, list[Floats], list[Floats]]] = [
         ("displacement", "m", [one.displacement for one in runs], [u for u, _ in differences]),
         ("von Mises stress", "Pa", [one.stress for one in runs], [s for _, s in differences]),
@@ -84,9 +86,10 @@ def comparison(
         limit = _images(row[: len(runs)], images, extent, words, unit, None)
         _images(row[len(runs) :], others, extent, "difference", unit, limit)
     for axes, one, shade in zip(panels[0], runs, shades, strict=False):
-        axes.set_title(one.name, loc="left", fontsize=9.5, color=shade, fontweight="bold")
-    for axes, one in zip(panels[0][len(runs) :], runs[1:], strict=True):
-        axes.set_title(f"{one.name} − {runs[0].name}", loc="left", fontsize=9)
+        axes.set_title(one.name, loc="left", fontsize=9, color=shade, fontweight="bold", wrap=True)
+    for axes, one, shade in zip(panels[0][len(runs) :], runs[1:], shades[1:], strict=True):
+        words = f"{one.name}\nless {runs[0].name}"
+        axes.set_title(words, loc="left", fontsize=SMALL, color=shade)
     if contacts:
         _contacts(panels[2], runs, shades, extent)
     if curves:
