@@ -133,7 +133,7 @@ def _cut_layer(
     touched = near | touched_cells(cover, boundary, TOUCH * resolution.step, chop)
     touched |= _at_the_rim(cover)
     cracks = _settled(cover, cracks, boundary, near, tolerance)
-    cells = Cells(cover.edges, touched, region_of_cells(cover, domain.shapes, members))
+    cells = Cells(cover.edges, touched, region_of_cells(cover, domain.shapes, members, touched))
 
     mesh = np.unique(cover.edges.of_cell[touched])
     lines = [_mesh_segments(cover, mesh), boundary, cracks]

@@ -7,6 +7,7 @@ import numpy.typing as npt
 import shapely
 
 from covers.base import Cover
+from covers.components import components
 from covers.domain import Segments
 from integration.arrays import Bools, Floats, Ints
 
@@ -70,13 +71,24 @@ def _near_bins(first: Floats, last: Floats, low: Floats, high: Floats, size: flo
     return np.asarray(total[k, m] - total[i, m] - total[k, j] + total[i, j] > 0)
 
 
-def region_of_cells(cover: Cover, shapes: npt.NDArray[np.object_], regions: Ints) -> Ints:
-    """Region (C,) that holds the middle of each cell, -1 outside all ``regions``."""
-    middle = cover.vertices[cover.cell_vertices].mean(axis=1)
-    found = np.full(len(middle), -1, dtype=np.int64)
+def region_of_cells(
+    cover: Cover, shapes: npt.NDArray[np.object_], regions: Ints, touched: Bools
+) -> Ints:
+    """Region (C,) that holds the middle of each cell, -1 outside all ``regions``.
+
+    Cells that share an edge lie in the same region when no line touches them, so that one is looked
+    up for all that hang together.
+    """
+    left, right = cover.edges.left, cover.edges.right
+    free = (left >= 0) & (right >= 0)
+    free &= ~touched[left] & ~touched[right]
+    group = components(len(touched), left[free], right[free])
+    first = np.unique(group, return_index=True)[1]
+    middle = cover.vertices[cover.cell_vertices[first]].mean(axis=1)
+    found = np.full(len(first), -1, dtype=np.int64)
     row, cell = shapely.STRtree(shapely.points(middle)).query(shapes[regions], predicate="contains")
     found[cell] = regions[row]
-    return found
+    return np.asarray(found[group])
 
 
 def _chopped(lines: Segments, size: float) -> Floats:
