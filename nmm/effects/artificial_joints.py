@@ -1,21 +1,27 @@
-"""Artificial joints (Ke 1996): springs that hold the sub-blocks of a block together for good.
+"""Artificial joints (Ke 1996): what holds the sub-blocks of a block together for good.
 
-The forces are read from the whole opening and sliding of each joint as it stands, so that nothing
-drifts over steps; there is no state and nothing to iterate.
+Springs, or Nitsche's terms. They act at points of the material, so that a uniform traction stays
+uniform whatever the degree of the functions, and the forces are read from the whole opening and
+sliding of each joint as it stands, so that nothing drifts over steps; there is no state and nothing
+to iterate.
 """
 
 from typing import Self
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
+from scipy.sparse import csc_array
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
-from nmm.contact.joints import JointPoints, find_joints, joint_points
-from nmm.contact.sides import sides, tangents
+from nmm.assembly.motion import State, material_points
+from nmm.contact.joints import Joints, joint_points
+from nmm.contact.sides import sides
+from nmm.effects.averages import averages
 from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.seams import degree_of, pairs_of, shared_edges
+from nmm.effects.ties import Pairs, Springs, Tie
+from nmm.errors import FormulationError
 from nmm.geometry.sub_blocks import SubBlocks
 
 
@@ -24,76 +30,85 @@ class ArtificialJoints(Effect):
 
     name = "artificial joints"
 
-    def __init__(self, model: Model, stiffness: float, stations: str, start: State) -> None:
-        """Find the joints; ``stiffness`` in Young's moduli over the distance of the middles."""
-        manifold = model.manifold
-        self._n = manifold.n_unknowns
-        self._sides = sides(manifold)
-        surface = self._sides.surface(start.frames, start.deformation)
-        joints = find_joints(surface)
-        element = manifold.boundary.element
-        region = manifold.element_region[element]
-        joints = joints.take(region[joints.edge_a] == region[joints.edge_b])
-        self._points: JointPoints = joint_points(surface, joints, stations)
-        a, b = element[joints.edge_a], element[joints.edge_b]
-        middle = centroids(manifold.elements)
-        apart = np.abs(np.einsum("ij,ij->i", middle[a] - middle[b], joints.normal))
-        spring = stiffness * model.thickness * np.sqrt(model.modulus[a] * model.modulus[b]) / apart
-        self._spring = spring[self._points.joint] * self._points.length
-        self._stood: tuple[Floats, csr_array, csc_array] | None = None  # at angles
+    def __init__(self, tie: Tie, n_unknowns: int) -> None:
+        self.tie = tie
+        self._n = n_unknowns
+        self._stood: tuple[Floats, csc_array] | None = None  # at angles
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the options of the cover."""
-        formulation = setup.formulation
-        stiffness = SubBlocks.of(formulation.cover).stiffness
-        return cls(setup.model, stiffness, formulation.contact.joint_points, setup.start)
+        options = SubBlocks.of(setup.formulation.cover)
+        stations = setup.formulation.contact.joint_points
+        return cls.of(setup.model, options.glue, options.stiffness, stations, setup.start)
+
+    @classmethod
+    def of(cls, model: Model, glue: str, stiffness: float, stations: str, start: State) -> Self:
+        """Find the joints.
+
+        Parameters
+        ----------
+        glue
+            "springs" or "nitsche".
+        stiffness
+            Of springs, in Young's moduli over the distance of the middles.
+        stations
+            Where springs between linear fields act: "corners" or "gauss". Between fields that bend
+            they act at as many Gauss points as their degree asks for.
+        """
+        region, edges = model.manifold.element_region, model.manifold.boundary
+        joints = shared_edges(model)
+        own = region[edges.element[joints.edge_a]] == region[edges.element[joints.edge_b]]
+        joints = joints.take(own)
+        degree, n = degree_of(model), model.manifold.n_unknowns
+        if glue == "nitsche":
+            pairs, one, two, _ = pairs_of(model, joints, 2 * degree)
+            tie, free = averages(model, pairs, (one, two))
+            if free.any():
+                raise FormulationError(
+                    '[cover.options] glue: "nitsche": with functions without strain: expected '
+                    'functions with strain: use glue = "springs"'
+                )
+            return cls(tie, n)
+        spring = _spring(model, joints, stiffness)
+        if degree > 1 or stations == "gauss":
+            pairs, _, _, joint = pairs_of(model, joints, 2 * max(degree, 1))
+        else:
+            pairs, joint = _at_stations(model, joints, stations, start)
+        return cls(Springs(pairs, np.repeat(spring[joint, None], 2, axis=1)), n)
 
     def matrix(self, state: State) -> csc_array:
         """Stiffness of the joints, the same object as long as nothing turns."""
-        return self._now(state)[1]
+        if self._stood is None or not np.array_equal(self._stood[0], state.frames.angle):
+            self._stood = state.frames.angle.copy(), self.tie.matrix(state, self._n)
+        return self._stood[1]
 
     def force(self, state: State, end: Instant) -> Floats:
         """Forces of the joints as they stand."""
-        pull = np.tile(self._spring, 2) * self._stretch(state)
-        return np.asarray(-(self._now(state)[0].T @ pull))
+        return self.tie.force(state, self._n)
 
     def energy(self, state: State) -> float:
         """Energy stored in the joints (J)."""
-        return 0.5 * float(np.tile(self._spring, 2) @ self._stretch(state) ** 2)
+        return self.tie.energy(state)
 
-    def _stretch(self, state: State) -> Floats:
-        """Openings, then slidings (2m,) in m."""
-        p = self._points
-        a = self._sides.at(p.edge_a, p.parameter_a).place(state.frames, state.deformation)
-        b = self._sides.at(p.edge_b, p.parameter_b).place(state.frames, state.deformation)
-        return np.concatenate([np.sum((a - b) * n, axis=1) for n in self._directions(state)])
 
-    def _directions(self, state: State) -> tuple[Floats, Floats]:
-        normal = state.frames.rotation[self._sides.manifold.boundary.body[self._points.edge_b]]
-        turned = np.einsum("mij,mj->mi", normal, self._points.normal)
-        return turned, tangents(turned)
+def _spring(model: Model, joints: Joints, stiffness: float) -> Floats:
+    """Stiffness (j,) of joints in Pa/m."""
+    element = model.manifold.boundary.element
+    a, b = element[joints.edge_a], element[joints.edge_b]
+    middle = centroids(model.manifold.elements)
+    apart = np.abs(np.einsum("ij,ij->i", middle[a] - middle[b], joints.normal))
+    return np.asarray(stiffness * np.sqrt(model.modulus[a] * model.modulus[b]) / apart)
 
-    def _now(self, state: State) -> tuple[csr_array, csc_array]:
-        """Rows (2m, n) of openings and slidings, and the stiffness."""
-        angle = state.frames.angle
-        if self._stood is None or not np.array_equal(self._stood[0], angle):
-            p = self._points
-            a = self._sides.at(p.edge_a, p.parameter_a)
-            b = self._sides.at(p.edge_b, p.parameter_b)
-            columns = np.concatenate([a.rows.unknowns, b.rows.unknowns], axis=1)
-            values = np.concatenate(
-                [
-                    np.concatenate([a.along(state.frames, n), -b.along(state.frames, n)], axis=1)
-                    for n in self._directions(state)
-                ]
-            )
-            columns = np.tile(columns, (2, 1))
-            offsets = np.arange(len(columns) + 1) * columns.shape[1]
-            rows = csr_array((values.ravel(), columns.ravel(), offsets), (len(columns), self._n))
-            heavy = csr_array(
-                ((np.tile(self._spring, 2)[:, None] * values).ravel(), columns.ravel(), offsets),
-                (len(columns), self._n),
-            )
-            self._stood = angle.copy(), rows, csc_array(rows.T @ heavy)
-        return self._stood[1], self._stood[2]
+
+def _at_stations(model: Model, joints: Joints, stations: str, start: State) -> tuple[Pairs, Ints]:
+    """Two points for each joint, at its corners or its Gauss points."""
+    surface = sides(model.manifold).surface(start.frames, start.deformation)
+    found = joint_points(surface, joints, stations)
+    element = model.manifold.boundary.element
+    first, second = (
+        material_points(model.manifold, element[edge], found.position)
+        for edge in (found.edge_a, found.edge_b)
+    )
+    weight = found.length * model.thickness
+    return Pairs(first, second, found.normal, weight), found.joint

@@ -143,7 +143,7 @@ def _springs(model: Model, joints: Joints, spring: Floats) -> Springs:
 
 def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
     """Nitsche's terms, and springs where neither side has stress."""
-    order = max(ORDER, 2 * _degree(model) + 2)
+    order = max(ORDER, 2 * degree_of(model) + 2)
     pairs, one, two, joint = pairs_of(model, joints, order)
     found, free = averages(model, pairs, (one, two), method.gamma)
     if not free.any():
@@ -159,7 +159,7 @@ def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
 
 
 def _multipliers(model: Model, joints: Joints, size: float | None) -> MultiplierGlue:
-    degree = _degree(model)
+    degree = degree_of(model)
     pairs, _, _, joint = pairs_of(model, joints, max(ORDER, 2 * degree + 2))
     body = model.manifold.boundary.body
     a, b = body[joints.edge_a], body[joints.edge_b]
@@ -181,7 +181,7 @@ def _multipliers(model: Model, joints: Joints, size: float | None) -> Multiplier
     return replace(found, basis=csr_array(basis[:, independent(rows, model.stiffness.diagonal())]))
 
 
-def _degree(model: Model) -> int:
+def degree_of(model: Model) -> int:
     """Degree of the displacements, as far as it is known."""
     found = [getattr(group, "degree", 2) for group in model.manifold.groups]
     return max(found, default=1)

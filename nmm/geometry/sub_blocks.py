@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 MESHES = ("triangles", "quads", "voronoi")
 BONDS = ("elastic", "interface")
+GLUES = ("springs", "nitsche")
 
 
 @dataclass(frozen=True)
@@ -31,14 +32,17 @@ class SubBlocks:
     bond
         "elastic": sub-blocks never part. "interface": they are joints of the scene's interface
         between the block's material and itself, and break as that says.
+    glue
+        What elastic bonds are: "springs", or "nitsche" for Nitsche's terms, which give by nothing.
     stiffness
-        Elastic bonds in Young's moduli over the distance of the sub-blocks' middles.
+        Springs in Young's moduli over the distance of the sub-blocks' middles.
     seed
         Of the Voronoi points.
     """
 
     mesh: str = "triangles"
     bond: str = "elastic"
+    glue: str = "springs"
     stiffness: float = 100.0
     seed: int = 1
 
@@ -59,7 +63,7 @@ class SubBlocks:
                 "correct the name"
             )
         found = cls(**cover.options)
-        for name, values in (("mesh", MESHES), ("bond", BONDS)):
+        for name, values in (("mesh", MESHES), ("bond", BONDS), ("glue", GLUES)):
             if getattr(found, name) not in values:
                 raise FormulationError(
                     f"[cover.options] {name}: {getattr(found, name)!r}: expected one of "

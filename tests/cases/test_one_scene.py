@@ -187,7 +187,8 @@ def test_sub_blocks_with_the_strength_of_the_interface_break_at_it() -> None:
     ("options", "said"),
     [
         ({"mesh": "hexagons"}, "mesh: 'hexagons': expected one of triangles"),
-        ({"glue": "strong"}, "glue: expected one of bond, mesh"),
+        ({"strength": "high"}, "strength: expected one of bond, glue, mesh"),
+        ({"glue": "strong"}, "glue: 'strong': expected one of springs, nitsche"),
         ({"stiffness": -1.0}, "stiffness: -1.0: expected a number > 0"),
     ],
 )
