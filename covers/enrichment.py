@@ -50,7 +50,7 @@ def enriched_covers(cut: CutCells, patch_centre: Floats, enrichments: Sequence[E
     for number, item in enumerate(enrichments):  # a handful of singular points
         distance = np.hypot(*(centre - item.point).T)
         wanted = distance < item.radius
-        wanted[_touching(cut, item.point)] = True
+        wanted[touching_covers(cut, item.point)] = True
         if item.body is not None:
             wanted &= cut.cover_body == item.body
         taken = wanted & (distance < nearest)
@@ -59,7 +59,7 @@ def enriched_covers(cut: CutCells, patch_centre: Floats, enrichments: Sequence[E
     return chosen
 
 
-def _touching(cut: CutCells, point: Floats) -> Ints:
+def touching_covers(cut: CutCells, point: Floats) -> Ints:
     """Covers of the elements that hold the point in their boxes grown by rounding, and inside."""
     import shapely
 

@@ -5,7 +5,7 @@ Displacement is ``u(x) = sum_i w_i(x) sum_j f_ij(x) d_ij`` over physical covers 
 different covers.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -57,6 +57,8 @@ class Manifold:
     fitted, enriched
         Number of covers whose coordinates fit what a cut has left of them, and of those that
         carry singular functions.
+    singular
+        (k, 2) points whose singular functions covers carry (m).
     """
 
     elements: Polygons
@@ -76,6 +78,7 @@ class Manifold:
     reproduction: int | None = None
     fitted: int = 0
     enriched: int = 0
+    singular: Floats = field(default_factory=lambda: np.empty((0, 2)))
 
     @property
     def n_unknowns(self) -> int:

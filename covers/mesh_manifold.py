@@ -106,6 +106,7 @@ def mesh_manifold(
         reproduction=cover.precision + lowest,
         fitted=int(builder.fitted.sum()),
         enriched=int((builder.enriched >= 0).sum()),
+        singular=np.array([item.point for item in enrichments]).reshape(-1, 2),
     )
 
 

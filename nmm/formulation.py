@@ -16,6 +16,7 @@ from nmm.scene.fields import (
     Angle,
     BlockName,
     Count,
+    Flag,
     Frozen,
     Length,
     Number,
@@ -37,7 +38,11 @@ class _Part(Frozen):
 
 
 class Enrichment(Frozen):
-    """Singular functions on the covers about all crack tips, and about corners that are named."""
+    """Singular functions on the covers about all crack tips, and about corners that are named.
+
+    Without the table the covers about a tip carry its functions where the crack is straight and
+    alone in them.
+    """
 
     radius: Length = Field(
         default=0.0,
@@ -45,6 +50,11 @@ class Enrichment(Frozen):
         description="a radius in m, >= 0: covers that are nearer to the point carry the functions; "
         "those that touch it always do",
         examples=[0.2],
+    )
+    tips: Flag = Field(
+        default=True,
+        description="true or false: whether covers about crack tips carry the functions",
+        examples=[False],
     )
     corners: tuple[Point, ...] = Field(
         default=(), description="a list of re-entrant corners [x, y] in m", examples=[[[0, 0]]]

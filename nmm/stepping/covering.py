@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
     from covers.base import Cover as MathematicalCover
     from covers.cut_cells import CutCells
-    from covers.enrichment import Enrichment
     from nmm.formulation import Cover
     from nmm.geometry.blocks import Regions
 
@@ -107,6 +106,7 @@ def _mesh(
 ) -> Covering:
     from covers.mesh_manifold import mesh_manifold
     from nmm.stepping.degrees import kinds_by_region
+    from nmm.stepping.enriching import enrichments
     from nmm.stepping.nets import laid_and_cut
 
     if cover.size is None:
@@ -117,51 +117,6 @@ def _mesh(
         laid, pieces = laid_and_cut(regions, cover, lines)
     except (ValueError, TypeError, ImportError) as fault:
         raise FormulationError(f"[cover] {fault}") from fault
-    extra = [] if cover.enrichment is None else _enrichments(pieces, cover, kappa)
+    extra = enrichments(pieces, cover, kappa)
     kinds = functions if not cover.regions else kinds_by_region(regions, pieces, cover)
     return Covering(mesh_manifold(laid, pieces, kinds, extra), pieces, laid)
-
-
-def _enrichments(cut: "CutCells", cover: "Cover", kappa: Floats | None) -> "list[Enrichment]":
-    """Crack-tip functions at all tips of cracks, corner functions at the corners named."""
-    from covers.corner_functions import corner_functions
-    from covers.crack_tip_functions import crack_tip_functions
-    from covers.enrichment import Enrichment
-    from nmm.fracture.corners import corner_at
-
-    assert cover.enrichment is not None
-    assert cover.size is not None
-    constant = np.full(int(cut.element_region.max()) + 1, 2.0) if kappa is None else kappa
-    found = []
-    for number in range(len(cut.tips)):  # a handful of tips
-        element = cut.tips.element[number]
-        functions = crack_tip_functions(float(constant[cut.element_region[element]]), cover.size)
-        found.append(
-            Enrichment(
-                functions,
-                cut.tips.point[number],
-                cut.tips.direction[number],
-                cover.enrichment.radius,
-                int(cut.element_body[element]),
-            )
-        )
-    for point in cover.enrichment.corners:
-        corner = corner_at(cut.boundary, np.array(point))
-        functions = corner_functions(
-            corner.angle, float(constant[cut.element_region[corner.element]]), cover.size
-        )
-        found.append(
-            Enrichment(
-                functions,
-                np.array(point),
-                corner.direction,
-                cover.enrichment.radius,
-                int(cut.element_body[corner.element]),
-            )
-        )
-    if len({item.functions.number for item in found}) > 1:
-        raise FormulationError(
-            "[cover.enrichment]: points with different numbers of singular modes: expected one "
-            "number: enrich crack tips, or corners of one angle"
-        )
-    return found

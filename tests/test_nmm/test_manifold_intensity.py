@@ -133,7 +133,7 @@ def test_tractions_on_the_faces_are_taken_out_of_the_integral() -> None:
 def test_intensities_imposed_about_a_tip_come_back(
     degree: int, size: float, radius: float | None, tolerance: float
 ) -> None:
-    tip = None if radius is None else Enrichment(radius=radius)
+    tip = Enrichment(tips=False) if radius is None else Enrichment(radius=radius)
     cover = FINE.model_copy(update={"degree": degree, "size": size, "enrichment": tip})
     k = near_tip(cover)
     assert k.opening == pytest.approx(1.0, abs=tolerance)
@@ -175,7 +175,34 @@ def test_functions_on_the_covers_about_the_tip_alone_give_one_percent(length: fl
 def test_without_functions_a_crack_acts_as_one_that_is_shorter_by_part_of_a_cell() -> None:
     # F sqrt(a) grows by 3.7 a unit of a between the two lengths: half a cell less is 9 % less.
     # Measured 14 %, and 7 to 17 % in other positions of the net.
-    assert 0.8 < plate(0.5, 0.05, None, 0.2) < 0.97
+    assert 0.8 < plate(0.5, 0.05, Enrichment(tips=False), 0.2) < 0.97
+
+
+@pytest.mark.parametrize("length", [0.3, 0.5])
+def test_a_straight_crack_has_the_functions_of_its_tip_unasked(length: float) -> None:
+    assert plate(length, 0.1, None, 0.25) == plate(length, 0.1, Enrichment(), 0.25)
+
+
+@pytest.mark.parametrize(
+    ("crack", "singular"),
+    [
+        ([[[-0.1, 0.0], [0.5, 0.0]]], 1),
+        # A kink, another crack and a crossing within the covers of the tip: they are 0.2 wide.
+        ([[[-0.1, 0.1], [0.45, 0.05], [0.5, 0.0]]], 0),
+        ([[[-0.1, 0.0], [0.5, 0.0]], [[0.53, -0.3], [0.53, 0.3]]], 0),
+        ([[[-0.1, 0.0], [0.5, 0.0]], [[0.45, -1.1], [0.45, 1.1]]], 0),
+        # A kink far behind.
+        ([[[-0.1, 0.5], [0.1, 0.0], [0.7, 0.0]]], 1),
+    ],
+)
+def test_tips_of_cracks_that_are_not_straight_or_alone_are_left_plain(
+    crack: list[list[list[float]]], singular: int
+) -> None:
+    region = Polygons.from_vertices([np.array([[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]])])
+    cover = FINE.model_copy(update={"degree": 1, "size": 0.1, "enrichment": None})
+    model = solid(region, cover, [Elastic(1.0, 0.3)], "strain", cracks=crack)
+    near = [point for point in model.manifold.singular if abs(point[1]) < 0.2]
+    assert len(near) == singular
 
 
 def test_a_domain_of_elements_about_the_tip_alone_gives_a_number() -> None:

@@ -339,10 +339,13 @@ points = [[0.5, 1.1], [0.5, 0.6]]
 
 
 def test_crack_tips_without_functions_are_told() -> None:
-    plain = simulate(CRACKED, MESHES["linear"])
+    plain = simulate(CRACKED, MESHES["linear"], "[cover.enrichment]\ntips = false\n")
     assert [text[:40] for text in plain.summary.warnings] == [
         "1 crack tips without tip functions: crac"
     ]
-    enriched = simulate(CRACKED, MESHES["linear"], "[cover.enrichment]\n")
-    assert enriched.summary.warnings == []
-    assert enriched.summary.cures["covers with singular functions"] > 0
+    kinked = CRACKED.replace("[0.5, 0.6]]", "[0.5, 0.7], [0.6, 0.6]]")
+    assert len(simulate(kinked, MESHES["linear"]).summary.warnings) == 1
+    for options in ("", "[cover.enrichment]\n"):
+        enriched = simulate(CRACKED, MESHES["linear"].replace("0.5", "0.2"), options)
+        assert enriched.summary.warnings == []
+        assert enriched.summary.cures["covers with singular functions"] > 0
