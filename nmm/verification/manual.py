@@ -4,8 +4,8 @@ import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from nmm.verification.base import Check
 from nmm.verification.outcomes import Outcome
+from nmm.verification.rows import FILE, Row, merged
 
 GROUPS = {
     "A": "Accuracy of the continuum",
@@ -22,23 +22,25 @@ VERDICT = {True: "passed", False: "**missed**"}
 def write_manual(outcomes: Sequence[Outcome], out: Path) -> list[Path]:
     """Write the list of benchmarks, and a page for each with a sketch and how its errors fall.
 
+    Benchmarks that the folder holds and that were not run again stay in the list as they are.
+
     Returns
     -------
     files
-        ``index.md``, ``margins.png``, then the pages with their pictures.
+        ``index.md``, ``margins.png``, ``results.json``, then the pages with their pictures.
     """
     from nmm.plots.verification import margins
 
     out.mkdir(parents=True, exist_ok=True)
-    by_name = grouped(outcomes)
-    shares = {
-        name: [check.share for one in many for check in one.checks.values()]
-        for name, many in by_name.items()
-    }
-    files = [out / "index.md", out / "margins.png"]
+    by_name: dict[str, list[Row]] = {}
+    for row in merged(outcomes, out):
+        by_name.setdefault(row.benchmark, []).append(row)
+    by_name = {name: by_name[name] for name in in_order(by_name)}
+    shares = {name: [one for row in rows for one in row.shares] for name, rows in by_name.items()}
+    files = [out / "index.md", out / "margins.png", out / FILE]
     margins(shares, files[1])
     files[0].write_text(_index(by_name), encoding="utf-8")
-    for name, many in by_name.items():
+    for name, many in grouped(outcomes).items():
         sketch = out / f"{stem(name)}.png"
         drawn = many[0].case.sketch(sketch)
         fall = out / f"{stem(name)}_convergence.png"
@@ -65,11 +67,6 @@ def in_order(names: Iterable[str]) -> list[str]:
 def stem(name: str) -> str:
     """Name of a benchmark as the name of a file."""
     return re.sub(r"\W+", "_", name).strip("_").lower()
-
-
-def nearest(one: Outcome) -> tuple[str, Check]:
-    """Quantity of a run that comes nearest to what is allowed, or misses it by most."""
-    return max(one.checks.items(), key=lambda item: item[1].share)
 
 
 def table(outcomes: Iterable[Outcome]) -> list[str]:
@@ -102,56 +99,45 @@ def _rank(name: str) -> tuple[int, int, str]:
     return list(GROUPS).index(group(name)), int(number[1]) if number else 0, name
 
 
-def _index(by_name: dict[str, list[Outcome]]) -> str:
-    total = [one for many in by_name.values() for one in many]
-    missed = sum(not one.passed for one in total)
-    seconds = sum(one.seconds for one in total)
+def _index(by_name: dict[str, list[Row]]) -> str:
+    total = [row for rows in by_name.values() for row in rows]
+    seconds = sum(row.seconds for row in total)
     lines = [
         "# Verification",
         "",
-        f"{len(total)} runs of {len(by_name)} benchmarks, {missed} missed, in {seconds:.0f} s. "
-        "Written by `make manual`, that is `nmm verify --slow --out docs/verification`. Each row "
-        "shows, of all variants under one formulation, the quantity that comes nearest to its "
-        "tolerance; the page behind the name has them all.",
+        f"{sum(row.runs for row in total)} runs of {len(by_name)} benchmarks, "
+        f"{sum(row.missed for row in total)} missed, in {seconds:.0f} s. Written by `make manual`, "
+        "that is `nmm verify --slow --out docs/verification`; `nmm verify B2 --out "
+        "docs/verification` runs one again. Each row shows, of all variants under one formulation, "
+        "the quantity that comes nearest to its tolerance; the page behind the name has them all.",
         "",
         "An error is relative to the reference unless the page says otherwise; a reference with ≤ "
-        "or ≥ is a limit, whose error is how far it is passed.",
+        "or ≥ is a limit, whose error is how far it is passed. Seconds are of a machine that did "
+        "other work too.",
         "",
         "![Errors over tolerances of all quantities](margins.png)",
     ]
     for letter, words in GROUPS.items():
-        chosen = {name: many for name, many in by_name.items() if group(name) == letter}
+        chosen = [row for name, rows in by_name.items() if group(name) == letter for row in rows]
         if chosen:
-            lines += ["", f"## {words}", "", *_rows(chosen)]
+            lines += ["", f"## {words}", "", *_table(chosen)]
     pages = [stem(name) for name in by_name]
     return "\n".join([*lines, "", "```{toctree}", ":hidden:", "", *pages, "```"]) + "\n"
 
 
-def _rows(by_name: dict[str, list[Outcome]]) -> list[str]:
-    """One row a benchmark and formulation: the worst quantity of its variants."""
-    lines = [
-        "| benchmark | title | computed | reference | error | tolerance | formulation | passed "
-        "| seconds |",
-        "|---|---|---|---|---|---|---|---|---|",
+def _table(rows: Iterable[Row]) -> list[str]:
+    """Rows of the list in Markdown."""
+    return [
+        "| benchmark | title | quantity | computed | reference | error | tolerance | formulation "
+        "| passed | seconds |",
+        "|---|---|---|---|---|---|---|---|---|---|",
+        *(
+            f"| [{row.benchmark}]({stem(row.benchmark)}.md) | {row.title} | {row.quantity} | "
+            f"{row.computed} | {row.reference} | {row.error} | {row.tolerance} | "
+            f"{row.formulation} | {VERDICT[row.passed]} | {row.seconds:.2g} |"
+            for row in rows
+        ),
     ]
-    for name, many in by_name.items():
-        for formulation in dict.fromkeys(one.formulation for one in many):
-            ours = [one for one in many if one.formulation == formulation]
-            end = (
-                f"{formulation} | {VERDICT[all(one.passed for one in ours)]} | "
-                f"{sum(one.seconds for one in ours):.2g} |"
-            )
-            start = f"| [{name}]({stem(name)}.md) | {many[0].case.title} |"
-            made = [one for one in ours if one.checks]
-            if not made or any(one.fault for one in ours):
-                lines.append(f"{start} fault | | | | {end}")
-                continue
-            what, worst = max((nearest(one) for one in made), key=lambda pair: pair[1].share)
-            lines.append(
-                f"{start} {what}: {worst.shown} | {worst.wanted} | {worst.error:.1e} | "
-                f"{worst.tolerance:.1e} | {end}"
-            )
-    return lines
 
 
 def _page(many: Sequence[Outcome], sketch: bool, falls: bool) -> str:
@@ -176,7 +162,7 @@ def _page(many: Sequence[Outcome], sketch: bool, falls: bool) -> str:
         "",
         *(f"- {quantity}: {reason}" for quantity, reason in reasons.items()),
         "",
-        f"Run it: `nmm verify {_quoted(case.name)}`. "
+        f"Run it alone: `nmm verify {_quoted(case.name)}`. "
         f"It is `{type(case).__module__}:{type(case).__qualname__}`.",
     ]
     return "\n".join(lines) + "\n"

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import shutil
-from collections.abc import Mapping, Sequence
+import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from pydantic import Field
 
 from nmm.errors import NmmError
-from nmm.formulation import Formulation, formulation_hash, read_formulation
+from nmm.formulation import Formulation, read_formulation
 from nmm.results.summary import installed_versions
-from nmm.scene import read_scene, scene_hash
+from nmm.scene import read_scene
 from nmm.scene.document import parse, read_text
 from nmm.scene.fields import Frozen, Number
 from nmm.stepping.run import run
@@ -38,8 +41,8 @@ class Expected(Frozen):
     source: str = Field(default="", description="who published it, and where")
     values: tuple[Value, ...] = Field(min_length=1, description="at least one table [[values]]")
     versions: dict[str, str] = Field(default={}, description="a table [versions]")
-    scene_hash: str = Field(default="", description="the hash of the scene")
-    formulation_hash: str = Field(default="", description="the hash of the formulation")
+    scene_hash: str = Field(default="", description="the hash of the scene file")
+    formulation_hash: str = Field(default="", description="the hash of the formulation file")
 
 
 class PublishedCase(Case):
@@ -65,11 +68,12 @@ class PublishedCase(Case):
 
     def checks(self, formulation: str) -> Checks:
         """Run the folder's scene under its formulation and compare every value."""
-        scene = read_scene(self.folder / SCENE)
         path = self.folder / FORMULATION
+        self._unchanged("scene", self.folder / SCENE, self.expected.scene_hash)
+        if path.exists():
+            self._unchanged("formulation", path, self.expected.formulation_hash)
+        scene = read_scene(self.folder / SCENE)
         chosen = read_formulation(path) if path.exists() else scene.formulation or Formulation()
-        found = {"scene": scene_hash(scene), "formulation": formulation_hash(chosen)}
-        self._unchanged(found)
         done = run(scene, chosen)
         return {
             item.quantity: Check(
@@ -88,15 +92,25 @@ class PublishedCase(Case):
             if here.get(name) != version
         ]
 
-    def _unchanged(self, found: Mapping[str, str]) -> None:
-        said = {"scene": self.expected.scene_hash, "formulation": self.expected.formulation_hash}
-        for what, digest in said.items():
-            if digest and digest != found[what]:
-                raise NmmError(
-                    f"{self.folder / EXPECTED}: {what}_hash: {digest[:12]}, but the {what} there "
-                    f"has {found[what][:12]}: expected the {what} that was published: undo the "
-                    "change, or publish the folder again"
-                )
+    def _unchanged(self, what: str, path: Path, said: str) -> None:
+        found = content_hash(path)
+        if said and said != found:
+            raise NmmError(
+                f"{self.folder / EXPECTED}: {what}_hash: {said[:12]}, but {path.name} has "
+                f"{found[:12]}: expected the {what} that was published: undo the change, or "
+                "publish the folder again"
+            )
+
+
+def content_hash(path: Path) -> str:
+    """SHA-256 of what a TOML file says, whatever its order and comments.
+
+    It is taken of the file and not of what is read from it, so that a later version, which knows
+    more keys, still finds the file unchanged.
+    """
+    content = tomllib.loads(read_text(path, NmmError))
+    text = json.dumps(content, sort_keys=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def is_published(folder: Path) -> bool:
@@ -152,8 +166,8 @@ def publish(
     expected = {
         "title": scene.title,
         "source": source,
-        "scene_hash": scene_hash(scene),
-        "formulation_hash": formulation_hash(chosen),
+        "scene_hash": content_hash(out / SCENE),
+        "formulation_hash": content_hash(out / FORMULATION),
         "values": values,
         "versions": installed_versions(),
     }

@@ -194,3 +194,15 @@ def test_groups_and_numbers_are_in_the_order_of_the_manual():
         "D1",
         "own",
     ]
+
+
+def test_a_benchmark_that_is_run_again_leaves_the_others_in_the_list(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, right in (("first", 5.0), ("second", 4.0), ("first", 4.0)):
+        module = MODULE.replace('"mine"', f'"{name}"') % right
+        (tmp_path / f"again_{name}_{right:.0f}.py").write_text(module)
+        call("verify", f"again_{name}_{right:.0f}:Mine", "--out", "manual")
+    index = (tmp_path / "manual/index.md").read_text()
+    assert "2 runs of 2 benchmarks, 0 missed" in index
+    assert index.count("[first](first.md)") == 1
+    assert "**missed**" not in (tmp_path / "manual/first.md").read_text()
