@@ -203,9 +203,7 @@ class Contact(Effect):
             origin=setup.origin,
         )
 
-    def candidates(
-        self, state: State, reach: float, step: float | None = None
-    ) -> ContactPoints:
+    def candidates(self, state: State, reach: float, step: float | None = None) -> ContactPoints:
         """Return the contact points of a step in which no point moves further than ``reach``.
 
         ``step`` is its length (s), None in statics: bodies in flight meet where they fly to.

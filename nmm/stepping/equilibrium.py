@@ -16,8 +16,9 @@ from nmm.assembly.motion import State, initial_state, strain_only
 from nmm.assembly.places import Place
 from nmm.effects.base import Effect, Instant, defines
 from nmm.effects.field_loads import FieldLoad
+from nmm.effects.glue import glue, shared_edges
 from nmm.effects.loads import Load, Loads
-from nmm.effects.seams import Seams, glue, shared_edges
+from nmm.effects.seams import Seams
 from nmm.effects.supports import Method, Supports
 from nmm.formulation import Glue, Solver
 from nmm.solvers.bordered import bordered
