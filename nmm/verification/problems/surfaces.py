@@ -1,0 +1,336 @@
+"""Pressure between surfaces: the contact patch test, Hertz's cylinder and the flat punch."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.verification import text
+from nmm.verification.base import Check, Checks, SceneCase, holds, limit
+from nmm.verification.reading import converged
+
+if TYPE_CHECKING:
+    from nmm.formulation import Formulation
+    from nmm.scene import Scene
+    from nmm.stepping.run import Run
+
+
+@dataclass(frozen=True)
+class ContactPatch(SceneCase):
+    """A uniform pressure passes from one block to another, whatever the covers of either.
+
+    The tops of both blocks carry the pressure, but for the part of the lower that the upper covers.
+    """
+
+    name: ClassVar[str] = "B20"
+    title: ClassVar[str] = "Contact patch test, 1 x 1 on 3 x 1 with covers that do not match"
+    source: ClassVar[str] = "Uniform stress -1 (Taylor and Papadopoulos 1991)"
+    formulations: ClassVar[tuple[str, ...]] = (
+        "dda",
+        "degree 2",
+        "degree 3",
+        "finite elements",
+        "manifold",
+        "manifold degree 2",
+        "bilinear quads",
+        "quads",
+        "quads degree 2",
+    )
+    points: ClassVar[str] = "faces"
+    enforcement: str = "penalty"
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return the enforcements."""
+        return [cls(name) for name in ("penalty", "lagrange", "augmented", "cone")]
+
+    @property
+    def variant(self) -> str:
+        """The enforcement."""
+        return self.enforcement
+
+    def scene(self) -> str:
+        """Return both blocks, free to widen."""
+        loads = [
+            ("middle", "upper", -0.5, 0.5, 1.0),
+            ("left", "lower", -1.5, -0.5, 0.0),
+            ("right", "lower", 0.5, 1.5, 0.0),
+        ]
+        return text.scene(
+            'title = "Contact patch test"\nplane = "stress"\n[contact]\n'
+            f'[formulation.contact]\nenforcement = "{self.enforcement}"\n'
+            f'points = "{self.points}"\n' + self._options(),
+            [
+                text.material("soft", modulus=1000.0, poisson=0.3, density=None),
+                text.interface("smooth", 0.0),
+                text.block("lower", "soft", text.rectangle((-1.5, -1), (1.5, 0))),
+                text.block("upper", "soft", text.rectangle((-0.5, 0), (0.5, 1))),
+                '[[supports]]\nname = "foot"\nsegment = [[-1.5, -1], [1.5, -1]]\nfix = ["y"]\n',
+                *_pins({"lower": (0.0, -1.0), "upper": (0.0, 1.0)}),
+                *(
+                    f'[[loads]]\nname = "press {side}"\nkind = "edge"\nblock = "{block}"\n'
+                    f"segment = [[{low}, {height}], [{high}, {height}]]\ntraction = [0, -1]\n"
+                    for side, block, low, high, height in loads
+                ),
+            ],
+        )
+
+    def _options(self) -> str:
+        """Gaps as near to zero as a test to 1e-8 needs."""
+        exact = self.enforcement in ("augmented", "cone")
+        return "[formulation.contact.options]\ngap_tolerance = 1e-9\n" if exact else ""
+
+    def formulation(self, scene: "Scene", name: str) -> "Formulation":
+        """Return meshes with a net of its own for the upper block."""
+        found = super().formulation(scene, name)
+        if found.cover.of_blocks:
+            return found
+        return _covered(
+            found,
+            angle=np.radians(17),
+            shift=(0.3, 0.2),
+            nets=[{"block": "upper", "size": 0.23, "angle": -np.radians(11)}],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the stress everywhere."""
+        miss = float(np.abs(run.stress - [0.0, -1.0, 0.0]).max())
+        if not converged(run):
+            return {"in equilibrium": holds(False, run.summary.sentence)}
+        if self.enforcement == "penalty":
+            reason = "the springs give way evenly; turn of covers by 1e-3 of the strain squared"
+            return {"largest error of stress (Pa)": limit(miss, 1e-8, reason)}
+        # Residuals of 1e-8 of the load reach the stress through points that stand for little.
+        most = 1e-7 if self.enforcement == "lagrange" else 2e-6
+        reason = "3e-8 measured with multipliers, 6e-7 with rounds; elements of blocks: rounding"
+        return {"largest error of stress (Pa)": limit(miss, most, reason)}
+
+
+@dataclass(frozen=True)
+class NodeToSegment(ContactPatch):
+    """Springs of one stiffness at all corners: no uniform stress but by chance."""
+
+    name: ClassVar[str] = "B20 corners"
+    title: ClassVar[str] = "The contact patch test fails with contact at corners alone"
+    points: ClassVar[str] = "vertices"
+    formulations: ClassVar[tuple[str, ...]] = ("finite elements", "manifold", "quads")
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return springs."""
+        return [cls("penalty")]
+
+    def measure(self, run: "Run") -> Checks:
+        """Say by how much the stress is off."""
+        miss = float(np.abs(run.stress - [0.0, -1.0, 0.0]).max())
+        reason = "known fault of contact at corners; 0.2 to 1.1 measured"
+        return {"largest error of stress (Pa)": Check(miss, 0.1, 0.0, reason, bound="at_least")}
+
+
+@dataclass(frozen=True)
+class Pressure(SceneCase):
+    """Base of contacts whose pressure is known: stiff against soft, smooth, in plane strain."""
+
+    formulations: ClassVar[tuple[str, ...]] = ("finite elements", "manifold")
+    enforcement: str = "penalty"
+
+    @property
+    def variant(self) -> str:
+        """The enforcement."""
+        return self.enforcement
+
+    def pressures(self, run: "Run") -> tuple[Floats, Floats, Floats]:
+        """Return contacts from left to right: places, forces and ends (m + 1,) of their lengths.
+
+        The length of a contact that presses goes half way to its neighbours.
+        """
+        frame = run.frames[-1]
+        place, force = frame.contact_position[:, 0], -frame.contact_force[:, 0]
+        acts = force > 1e-9 * force.sum()
+        order = np.argsort(place[acts])
+        x, f = place[acts][order], force[acts][order]
+        middle = (x[1:] + x[:-1]) / 2
+        ends = np.concatenate([[1.5 * x[0] - x[1] / 2], middle, [1.5 * x[-1] - x[-2] / 2]])
+        return x, f, ends
+
+
+@dataclass(frozen=True)
+class Hertz(Pressure):
+    """A cylinder is pressed on a rigid plane."""
+
+    name: ClassVar[str] = "B21"
+    title: ClassVar[str] = "Hertz: cylinder of R = 0.05 m on a rigid plane, 1e6 N/m"
+    source: ClassVar[str] = "b^2 = 4 P R (1 - nu^2) / (pi E), p = 2 P sqrt(1 - x^2 / b^2) / (pi b)"
+    radius: ClassVar[float] = 0.05
+    modulus: ClassVar[float] = 200e9
+    load: ClassVar[float] = 1e6
+    half_width: ClassVar[float] = 5.38203e-4
+    peak: ClassVar[float] = 1.182863e9
+    contacts: ClassVar[int] = 15
+
+    @property
+    def step(self) -> float:
+        """Distance of corners where bodies meet (m)."""
+        return self.half_width / self.contacts
+
+    def scene(self) -> str:
+        """Return the lower half of the cylinder, pressed evenly on its cut, on a stiff block."""
+        r = self.radius
+        return text.scene(
+            'title = "Cylinder on a plane"\nplane = "strain"\n[contact]\n'
+            f'[formulation.contact]\nenforcement = "{self.enforcement}"\nnormal_penalty = 1e-3\n',
+            [
+                text.material("steel", modulus=self.modulus, poisson=0.3, density=None),
+                text.material("rigid", modulus=1e4 * self.modulus, poisson=0.0, density=None),
+                text.interface("smooth", 0.0),
+                text.block("plane", "rigid", text.rectangle((-r, -r), (r, 0))),
+                text.block("cylinder", "steel", self._arc()),
+                text.held("plane"),
+                *_pins({"cylinder": (0.0, r)}),
+                *_pins({"cylinder": (0.0, r / 2)}, "axis"),
+                f'[[loads]]\nname = "press"\nkind = "edge"\nblock = "cylinder"\n'
+                f"segment = [[{-r}, {r}], [{r}, {r}]]\ntraction = [0, {-self.load / (2 * r)!r}]\n",
+            ],
+        )
+
+    def _arc(self) -> Floats:
+        """Corners of the half cylinder, near each other where it is pressed."""
+        x = [0.0]
+        while x[-1] < 0.98 * self.radius:
+            x.append(x[-1] + max(self.step, 0.15 * (x[-1] - 1.3 * self.half_width)))
+        right = np.array([*x[:-1], self.radius])
+        corners = np.column_stack([right, self.radius - np.sqrt(self.radius**2 - right**2)])
+        return np.concatenate([corners[:0:-1] * [-1, 1], corners])
+
+    def formulation(self, scene: "Scene", name: str) -> "Formulation":
+        """Return triangles that grow away from the contact; the plane is one cell or two."""
+        options = {"focus": [[0.0, 0.0]], "radius": 1.3 * self.half_width, "growth": 0.4}
+        return _covered(
+            super().formulation(scene, name),
+            type="graded",
+            size=self.step,
+            options=options,
+            nets=[{"block": "plane", "size": 0.3, "shift": (0.3, 0.3)}],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare half width and peak of the pressure that is nearest to the one found.
+
+        Hertz's ``p^2`` falls linearly with ``x^2``.
+        """
+        x, force, ends = self.pressures(run)
+        length = np.diff(ends)
+        if self.enforcement == "penalty":
+            frame = run.frames[-1]
+            order = np.argsort(frame.contact_position[:, 0])
+            acts = frame.contact_force[order, 0] < -1e-9 * force.sum()
+            length = frame.contact_length[order][acts]
+        near = np.abs(x) < 0.8 * self.half_width
+        slope, top = np.polyfit(x[near] ** 2, (force / length)[near] ** 2, 1)
+        reason = "the benchmark's, for 15 contacts in b"
+        width = float(np.sqrt(4 * force @ x**2 / force.sum()))
+        return {
+            "force (N)": Check(float(force.sum()), self.load, 1e-6, "residual of the solution"),
+            "half width from the second moment (m)": Check(width, self.half_width, 0.03, reason),
+            "half width (m)": Check(float(np.sqrt(-top / slope)), self.half_width, 0.03, reason),
+            "peak pressure (Pa)": Check(float(np.sqrt(top)), self.peak, 0.03, reason),
+        }
+
+
+@dataclass(frozen=True)
+class ExactHertz(Hertz):
+    """The same without penetration.
+
+    Exact conditions at the corners of both faces ask too much of fields of higher degree: single
+    forces jump there, though their moment does not.
+    """
+
+    name: ClassVar[str] = "B21 exact"
+    formulations: ClassVar[tuple[str, ...]] = ("finite elements",)
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return multipliers and the cone."""
+        return [cls("lagrange"), cls("cone")]
+
+
+@dataclass(frozen=True)
+class Punch(Pressure):
+    """A rigid block with a flat face is pressed on a body that is large beside it."""
+
+    name: ClassVar[str] = "B22"
+    title: ClassVar[str] = "Flat rigid punch of half width a on a half plane"
+    source: ClassVar[str] = "p = P / (pi sqrt(a^2 - x^2)): a third of P in |x| < a / 2"
+    extent: ClassVar[float] = 20.0
+
+    def scene(self) -> str:
+        """Return the punch, 2 m wide, on a body 20 times as wide and deep as half of it."""
+        w = self.extent
+        return text.scene(
+            'title = "Flat punch"\nplane = "strain"\n[contact]\n'
+            f'[formulation.contact]\nenforcement = "{self.enforcement}"\nnormal_penalty = 1e-2\n',
+            [
+                text.material("soft", modulus=1e9, poisson=0.3, density=None),
+                text.material("rigid", modulus=1e13, poisson=0.0, density=None),
+                text.interface("smooth", 0.0),
+                text.block("body", "soft", text.rectangle((-w, -w), (w, 0))),
+                text.block("punch", "rigid", text.rectangle((-1, 0), (1, 1))),
+                f'[[supports]]\nname = "foot"\nsegment = [[{-w}, {-w}], [{w}, {-w}]]\n'
+                'fix = ["x", "y"]\n',
+                *_pins({"punch": (0.0, 1.0)}),
+                *_pins({"punch": (0.0, 0.5)}, "axis"),
+                '[[loads]]\nname = "press"\nkind = "edge"\nblock = "punch"\n'
+                "segment = [[-1, 1], [1, 1]]\ntraction = [0, -1e3]\n",
+            ],
+        )
+
+    def formulation(self, scene: "Scene", name: str) -> "Formulation":
+        """Return triangles that grow away from the corners; the punch is one cell or two."""
+        return _covered(
+            super().formulation(scene, name),
+            type="graded",
+            size=1 / 40,
+            options={"focus": [[-1.0, 0.0], [1.0, 0.0]], "radius": 0.1, "growth": 0.12},
+            nets=[{"block": "punch", "size": 3.0, "shift": (0.3, 0.3)}],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the share of the force in the middle half of the face."""
+        _, force, ends = self.pressures(run)
+        sums = np.concatenate([[0.0], np.cumsum(force)])
+        low, high = np.interp([-0.5, 0.5], ends, sums)
+        share = float((high - low) / sums[-1])
+        reason = "the benchmark's; 0.1 % of it from the depth of 20 a"
+        return {"force in the middle half over all": Check(share, 1 / 3, 0.02, reason)}
+
+
+@dataclass(frozen=True)
+class ExactPunch(Punch):
+    """The same without penetration."""
+
+    name: ClassVar[str] = "B22 exact"
+    formulations: ClassVar[tuple[str, ...]] = ("finite elements",)
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return multipliers and the cone."""
+        return [cls("lagrange"), cls("cone")]
+
+
+def _pins(places: dict[str, tuple[float, float]], name: str = "pin") -> list[str]:
+    """Tables of supports that keep points of blocks from moving sideways."""
+    return [
+        f'[[supports]]\nname = "{name} {block}"\npoint = {list(point)}\nblock = "{block}"\n'
+        'fix = ["x"]\n'
+        for block, point in places.items()
+    ]
+
+
+def _covered(formulation: "Formulation", **changes: Any) -> "Formulation":
+    """Return a formulation with other keys of its cover."""
+    from nmm.formulation import Cover
+
+    cover = Cover.model_validate(formulation.cover.model_dump(mode="json") | changes)
+    return formulation.model_copy(update={"cover": cover})
