@@ -1,5 +1,7 @@
 """Degrees that vary by region, from a formulation's text."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -162,3 +164,13 @@ def test_blocks_have_no_regions() -> None:
     text = '[cover]\ntype = "block"\n' + NEAR.format(2, 0.5)
     with pytest.raises(FormulationError, match="expected a mesh of polynomials"):
         model_of(text)
+
+
+def test_the_formulations_of_the_manual_are_read() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "covers.md").read_text()
+    parts = [part.split("```")[0] for part in page.split("```toml\n")[1:]]
+    assert len(parts) == 3
+    regions, tips, mass = (parse_formulation(part) for part in parts)
+    assert [item.degree for item in regions.cover.regions or ()] == [2, 0]
+    assert tips.cover.enrichment is not None
+    assert mass.integrator.mass == "lumped"
