@@ -131,7 +131,7 @@ def _fewer_colours(path: PathLike | None) -> None:
         from PIL import Image
 
         with Image.open(path) as picture:
-            few = picture.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE)
+            few = picture.convert("RGB").quantize(200, Image.Quantize.MAXCOVERAGE)
         few.save(path, optimize=True)
 
 

@@ -315,7 +315,7 @@ def _conditions(study: CostStudy) -> list[str]:
     return [
         f"Medians of {repeats} repeats after a warm-up, all runs in turn; processor seconds of the "
         f"whole run, covers included. Wall over processor seconds {ratio:.2f}{shared}. Memory is "
-        f"what a run adds at its peak to a process that has run once before. {first.machine}; "
+        f"what a run adds at its peak to a process that has made it once before. {first.machine}; "
         f"{versions}{commit}. Scene {first.scene_hash[:12]}{seed}. Raw records with all hashes, "
         "seeds and repeats: `records.jsonl`.",
     ]
