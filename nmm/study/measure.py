@@ -192,8 +192,8 @@ def added_memories(cases: Sequence[Case]) -> Iterator[int | None]:
     """Yield the memory of each case, one after the other in one process that gives memory back.
 
     What libraries keep after their first use, 6 to 40 MiB, is not counted where there are several
-    cases, as each is run twice then; the rest agrees within about a tenth with that of a fresh process for each, which takes
-    seconds to begin.
+    cases, as each is run twice then; the rest agrees within about a tenth with that of a fresh
+    process for each, which takes seconds to begin.
     """
     modules = [name for name in sys.modules if name.partition(".")[0] in _LOADED]
     left = list(cases)
