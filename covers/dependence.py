@@ -132,10 +132,11 @@ def _of_grids(cut: CutCells, degree: int) -> int:
 
 def _counted(groups: Sequence[ElementGroup], n: int) -> int:
     """Number of eigenvalues of the scaled Gram matrix of all unknowns below `ZERO`."""
-    gram = _gram(groups, n)
+    scalar = all(group.combination is None for group in groups)
+    gram = _gram([_products(group, scalar) for group in groups], n // 2 if scalar else n)
     scale = 1 / np.sqrt(np.maximum(gram.diagonal(), 1e-300))
     scaled = diags_array(scale) @ gram @ diags_array(scale)
-    return _below(csc_array(scaled), ZERO)
+    return (2 if scalar else 1) * _below(csc_array(scaled), ZERO)
 
 
 def _below(matrix: csc_array, bound: float) -> int:
@@ -147,19 +148,25 @@ def _below(matrix: csc_array, bound: float) -> int:
     return int((factor.U.diagonal() < 0).sum())
 
 
-def _gram(groups: Sequence[ElementGroup], n: int) -> csc_array:
-    rows, columns, values = [], [], []
-    for group in groups:  # a handful of groups
-        products = group.products()
-        m, size, _ = products.shape
-        both = np.zeros((m, size, 2, size, 2))
-        both[:, :, 0, :, 0] = both[:, :, 1, :, 1] = products
-        full = both.reshape(m, 2 * size, 2 * size)
-        if group.combination is not None:
-            full = np.swapaxes(group.combination, 0, 1) @ full @ group.combination
-        length = group.unknowns.shape[1]
-        rows.append(np.repeat(group.unknowns, length, axis=1).ravel())
-        columns.append(np.tile(group.unknowns, length).ravel())
-        values.append(full[group.shape].ravel())
-    entries = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))
+def _products(group: ElementGroup, scalar: bool) -> tuple[Ints, Floats]:
+    """Unknowns (n, L) and integrals (n, L, L) of their products; of one component if scalar."""
+    products = group.products()
+    if scalar:  # both components have the same functions, one after the other
+        return group.unknowns[:, ::2] // 2, products[group.shape]
+    m, size, _ = products.shape
+    both = np.zeros((m, size, 2, size, 2))
+    both[:, :, 0, :, 0] = both[:, :, 1, :, 1] = products
+    full = both.reshape(m, 2 * size, 2 * size)
+    if group.combination is not None:
+        full = np.swapaxes(group.combination, 0, 1) @ full @ group.combination
+    return group.unknowns, full[group.shape]
+
+
+def _gram(parts: Sequence[tuple[Ints, Floats]], n: int) -> csc_array:
+    rows, columns = [], []
+    for unknowns, _ in parts:  # a handful of groups
+        rows.append(np.repeat(unknowns, unknowns.shape[1], axis=1).ravel())
+        columns.append(np.tile(unknowns, unknowns.shape[1]).ravel())
+    values = np.concatenate([products.ravel() for _, products in parts])
+    entries = values, (np.concatenate(rows), np.concatenate(columns))
     return csc_array(coo_array(entries, shape=(n, n)))
