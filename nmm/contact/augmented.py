@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from nmm.contact.alternation import Budget
 from nmm.contact.answer import answer, singular_answer
-from nmm.contact.cone import interior_round
+from nmm.contact.cone import exact_round
 from nmm.contact.enforcement import Enforcement
 from nmm.contact.memory import Memory
 from nmm.contact.problem import StepAnswer, StepProblem
@@ -35,7 +35,7 @@ class Augmented(Enforcement):
         ``p c`` (-), from which ``p`` of each contact follows; None takes the stiffnesses of the
         problem.
     growth
-        Factor on ``p`` (-) after a round that reduced the error by less than fifty, up to 300
+        Factor on ``p`` (-) after a round that reduced the error by less than fifty, up to 100
         times the first ``p``; 1 keeps ``p``.
     max_rounds
         Most updates of the multipliers a step.
@@ -55,7 +55,7 @@ class Augmented(Enforcement):
     max_rounds: int = 50
     rescue: int = 100
     tolerance: float = 1e-8
-    gap_tolerance: float = 1e-5
+    gap_tolerance: float = 1e-7
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
@@ -81,7 +81,10 @@ class Augmented(Enforcement):
             return singular_answer(at.settled.springs, linear_solver, fault)
         how = f"{at.count} rounds"
         if self.rescue and not at.meets(self.tolerance, goal):
-            at = interior_round(at, linear_solver, memory, self.tolerance, goal, self.rescue)
-            how = f"{how}, then {at.settled.story}"
+            soft = stiff_springs(problem, 10.0)
+            at, rest = exact_round(
+                soft, linear_solver, memory, self.tolerance, goal, factorisations=self.rescue
+            )
+            how = f"{how}, then {rest}"
         verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, goal, how)
         return answer(at.settled, linear_solver, verdict)

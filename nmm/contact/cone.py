@@ -3,6 +3,8 @@
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
+import numpy as np
+
 from nmm.contact.alternation import Budget
 from nmm.contact.answer import answer, singular_answer
 from nmm.contact.enforcement import Enforcement
@@ -21,29 +23,34 @@ from nmm.contact.rounds import (
     updated,
 )
 from nmm.contact.settle import FINE, SMALL
-from nmm.contact.springs import CutSprings
+from nmm.contact.springs import CutSprings, Settled
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
 
 START = 10.0
 """Stiffness over compliance of the springs by which the interior point measures forces."""
-RESIGNED = 5
-"""Steps that begin with the interior point after one in which the rounds failed."""
+STIFF = 100.0
+"""The same of the springs of the rounds that follow it."""
+FIRST_ROUNDS = 2
+"""Rounds before the interior point is asked which contacts act."""
+CLOSE = 1e-4
+"""Error of the forces at which most contacts have their state."""
 
 
 @dataclass(frozen=True)
 class Cone(Enforcement):
     """Forces in the cone ``|T| <= c - mu N, N <= t``, gaps and slips exactly complementary to them.
 
-    Starts cheap and falls back by rule. First rounds of multipliers, started from the forces of
-    the last step, each a few solves with kept factors (`nmm.contact.alternation`), their springs
-    stiffer from round to round. Where a round misses its tolerance the interior point takes over,
-    which is exact too, and the verdict says so. Friction is not associated: the bound moves with
-    the normal force, no dilatancy. Contacts whose stiffness is the joint's own are springs.
+    Starts cheap and falls back by rule. Rounds of multipliers start from the forces of the last
+    step, each a few solves with kept factors (`nmm.contact.alternation`), their springs stiffer
+    from round to round. Where the first rounds are not near the interior point finds most states
+    in some ten factorisations, and stiffer rounds finish; where these fail it goes on to the end,
+    and the verdict says so. Friction is not associated: the bound moves with the normal force, no
+    dilatancy. Contacts whose stiffness is the joint's own are springs.
 
-    Where blocks have more contacts than unknowns exact forces are not unique, and with friction
-    not even their resultants on the blocks: two searches that meet every condition to 1e-8 differ
-    by 1e-3 on a wall of 100 bricks (docs/enforcements.md).
+    Where blocks have more contacts than unknowns single forces are not unique, and resultants on
+    the blocks are many times as sensitive as gaps: on a wall of 100 bricks a gap error of 2e-6
+    leaves one of 4e-3 in them, 1e-7 one of 1e-4 (docs/enforcements.md).
 
     Attributes
     ----------
@@ -68,10 +75,10 @@ class Cone(Enforcement):
     scale: float = 10.0
     growth: float = 10.0
     max_rounds: int = 12
-    max_solves: int = 400
+    max_solves: int = 300
     max_factorisations: int = 100
     tolerance: float = 1e-8
-    gap_tolerance: float = 1e-5
+    gap_tolerance: float = 1e-7
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
@@ -117,19 +124,39 @@ def exact_round(
     SolveError
         When even with all contacts acting the load moves a free part.
     """
+    budget = Budget(solves, 12, 0)
+    small = len(springs.problem.force) <= SMALL
+    few = rounds if small else FIRST_ROUNDS
     at = first_round(springs)
-    budget = Budget(solves, 20, 0)
-    if memory.resigned:
-        memory.resigned -= 1
-        rounds, growth = 1, 1.0
-    at = converged_rounds(at, linear, memory, tolerance, gap_tolerance, rounds, growth, budget)
-    how = f"{at.count} rounds"
+    at = converged_rounds(at, linear, memory, tolerance, gap_tolerance, few, growth, budget)
     if at.meets(tolerance, gap_tolerance):
-        return at, how
-    if rounds > 1:
-        memory.resigned = RESIGNED
+        return at, f"{at.count} rounds"
+    how = f"{at.count} rounds, interior point"
+    if not at.error <= CLOSE:
+        at = interior_round(at, linear, memory, CLOSE, CLOSE, factorisations)
+    stiff = converged_rounds(
+        _stiffer(at), linear, memory, tolerance, gap_tolerance, at.count + rounds, growth, budget
+    )
+    if stiff.meets(tolerance, gap_tolerance):
+        return stiff, f"{how} and {stiff.count - at.count} rounds"
+    at = replace(at, settled=_cost(at.settled, stiff.settled))
     at = interior_round(at, linear, memory, tolerance, gap_tolerance, factorisations)
-    return at, f"{how}, then {at.settled.story}"
+    return at, f"{how} and {stiff.count - at.count} rounds, then {at.settled.story}"
+
+
+def _stiffer(at: Round) -> Round:
+    """The same forces as multipliers of stiffer springs."""
+    springs = at.settled.springs
+    exact = ~springs.problem.own_stiffness
+    forces = springs.forces(at.settled.increment)
+    shifts = (np.where(exact, force, 0.0) for force in forces)
+    stiff = stiff_springs(springs.problem, STIFF).shifted(*shifts)
+    return replace(at, settled=replace(at.settled, springs=stiff))
+
+
+def _cost(settled: Settled, later: Settled) -> Settled:
+    """What was settled, at the cost of what came after it."""
+    return replace(settled, solves=later.solves, factorisations=later.factorisations)
 
 
 def interior_round(
@@ -150,7 +177,7 @@ def interior_round(
         memory.pattern_of(problem),
         linear,
         exact=~problem.own_stiffness,
-        slack=tolerance / gap_tolerance,
+        slack=tolerance / (START * gap_tolerance),
     )
     found = method.run(before, budget, tolerance)
     total = replace(

@@ -63,7 +63,7 @@ class Lagrange(Enforcement):
     max_passes: int = 20
     rescue: int = 100
     tolerance: float = 1e-8
-    gap_tolerance: float = 1e-5
+    gap_tolerance: float = 1e-7
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None

@@ -12,7 +12,7 @@ from nmm.solvers.linear import Factor, LinearSolver
 
 DRIFT = 1.25
 """A kept factor serves while no diagonal entry of the matrix has changed by more than this."""
-KEPT = 3
+KEPT = 4
 """Factors kept."""
 TURN = 1e-3
 """A kept factor is as good as new while the rows have changed by less than this part."""
@@ -70,8 +70,6 @@ class Memory:
     kept
         Last factors with all springs acting: rounds of multipliers use springs of several
         stiffnesses in one step.
-    resigned
-        Steps for which rounds of multipliers are not tried, after one in which they failed.
     barrier_width
         Width of the barrier chosen in the first step (m).
     """
@@ -80,7 +78,6 @@ class Memory:
     start: Floats | None = None
     last: Floats | None = None
     kept: list[KeptFactor] = field(default_factory=list)
-    resigned: int = 0
     barrier_width: float | None = None
 
     def pattern_of(self, problem: StepProblem) -> SpringPattern:

@@ -13,7 +13,7 @@ from nmm.contact.settle import SMALL, settle
 from nmm.contact.springs import CutSprings, Settled
 from nmm.solvers.linear import LinearSolver
 
-STIFFEST = 300.0
+STIFFEST = 100.0
 """Largest factor by which rounds may stiffen springs: beyond, a round costs more than it gains."""
 GAIN = 0.02
 """Part of the error that a round must leave at most for its springs to stay as they are."""

@@ -1,4 +1,8 @@
-"""Solve cut springs: by chord steps with two factors and, by rule, with the interior point."""
+"""Solve cut springs: by chord steps with two factors and, by rule, with the interior point.
+
+The interior point finds most states in ten factorisations whatever the stiffness, and takes many
+more over the last few; chord steps are quick where most states are right, and lost where not.
+"""
 
 from dataclasses import replace
 
@@ -18,6 +22,11 @@ FEW = 200
 """Contacts up to which it is tried first from a start that is near."""
 FINE = 1e-13
 """Relative out-of-balance force at which Newton's method need not go on."""
+
+FIRST = 6
+"""Factors of acting springs after which the interior point is asked where they are."""
+LOOSE = 1e-4
+"""Out-of-balance force at which the interior point has found most states."""
 
 
 def settle(
@@ -43,20 +52,44 @@ def settle(
         quick = _polished(springs, linear, memory, increment)
         if quick.size <= tolerance:
             return _kept(quick, memory)
-    found = Alternation(springs, linear, memory, tolerance, increment).run(budget)
+    first = replace(budget, factors=min(budget.factors, FIRST)) if budget.interior else budget
+    found = Alternation(springs, linear, memory, tolerance, increment).run(first)
     if found.size <= tolerance and small:
         end = _polished(springs, linear, memory, found.increment)
         found = replace(found, increment=end.increment, size=end.size)
     elif not found.size <= tolerance and budget.interior > 0:
-        pattern = memory.pattern_of(springs.problem)
-        inner = InteriorPoint(springs, pattern, linear).run(found, budget.interior, tolerance)
-        found = replace(
-            inner if inner.size < found.size else found,
-            solves=found.solves + inner.solves,
-            factorisations=found.factorisations + inner.factorisations,
-            story=f"{found.story}, then {inner.story}",
-        )
+        found = _inside(found, linear, memory, tolerance, budget)
     return _kept(found, memory)
+
+
+def _inside(
+    found: Settled, linear: LinearSolver, memory: Memory, tolerance: float, budget: Budget
+) -> Settled:
+    """Best of the interior point, broken off near the end for chord steps, and gone on with."""
+    springs, best = found.springs, found
+    method = InteriorPoint(springs, memory.pattern_of(springs.problem), linear)
+    for goal in (LOOSE, tolerance):
+        inner = method.run(found, budget.interior, max(goal, tolerance))
+        best = _joined(best, inner)
+        if best.size <= tolerance:
+            break
+        rest = replace(budget, factors=FIRST)
+        best = _joined(
+            best, Alternation(springs, linear, memory, tolerance, inner.increment).run(rest)
+        )
+        if best.size <= tolerance:
+            break
+    return best
+
+
+def _joined(before: Settled, then: Settled) -> Settled:
+    """The better of two, with the cost of both."""
+    return replace(
+        then if then.size < before.size else before,
+        solves=before.solves + then.solves,
+        factorisations=before.factorisations + then.factorisations,
+        story=f"{before.story}, then {then.story}",
+    )
 
 
 def _start(springs: CutSprings, memory: Memory, given: Floats | None) -> Floats:
