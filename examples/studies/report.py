@@ -93,6 +93,7 @@ STUDIES = {
         ENFORCEMENTS,
         {STEP: (0.08, 0.04, 0.02)},
         quantity="monitor:toe:ux",
+        repeats=1,
         memory=False,
     ),
     "incline_overlap": Study(
@@ -102,12 +103,13 @@ STUDIES = {
         {"integrator": {"step": 0.1}},
         "largest_penetration",
         zero="bodies do not overlap (m)",
+        repeats=1,
         memory=False,
     ),
     "arch": Study(
         "arch/shaken.toml",
         ENFORCEMENTS,
-        {"formulation.loading.tolerance": (0.1, 0.02, 0.004)},
+        {"formulation.loading.tolerance": (0.1, 0.01)},
         {"loading": {"increment": 0.1}},
         "failure_factor",
         repeats=1,
