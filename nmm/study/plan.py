@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,11 +17,18 @@ from nmm.study.variants import Case, cases_of, read_formulations
 
 
 class Plan(Frozen):
-    """A study: a scene, formulations, values by dotted key, and what is read off each run."""
+    """A study: scenes, formulations, values by dotted key, and what is read off each run."""
 
     title: str = Field(default="", description="a title", examples=["Kitoh, 12 seeds"])
     scene: str = Field(
-        description="the path of a scene file, from the study's folder", examples=["beam.toml"]
+        default="",
+        description="the path of a scene file, from the study's folder",
+        examples=["beam.toml"],
+    )
+    scenes: tuple[str, ...] = Field(
+        default=(),
+        description="a list of paths of scene files, in place of one",
+        examples=[["small.toml", "large.toml"]],
     )
     formulations: tuple[str, ...] = Field(
         default=(), description="a list of paths of formulation files", examples=[["dda.toml"]]
@@ -49,16 +57,34 @@ def read_plan(path: Path) -> tuple[Plan, list[Case]]:
         Faults of the study file, of the scene, of a formulation, or of a value in ``[vary]``.
     """
     plan = parse(read_text(path, NmmError), Plan, str(path), NmmError)[0]
-    folder = path.resolve().parent
-    scene = read_scene(folder / plan.scene)
-    kinds = read_formulations([folder / name for name in plan.formulations])
-    if not kinds:
-        own = scene.formulation or Formulation()
-        kinds = {own.title or "scene's own": own}
+    if bool(plan.scene) == bool(plan.scenes):
+        raise NmmError(
+            f"{path}: scene: {'scenes too' if plan.scene else 'none'}: expected one scene, or a "
+            "list scenes: name what is to be run"
+        )
     strange = [key for key in plan.over if key not in plan.vary]
     if strange:
         raise NmmError(
             f"{path}: over: {strange[0]}: expected a key of [vary] ({', '.join(plan.vary)}): "
             "correct it"
         )
-    return plan, cases_of(scene, kinds, plan.vary)
+    cases = [
+        one
+        for name in plan.scenes or (plan.scene,)
+        for one in _cases(path.resolve().parent, plan, name)
+    ]
+    return plan, cases
+
+
+def _cases(folder: Path, plan: Plan, name: str) -> list[Case]:
+    """Cases of one scene; of several, the scene's file is the first of their settings."""
+    scene = read_scene(folder / name)
+    kinds = read_formulations([folder / item for item in plan.formulations])
+    if not kinds:
+        own = scene.formulation or Formulation()
+        kinds = {own.title or "scene's own": own}
+    cases = cases_of(scene, kinds, plan.vary)
+    if not plan.scenes:
+        return cases
+    named = {"scene": Path(name).stem}
+    return [replace(one, settings=named | dict(one.settings)) for one in cases]

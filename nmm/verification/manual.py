@@ -112,8 +112,7 @@ def _index(by_name: dict[str, list[Row]]) -> str:
         "the quantity that comes nearest to its tolerance; the page behind the name has them all.",
         "",
         "An error is relative to the reference unless the page says otherwise; a reference with ≤ "
-        "or ≥ is a limit, whose error is how far it is passed. Seconds are of a machine that did "
-        "other work too.",
+        "or ≥ is a limit, whose error is how far it is passed. Seconds are processor seconds.",
         "",
         "![Errors over tolerances of all quantities](margins.png)",
     ]

@@ -25,7 +25,7 @@ class Row:
     runs, missed
         How many variants there are, and how many missed.
     seconds
-        Wall-clock time of all variants.
+        Processor time of all variants.
     shares
         Error over tolerance of every quantity.
     """

@@ -3,11 +3,13 @@
 import importlib.util
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import nmm
 from nmm.study.cost import read_records
 from nmm.study.plan import read_plan
+from nmm.study.sweep import run_study
 from nmm.study.yardstick import run_elements
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -79,6 +81,19 @@ def test_the_ensemble_is_twelve_cases_that_differ():
     plan, cases = read_plan(STUDIES / "kitoh_seeds/study.toml")
     assert plan.over == ("tessellations.0.seed",)
     assert len({case.key for case in cases}) == 12
+
+
+def test_friction_holds_back_a_sliding_block_by_its_angle(tmp_path):
+    plan, cases = read_plan(STUDIES / "friction/study.toml")
+    key = "interfaces.slope.friction_angle"
+    chosen = [one for one in cases if one.settings[key] in ("10 deg", "31 deg")]
+    done = run_study(plan, chosen, tmp_path, processes=1)
+    way = {one.settings[key]: one.quantities["monitor:toe:ux"] for one in done.records}
+    slope, friction = np.radians([30, 10])
+    expected = -9.81 / 2 * (np.sin(slope) - np.cos(slope) * np.tan(friction)) * np.cos(slope)
+    # as benchmark B2; above the angle of the slope it rests
+    assert way["10 deg"] == pytest.approx(expected, rel=2e-3)
+    assert abs(way["31 deg"]) < 1e-6
 
 
 REPORTS = sorted((ROOT / "docs/accuracy_cost").glob("*/records.jsonl"))

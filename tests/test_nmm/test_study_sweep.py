@@ -116,6 +116,21 @@ def test_a_study_is_run_summed_up_and_not_run_again(study, tmp_path):
     assert stamps == {path: path.stat().st_mtime_ns for path in (out / "cases").iterdir()}
 
 
+def test_several_scenes_are_cases_named_by_their_files(study, tmp_path):
+    (tmp_path / "long.toml").write_text(SCENE.replace("4, 0]", "8, 0]").replace("4, 1]", "8, 1]"))
+    listed = 'scenes = ["bar.toml", "long.toml"]'
+    study.write_text(STUDY.replace('scene = "bar.toml"', listed).replace('"dda.toml", ', ""))
+    plan, cases = read_plan(study)
+    assert [one.settings["scene"] for one in cases] == ["bar"] * 3 + ["long"] * 3
+    done = run_study(plan, cases, tmp_path / "out", processes=1)
+    work = {dict(one.settings)["scene"]: one.mean for one in groups(done)}
+    # The work of a load on a bar grows with its length.
+    assert work["long"] == pytest.approx(2 * work["bar"], rel=1e-2)
+    study.write_text(STUDY.replace('scene = "bar.toml"', ""))
+    with pytest.raises(NmmError, match="expected one scene, or a list scenes"):
+        read_plan(study)
+
+
 def test_a_killed_study_continues_with_what_is_left(study, tmp_path):
     plan, cases = read_plan(study)
 
