@@ -389,20 +389,26 @@ class Contact(Effect):
         side = self._sides.at(contacts.edge_b, contacts.parameter_b)
         return side.place(state.frames, state.deformation)
 
-    def condition(self, solver: LinearSolver) -> float | None:
-        """Estimate the condition number of the last system with the springs that acted in it."""
+    def acting(self) -> csc_array | None:
+        """Return the matrix of the last system with the springs that acted in it."""
         if self._solved is None:
             return None
         problem, answer = self._solved
         closed = answer.normal_force != 0
-        held = closed & (answer.state != SLIDE)
-        matrix = with_springs(
+        limits = problem.limits
+        bound = limits.cohesion + limits.friction * np.maximum(-answer.normal_force, 0.0)
+        held = closed & (answer.state != SLIDE) & (bound > 0)
+        return with_springs(
             problem,
             np.where(closed, problem.normal_stiffness, 0.0),
             np.where(held, problem.shear_stiffness, 0.0),
         )
+
+    def condition(self, solver: LinearSolver) -> float | None:
+        """Estimate the condition number of the last system with the springs that acted in it."""
+        matrix = self.acting()
         try:
-            return solver.factorise(matrix).condition()
+            return None if matrix is None else solver.factorise(matrix).condition()
         except SolveError:
             return None
 

@@ -15,11 +15,17 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.stepping.integrators import Shi
+from nmm.stepping.loose import block_name, largest_mover
 from nmm.stepping.step import Attempt, Stepper
 
 # Motions in sizes of the domain: of the first step, up to which the next step is lengthened, and
 # at which a solution without mass is tried.
 FIRST, SLOW, STILL = 1e-3, 5e-3, 1e-5
+# A structure that gathers speed, its acceleration grown by this factor, over this way in sizes of
+# the domain, is a mechanism: relaxation would only follow its fall.
+GATHERS, GATHERED = 4.0, 0.03
+# Up to this way the motion that is told of a block that moves freely is looked for.
+FREE_WAY = 0.01
 # A step is lengthened and cut by these; so many steps, cuts in a row, and sizes of the domain
 # travelled end the search.
 LONGER, SHORTER, STEPS, CUTS = 1.5, 0.3, 400, 12
@@ -58,8 +64,9 @@ def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) ->
     moving = Stepper(
         model, stepper.plan.joined(inertia), Shi(kinetic_factor=0.0), stepper.solver, small=False
     )
-    length = _first_length(heavy, stepper.plan.force(state, end), stepper.size)
-    way, cuts, attempt = 0.0, 0, None
+    size = stepper.size
+    length = _first_length(heavy, stepper.plan.force(state, end), size)
+    way, cuts, attempt, start = 0.0, 0, None, None
     for steps in range(1, STEPS + 1):
         found = moving.attempt(state, end, length)
         if not found.converged:
@@ -71,12 +78,17 @@ def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) ->
         moving.accept(found)
         rest = np.zeros_like(state.velocity)
         state = replace(found.state, velocity=rest, acceleration=rest)
-        attempt, cuts, way = found, 0, way + found.motion
-        if found.motion < STILL * stepper.size and _holds(stepper, state, end):
+        cuts, way = 0, way + found.motion
+        # What moves first tells what is free, not what it hits later.
+        attempt = found if attempt is None or way - found.motion < FREE_WAY * size else attempt
+        start = found.motion / length**2 if start is None else start
+        if found.motion > GATHERS * start * length**2 and way > GATHERED * size:
+            return Relaxed(state, steps, False, f"it gathers speed: {_who(model, attempt, names)}")
+        if found.motion < STILL * size and _holds(stepper, state, end):
             return Relaxed(state, steps, True, "")
-        if way > stepper.size:
+        if way > size:
             break
-        length *= LONGER if found.motion < SLOW * stepper.size else 1.0
+        length *= LONGER if found.motion < SLOW * size else 1.0
     return Relaxed(state, steps, False, _who(model, attempt, names))
 
 
@@ -99,18 +111,6 @@ def _who(model: Model, attempt: Attempt | None, names: Sequence[str]) -> str:
     """Name the block that moves most, and how."""
     if attempt is None:
         return "no step converged"
-    manifold = model.manifold
-    rigid = (model.rigid_projection @ attempt.increment).reshape(-1, 3)
-    radius = np.sqrt(manifold.body_area)
-    turn = np.abs(rigid[:, 2]) * radius
-    shift = np.hypot(rigid[:, 0], rigid[:, 1])
-    body = int(np.argmax(np.maximum(turn, shift)))
-    region = manifold.element_region[np.flatnonzero(manifold.element_body == body)[0]]
-    name = names[region] if len(names) else f"number {body}"
-    if turn[body] > shift[body]:
-        sense = "counter-clockwise" if rigid[body, 2] > 0 else "clockwise"
-        how = f"it turns {sense}"
-    else:
-        x, y = attempt.state.frames.to_global(np.array([body]), rigid[body : body + 1, :2])[0]
-        how = f"it moves along ({x / shift[body]:.2f}, {y / shift[body]:.2f})"
+    body, how = largest_mover(model, attempt.state, attempt.increment)
+    name = block_name(model, body, names)
     return f"block {name} can move freely: {how}; add a support or friction, or [inertia]"

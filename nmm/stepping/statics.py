@@ -13,6 +13,7 @@ import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.stepping.loose import ANCHOR, block_name, largest_mover, neutral
 from nmm.stepping.recorder import Recorder
 from nmm.stepping.relaxation import Relaxed, relax
 from nmm.stepping.step import Attempt, Stepper
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 SETTLED = 1e-8
 ROUNDING = 1e-13
 CORRECTIONS = 12
+# A block that only anchors hold may wander by so many times that rounding.
+WANDER = 100.0
 
 # A load increment that was cut to this share of the largest is not cut further.
 SMALLEST = 2.0**-30
@@ -79,7 +82,12 @@ def run_load(
         fine = increment <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
         start, bonds = stepper.remember(), stepper.broken_bonds
         # A bond that breaks in a coarse increment is no news yet: the increment is cut first.
-        found = settle(stepper, state, Instant(factor, factor), "worst" if fine else "stop")
+        end, breaking = Instant(factor, factor), _breaking(fine)
+        found = settle(stepper, state, end, breaking)
+        last = fine or (state.load_factor == 0 and not schedule.until_failure)
+        if last and _may_be_loose(stepper, found):
+            stepper.restore(start)
+            found = _anchored(stepper, state, end, breaking)
         broke = stepper.broken_bonds > bonds
         if found.attempt.converged:
             said = recorder.step(state, found.attempt, found.contacts)
@@ -91,20 +99,51 @@ def run_load(
             continue
         stepper.restore(start)
         loose = stepper.plan.contact is not None and state.load_factor == 0 and rest is None
-        if loose and (fine or not schedule.until_failure):
-            rest = relax(stepper, state, Instant(factor, factor), names)
+        if loose and last:
+            rest = relax(stepper, state, end, names)
             if not rest.at_rest:
                 stepper.restore(start)
                 return state, RunVerdict(FAILED, _no_rest(rest), 0.0)
             state = replace(rest.state, time=state.time, load_factor=0.0)
             continue
         if fine:
-            return state, _no_equilibrium(state, factor, found.attempt, schedule, stepper.size)
+            verdict = _no_equilibrium(state, factor, found.attempt, schedule, stepper, names)
+            return state, _with_neutral(verdict, stepper, state, names)
         increment /= 2
     sentence = f"equilibrium at load factor {state.load_factor:.6g}"
     if rest is not None:
         sentence += f", loose blocks brought to rest in {rest.steps} steps of relaxation"
-    return state, RunVerdict(CONVERGED, sentence)
+    return state, _with_neutral(RunVerdict(CONVERGED, sentence), stepper, state, names)
+
+
+def _breaking(fine: bool) -> "Breaking":
+    return "worst" if fine else "stop"
+
+
+def _with_neutral(
+    verdict: RunVerdict, stepper: Stepper, state: State, names: Sequence[str]
+) -> RunVerdict:
+    """Add which blocks only anchors hold."""
+    if not stepper.anchored:
+        return verdict
+    found = neutral(stepper, state, names)
+    held = f"anchors of {ANCHOR:.0e} of the blocks' stiffness were used and carry nothing"
+    return replace(verdict, sentence="; ".join([verdict.sentence, *found, held]))
+
+
+def _may_be_loose(stepper: Stepper, found: "Settled") -> bool:
+    """Whether anchors may help a step without equilibrium: not where a bond was to break."""
+    solved = found.attempt.solved
+    stopped = found.attempt.converged or (solved is not None and solved.stopped)
+    return stepper.plan.contact is not None and not stepper.anchored and not stopped
+
+
+def _anchored(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> "Settled":
+    """Find equilibrium with anchors; where that succeeds they stay, and carry nothing."""
+    stepper.anchored = True
+    found = settle(stepper, state, end, breaking)
+    stepper.anchored = found.attempt.converged
+    return found
 
 
 @dataclass(frozen=True)
@@ -125,7 +164,9 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
         if far or not attempt.converged:
             return Settled(replace(total, converged=False), contacts)
         _, contacts = stepper.accept(attempt)
-        if stepper.small or attempt.motion <= SETTLED * total.motion + rounding:
+        if not stepper.anchored and stepper.small:
+            return Settled(total, contacts)
+        if attempt.motion <= SETTLED * total.motion + rounding:
             return Settled(total, contacts)
         attempt = stepper.attempt(attempt.state, end, None, breaking)
         total = _joined(total, attempt)
@@ -136,7 +177,9 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
 def _rounding(stepper: Stepper) -> float:
     """How far points must move to be known to have moved (m)."""
     farthest = float(np.abs(stepper.reference).max())
-    return max(ROUNDING * stepper.size, 4 * float(np.finfo(float).eps) * farthest)
+    still = max(ROUNDING * stepper.size, 4 * float(np.finfo(float).eps) * farthest)
+    # Rounding of the loads, over anchors.
+    return WANDER * still if stepper.anchored else still
 
 
 def _joined(first: Attempt, then: Attempt) -> Attempt:
@@ -157,12 +200,21 @@ def _no_rest(rest: Relaxed) -> str:
 
 
 def _no_equilibrium(
-    state: State, factor: float, attempt: Attempt, schedule: LoadSchedule, size: float
+    state: State,
+    factor: float,
+    attempt: Attempt,
+    schedule: LoadSchedule,
+    stepper: Stepper,
+    names: Sequence[str],
 ) -> RunVerdict:
     held = state.load_factor
     reason = attempt.sentence
-    if attempt.motion > COLLAPSE * size:
-        reason = f"points move by more than {100 * COLLAPSE:.0f} % of the domain in one increment"
+    if attempt.motion > COLLAPSE * stepper.size:
+        body, how = largest_mover(stepper.model, state, attempt.increment)
+        reason = (
+            f"points move by more than {100 * COLLAPSE:.0f} % of the domain in one increment, "
+            f"block {block_name(stepper.model, body, names)} most: {how}"
+        )
     if not schedule.until_failure or held == 0:
         sentence = f"no equilibrium between load factors {held:.6g} and {factor:.6g}: {reason}"
         return RunVerdict(FAILED, sentence, held)

@@ -66,7 +66,13 @@ class Attempt:
 
 
 class Stepper:
-    """Solves steps of one plan; owns factors and what contact remembers."""
+    """Solves steps of one plan; owns factors and what contact remembers.
+
+    Attributes
+    ----------
+    anchored
+        Whether soft springs hold bodies in statics to where they stand (`nmm.stepping.loose`).
+    """
 
     def __init__(
         self,
@@ -85,6 +91,7 @@ class Stepper:
         self.solver = solver
         self.small = small
         self._lay = lay
+        self.anchored = False
         self.seconds: dict[str, float] = {}
         self.reference = model.manifold.elements.points
         self.vertices = vertex_points(model.manifold)
@@ -93,6 +100,7 @@ class Stepper:
         self._factor: Factor | None = None
         self._kept: tuple[float, tuple[csc_array, csc_array], csc_array] | None = None
         self._weighted: tuple[csc_array, float, csc_array] | None = None
+        self._soft: tuple[Model, csc_array] | None = None
         self._masses: tuple[csc_array, Ints, Factor] | None = None
         self._places: list[tuple[State, Floats]] = []
         self._held: Held | None = None
@@ -168,7 +176,8 @@ class Stepper:
         force = self.plan.force(state, end) - self.model.stiffness @ state.deformation
         inertia = self.plan.inertia
         if step is None or inertia is None:
-            return self.plan.matrix(state, self.model.stiffness), force
+            held = self._anchors() if self.anchored else self.model.stiffness
+            return self.plan.matrix(state, held), force
         integrator, weight = self._rule, self._rule.end_weight
         if weight < 1:
             now = Instant(state.time, state.load_factor)
@@ -180,6 +189,14 @@ class Stepper:
         share = 1.0 if self.plan.contact is None else integrator.contact_factor
         matrix = self._times(weight / share, self.plan.matrix(state, base))
         return matrix, (force + inertia.mass @ momentum) / share
+
+    def _anchors(self) -> csc_array:
+        """Return elasticity with anchors (`nmm.stepping.loose`), the same object each time."""
+        if self._soft is None or self._soft[0] is not self.model:
+            from nmm.stepping.loose import anchors
+
+            self._soft = self.model, csc_array(self.model.stiffness + anchors(self.model))
+        return self._soft[1]
 
     def _times(self, factor: float, matrix: csc_array) -> csc_array:
         """Return ``factor * matrix``, the same object of the same matrix."""

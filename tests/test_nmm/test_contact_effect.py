@@ -179,6 +179,64 @@ def test_a_block_that_nothing_holds_is_named():
     assert "(0.00, -1.00)" in found.sentence
 
 
+def test_a_smooth_slope_lets_a_block_go_and_says_which_way():
+    """Down a slope of 1 to 5 without friction: along (5, -1) / sqrt(26)."""
+    base = {"name": "base", "material": "r", "vertices": [[0, 0], [20, -4], [20, -6], [0, -6]]}
+    block_on_it = {
+        "name": "sledge",
+        "material": "r",
+        "vertices": [[5, -1], [10, -2], [11, 3], [6, 4]],
+    }
+    scene = {**standing(friction=0.0).model_dump(mode="json"), "blocks": [base, block_on_it]}
+    found = run(Scene.model_validate(scene)).summary
+    assert found.status == "failed"
+    assert "block sledge" in found.sentence
+    assert "(0.98, -0.20)" in found.sentence
+
+
+def torn(bonds):
+    """A weightless piece between a held block and one that is pulled away by 1 mm; statics."""
+    law = {"friction_angle": 0.5, "bonded": True}
+    interfaces = {
+        name: {**law, "cohesion": bond, "tensile_strength": bond, "between": pair}
+        for name, bond, pair in zip("ij", bonds, (("r", "r"), ("r", "s")), strict=True)
+    }
+    return Scene.model_validate(
+        {
+            "title": "torn",
+            "plane": "stress",
+            "materials": {**ROCK, "s": ROCK["r"]},
+            "interfaces": interfaces,
+            "blocks": [block("a", 0, 0), block("p", 1, 0), {**block("b", 2, 0), "material": "s"}],
+            "supports": [
+                {"name": "wall", "block": "a", "fix": ["x", "y"]},
+                {"name": "pull", "block": "b", "fix": ["x", "y"], "displacement": [1e-2, 0]},
+            ],
+            "contact": {},
+            "loading": {"scaled": ["pull"], "until": 1.0},
+        }
+    )
+
+
+def test_a_weightless_piece_that_comes_loose_is_named_and_the_run_goes_on():
+    """Both bonds of 1 MPa break at once, at a strain of 1e-3 of the block between two springs."""
+    found = run(torn((1e6, 1e6)), steps(0.02))
+    assert found.summary.status == "converged"
+    assert found.history["load_factor"][-1] == 1.0
+    assert "block p is in neutral equilibrium" in found.summary.sentence
+    assert found.summary.largest_contacts["broken"] == 4
+    # The pull passes 1 MPa, within the increments near it, and is nothing once both are broken.
+    pull = found.history["reaction:pull:x"]
+    assert pull.max() == pytest.approx(1e6, rel=0.02)
+    assert abs(pull[-1]) < 1e-6 * pull.max()
+
+
+def test_a_piece_that_one_bond_still_holds_is_not_neutral():
+    found = run(torn((1e6, 2e6)), steps(0.02))
+    assert found.summary.status == "converged"
+    assert "neutral" not in found.summary.sentence
+
+
 def head_on(restitution):
     """Two free blocks, the left one at 1 m/s towards the right one."""
     return Scene.model_validate(
