@@ -11,6 +11,7 @@ from nmm.plots.blocks import blocks
 from nmm.plots.canvas import PathLike, axes_grid, extent_of
 from nmm.plots.conditions import LOAD, SUPPORT
 from nmm.plots.shapes import EDGE, fill
+from nmm.plots.small import save_small
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from nmm.scene import Scene
 
 WIDTH, LEAST, MOST = 4.4, 1.3, 4.4  # inches
-DOTS = 100  # an inch
 MATERIAL, NET, CRACK = "#ddd8cb", "#a49d8b", "#b2182b"
 ARROWS = 40  # tractions drawn at most
 LENGTH = 0.09  # longest arrow relative to the body
@@ -145,4 +145,4 @@ def _write(axes: "Axes", path: PathLike) -> None:
     axes.set_ylabel("y (m)")
     figure = axes.figure.figure
     figure.set_size_inches(WIDTH, float(height))
-    figure.savefig(path, dpi=DOTS)
+    save_small(figure, path)

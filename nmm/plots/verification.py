@@ -8,13 +8,13 @@ import numpy as np
 
 from nmm.plots.canvas import SMALL, PathLike, axes_grid, frame
 from nmm.plots.curves import CYCLE
+from nmm.plots.small import save_small
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 PASSED, MISSED = "#2a7f62", "#c1121f"
 LEAST = 1e-6  # shares below are drawn here
-DOTS = 100  # an inch
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
 
@@ -67,7 +67,7 @@ def margins(shares: Mapping[str, Sequence[float]], path: PathLike) -> None:
     axes.grid(visible=True, axis="y", linewidth=0.4, color="#e0e0e0")
     axes.set_axisbelow(True)
     frame(axes, "error / tolerance", "", "")
-    axes.figure.figure.savefig(path, dpi=DOTS)
+    save_small(axes.figure.figure, path)
 
 
 def convergence(panels: Mapping[str, Sequence[Fall]], path: PathLike) -> None:
@@ -101,7 +101,7 @@ def convergence(panels: Mapping[str, Sequence[Fall]], path: PathLike) -> None:
         axes.set_axis_off()
     if columns == 1:
         grid[0].figure.figure.set_size_inches(4.4, rows * (2.9 + 0.16 * lines))
-    grid[0].figure.figure.savefig(path, dpi=DOTS)
+    save_small(grid[0].figure.figure, path)
 
 
 def _fall(axes: "Axes", fall: Fall, colour: str, marker: str) -> None:

@@ -70,6 +70,13 @@ class Check:
         return f"{sign}{self.reference:.7g}"
 
     @property
+    def missed_by(self) -> tuple[str, str]:
+        """Error and tolerance in digits; empty for a limit without a tolerance."""
+        if self.bound != "equal" and not self.tolerance:
+            return "", ""
+        return f"{self.error:.1e}", f"{self.tolerance:.1e}"
+
+    @property
     def share(self) -> float:
         """Error over tolerance; of a limit, the value over it; 0 or inf where that says nothing."""
         if self.error != self.error:

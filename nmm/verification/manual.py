@@ -81,8 +81,8 @@ def table(outcomes: Iterable[Outcome]) -> list[str]:
         if one.fault:
             lines.append(f"{start} **fault**: {one.fault} | | | | | {VERDICT[False]} | {end}")
         lines += [
-            f"{start} {name} | {check.shown} | {check.wanted} | {check.error:.1e} | "
-            f"{check.tolerance:.1e} | {VERDICT[check.passed]} | {end}"
+            f"{start} {name} | {check.shown} | {check.wanted} | "
+            f"{' | '.join(check.missed_by)} | {VERDICT[check.passed]} | {end}"
             for name, check in one.checks.items()
         ]
     return lines

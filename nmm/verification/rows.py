@@ -53,8 +53,7 @@ class Row:
             words = (f"fault: {fault}", "", "", "", "")
         elif checks:
             name, worst = max(checks, key=lambda item: item[1].share)
-            error, allowed = f"{worst.error:.1e}", f"{worst.tolerance:.1e}"
-            words = (name, worst.shown, worst.wanted, error, allowed)
+            words = (name, worst.shown, worst.wanted, *worst.missed_by)
         return cls(
             many[0].case.name,
             many[0].case.title,
