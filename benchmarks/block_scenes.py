@@ -1,4 +1,4 @@
-"""Walls and piles of blocks as contact problems, rows built by hand: no search, no scene."""
+"""Blocks in contact as bare problems, rows built by hand: no search, no scene."""
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -104,6 +104,32 @@ def pile(n_blocks: int, penalty: float = 1.0, step: float = 1e-3, **options: flo
             p, q = q, p
         a.append(left), b.append(other), start.append(p), end.append(q)
     joints = Joints(np.array(a), np.array(b), np.array(start), np.array(end))
+    return _scene(polygons, joints, penalty, step, **options)
+
+
+def incline(n_blocks: int = 1, penalty: float = 1.0, step: float = 1e-3, **options: float) -> Scene:
+    """Square blocks of 0.5 m in a row on a slope of 30 degrees that holds 20: all slide."""
+    along, out = np.array([np.sqrt(3) / 2, 0.5]), np.array([-0.5, np.sqrt(3) / 2])
+    foot = along * np.arange(n_blocks)[:, None]
+    corners = [0 * along, 0.5 * along, 0.5 * (along + out), 0.5 * out]
+    polygons = [p + np.array(corners) for p in foot]
+    ground = np.full(n_blocks, -1)
+    joints = Joints(np.arange(n_blocks), ground, foot, foot + 0.5 * along)
+    options = {"friction": float(np.tan(np.radians(20)))} | options
+    return _scene(polygons, joints, penalty, step, **options)
+
+
+def supports(
+    n_blocks: int = 1, penalty: float = 1.0, step: float = 1e-3, **options: float
+) -> Scene:
+    """Beams of 2 m x 0.25 m, each on two flat supports: eight forces for six unknowns."""
+    left = np.stack([2.5 * np.arange(n_blocks), np.zeros(n_blocks)], axis=1)
+    corners = np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 0.25), (0.0, 0.25)])
+    polygons = [p + corners for p in left]
+    far, reach = np.array([1.6, 0.0]), np.array([0.4, 0.0])
+    start = np.concatenate([left, left + far])
+    number = np.tile(np.arange(n_blocks), 2)
+    joints = Joints(number, np.full(2 * n_blocks, -1), start, start + reach)
     return _scene(polygons, joints, penalty, step, **options)
 
 

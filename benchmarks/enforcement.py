@@ -1,15 +1,17 @@
-"""Contact solution alone: seconds, passes, errors of every enforcement; and of linear solvers.
+"""Every enforcement on the same contact problems: errors, passes, factorisations, seconds.
 
-A wall of bricks and a pile of Voronoi cells, six unknowns a block, start to fall under gravity and
-a lateral acceleration that grows by 0.05 m/s2 a step (dt 1 ms, friction 0.6, penalty 1 E):
+Walls of bricks, a pile of Voronoi cells, a block that slides down a slope and a beam on two flat
+supports start to move under gravity and a lateral acceleration that grows by 0.05 m/s2 a step
+(blocks of six unknowns, dt 1 ms, friction 0.6). No search, no scene: the contact solution alone.
 
-    python benchmarks/enforcement.py --blocks 100 1000 --scenes wall pile --steps 6
+    python benchmarks/enforcement.py                     # the table
+    python benchmarks/enforcement.py --page              # and docs/enforcements.md with its records
     python benchmarks/enforcement.py --solvers --blocks 100 1000 10000
 
-``error`` is that of the contact resultants on the blocks in the last step, relative, in the norm
-weighted with the diagonal. Springs are measured against springs settled to 1e-12, the exact
-enforcements against the cone at 1e-10: where blocks have more contacts than unknowns single forces
-are not determined, resultants nearly are. Rows that do not converge are printed as they are.
+``force error`` is that of the contact resultants on the blocks in the last step, relative, in the
+norm weighted with the diagonal, against the same law solved to 1e-12 (springs) or 1e-10 (exact).
+It is left out beyond 500 blocks. ``gap error`` is the deepest penetration over the compliance of
+its contact times the largest force. Rows that do not converge are printed as they are.
 """
 
 import argparse
@@ -17,12 +19,14 @@ import os
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
+import json
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from time import perf_counter, process_time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from time import process_time
 
 import numpy as np
-from block_scenes import Motion, Scene, pile, wall
+from block_scenes import Motion, Scene, incline, pile, supports, wall
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
@@ -30,21 +34,42 @@ from nmm.contact.enforcement import Enforcement, make_enforcement
 from nmm.contact.memory import Memory
 from nmm.contact.pattern import SpringPattern
 from nmm.contact.problem import StepAnswer, StepProblem
+from nmm.contact.rounds import compliances
 from nmm.contact.springs import CutSprings
 from nmm.solvers.linear import make_solver
 
-SCENES = {"wall": wall, "pile": pile}
-KINDS: dict[str, tuple[str, dict[str, object], bool]] = {
-    "open-close": ("penalty", {"iteration": "open_close", "max_passes": 40}, False),
-    "penalty": ("penalty", {}, False),
-    "augmented": ("augmented", {}, True),
-    "lagrange": ("lagrange", {}, True),
-    "cone": ("cone", {}, True),
-    "barrier": ("barrier", {}, True),
+RECORDS = Path(__file__).parents[1] / "docs" / "enforcements"
+SCENES = {"slope": incline, "supports": supports, "wall": wall, "pile": pile}
+SIZES = (("slope", 1), ("supports", 1), ("wall", 100), ("pile", 100), ("wall", 1000))
+LARGE = ("open-close 10 E", "penalty 1 E", "penalty 10 E", "cone")
+"""What is measured beyond `MANY` blocks."""
+MANY = 500
+TIGHT = {"tolerance": 1e-12}
+EXACT = {"tolerance": 1e-10, "gap_tolerance": 1e-9}
+
+
+@dataclass(frozen=True)
+class Kind:
+    """An enforcement with its options and penalty (in Young's moduli), and what it is held to."""
+
+    name: str
+    penalty: float
+    options: dict[str, object]
+    reference: tuple[str, dict[str, object]]
+
+
+KINDS = {
+    "open-close 10 E": Kind(
+        "penalty", 10.0, {"iteration": "open_close", "max_passes": 40}, ("penalty", TIGHT)
+    ),
+    "penalty 1 E": Kind("penalty", 1.0, {}, ("penalty", TIGHT)),
+    "penalty 10 E": Kind("penalty", 10.0, {}, ("penalty", TIGHT)),
+    "penalty 100 E": Kind("penalty", 100.0, {}, ("penalty", TIGHT)),
+    "augmented": Kind("augmented", 10.0, {}, ("cone", EXACT)),
+    "lagrange": Kind("lagrange", 10.0, {}, ("cone", EXACT)),
+    "cone": Kind("cone", 10.0, {}, ("cone", EXACT)),
+    "barrier": Kind("barrier", 10.0, {}, ("cone", EXACT)),
 }
-CHEAP = ("penalty",)
-"""Enforcements that are measured beyond ``MANY`` blocks unless others are asked for."""
-MANY = 2000
 
 
 @dataclass(frozen=True)
@@ -55,54 +80,58 @@ class Row:
     blocks: int
     contacts: int
     enforcement: str
-    seconds: float
-    busy: float
-    passes: float
-    factorisations: float
     converged: int
     steps: int
+    force_error: float
+    gap_error: float
     penetration: float
-    error: float
+    passes: float
+    factorisations: float
+    seconds: float
+    seconds_largest: float
 
 
-def measured(name: str, n_blocks: int, kind: str, steps: int, penalty: float) -> Row:
+def measured(name: str, n_blocks: int, kind: str, steps: int) -> Row:
     """Run ``steps`` steps; what the first one compiles and lays out is left out."""
-    scene = SCENES[name](n_blocks, penalty)
-    enforcement, options, exact = KINDS[kind]
-    done = list(_run(scene, make_enforcement(enforcement, options), steps))
-    answers = [answer for _, answer, _, _ in done]
+    chosen = KINDS[kind]
+    scene = SCENES[name](n_blocks, chosen.penalty)
+    done = list(_run(scene, make_enforcement(chosen.name, chosen.options), steps))
+    answers = [answer for _, answer, _ in done]
+    problem, answer, _ = done[-1]
+    seconds = [busy for _, _, busy in done[1:]]
+    depth = np.maximum(-answer.gap, 0.0)
+    force = float(np.abs(answer.normal_force).max(initial=0.0))
+    pressed = float((depth / compliances(problem)[0]).max(initial=0.0))
     return Row(
         name,
         len(scene.volume),
         scene.problem.n_contacts,
         kind,
-        float(np.median([seconds for _, _, seconds, _ in done[1:]])),
-        float(np.median([busy for _, _, _, busy in done[1:]])),
-        float(np.median([answer.passes for answer in answers[1:]])),
-        float(np.median([answer.factorisations for answer in answers[1:]])),
         sum(answer.verdict.converged for answer in answers),
         steps,
-        float(-answers[-1].gap.min()),
-        _error(done[-1][0], answers[-1], exact),
+        _error(problem, answer, *chosen.reference) if n_blocks <= MANY else -1.0,
+        pressed / force if force > 0 else 0.0,
+        float(depth.max(initial=0.0)),
+        float(np.median([answer.passes for answer in answers[1:]])),
+        float(np.median([answer.factorisations for answer in answers[1:]])),
+        float(np.median(seconds)),
+        float(np.max(seconds)),
     )
 
 
 def _run(
     scene: Scene, method: Enforcement, steps: int
-) -> Iterator[tuple[StepProblem, StepAnswer, float, float]]:
+) -> Iterator[tuple[StepProblem, StepAnswer, float]]:
     solver, memory, motion = make_solver(), Memory(), Motion(scene)
     problem = motion.problem
     for _ in range(steps):
-        began, worked = perf_counter(), process_time()
+        began = process_time()
         answer = method.solve(problem, solver, memory)
-        yield problem, answer, perf_counter() - began, process_time() - worked
+        yield problem, answer, process_time() - began
         problem = motion.next_problem(answer)
 
 
-def _error(problem: StepProblem, answer: StepAnswer, exact: bool) -> float:
-    if exact and len(problem.force) > 6 * MANY:
-        return np.nan
-    name, options = ("cone", {"tolerance": 1e-10}) if exact else ("penalty", {"tolerance": 1e-12})
+def _error(problem: StepProblem, answer: StepAnswer, name: str, options: dict) -> float:
     reference = make_enforcement(name, options).solve(problem, make_solver())
     weight = CutSprings.of(problem).weight
     expected = weight * _resultants(problem, reference)
@@ -116,18 +145,32 @@ def _resultants(problem: StepProblem, answer: StepAnswer) -> Floats:
 
 
 def table(rows: list[Row]) -> str:
-    """Rows as text."""
+    """Rows as a table in Markdown."""
     head = (
-        f"{'scene':6}{'blocks':>7}{'contacts':>9} {'enforcement':12}{'seconds':>9}{'cpu':>9}"
-        f"{'passes':>8}{'factors':>8}{'converged':>10}{'penetration':>12}{'error':>9}"
+        "| scene | blocks | contacts | enforcement | converged | force error | gap error | "
+        "penetration (m) | passes | factors | ms a step | ms, largest |"
     )
     lines = [
-        f"{r.scene:6}{r.blocks:7d}{r.contacts:9d} {r.enforcement:12}{r.seconds:9.4f}{r.busy:9.4f}"
-        f"{r.passes:8.0f}{r.factorisations:8.0f}{r.converged:6d} / {r.steps:1d}"
-        f"{r.penetration:12.1e}{r.error:9.1e}"
+        f"| {r.scene} | {r.blocks} | {r.contacts} | {r.enforcement} | {r.converged} of {r.steps} | "
+        f"{_power(r.force_error)} | {r.gap_error:.0e} | {r.penetration:.0e} | {r.passes:.0f} | "
+        f"{r.factorisations:.0f} | {1e3 * r.seconds:.1f} | {1e3 * r.seconds_largest:.1f} |"
         for r in rows
     ]
-    return "\n".join([head, *lines])
+    return "\n".join([head, "|" + "---|" * 12, *lines])
+
+
+def _power(error: float) -> str:
+    """Error as text; negative where it was not measured."""
+    return f"{error:.0e}" if error >= 0 else ""
+
+
+def _write(rows: list[Row]) -> None:
+    from enforcement_page import write
+
+    RECORDS.mkdir(exist_ok=True)
+    text = json.dumps([asdict(row) for row in rows], indent=1)
+    (RECORDS / "enforcement.json").write_text(text + "\n")
+    write(RECORDS)
 
 
 def solvers(sizes: list[int], names: list[str]) -> str:
@@ -139,7 +182,7 @@ def solvers(sizes: list[int], names: list[str]) -> str:
         matrix = SpringPattern.of(problem).matrix(problem, *springs)
         rhs = np.random.default_rng(0).random(matrix.shape[0])
         for name in names:
-            if size <= MANY or name != "qdldl":
+            if size <= 2000 or name != "qdldl":
                 times = "".join(f"{1e3 * t:9.2f}" for t in _costs(name, matrix, rhs))
                 lines.append(f"{size:7d}{matrix.shape[0]:9d} {name:10}{times}")
     return "\n".join(lines)
@@ -164,25 +207,35 @@ def _seconds(work: Callable[[], object], repeats: int) -> float:
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure and print, or write."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--blocks", type=int, nargs="+", default=[100, 1000, 10000])
-    parser.add_argument("--scenes", nargs="+", default=list(SCENES), choices=SCENES)
-    parser.add_argument("--enforcement", nargs="+", choices=KINDS)
+    parser.add_argument("--blocks", type=int, nargs="+", help="sizes of walls and piles")
+    parser.add_argument("--scenes", nargs="+", choices=SCENES)
+    parser.add_argument("--enforcement", nargs="+", choices=KINDS, default=list(KINDS))
     parser.add_argument("--steps", type=int, default=6)
-    parser.add_argument("--penalty", type=float, default=1.0, help="in Young's moduli")
+    parser.add_argument("--page", action="store_true", help="write docs/enforcements.md")
     parser.add_argument("--solvers", action="store_true", help="linear solvers instead")
     chosen = parser.parse_args()
     if chosen.solvers:
-        print(solvers(chosen.blocks, ["cholesky", "superlu", "qdldl"]))
+        print(solvers(chosen.blocks or [100, 1000, 10000], ["cholesky", "superlu", "qdldl"]))
         return
-    rows = []
-    for scene in chosen.scenes:
-        for blocks in chosen.blocks:
-            for kind in chosen.enforcement or (KINDS if blocks <= MANY else CHEAP):
-                rows.append(measured(scene, blocks, kind, chosen.steps, chosen.penalty))
-                print(table(rows[-1:]).splitlines()[1], flush=True)
-    print("\n" + table(rows))
+    sizes = [
+        (name, blocks)
+        for name, usual in SIZES
+        for blocks in ((chosen.blocks or [usual]) if usual > 1 else [usual])
+        if name in (chosen.scenes or SCENES)
+    ]
+    rows: list[Row] = []
+    for name, blocks in dict.fromkeys(sizes):
+        for kind in chosen.enforcement:
+            if blocks > MANY and kind not in LARGE:
+                continue
+            rows.append(measured(name, blocks, kind, chosen.steps))
+            print(table(rows[-1:]).splitlines()[-1], flush=True)
+            if chosen.page:
+                _write(rows)
+    if not chosen.page:
+        print("\n" + table(rows))
 
 
 if __name__ == "__main__":

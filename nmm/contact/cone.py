@@ -48,9 +48,9 @@ class Cone(Enforcement):
     and the verdict says so. Friction is not associated: the bound moves with the normal force, no
     dilatancy. Contacts whose stiffness is the joint's own are springs.
 
-    Where blocks have more contacts than unknowns single forces are not unique, and resultants on
-    the blocks are many times as sensitive as gaps: on a wall of 100 bricks a gap error of 2e-6
-    leaves one of 4e-3 in them, 1e-7 one of 1e-4 (docs/enforcements.md).
+    Where blocks have more contacts than unknowns single forces are not unique, and with friction
+    resultants hardly are: on a wall of 100 bricks answers that obey every condition to 1e-7 differ
+    by up to 4e-3 in them, without friction by 4e-6 (docs/enforcements.md).
 
     Attributes
     ----------

@@ -263,3 +263,29 @@ def test_unknown_names_and_options_are_refused() -> None:
         make_enforcement("penalty", {"max_pases": 3})
     with pytest.raises(FormulationError, match="open_close"):
         make_enforcement("penalty", {"iteration": "shi"})
+
+
+@pytest.mark.parametrize(("name", "passes"), [("penalty", 3), ("lagrange", 2)])
+def test_a_block_that_slides_on_and_on_takes_few_passes(name: str, passes: int) -> None:
+    from nmm.contact.memory import Memory
+
+    problem, memory = incline(30, tan(radians(20))), Memory()
+    enforcement, solver, speed = make_enforcement(name), make_solver(), np.zeros(2)
+    start, taken = problem.force, []
+    for _ in range(6):
+        answer = enforcement.solve(problem, solver, memory)
+        assert answer.verdict.converged, answer.verdict.sentence
+        taken.append(answer.passes)
+        # inertia 1e5 in both unknowns: the motion of this step is the momentum of the next
+        speed = answer.increment
+        problem = replace(
+            problem,
+            force=start + 1e5 * speed,
+            gap=answer.gap,
+            slip=answer.slip,
+            state=answer.state,
+            normal_force=answer.normal_force,
+            shear_force=answer.shear_force,
+        )
+    assert max(taken[1:]) <= passes
+    assert set(answer.state) == {SLIDE}

@@ -1,10 +1,12 @@
 """Every enforcement against the enumeration of all contact states, and against the law's words."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from nmm.contact import mixing_kernel
 from nmm.contact.balance import relative_residual, with_springs
 from nmm.contact.enforcement import ENFORCEMENTS, make_enforcement
 from nmm.contact.oracle import all_solutions, is_one_of, obeys, random_problem
@@ -107,6 +109,50 @@ def test_compiled_defect_equals_the_whole_array_form(seed: int) -> None:
     np.testing.assert_allclose(found.force, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
     size = relative_residual(problem, springs.weight, increment, *forces)
     assert found.size == pytest.approx(size, rel=1e-12)
+
+
+def test_compiled_mixing_is_least_squares_in_the_inner_product_of_the_factor() -> None:
+    rng, n, used = np.random.default_rng(0), 40, 4
+    root = rng.normal(size=(n, n))
+    inner = root @ root.T + np.eye(n)
+    steps, defects = rng.normal(size=(used, n)), rng.normal(size=(used, n))
+    corrections = -np.linalg.solve(inner, defects.T).T
+    sums, kept, gram = np.zeros((used, n)), np.zeros((used, n)), np.zeros((used, used))
+    for k in range(used):
+        arguments = (steps[k], corrections[k], np.zeros(n), defects[k], np.zeros(n))
+        mixing_kernel.add(sums, kept, gram, k, k + 1, *arguments)
+    force = rng.normal(size=n)
+    correction = -np.linalg.solve(inner, force)
+    found = mixing_kernel.mixed(sums, kept, gram, used, correction, force)
+    # least |correction - sum share correction_k| in the norm of the matrix, by its own root
+    upper = np.linalg.cholesky(inner).T
+    share = np.linalg.lstsq(upper @ corrections.T, upper @ correction, rcond=None)[0]
+    expected = correction - share @ (steps + corrections)
+    # the ridge of 1e-12 of the trace moves shares by as much times the condition, below 1e3
+    np.testing.assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("name", ["penalty", "augmented", "lagrange", "cone"])
+def test_steps_of_a_wall_converge_though_bricks_have_more_contacts_than_unknowns(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
+    from block_scenes import Motion, wall
+
+    from nmm.contact.memory import Memory
+
+    motion, memory, solver = Motion(wall(30, penalty=100.0)), Memory(), make_solver()
+    problem = motion.problem
+    for _ in range(4):
+        answer = make_enforcement(name).solve(problem, solver, memory)
+        assert answer.verdict.converged, answer.verdict.sentence
+        size = float(np.abs(answer.normal_force).max())
+        ease = 1 / problem.matrix.diagonal().min()
+        # forces meet the law to 1e-7 of the largest; gaps to 1e-7 of what that would press in,
+        # over rows of three entries of about one on either side
+        assert obeys(problem, answer, name not in SOFT, 1e-6 * size, 6e-7 * size * ease)
+        assert balance(problem, answer) < 1e-6
+        problem = motion.next_problem(answer)
 
 
 @pytest.mark.parametrize("seed", range(8))
