@@ -46,6 +46,7 @@ CALLED_BY = {
     "loads": "[[loads]]",
     "body loads": '[[loads]] of kind "body"',
     "supports": "[[supports]]",
+    "seams": "bonded interface without contact",
     "initial velocity": "[[initial_velocities]]",
     "initial stress": "[[initial_stresses]]",
 }
@@ -215,6 +216,9 @@ def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
     out.print(effects)
     for line in _sizes(scene, chosen, len(prepared.regions), len(manifold.elements)):
         out.print(line, highlight=False)
+    for effect in prepared.stepper.plan.effects.values():
+        if effect.about:
+            out.print(f"{effect.name}: {effect.about}", highlight=False)
     out.print(f"unknowns: {manifold.n_unknowns:,}", highlight=False)
     if cost:
         tell_cost(prepared)

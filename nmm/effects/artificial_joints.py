@@ -77,6 +77,11 @@ class ArtificialJoints(Effect):
             pairs, joint = _at_stations(model, joints, stations, start)
         return cls(Springs(pairs, np.repeat(spring[joint, None], 2, axis=1)), n)
 
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        return self.tie.about
+
     def matrix(self, state: State) -> csc_array:
         """Stiffness of the joints, the same object as long as nothing turns."""
         if self._stood is None or not np.array_equal(self._stood[0], state.frames.angle):

@@ -69,6 +69,11 @@ class Averages(Tie):
     sides: tuple[Flux, Flux]
     penalty: Floats
 
+    @property
+    def about(self) -> str:
+        """See `Tie.about`."""
+        return f"Nitsche's method at {len(self.penalty)} points"
+
     def matrix(self, state: State, n: int) -> csc_array:
         """See `Tie.matrix`."""
         rows, flux = self.pairs.rows(state, n), self._flux(state, n)

@@ -79,6 +79,11 @@ class Effect(ABC):
     def from_setup(cls, setup: Setup) -> Self:
         """Build the effect of a scene that names it."""
 
+    @property
+    def about(self) -> str:
+        """How the formulation imposes the effect, in words; empty where it has no choice."""
+        return ""
+
     def force(self, state: State, end: Instant) -> Floats:
         """Force (n,) that acts through the step."""
         raise NotImplementedError

@@ -66,6 +66,7 @@ def pairs_of(model: Model, joints: Joints, order: int = ORDER) -> tuple[Pairs, I
 
 
 def springs(model: Model, joints: Joints, spring: Floats) -> Springs:
+    """Springs of ``spring`` (j, 2), normal and shear, in Pa/m along edges."""
     pairs, _, _, joint = pairs_of(model, joints)
     return Springs(pairs, spring[joint])
 

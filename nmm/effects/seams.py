@@ -52,6 +52,14 @@ class Seams(Effect):
             ties += more
         return cls(ties, model.manifold.n_unknowns, held)
 
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        said = [tie.about for tie in self.ties]
+        if self.glue is not None:
+            said.append(f"{self.glue.basis.shape[1]} Lagrange multipliers")
+        return ", ".join(said) if said else "no shared edges"
+
     def matrix(self, state: State) -> csc_array:
         """Return the stiffness of the ties, the same object while no body turns."""
         if self._kept is None or not np.array_equal(self._kept[0], state.frames.angle):

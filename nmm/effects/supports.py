@@ -73,6 +73,19 @@ class Supports(Effect):
             found = share_multipliers(found, method.size, method.degree, setup.model.thickness)
         return cls(found, setup.model.manifold.n_unknowns, setup.start)
 
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        kinds = {Springs: "springs", Nitsche: "Nitsche's method"}
+        said = [
+            f"{word} at {sum(len(s.place) for s in self._supports if isinstance(s, kind))} points"
+            for kind, word in kinds.items()
+            if any(isinstance(s, kind) for s in self._supports)
+        ]
+        if self.multipliers:
+            said.append(f"{self.multipliers} Lagrange multipliers")
+        return ", ".join(said)
+
     def matrix(self, state: State) -> csc_array:
         """Return the supports' stiffness, the same object as long as no held body turns."""
         angle = np.concatenate([state.frames.angle[body] for body in self._turning])

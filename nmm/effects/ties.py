@@ -53,6 +53,11 @@ class Pairs:
 class Tie(ABC):
     """What holds the sides of an interface together."""
 
+    @property
+    @abstractmethod
+    def about(self) -> str:
+        """What it is and how many points it acts at, in words."""
+
     @abstractmethod
     def matrix(self, state: State, n: int) -> csc_array:
         """Matrix (n, n) that joins the stiffness."""
@@ -80,6 +85,11 @@ class Springs(Tie):
 
     pairs: Pairs
     stiffness: Floats
+
+    @property
+    def about(self) -> str:
+        """See `Tie.about`."""
+        return f"springs at {len(self.stiffness)} points"
 
     def matrix(self, state: State, n: int) -> csc_array:
         """See `Tie.matrix`."""

@@ -1,5 +1,6 @@
 """What a cover needs of the solver, and what is said about it."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +18,10 @@ if TYPE_CHECKING:
 # too stiff on cells of a quarter of its wall.
 LOCKING = 0.45
 
+# Most steps of refinement that take the shift out again. They end when the residual does not fall;
+# springs of 1e6 E make the shift, a share of their diagonal, as stiff as soft motions and want ten.
+REFINEMENTS = 20
+
 
 def solver_for(manifold: "Manifold", solver: "Solver") -> LinearSolver:
     """Return the linear solver, with a shift when functions of the cover are dependent.
@@ -25,7 +30,9 @@ def solver_for(manifold: "Manifold", solver: "Solver") -> LinearSolver:
     displacements are unique whatever the shift (Duarte, Babuska and Oden 2000).
     """
     made = make_solver(solver.type, solver.options)
-    return made.deflated() if manifold.dependent and not made.shift else made
+    if not manifold.dependent or made.shift:
+        return made
+    return replace(made.deflated(), refinements=max(made.refinements, REFINEMENTS))
 
 
 def cures(

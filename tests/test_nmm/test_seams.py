@@ -1,11 +1,14 @@
 """Joints of Goodman and glue between blocks, under block covers and meshes."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from nmm.assembly.motion import initial_state
 from nmm.contact.joints import Joints, find_joints
 from nmm.contact.sides import sides
+from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
 from nmm.stepping.run import Run, run
@@ -191,3 +194,35 @@ def test_glue_is_conditioned_alike_however_small_the_cuts(
     # The first is a cut of 0.3 of a cell; measured at most 1.0 of its condition in those smaller.
     # (With 1e9 between the materials soft motions cannot be told from dependent functions.)
     assert ratio > 1 or max(bounds[1:]) < 1.5 * bounds[0]
+
+
+@pytest.mark.parametrize(
+    ("method", "said"),
+    [
+        ("spring", "springs at"),
+        ("auto", "Nitsche's method at"),
+        ("lagrange", "Lagrange multipliers"),
+    ],
+)
+def test_explain_says_how_blocks_are_glued(method: str, said: str, tmp_path: Path) -> None:
+    from typer.testing import CliRunner
+
+    from nmm.cli import app
+
+    scene, formulation = tmp_path / "bars.toml", tmp_path / "mesh.toml"
+    scene.write_text('title = "bars"\n' + BARS.replace("STIFFNESS", ""), encoding="utf-8")
+    formulation.write_text(MESH + f'[glue]\nmethod = "{method}"\n', encoding="utf-8")
+    told = CliRunner().invoke(app, ["explain", str(scene), "-f", str(formulation)])
+    assert told.exit_code == 0, told.output
+    line = next(line for line in told.output.splitlines() if line.startswith("seams: "))
+    assert said in line
+
+
+def test_functions_without_strain_cannot_be_glued_by_nitsche() -> None:
+    rigid = '[cover]\ntype = "block"\nfunctions = "rigid"\n'
+    with pytest.raises(FormulationError, match="neither side has functions with strain"):
+        simulate(BARS.replace("STIFFNESS", ""), rigid + '[glue]\nmethod = "nitsche"\n')
+    found = simulate(BARS.replace("STIFFNESS", ""), rigid)
+    # Springs of 1e4 E over the edge, and those of the support, 1e3 E.
+    end = found.history["monitor:end:ux"][-1]
+    assert end == pytest.approx(1e-4 + 1 / 3000, rel=1e-6)
