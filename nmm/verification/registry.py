@@ -66,6 +66,7 @@ CASES = Registry[type[Case]](
         "B26": f"{_HOME}.arches:Semicircle",
         "B27": f"{_HOME}.arches:ShakenArch",
         "B29": f"{_HOME}.wedge:RoofWedge",
+        "B30": f"{_HOME}.columns:LeaningColumns",
         "B31 pull-off": f"{_HOME}.joints:PullOff",
         "B31 drop": f"{_HOME}.joints:BrittleDrop",
         "C3": f"{_HOME}.joints:Chain",
