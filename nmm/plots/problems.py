@@ -141,7 +141,7 @@ def _write(axes: "Axes", path: PathLike) -> None:
     axes.set_title("", loc="left")
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    axes.set_xlabel("x (m)")
+    axes.set_xlabel("x (m)", loc="left")
     axes.set_ylabel("y (m)")
     figure = axes.figure.figure
     figure.set_size_inches(WIDTH, float(height))
