@@ -100,7 +100,7 @@ STUDIES = {
         "incline/slide.toml",
         ENFORCEMENTS,
         {"formulation.contact.normal_penalty": (1, 10, 100)},
-        {"integrator": {"step": 0.1}},
+        {"integrator": {"step": 0.05}},
         "largest_penetration",
         zero="bodies do not overlap (m)",
         repeats=1,
