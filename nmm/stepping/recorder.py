@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from nmm.contact.points import ContactPoints
 
 
+# Effects whose springs count as supports: those of the scene, glue, and what holds sub-blocks.
+HOLDING = ("supports", "seams", "artificial joints")
+
+
 @dataclass(frozen=True)
 class Monitor:
     """A point whose displacement is recorded."""
@@ -165,7 +169,7 @@ class Recorder:
             "kinetic_energy": plan.energy("inertia", state),
             "strain_energy": float(q @ (self.stepper.model.stiffness @ q)) / 2,
             "contact_energy": plan.energy("contact", state),
-            "support_energy": plan.energy("supports", state),
+            "support_energy": sum(plan.energy(name, state) for name in HOLDING),
         }
 
     def _contact_row(self, attempt: Attempt, contacts: "ContactPoints") -> dict[str, float]:

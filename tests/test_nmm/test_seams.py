@@ -226,3 +226,63 @@ def test_functions_without_strain_cannot_be_glued_by_nitsche() -> None:
     # Springs of 1e4 E over the edge, and those of the support, 1e3 E.
     end = found.history["monitor:end:ux"][-1]
     assert end == pytest.approx(1e-4 + 1 / 3000, rel=1e-6)
+
+
+def test_a_hard_block_that_tilts_on_a_soft_one_keeps_its_digits() -> None:
+    def stress(young: str, method: str) -> tuple[np.ndarray, float]:
+        scene = BARS.replace("STIFFNESS", "").replace("= 1e4", f"= {young}")
+        scene = scene.replace("segment = [[2, 0], [2, 1]]", "segment = [[1.5, 1], [2, 1]]")
+        cover = MESH.replace("0.4", "0.3")
+        found = simulate(scene, cover + f'[glue]\nmethod = "{method}"\n')
+        hard = found.manifold.element_region == 1
+        area = found.manifold.elements.areas[hard]
+        assert found.summary.equilibrium_residual is not None
+        return area @ found.stress[hard] / area.sum(), found.summary.equilibrium_residual
+
+    for method in ("nitsche", "lagrange"):
+        soft, _ = stress("1e6", method)
+        hard, residual = stress("1e9", method)
+        # What the hard block's own strain does to the stress falls as 1 / E: 1e-6.
+        np.testing.assert_allclose(hard, soft, atol=1e-6)
+        assert residual < 1e-8
+
+
+@pytest.mark.parametrize("method", ["spring", "nitsche", "lagrange"])
+@pytest.mark.parametrize("cover", ["block", "triangles1"])
+def test_two_glued_blocks_spin_as_one(cover: str, method: str) -> None:
+    scene = """
+plane = "stress"
+duration = 0.2
+[inertia]
+[materials.m]
+young_modulus = 1e6
+poisson_ratio = 0.2
+density = 1000
+[interfaces.joint]
+friction_angle = 0
+bonded = true
+[[blocks]]
+name = "one"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "two"
+material = "m"
+vertices = [[1, 0], [2, 0], [2, 1], [1, 1]]
+[[initial_velocities]]
+block = "one"
+velocity = [1, -1]
+angular_velocity = 2
+[[initial_velocities]]
+block = "two"
+velocity = [1, 1]
+angular_velocity = 2
+"""
+    text = COVERS[cover] + f'[glue]\nmethod = "{method}"\n[integrator]\nstep = 0.002\n'
+    found = simulate(scene, text)
+    np.testing.assert_allclose(found.state.frames.angle, 0.4, rtol=2e-3)
+    # rho A v^2 / 2 + I omega^2 / 2 of a plate 2 x 1: 1000 + 0.5 * 833.3 * 4; the rest is
+    # the integrator's, which is of first order.
+    history = found.history
+    total = sum(history[name][-1] for name in ("kinetic_energy", "strain_energy", "support_energy"))
+    assert total == pytest.approx(1000 + 0.5 * 1000 * 2 * 5 / 12 * 4, rel=5e-3)
