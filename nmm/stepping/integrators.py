@@ -142,8 +142,9 @@ class Newmark(Integrator):
     ) -> tuple[Floats, Floats]:
         """``a1`` from the displacement, ``v1 = v + dt ((1 - gamma) a + gamma a1)``."""
         if not self.carries:
-            end = 2 / step * increment - velocity
-            return end, (end - velocity) / step
+            # The change is small against the velocity: its rounding must not add up over steps.
+            gained = 2 / step**2 * increment - 2 / step * velocity
+            return velocity + step * gained, gained
         last = increment / (self.beta * step**2) - self._start(velocity, acceleration, step)
         return velocity + step * ((1 - self.gamma) * acceleration + self.gamma * last), last
 

@@ -88,7 +88,8 @@ def test_a_block_dropped_on_its_corner_gains_nothing(options):
 def test_a_block_at_rest_on_a_slope_stays_at_rest(options, form):
     """Put down at once, unresolved by the step: it swings by its own penetration, 1e-7 m."""
     case = Threshold(friction=40.0, duration=2.0)
-    source = case.scene().replace("[formulation.integrator]\n", f"[formulation.integrator]\n{options}")
+    head = "[formulation.integrator]\n"
+    source = case.scene().replace(head, head + options)
     found = run(parse_scene(source), chosen(form, parse_scene(source).formulation))
     assert found.summary.status == "converged", found.summary.sentence
     slid = way(found, "toe") @ down(30.0)

@@ -65,3 +65,68 @@ def test_a_block_at_rest_on_a_slope_stays_for_a_thousand_steps():
     found = Threshold(friction=40.0, duration=10.0).run()
     slid = way(found, "toe") @ down(30.0)
     assert np.ptp(slid[100:]) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("steps", "integrator"),
+    [
+        (1_000, "newmark"),
+        (1_000, "generalized_alpha"),
+        pytest.param(100_000, "newmark", marks=pytest.mark.slow),
+    ],
+)
+def test_a_block_at_rest_does_not_creep_by_its_own_swing(steps, integrator):
+    """Without damping it swings by its penetration, 1e-7 m, and goes nowhere."""
+    case = Threshold(friction=40.0, duration=steps * 0.01)
+    source = case.scene().replace(
+        "[formulation.integrator]\n", f'[formulation.integrator]\ntype = "{integrator}"\n'
+    )
+    found = run(parse_scene(source))
+    assert found.summary.status == "converged"
+    slid = way(found, "toe") @ down(30.0)
+    first, last = slid[100 : 100 + steps // 10], slid[-steps // 10 :]
+    assert abs(last.mean() - first.mean()) < 1e-8
+    assert np.ptp(slid[100:]) < 1e-7
+
+
+@pytest.mark.parametrize(
+    ("steps", "formulation"),
+    [
+        (2_000, "dda"),
+        (2_000, "newmark"),
+        pytest.param(100_000, "dda", marks=pytest.mark.slow),
+        pytest.param(100_000, "newmark", marks=pytest.mark.slow),
+    ],
+)
+def test_a_sliding_block_goes_the_way_of_its_friction(steps, formulation):
+    """On the level at mu g: s = v t - mu g t^2 / 2, with steps so short that it slides to the end.
+
+    Penetration and angle stay those of the first steps; 1e-3 of the way is the stretch of shear
+    springs and the load put on at once, both of them once.
+    """
+    step = 1e-5
+    time, speed = steps * step, 5.0
+    base = text.block("base", "rock", text.rectangle((-2, -1), (8, 0)))
+    scene = parse_scene(
+        text.scene(
+            f'plane = "strain"\nduration = {time!r}\n[gravity]\n[inertia]\n[contact]\n'
+            f"[formulation.integrator]\nstep = {step!r}\n",
+            [
+                text.material("rock", modulus=1e9),
+                text.interface("contact", 20.0),
+                base,
+                text.held("base"),
+                text.box("block", (0, 0), (1, 0.5)),
+                f'[[initial_velocities]]\nblock = "block"\nvelocity = [{speed!r}, 0]\n',
+                text.monitor("middle", (0.5, 0.25), "block"),
+            ],
+        )
+    )
+    found = run(scene, chosen(formulation, scene.formulation))
+    assert found.summary.status == "converged", found.summary.sentence
+    drag = text.G * np.tan(np.radians(20.0))
+    expected = speed * time - drag * time**2 / 2
+    assert last_way(found, "middle")[0] == pytest.approx(expected, rel=1e-3)
+    assert rates(found)[1, 0] == pytest.approx(speed - drag * time, rel=1e-3)
+    assert abs(last_way(found, "middle")[1]) < 1e-5
+    assert abs(found.state.frames.angle[1]) < 1e-5
