@@ -286,3 +286,14 @@ angular_velocity = 2
     history = found.history
     total = sum(history[name][-1] for name in ("kinetic_energy", "strain_energy", "support_energy"))
     assert total == pytest.approx(1000 + 0.5 * 1000 * 2 * 5 / 12 * 4, rel=5e-3)
+
+
+@pytest.mark.parametrize("method", ["nitsche", "lagrange"])
+def test_meshes_that_do_not_match_are_glued_alike(method: str) -> None:
+    net = '[[cover.nets]]\nblock = "two"\nsize = 0.17\nangle = 1.0\n'
+    scene = BARS.replace("STIFFNESS", "").replace("= 1e4", "= 1e9")
+    found = simulate(scene, MESH + net + f'[glue]\nmethod = "{method}"\n')
+    exact = np.tile([1.0, 0.0, 0.0], (len(found.stress), 1))
+    np.testing.assert_allclose(found.stress, exact, atol=1e-8)
+    assert found.summary.equilibrium_residual is not None
+    assert found.summary.equilibrium_residual < 1e-8
