@@ -33,7 +33,7 @@ def test_the_python_of_the_readme_runs(tmp_path, monkeypatch, capsys):
 
 
 def test_the_law_of_the_manual_acts_in_a_scene(tmp_path, monkeypatch):
-    (code,) = blocks("docs/extending.md", "python")
+    code = blocks("docs/extending.md", "python")[0]
     (material,) = blocks("docs/extending.md", "toml")
     (tmp_path / "orthotropic.py").write_text(code)
     monkeypatch.syspath_prepend(tmp_path)
@@ -67,6 +67,39 @@ point = [2, 1]
     uy = nmm.run(scene).history["monitor:top:uy"][-1]
     # stress / modulus along y x height; supports are springs stiffer than the block by 1e5 at least
     assert uy == pytest.approx(1e6 / (0.05 * 11e9) * 1.0, rel=1e-4)
+
+
+def test_the_benchmark_of_the_manual_is_one_class(tmp_path, monkeypatch):
+    (code,) = (one for one in blocks("docs/extending.md", "python") if "SceneCase" in one)
+    scene = """
+title = "bar"
+plane = "stress"
+[materials.m]
+young_modulus = 1.0
+poisson_ratio = 0.0
+[[blocks]]
+material = "m"
+vertices = [[0, 0], [4, 0], [4, 1], [0, 1]]
+[[supports]]
+name = "wall"
+segment = [[0, 0], [0, 1]]
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[4, 0], [4, 1]]
+traction = [1e-3, 0]
+[[monitors]]
+name = "tip"
+point = [4, 0.5]
+"""
+    (tmp_path / "tip_cases.py").write_text(code.replace('"""..."""', repr(scene)))
+    monkeypatch.syspath_prepend(tmp_path)
+    from nmm.verification import verify
+
+    outcomes = verify(["tip_cases:Tip"])
+    assert [one.formulation for one in outcomes] == ["dda", "manifold"]
+    assert all(one.passed and one.checks for one in outcomes), [*outcomes[0].lines()]
 
 
 @pytest.mark.parametrize(
