@@ -165,10 +165,13 @@ def _power(error: float) -> str:
 
 
 def _write(rows: list[Row]) -> None:
-    from enforcement_page import write
+    """Put rows in the place of the same ones in the records, and write the page."""
+    from enforcement_page import read, write
 
     RECORDS.mkdir(exist_ok=True)
-    text = json.dumps([asdict(row) for row in rows], indent=1)
+    known = {(r.scene, r.blocks, r.enforcement): r for r in read(RECORDS, "enforcement", Row)}
+    known |= {(r.scene, r.blocks, r.enforcement): r for r in rows}
+    text = json.dumps([asdict(row) for row in known.values()], indent=1)
     (RECORDS / "enforcement.json").write_text(text + "\n")
     write(RECORDS)
 

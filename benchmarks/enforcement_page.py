@@ -66,20 +66,22 @@ ADVICE = """**Of the classical three, none is best everywhere.**
   costs ten times the penalty's seconds, and exact forces are hardly determined. Answers that obey
   every condition to 1e-7 differ by up to 4e-3 in the resultants on a wall of 100 bricks with
   friction, and by 4e-6 without. That is the force error that exact enforcements show.
-- **Barrier** is smooth and never penetrates; it takes a factorisation every Newton step, and its
-  errors are those of its width."""
+- **Barrier** is smooth and never penetrates; it takes a factorisation every Newton step, its errors
+  are those of its width, and on the pile half of its steps do not converge."""
+
+
+def read(records: Path, name: str, kind: type) -> list:
+    """Rows of a record; none where there is no record."""
+    path = records / f"{name}.json"
+    return [kind(**item) for item in json.loads(path.read_text())] if path.exists() else []
 
 
 def write(records: Path) -> None:
     """Write the page from the records there are."""
-    found = {}
-    for name, kind, table in (
-        ("enforcement", enforcement.Row, enforcement.table),
-        ("steps", steps.Cost, steps.table),
-    ):
-        path = records / f"{name}.json"
-        rows = [kind(**item) for item in json.loads(path.read_text())] if path.exists() else []
-        found[name] = table(rows)
+    found = {
+        "enforcement": enforcement.table(read(records, "enforcement", enforcement.Row)),
+        "steps": steps.table(read(records, "steps", steps.Cost)),
+    }
     versions = (
         f"{platform.machine()}, Python {platform.python_version()}, numpy {np.__version__}, "
         f"scipy {scipy.__version__}."

@@ -156,10 +156,11 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=20)
     parser.add_argument("--penalty", type=float, default=1.0, help="normal penalty in E x t")
     parser.add_argument("--page", action="store_true", help="write docs/enforcements.md")
+    parser.add_argument("--only", action="store_true", help="with --page: what is named, no more")
     options = parser.parse_args()
     runs = [(name, options.penalty, options.blocks, options.steps) for name in options.enforcement]
     costs: list[Cost] = []
-    for name, penalty, sizes, steps in RUNS if options.page else runs:
+    for name, penalty, sizes, steps in RUNS if options.page and not options.only else runs:
         some = []
         for n_blocks in sizes:
             some.append(measure(n_blocks, name, steps, penalty))
@@ -172,10 +173,13 @@ def main() -> None:
 
 
 def _write(costs: list[Cost]) -> None:
-    from enforcement_page import write
+    """Put costs in the place of the same ones in the records, and write the page."""
+    from enforcement_page import read, write
 
     RECORDS.mkdir(exist_ok=True)
-    text = json.dumps([asdict(cost) for cost in costs], indent=1)
+    known = {(c.enforcement, c.penalty, c.blocks): c for c in read(RECORDS, "steps", Cost)}
+    known |= {(c.enforcement, c.penalty, c.blocks): c for c in costs}
+    text = json.dumps([asdict(cost) for cost in known.values()], indent=1)
     (RECORDS / "steps.json").write_text(text + "\n")
     write(RECORDS)
 

@@ -131,8 +131,9 @@ def exact_round(
     at = converged_rounds(at, linear, memory, tolerance, gap_tolerance, few, growth, budget)
     if at.meets(tolerance, gap_tolerance):
         return at, f"{at.count} rounds"
-    how = f"{at.count} rounds, interior point"
+    how = f"{at.count} rounds"
     if not at.error <= CLOSE:
+        how = f"{how}, interior point"
         at = interior_round(at, linear, memory, CLOSE, CLOSE, factorisations)
     stiff = converged_rounds(
         _stiffer(at), linear, memory, tolerance, gap_tolerance, at.count + rounds, growth, budget

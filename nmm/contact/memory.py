@@ -1,12 +1,13 @@
 """What the contact solution keeps from step to step."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.pattern import SpringPattern
-from nmm.contact.problem import StepProblem
+from nmm.contact.problem import Limits, StepAnswer, StepProblem
 from nmm.contact.springs import CutSprings
 from nmm.solvers.linear import Factor, LinearSolver
 
@@ -16,6 +17,9 @@ KEPT = 4
 """Factors kept."""
 TURN = 1e-3
 """A kept factor is as good as new while the rows have changed by less than this part."""
+
+STEP = ("force", "gap", "slip")
+"""What stays from solution to solution of one step."""
 
 
 @dataclass
@@ -70,6 +74,9 @@ class Memory:
     kept
         Last factors with all springs acting: rounds of multipliers use springs of several
         stiffnesses in one step.
+    answered
+        The problem solved last and its answer: a step that finds no other contacts when it looks
+        further asks the same again.
     barrier_width
         Width of the barrier chosen in the first step (m).
     """
@@ -78,7 +85,14 @@ class Memory:
     start: Floats | None = None
     last: Floats | None = None
     kept: list[KeptFactor] = field(default_factory=list)
+    answered: tuple[StepProblem, StepAnswer] | None = None
     barrier_width: float | None = None
+
+    def known(self, problem: StepProblem) -> StepAnswer | None:
+        """Answer of the last solution if it was of the same problem; it took no passes."""
+        if self.answered is None or not _same(self.answered[0], problem):
+            return None
+        return replace(self.answered[1], passes=0, factorisations=0)
 
     def pattern_of(self, problem: StepProblem) -> SpringPattern:
         """Pattern of ``problem``, laid out anew when it changed."""
@@ -101,3 +115,32 @@ class Memory:
     def forget(self, kept: KeptFactor) -> None:
         """Drop a factor that no longer serves."""
         self.kept = [other for other in self.kept if other is not kept]
+
+    def started(self, problem: StepProblem) -> StepProblem:
+        """The problem with the forces of its last solution, where only its rows have turned."""
+        if self.answered is None:
+            return problem
+        last, answer = self.answered
+        same = all(_equal(getattr(last, name), getattr(problem, name)) for name in STEP)
+        if not (same and answer.verdict.converged):
+            return problem
+        return replace(problem, normal_force=answer.normal_force, shear_force=answer.shear_force)
+
+
+def _same(a: StepProblem, b: StepProblem) -> bool:
+    return a.n_contacts == b.n_contacts and all(
+        _equal(getattr(a, item.name), getattr(b, item.name)) for item in fields(a)
+    )
+
+
+def _equal(a: Any, b: Any) -> bool:
+    if a is b:
+        return True
+    if a is None or b is None:
+        return False
+    if isinstance(a, Limits):
+        return all(_equal(x, getattr(b, name)) for name, x in vars(a).items())
+    if isinstance(a, np.ndarray):
+        return np.array_equal(a, b)
+    parts = ("data", "indices", "indptr")
+    return all(np.array_equal(getattr(a, part), getattr(b, part)) for part in parts)

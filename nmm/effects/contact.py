@@ -268,9 +268,13 @@ class Contact(Effect):
                 shear_force=contacts.shear_force,
                 compliant=own | (dashpots.stiffness > 0),
             )
-            answer = turns.twins.merged(
-                enforcement.solve(turns.twins.joined(problem), solver, self._memory)
-            )
+            joined = turns.twins.joined(problem)
+            # A step that looks further and finds no other contacts asks the same again.
+            found = self._memory.known(joined) if held is None else None
+            if found is None:
+                found = enforcement.solve(self._memory.started(joined), solver, self._memory)
+            self._memory.answered = None if held is not None else (joined, found)
+            answer = turns.twins.merged(found)
             passes += answer.passes
             self._solved = (problem if held is None else held.reduced(problem), answer)
             if not answer.verdict.converged:
