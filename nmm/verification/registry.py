@@ -69,6 +69,7 @@ CASES = Registry[type[Case]](
         "B30": f"{_HOME}.columns:LeaningColumns",
         "B31 pull-off": f"{_HOME}.joints:PullOff",
         "B31 drop": f"{_HOME}.joints:BrittleDrop",
+        "C1": f"{_HOME}.beams:PlainBeam",
         "C3": f"{_HOME}.joints:Chain",
         "B10 cycle": f"{_HOME}.friction:CyclicShear",
         "B10 enforcement": f"{_HOME}.friction:ForcedCycle",
