@@ -49,11 +49,11 @@ the first three left out.
 
 ADVICE = """**Of the classical three, none is best everywhere.**
 
-- **Penalty** is the quickest and the most robust, and the default at 10 E. Its forces are unique,
-  on walls too, and each pass costs a solve with a kept factor. Poor where gaps matter: it leaves
-  penetrations of force over stiffness, and ten times stiffer springs cost two to four times the
-  passes. Shi's open-close iteration on the same springs is poor on walls and piles: it cycles,
-  which the verdict reports, and factorises in every pass.
+- **Penalty** is the quickest and the most robust, and the default at 10 E. Springs share the load
+  where contacts outnumber unknowns, and a pass costs a solve with a kept factor. Poor where gaps
+  matter: it leaves penetrations of force over stiffness, and ten times stiffer springs cost two to
+  four times the passes. Shi's open-close iteration on the same springs is poor on walls and piles:
+  it cycles, which the verdict reports, and factorises in every pass.
 - **Augmented Lagrangian** removes the penetration by rounds of multipliers. Poor where many
   contacts share few unknowns, as in walls: an error of forces that hardly stretches any contact
   dies slowly, so springs must grow from round to round, and a round then takes many factors.
@@ -63,9 +63,9 @@ ADVICE = """**Of the classical three, none is best everywhere.**
   step says so.
 - **Cone** starts with two rounds, asks the interior point where they are not near, and finishes
   with stiffer rounds, so every step of the table converges. It is not the default: on walls it
-  costs ten times the penalty's seconds, and exact forces are hardly determined. Answers that obey
-  every condition to 1e-7 differ by up to 4e-3 in the resultants on a wall of 100 bricks with
-  friction, and by 4e-6 without. That is the force error that exact enforcements show.
+  costs over ten times the penalty's seconds, and exact forces are hardly determined. Answers that
+  obey every condition to 1e-7 differ by up to 4e-3 in the resultants on a wall of 100 bricks with
+  friction, and by 4e-6 without. So much force error an exact enforcement can show.
 - **Barrier** is smooth and never penetrates; it takes a factorisation every Newton step, its errors
   are those of its width, and on the pile half of its steps do not converge."""
 
