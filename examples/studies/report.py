@@ -115,15 +115,6 @@ STUDIES = {
         repeats=1,
         memory=False,
     ),
-    "kitoh": Study(
-        "kitoh_beam/kitoh_130.toml",
-        ("penalty", "augmented", "dda_2"),
-        {"formulation.loading.tolerance": (0.05, 0.005)},
-        {"loading": {"increment": 1.0}},
-        "failure_factor",
-        repeats=1,
-        memory=False,
-    ),
 }
 
 
