@@ -58,12 +58,10 @@ class Outcome:
 def named(text: str) -> list[str]:
     """Names of `CASES` that a name stands for.
 
-    A name stands for itself, else for all that begin with it and go on with another word or
-    letter: "B" for all of that group, "B1" for "B1 friction" and "B1 cohesion" and not "B10".
-    What nothing begins with, such as ``module:Class``, is left as it is.
+    A name stands for all that begin with it and go on with another word or letter: "B" for all of
+    that group, "B8" for "B8" and "B8 oblique", "B1" for "B1 friction" and "B1 cohesion" and not
+    "B10". What nothing begins with, such as ``module:Class``, is left as it is.
     """
-    if text in CASES.table:
-        return [text]
     wanted = text.lower()
     found = [
         name
