@@ -77,7 +77,10 @@ class State:
 def rotation_matrices(angle: Floats) -> Floats:
     """Return the matrices (..., 2, 2) that turn by ``angle`` (...,) counter-clockwise."""
     c, s = np.cos(angle), np.sin(angle)
-    return np.stack([np.stack([c, -s], -1), np.stack([s, c], -1)], -2)
+    found = np.empty((*np.shape(angle), 2, 2))
+    found[..., 0, 0], found[..., 0, 1] = c, -s
+    found[..., 1, 0], found[..., 1, 1] = s, c
+    return found
 
 
 def initial_state(manifold: Manifold) -> State:
@@ -153,7 +156,7 @@ def move(model: Model, state: State, increment: Floats) -> State:
         frames.tilt,
     )
     # What the sum of angles has taken up, rounded: a velocity must not drift against its axes.
-    turn = moved.angle - frames.angle
+    turn = rotation_matrices(moved.angle - frames.angle)
     return replace(
         state,
         frames=moved,
@@ -164,11 +167,11 @@ def move(model: Model, state: State, increment: Floats) -> State:
 
 
 def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
-    """Keep the mean translation of a rate fixed in space while the body's axes turn."""
+    """Keep the mean translation of a rate fixed in space while the body's axes ``turn``."""
     if not rate.any():
         return rate
     mean = (model.rigid_projection @ rate).reshape(-1, 3)
-    turned = np.einsum("bji,bj->bi", rotation_matrices(turn), mean[:, :2])
+    turned = np.einsum("bji,bj->bi", turn, mean[:, :2])
     change = np.zeros_like(mean)
     change[:, :2] = turned - mean[:, :2]
     return np.asarray(rate + model.manifold.rigid_modes @ change.ravel())

@@ -4,6 +4,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
+from nmm.contact.defect_kernel import squared
 from nmm.contact.problem import StepProblem
 
 
@@ -35,8 +36,7 @@ def relative_residual(
 
 
 def _squared(rows: csr_array, stiffness: Floats) -> Floats:
-    squares = csr_array((rows.data**2, rows.indices, rows.indptr), shape=rows.shape)
-    return np.asarray(squares.T @ stiffness)
+    return np.asarray(squared(rows.indptr, rows.indices, rows.data, stiffness, rows.shape[1]))
 
 
 def length(vector: Floats) -> float:

@@ -72,6 +72,8 @@ def find_crossings(
     pairs = _meeting(before, after, within_bodies) if candidates is None else candidates
     near = _can_meet(before, after, *pairs)
     v, e = pairs[0][near], pairs[1][near]
+    if not len(v):
+        return Crossings(v, e, np.empty(0))
     edge0, edge1 = before.end[e] - before.start[e], after.end[e] - after.start[e]
     offset0, offset1 = before.start[v] - before.start[e], after.start[v] - after.start[e]
     # Twice the area, positive inside: c0 + c1 t + c2 t^2.
@@ -135,11 +137,17 @@ def _meeting(before: Surface, after: Surface, within_bodies: bool) -> tuple[Ints
 
 
 def _can_meet(before: Surface, after: Surface, v: Ints, e: Ints) -> Bools:
-    """Pairs of which neither the sum of motions nor the start excludes a crossing."""
+    """Pairs of which neither the sum of motions nor the start excludes a crossing.
+
+    Where no end of an edge moves by more than an eighth of its length, a vertex that comes too deep
+    does more than three quarters of it along the normal at the start; half is on the safe side.
+    """
     moved = np.hypot(*(after.start - before.start).T)
     relative = moved[v] + np.maximum(moved[e], moved[before.next[e]])
-    gap = -cross(before.direction[e], before.start[v] - before.start[e])
-    return np.asarray(gap <= relative)
+    deepest = cross(before.direction[e], before.start[v] - before.start[e]) + relative
+    far = relative > 0.125 * before.length[e]
+    allowed = DEPTH * np.minimum(before.thickness[v], before.thickness[e])
+    return np.asarray((deepest >= 0.0) & (far | (deepest >= 0.5 * allowed)))
 
 
 def _first_root(c0: Floats, c1: Floats, c2: Floats) -> Floats:

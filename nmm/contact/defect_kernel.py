@@ -80,3 +80,13 @@ def defect(
         rest_size += (weight[i] * force[i]) ** 2
     largest = max(inner_size, contact_size, load_size)
     return force, np.sqrt(rest_size / largest) if largest > 0.0 else 0.0
+
+
+@nb.njit(cache=True)
+def squared(pointers: Index, columns: Index, entries: Floats, stiffness: Floats, n: int) -> Floats:
+    """Diagonal (n,) of ``rows.T diag(stiffness) rows``."""
+    found = np.zeros(n)
+    for c in range(len(stiffness)):
+        for k in range(pointers[c], pointers[c + 1]):
+            found[columns[k]] += entries[k] * entries[k] * stiffness[c]
+    return found

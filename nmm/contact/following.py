@@ -47,6 +47,8 @@ class JointBook:
 
     def hides(self, found: Contacts) -> Bools:
         """Which found contacts a followed joint carries already."""
+        if not len(self.joint):
+            return np.zeros(len(found), dtype=bool)
         alive = np.isin(self.pair_joint, self.joint)
         return np.isin(found.key, self.pairs[alive])
 
@@ -58,6 +60,8 @@ class JointBook:
     def now(self, surface: Surface, apart_of: Apart) -> ContactPoints:
         """Return the points with gap, slip and normal of the moved surface."""
         p = self.points
+        if not len(p):
+            return p
         normal, apart = surface.normal[p.edge_b], apart_of(p)
         stretch = np.einsum("ij,ij->i", apart, tangents(normal))
         held = p.damage < 1
@@ -70,6 +74,8 @@ class JointBook:
 
     def keep(self, points: ContactPoints, surface: Surface, apart_of: Apart) -> "JointBook":
         """Return the book with the answer's points; joints that came apart are given up."""
+        if not len(points) and not len(self.lost):
+            return self
         apart = apart_of(points)
         far = np.hypot(apart[:, 0], apart[:, 1]) > SLID * points.length
         lost = far & (points.damage >= 1)

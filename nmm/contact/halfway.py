@@ -13,7 +13,7 @@ Both sides move as if the force acted at one point, that of side a: it makes no 
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse import csr_array, diags_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
@@ -113,7 +113,7 @@ def missing_moments(
     contacts: ContactPoints,
     sides: Sides,
     half: State,
-    rigid_modes: csc_array,
+    acted: Floats,
 ) -> Floats:
     """Moments (B,) in N m about the bodies' centres half way that contact forces still owe.
 
@@ -125,9 +125,10 @@ def missing_moments(
     ----------
     forces
         (m,) mean normal and shear forces (N), tension positive.
+    acted
+        (3 B,) what the rows have made of them: forces and moments on the bodies.
     """
     normal, shear = forces
-    acted = rigid_modes.T @ (made.normal.T @ normal + made.tangent.T @ shear)
     point = sides.at(contacts.edge_a, contacts.parameter_a).place(half.frames, half.deformation)
     force = normal[:, None] * made.direction + shear[:, None] * tangents(made.direction)
     edges, n_bodies = sides.manifold.boundary.body, len(half.frames.angle)

@@ -83,8 +83,11 @@ PARTS = tuple(part.name for part in fields(ContactPoints))
 
 def concatenate(parts: list[ContactPoints]) -> ContactPoints:
     """Join contact points."""
+    some = [part for part in parts if len(part)] or parts[:1]
+    if len(some) == 1:
+        return some[0]
     return ContactPoints(
-        *(np.concatenate([getattr(part, name) for part in parts]) for name in PARTS)
+        *(np.concatenate([getattr(part, name) for part in some]) for name in PARTS)
     )
 
 

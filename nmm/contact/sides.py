@@ -44,6 +44,8 @@ class Sides:
     def at(self, edge: Ints, parameter: Floats) -> MaterialPoints:
         """Return the points (m,) at ``parameter`` on ``edge``."""
         start, end, s = self.start, self.end, parameter[:, None]
+        if not parameter.any():
+            return start.take(edge)
         values = start.rows.values[edge] + s[:, :, None] * (
             end.rows.values[edge] - start.rows.values[edge]
         )

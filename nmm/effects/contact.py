@@ -159,6 +159,7 @@ class Contact(Effect):
         self._held = held
         self._laws = laws
         self._interface_of = interface_of
+        self._glued = bool((interface_of == GLUED).any())
         self._enforcement = enforcement
         # All but the penalty replace springs that are not the joints' own by exact conditions.
         self._exact = enforcement.name != "penalty"
@@ -168,7 +169,7 @@ class Contact(Effect):
         surface = self._sides.surface(start.frames, start.deformation)
         self._neighbours: NeighbourList | None = None
         self._last: Contacts | None = None
-        self._known: tuple[State, Surface] | None = None
+        self._known: list[tuple[State, Surface]] = []
         self.record = ContactRecord(self._follow_joints(surface, stations))
         self._stations = Stations.of(self._sides, self.record.book.points)
         self._unbonded = self.record.book.broken
@@ -339,8 +340,9 @@ class Contact(Effect):
         forces = solved.answer.normal_force, solved.answer.shear_force
         half = middle(before, after)
         push = through.normal.T @ forces[0] + through.tangent.T @ forces[1]
-        owed = np.asarray(modes.T @ (balance - push)).reshape(-1, 3)
-        owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, modes)
+        owed = np.asarray(self._modes_turned @ (balance - push)).reshape(-1, 3)
+        acted = np.asarray(self._modes_turned @ push)
+        owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, acted)
         return np.asarray(modes @ (step * self._ease_of_all * owed.ravel()))
 
     def _rows(self, contacts: ContactPoints, state: State, halfway: State | None) -> Rows:
@@ -367,10 +369,11 @@ class Contact(Effect):
         """Say where a body went through another in the step last solved; empty if none did."""
         assert self._neighbours is not None
         start = self._surface(before)
-        end = self._sides.surface(after.frames, after.deformation)
         vertex, edge = self._neighbours.update(start)
-        meets = self._interfaces(vertex, edge) != GLUED
-        found = find_crossings(start, end, (vertex[meets], edge[meets]))
+        if self._glued:
+            meets = self._interfaces(vertex, edge) != GLUED
+            vertex, edge = vertex[meets], edge[meets]
+        found = find_crossings(start, self._surface(after), (vertex, edge))
         if not len(found):
             return ""
         first = np.array([int(found.fraction.argmin())])
@@ -443,6 +446,11 @@ class Contact(Effect):
         return len(manifold.elements) == manifold.n_bodies == manifold.n_covers
 
     @cached_property
+    def _modes_turned(self) -> csr_array:
+        """(3 B, n) forces and moments on the bodies from forces on the unknowns."""
+        return csr_array(self._model.manifold.rigid_modes.T)
+
+    @cached_property
     def _ease_of_all(self) -> Floats:
         """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those without mass."""
         modes = self._model.manifold.rigid_modes
@@ -460,10 +468,13 @@ class Contact(Effect):
         return self._face_points > 2
 
     def _surface(self, state: State) -> Surface:
-        """Edges of a state; those of the last one asked for are kept."""
-        if self._known is None or self._known[0] is not state:
-            self._known = state, self._sides.surface(state.frames, state.deformation)
-        return self._known[1]
+        """Edges of a state; those at the start and at the end of a step are kept."""
+        for known, surface in self._known:
+            if known is state:
+                return surface
+        surface = self._sides.surface(state.frames, state.deformation)
+        self._known = [*self._known[-1:], (state, surface)]
+        return surface
 
     def _apart(self, state: State) -> Apart:
         """How far apart the sides of joints are in a state."""
@@ -491,8 +502,8 @@ class Contact(Effect):
         if missing.any():
             x, y = surface.start[found.vertex[missing]][0] + self._origin
             raise (SceneError if self.record.found is None else SolveError)(_no_interface(x, y))
-        meets = interface >= 0
-        return found.take(meets & ~self.record.book.hides(found))
+        meets = (interface >= 0) & ~self.record.book.hides(found)
+        return found if meets.all() else found.take(meets)
 
     def _interfaces(self, vertex: Ints, edge: Ints) -> Ints:
         manifold = self._model.manifold

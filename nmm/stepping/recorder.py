@@ -179,14 +179,16 @@ class Recorder:
         assert attempt.solved is not None
         assert contact is not None
         self.friction_loss += attempt.solved.loss
-        self.penetration = max(self.penetration, -float(contacts.gap.min(initial=0.0)))
-        counts = {s.name.lower(): int(np.sum(contacts.state == s)) for s in ContactState}
+        penetration = -float(contacts.gap.min(initial=0.0))
+        self.penetration = max(self.penetration, penetration)
+        tally = np.bincount(contacts.state, minlength=len(ContactState)).tolist()
+        counts = {s.name.lower(): tally[s] for s in ContactState}
         counts["broken"] = contact.broken_bonds
         self.counts = counts
         for name, count in counts.items():
             self.largest[name] = max(self.largest.get(name, 0), count)
         return {
-            "penetration": -float(contacts.gap.min(initial=0.0)),
+            "penetration": penetration,
             "friction_loss": self.friction_loss,
             **{name: float(count) for name, count in counts.items()},
         }
