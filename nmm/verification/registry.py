@@ -71,6 +71,7 @@ CASES = Registry[type[Case]](
         "B31 drop": f"{_HOME}.joints:BrittleDrop",
         "C1": f"{_HOME}.beams:PlainBeam",
         "C3": f"{_HOME}.joints:Chain",
+        "C5": f"{_HOME}.beams:NotchedBeam",
         "B10 cycle": f"{_HOME}.friction:CyclicShear",
         "B10 enforcement": f"{_HOME}.friction:ForcedCycle",
         "B10 cone": f"{_HOME}.friction:Cone",
