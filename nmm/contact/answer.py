@@ -30,8 +30,9 @@ def settled_answer(
 def answer(found: Settled, linear: LinearSolver, verdict: Verdict) -> StepAnswer:
     """Answer with the forces of the springs at what was found."""
     springs, problem = found.springs, found.springs.problem
-    normal, shear = springs.forces(found.increment)
-    is_open, sliding = springs.states(found.increment)
+    trial = springs.trial(found.increment)
+    normal, shear = springs.cut(*trial)
+    is_open, sliding = springs.states_of(*trial)
     return StepAnswer(
         increment=found.increment,
         normal_force=normal,

@@ -58,11 +58,18 @@ class CutSprings:
 
     def forces(self, increment: Floats) -> tuple[Floats, Floats]:
         """Admissible forces."""
-        return project(*self.trial(increment), self.problem.limits)
+        return self.cut(*self.trial(increment))
 
     def states(self, increment: Floats) -> tuple[Bools, Bools]:
         """(m,) open contacts, (m,) closed contacts that slide."""
-        normal, shear = self.trial(increment)
+        return self.states_of(*self.trial(increment))
+
+    def cut(self, normal: Floats, shear: Floats) -> tuple[Floats, Floats]:
+        """Admissible forces of those of uncut springs."""
+        return project(normal, shear, self.problem.limits)
+
+    def states_of(self, normal: Floats, shear: Floats) -> tuple[Bools, Bools]:
+        """The `states` that the forces of uncut springs mean."""
         is_open = normal > self.problem.limits.tension
         bounded = np.minimum(normal, self.problem.limits.tension)
         bound = shear_bound(bounded, is_open, self.problem.limits)

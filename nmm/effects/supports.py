@@ -60,6 +60,7 @@ class Supports(Effect):
         self._supports = supports
         self._n = n_unknowns
         self._stood: tuple[Floats, csc_array] | None = None
+        self._known: list[tuple[State, list[Floats]]] = []
         self._anchors = [
             support.place.points.place(state.frames, state.deformation) for support in supports
         ]
@@ -163,9 +164,18 @@ class Supports(Effect):
         return np.unique(np.concatenate(none + [ghost.nonzero()[0] for ghost in ghosts]))
 
     def _lag(self, number: int, state: State, end: Instant) -> Floats:
-        support = self._supports[number]
-        place = support.place.points.place(state.frames, state.deformation)
-        return np.asarray(self._anchors[number] + support.displacement(end) - place)
+        now = self._anchors[number] + self._supports[number].displacement(end)
+        return np.asarray(now - self._places(state)[number])
+
+    def _places(self, state: State) -> list[Floats]:
+        """Where the points of each support are; those at both ends of a step are kept."""
+        for known, places in self._known:
+            if known is state:
+                return places
+        points = (support.place.points for support in self._supports)
+        places = [one.place(state.frames, state.deformation) for one in points]
+        self._known = [*self._known[-1:], (state, places)]
+        return places
 
     @cached_property
     def _turning(self) -> list[Ints]:
