@@ -53,17 +53,17 @@ FIXED = ("floor", "left", "right")
 RAW = argparse.RawDescriptionHelpFormatter
 
 
-def pile(blocks: int, gap: float, duration: float, seed: int = 1) -> str:
-    """Return the scene: a square of loose blocks between a floor and two walls."""
-    side = blocks**0.5
-    region = Polygons.from_shapely([shapely.box(0.0, 0.0, side, side)])
+def pile(blocks: int, height: float, gap: float, duration: float, seed: int = 1) -> str:
+    """Return the scene: loose blocks, ``height`` metres deep, between a floor and two walls."""
+    width = blocks / height
+    region = Polygons.from_shapely([shapely.box(0.0, 0.0, width, height)])
     cells = tessellate(region, blocks, seed=seed).to_shapely()
     shrunk = [scale(c, 1 - gap, 1 - gap, origin=c.centroid) for c in cells]
     rings = [np.array(cell.exterior.coords)[:-1] for cell in shrunk]
     box = (
-        ("floor", (-WALL, -WALL, side + WALL, 0.0)),
-        ("left", (-WALL, 0.0, 0.0, 1.2 * side)),
-        ("right", (side, 0.0, side + WALL, 1.2 * side)),
+        ("floor", (-WALL, -WALL, width + WALL, 0.0)),
+        ("left", (-WALL, 0.0, 0.0, 1.2 * height)),
+        ("right", (width, 0.0, width + WALL, 1.2 * height)),
     )
     parts = [HEAD.format(duration=duration)]
     parts += [_block(name, np.array(shapely.box(*at).exterior.coords)[:-1]) for name, at in box]
@@ -96,17 +96,19 @@ def overlap(shapes: np.ndarray) -> float:
 
 def measure(options: argparse.Namespace) -> dict[str, float | str]:
     """Run one pile; return what is recorded of it."""
-    scene = nmm.parse_scene(pile(options.blocks, options.gap, options.duration), "settling pile")
+    height = options.height or options.blocks**0.5
+    text = pile(options.blocks, height, options.gap, options.duration)
+    scene = nmm.parse_scene(text, "settling pile")
     formulation = parse_formulation(FORMULATION.format(**vars(options)))
     started = process_time()
     run = nmm.run(scene, formulation, progress=_say if options.progress else None)
     seconds = process_time() - started
     history, one = run.history, run.summary
     shapes = np.array(run.manifold.elements.with_points(run.frames[-1].points).to_shapely())
-    side = options.blocks**0.5
-    box = shapely.box(0.0, 0.0, side, 1.2 * side).buffer(WALL / 10)
+    box = shapely.box(0.0, 0.0, options.blocks / height, 1.2 * height).buffer(WALL / 10)
     return {
         "blocks": options.blocks,
+        "height": height,
         "enforcement": options.enforcement,
         "penalty": options.penalty,
         "step": options.step,
@@ -134,6 +136,7 @@ def main() -> None:
     """Measure one pile, print the record and append it to a file."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=RAW)
     parser.add_argument("--blocks", type=int, default=100)
+    parser.add_argument("--height", type=float, help="m; as high as wide by default")
     parser.add_argument("--step", type=float, default=4e-3, help="s")
     parser.add_argument("--duration", type=float, default=2.0, help="s")
     parser.add_argument("--gap", type=float, default=0.02, help="share of a block's size")
