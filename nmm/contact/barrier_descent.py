@@ -23,7 +23,7 @@ PLAIN = 10
 FIRM, LOOSE = 0.1, 3e-2
 """A minimum is found to this part of the last out-of-balance force, and at first to `LOOSE`."""
 HOPELESS = 0.5
-"""Out-of-balance force after `PLAIN` updates at which nothing holds a part."""
+"""Out-of-balance force after two bounds at which nothing holds a part."""
 QUICK = 30
 """Most steps of one coupled iteration."""
 
@@ -58,7 +58,7 @@ class Descent:
             size = self.size(well, found)
             still = np.array_equal(found, increment) and count > 1
             increment, held = found, min(held, size)
-            hopeless = count >= PLAIN and held > HOPELESS
+            hopeless = count > 1 and held > HOPELESS
             if size <= tolerance or still or hopeless:
                 break
             share = 1.0 if count <= PLAIN else 0.5
