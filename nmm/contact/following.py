@@ -119,7 +119,8 @@ def joint_book(
         Where the edges are at the start, and the stretches they share.
     interface, bonded, distance
         (j,) index of the interface, whether it is bonded, and the distance (m) between the middles
-        of the two elements across the joint.
+        of the two elements across the joint, longer by as much as their materials are softer than
+        the stiffest.
     stations
         "corners" or "gauss".
     """

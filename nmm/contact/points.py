@@ -31,8 +31,9 @@ class ContactPoints:
     length
         (m,) tributary length (m); zero where a contact is a mere vertex.
     slenderness
-        (m,) tributary length over the distance between the middles of the two elements: what the
-        penalty is multiplied by. 1 for a mere vertex.
+        (m,) tributary length over the distance between the middles of the two elements, less by
+        as much as these are softer than the stiffest material: what the penalty is multiplied by.
+        1 for a mere vertex.
     interface
         (m,) index among the scene's interfaces.
     key
@@ -70,6 +71,8 @@ class ContactPoints:
 
     def take(self, index: Ints | Bools) -> "ContactPoints":
         """Return some of the contacts."""
+        if index.dtype == bool and index.all():
+            return self
         return ContactPoints(*(getattr(self, name)[index] for name in PARTS))
 
     @property

@@ -521,11 +521,22 @@ class Contact(Effect):
         return joint_book(surface, joints, interface[wanted], bonded, distance, stations)
 
     def _distance(self, joints: Joints) -> Floats:
-        """Return how far (j,) the middles of the elements beside joints lie apart, across them."""
-        manifold = self._model.manifold
-        middle = centroids(manifold.elements)[manifold.boundary.element]
-        apart = middle[joints.edge_a] - middle[joints.edge_b]
-        return np.asarray(np.abs(np.einsum("ij,ij->i", apart, joints.normal)))
+        """Return lengths (j,) of the stiffest material as soft as what lies across joints (m).
+
+        ``h = E_max (h_a / E_a + h_b / E_b)`` with the distances of both elements' middles from the
+        joint; where moduli are equal to the largest, the distance of the middles.
+        """
+        manifold, modulus = self._model.manifold, self._model.modulus
+        middle = centroids(manifold.elements)
+        a, b = (manifold.boundary.element[edge] for edge in (joints.edge_a, joints.edge_b))
+        far_a, far_b, apart = (
+            np.abs(np.einsum("ij,ij->i", way, joints.normal))
+            for way in (middle[a] - joints.start, middle[b] - joints.start, middle[a] - middle[b])
+        )
+        softness = modulus.max() / modulus
+        share = far_a / (far_a + far_b)
+        mixed = share * softness[a] + (1 - share) * softness[b]
+        return np.asarray(apart * np.where(softness[a] == softness[b], softness[a], mixed))
 
 
 def _no_interface(x: float, y: float) -> str:

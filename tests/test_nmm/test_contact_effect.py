@@ -384,3 +384,39 @@ def test_blocks_that_meet_later_without_an_interface_end_the_run_where_they_do(s
     assert found.frames[-1].points[4:, 1].min() > -0.1 * size
     touch = 0.1 / 100 if velocity else np.sqrt(2 * 0.1 / 9.81)
     assert found.history["time"][-1] == pytest.approx(touch, abs=0.01)
+
+
+def test_a_bond_between_two_materials_has_the_compliance_of_both_in_series():
+    # Joint of two blocks: sigma (h1 / E1 + h2 / E2) / beta with h the halves of the blocks' lengths
+    # (rigid blocks on springs, Kawai 1978), and each block sigma H / E.
+    (soft, short), (stiff, long) = (1e9, 0.5), (10e9, 2.0)
+    scene = {
+        "title": "two materials",
+        "plane": "stress",
+        "materials": {
+            "soft": {"young_modulus": soft, "poisson_ratio": 0.0},
+            "stiff": {"young_modulus": stiff, "poisson_ratio": 0.0},
+        },
+        "interfaces": {
+            "i": {"friction_angle": 0.6, "cohesion": 1e9, "tensile_strength": 1e9, "bonded": True}
+        },
+        "blocks": [
+            {**block("a", 0, 0, short), "material": "soft"},
+            {**block("b", short, 0, long), "material": "stiff"},
+        ],
+        "supports": [{"name": "left", "segment": [[0, 0], [0, 1]], "fix": ["x", "y"]}],
+        "loads": [
+            {
+                "name": "pull",
+                "kind": "edge",
+                "segment": [[short + long, 0], [short + long, 1]],
+                "traction": [1e3, 0],
+            }
+        ],
+        "contact": {},
+    }
+    found = run(Scene.model_validate(scene), steps(1.0, bond_stiffness=0.25))
+    series = short / soft + long / stiff
+    stretch = float(found.displacement[:, 0].max() - found.displacement[:, 0].min())
+    # Residual 1e-8, and springs that hold the left end.
+    assert stretch == pytest.approx(1e3 * series * (1 + 0.5 / 0.25), rel=1e-5)
