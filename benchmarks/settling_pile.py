@@ -44,6 +44,7 @@ FORMULATION = """
 [integrator]
 type = "shi"
 step = {step}
+kinetic_factor = {kinetic_factor}
 [contact]
 enforcement = "{enforcement}"
 normal_penalty = {penalty}
@@ -112,6 +113,7 @@ def measure(options: argparse.Namespace) -> dict[str, float | str]:
         "enforcement": options.enforcement,
         "penalty": options.penalty,
         "step": options.step,
+        "kinetic_factor": options.kinetic_factor,
         "duration": float(history["time"][-1]),
         "status": one.status,
         "sentence": one.sentence,
@@ -142,6 +144,7 @@ def main() -> None:
     parser.add_argument("--gap", type=float, default=0.02, help="share of a block's size")
     parser.add_argument("--enforcement", default="penalty")
     parser.add_argument("--penalty", type=float, default=10.0, help="times E")
+    parser.add_argument("--kinetic-factor", type=float, default=1.0, help="of Shi's integrator")
     parser.add_argument("--records", type=Path, help="file to append the record to, as JSON lines")
     parser.add_argument("--progress", action="store_true")
     options = parser.parse_args()
