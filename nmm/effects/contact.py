@@ -393,8 +393,7 @@ class Contact(Effect):
 
     def position(self, contacts: ContactPoints, state: State) -> Floats:
         """Return where the contacts are (m, 2)."""
-        side = self._sides.at(contacts.edge_b, contacts.parameter_b)
-        return side.place(state.frames, state.deformation)
+        return self._surface(state).at(contacts.edge_b, contacts.parameter_b)
 
     def acting(self) -> csc_array | None:
         """Return the matrix of the last system with the springs that acted in it."""
