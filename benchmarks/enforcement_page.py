@@ -66,8 +66,9 @@ ADVICE = """**Of the classical three, none is best everywhere.**
   costs over ten times the penalty's seconds, and exact forces are hardly determined. Answers that
   obey every condition to 1e-7 differ by up to 4e-3 in the resultants on a wall of 100 bricks with
   friction, and by 4e-6 without. So much force error an exact enforcement can show.
-- **Barrier** is smooth and never penetrates; it takes a factorisation every Newton step, its errors
-  are those of its width, and on the pile half of its steps do not converge."""
+- **Barrier** is smooth, and no gap passes its wall, half a width behind touching; every step of the
+  table converges. It takes a factorisation every Newton step, a hundred on the pile, and its errors
+  are those of its width."""
 
 
 def read(records: Path, name: str, kind: type) -> list:

@@ -18,8 +18,10 @@ TRIALS = 40
 """Most points that a line search looks at."""
 SHORT = 1e-3
 """Shortest step of the coupled iteration: below, the friction bound is better held."""
-PLAIN = 10
-"""Updates of the friction bound before they are halved."""
+SHARES = (3, 1.0), (10, 0.5), (np.inf, 0.2)
+"""Part of the new friction bound that is taken, up to so many updates."""
+FEWER = 0.2
+"""Part of the out-of-balance force at the last coupled iteration at which another is tried."""
 FIRM, LOOSE = 0.1, 3e-2
 """A minimum is found to this part of the last out-of-balance force, and at first to `LOOSE`."""
 HOPELESS = 0.5
@@ -50,18 +52,19 @@ class Descent:
         Minimises for the ``bound`` (m,), tries the coupled iteration from there, and takes the
         new bound, until both agree or ``passes`` updates are spent.
         """
-        size, held = np.inf, np.inf
+        size = tried = np.inf
         for count in range(1, passes + 1):
             rough = max(0.01 * tolerance, min(LOOSE, FIRM * size))
-            found = self.minimum(well, increment, bound, rough, passes)
-            found = self.coupled(well, found, tolerance, min(passes, QUICK))
-            size = self.size(well, found)
-            still = np.array_equal(found, increment) and count > 1
-            increment, held = found, min(held, size)
-            hopeless = count > 1 and held > HOPELESS
-            if size <= tolerance or still or hopeless:
+            increment = self.minimum(well, increment, bound, rough, passes)
+            size = self.size(well, increment)
+            if size <= FEWER * tried:
+                tried = size
+                near = self.coupled(well, increment, tolerance, min(passes, QUICK))
+                if self.size(well, near) <= tolerance:
+                    return near, self.size(well, near), count
+            if size <= tolerance or (count > 1 and size > HOPELESS):
                 break
-            share = 1.0 if count <= PLAIN else 0.5
+            share = next(part for until, part in SHARES if count <= until)
             now = well.bound(well.normal(well.problem.gaps(increment))[0])
             bound = share * now + (1 - share) * bound
         return increment, size, count
