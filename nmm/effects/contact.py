@@ -3,15 +3,12 @@
 Joints (shared edges whose interface has strength or stiffness) are followed from the start; all
 other contacts are found by search as bodies move. Both are contact points of one step problem.
 
-Which bodies meet: every two, by the interface of their materials. Where the scene has none, they
-must not touch: at the start that is a fault of the scene, later it ends the run at the step before.
-The sub-blocks of one block are glued and never meet.
+Which bodies meet, and by which law, stands in `nmm.effects.contact_pairs`.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property, partial
-from typing import Any, Literal, Self
+from typing import Any, Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -43,91 +40,26 @@ from nmm.contact.narrow import Contacts, find_contacts, follow
 from nmm.contact.overlaps import face_points, faced
 from nmm.contact.points import ContactPoints, concatenate, rows
 from nmm.contact.problem import SLIDE, StepAnswer, StepProblem
+from nmm.contact.record import Breaking, ContactRecord, Solved
 from nmm.contact.search import NeighbourList
 from nmm.contact.sides import sides
 from nmm.contact.stations import Stations
 from nmm.contact.surface import Surface
 from nmm.contact.turns import Turns, slid_under_load
 from nmm.effects.base import Effect, Setup
+from nmm.effects.contact_pairs import (
+    GLUED,
+    MISSING,
+    held_bodies,
+    interface_law,
+    interface_of_regions,
+    no_interface,
+)
 from nmm.errors import SceneError, SolveError
-from nmm.interfaces.base import INTERFACE_LAWS, InterfaceLaw
-from nmm.interfaces.restitution import damping_of
 from nmm.solvers.linear import LinearSolver
-
-# Numbers that stand in for an interface: pieces of one block, which are glued and never meet, and
-# bodies that must not touch.
-GLUED, MISSING = -1, -2
-
-# Keys of a scene's interface that every law has, and those that a law need not know.
-ALWAYS = (
-    "friction_angle",
-    "cohesion",
-    "tensile_strength",
-    "bonded",
-    "normal_stiffness",
-    "shear_stiffness",
-    "fracture_energy",
-)
-WHERE_GIVEN = (
-    "shear_fracture_energy",
-    "residual_friction_angle",
-    "dilation_angle",
-    "dilation_slip",
-    "damping",
-)
 
 # Share of the penetrations by which gaps may be off for the turn of bodies within a step.
 HALFWAY = 1e-4
-
-Breaking = Literal["all", "worst", "stop"]
-
-
-@dataclass(frozen=True)
-class Solved:
-    """Contact points of a step with the forces found.
-
-    Attributes
-    ----------
-    contacts
-        As they entered the last solution, bonds that broke on the way marked.
-    answer
-        Unknowns and forces.
-    passes
-        Linear systems solved.
-    loss
-        Energy lost to friction and broken springs (J).
-    stopped
-        Whether a bond could not hold and the step was given up for it.
-    sliding
-        (m,) how far contacts slid under load (m); empty when the step is not accepted.
-    rows
-        What the forces acted through.
-    """
-
-    contacts: ContactPoints
-    answer: StepAnswer
-    passes: int
-    loss: float
-    stopped: bool = False
-    sliding: Floats = field(default_factory=lambda: np.zeros(0))
-    rows: Rows | None = None
-
-
-@dataclass(frozen=True)
-class ContactRecord:
-    """What contact keeps from accepted step to accepted step.
-
-    Attributes
-    ----------
-    book
-        Joints.
-    found, known
-        Contacts of the last search, and the same as points with forces and slip.
-    """
-
-    book: JointBook
-    found: Contacts | None = None
-    known: ContactPoints | None = None
 
 
 class Contact(Effect):
@@ -194,11 +126,11 @@ class Contact(Effect):
         return cls(
             setup.model,
             laws,
-            _interface_of_regions(setup),
+            interface_of_regions(setup),
             make_enforcement(method.enforcement, options),
             method.joint_points,
             setup.start,
-            _held_bodies(setup),
+            held_bodies(setup),
             cracked=bool(setup.scene.cracks),
             face_points=face_points(setup.formulation),
             origin=setup.origin,
@@ -379,7 +311,7 @@ class Contact(Effect):
         first = np.array([int(found.fraction.argmin())])
         x, y = start.start[found.vertex[first]][0] + self._origin
         if self._interfaces(found.vertex[first], found.edge[first])[0] == MISSING:
-            return _no_interface(x, y)
+            return no_interface(x, y)
         return (
             f"the corner at [{x:.6g}, {y:.6g}] goes through an edge of another block after "
             f"{100 * found.free_fraction:.2g} % of the step, deeper than a tenth of the thinner "
@@ -500,7 +432,7 @@ class Contact(Effect):
         missing = (interface == MISSING) & (found.gap <= 0)
         if missing.any():
             x, y = surface.start[found.vertex[missing]][0] + self._origin
-            raise (SceneError if self.record.found is None else SolveError)(_no_interface(x, y))
+            raise (SceneError if self.record.found is None else SolveError)(no_interface(x, y))
         meets = (interface >= 0) & ~self.record.book.hides(found)
         return found if meets.all() else found.take(meets)
 
@@ -538,59 +470,9 @@ class Contact(Effect):
         return np.asarray(apart * np.where(softness[a] == softness[b], softness[a], mixed))
 
 
-def _no_interface(x: float, y: float) -> str:
-    return (
-        f"[interfaces]: blocks meet at ({x:.10g}, {y:.10g}) whose materials have none: "
-        'expected an interface between the two: add one, or one with between = "any"'
-    )
-
-
 def _largest_turn(one: State, other: State, body: Ints) -> float:
     return float(np.abs(other.frames.angle - one.frames.angle)[body].max())
 
 
 def _largest_way(one: State, other: State, body: Ints) -> float:
     return float(np.hypot(*(other.frames.centre - one.frames.centre)[body].T).max())
-
-
-def interface_law(item: Any) -> InterfaceLaw:
-    """Return the law of a scene's interface: with a fracture energy the common one softens."""
-    softens = item.law == "mohr_coulomb" and item.fracture_energy is not None
-    kind = INTERFACE_LAWS.load("linear_softening" if softens else item.law)
-    given = {name: getattr(item, name) for name in ALWAYS}
-    for name in WHERE_GIVEN:
-        if getattr(item, name) is not None:
-            given[name] = getattr(item, name)
-    if item.restitution is not None:
-        given["damping"] = damping_of(item.restitution)
-    return kind(**given, **item.options)
-
-
-def _held_bodies(setup: Setup) -> Bools:
-    """Which bodies (B,) a support holds as a whole, in both directions."""
-    manifold = setup.model.manifold
-    held: Bools = np.zeros(manifold.n_bodies, dtype=bool)
-    for support in setup.scene.supports:  # a handful of supports
-        if support.point is None and support.segment is None and len(set(support.fix)) == 2:
-            regions = setup.regions(support.block)
-            inside = slice(None) if regions is None else regions[manifold.element_region]
-            held[manifold.element_body[inside]] = True
-    return held
-
-
-def _interface_of_regions(setup: Setup) -> Ints:
-    """Index (N, N) of the interface between any two regions; MISSING where the scene has none."""
-    materials = list(setup.scene.materials)
-    names: Mapping[int, str] = dict(enumerate(materials))
-    order = {id(item): number for number, item in enumerate(setup.scene.interfaces.values())}
-    table = np.full((len(materials), len(materials)), MISSING)
-    for i, j in np.ndindex(*table.shape):  # pairs of materials
-        try:
-            table[i, j] = order[id(setup.scene.interface(names[i], names[j]))]
-        except SceneError:
-            continue
-    material = setup.region_material
-    found = table[np.ix_(material, material)]
-    if setup.formulation.cover.glued:
-        np.fill_diagonal(found, GLUED)
-    return found

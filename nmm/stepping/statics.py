@@ -21,7 +21,7 @@ from nmm.stepping.verdict import CONVERGED, FAILED, FAILURE, RunVerdict
 
 if TYPE_CHECKING:
     from nmm.contact.points import ContactPoints
-    from nmm.effects.contact import Breaking
+    from nmm.contact.record import Breaking
 
 # Corrections for the turn of contacts and bodies end when they move nothing by more than this
 # share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain,

@@ -24,7 +24,7 @@ from nmm.stepping.relay import Lay, relay
 if TYPE_CHECKING:
     from nmm.contact.held import Held
     from nmm.contact.points import ContactPoints
-    from nmm.effects.contact import Breaking, ContactRecord, Solved
+    from nmm.contact.record import Breaking, ContactRecord, Solved
 
 # Contacts are sought as far as points can move in a step. The first step has no motion to go by
 # and looks this far, in sizes of the domain; a step that moves further is solved again.
