@@ -84,16 +84,14 @@ class SpringPattern:
         self, problem: StepProblem, normal: Floats, shear: Floats, mixed: Floats | None = None
     ) -> csc_array:
         """``matrix + Gn^T diag(normal) Gn + Gt^T diag(shear) Gt + Gt^T diag(mixed) Gn``."""
-        data = _spread(problem.matrix.data, self.matrix_place, len(self.indices))
-        along_n, along_t = (
-            _spread(rows.data, place, self.unknowns.size).reshape(self.unknowns.shape)
-            for rows, place in (
-                (problem.normal_rows, self.normal_place),
-                (problem.tangent_rows, self.tangent_place),
-            )
-        )
+        data = np.zeros(len(self.indices))
+        data[self.matrix_place] = problem.matrix.data
+        width = self.unknowns.shape
+        rows = [np.zeros(width), np.zeros(width)]
+        rows[0].ravel()[self.normal_place] = problem.normal_rows.data
+        rows[1].ravel()[self.tangent_place] = problem.tangent_rows.data
         cross = np.zeros(len(normal)) if mixed is None else mixed
-        _add_springs(data, self.unknowns, self.run_start, along_n, along_t, normal, shear, cross)
+        _add_springs(data, self.unknowns, self.run_start, rows[0], rows[1], normal, shear, cross)
         return csc_array((data, self.indices, self.indptr), shape=problem.matrix.shape)
 
 
@@ -218,15 +216,6 @@ def _run_starts(indptr: Index, indices: Index, unknowns: Index) -> Index:
                     run += 1
                     start[c, spot, run] = indptr[j] + np.searchsorted(column, i)
     return start
-
-
-@nb.njit(cache=True)
-def _spread(values: Floats, place: Index, size: int) -> Floats:
-    """Values at their places, zeros elsewhere."""
-    found = np.zeros(size)
-    for k in range(len(place)):
-        found[place[k]] = values[k]
-    return found
 
 
 @nb.njit(cache=True)
