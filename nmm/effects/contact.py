@@ -7,19 +7,18 @@ Which bodies meet, and by which law, stands in `nmm.effects.contact_pairs`.
 """
 
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any, Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Bools, Floats
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.balance import with_springs
 from nmm.contact.bonds import Laws, break_bonds
-from nmm.contact.crossing import find_crossings
 from nmm.contact.dashpots import Dashpots, meeting_mass
 from nmm.contact.enforcement import Enforcement, make_enforcement
 from nmm.contact.following import (
@@ -31,35 +30,25 @@ from nmm.contact.following import (
     remember,
     searched_points,
 )
-from nmm.contact.halfway import Rows, halfway_rows, middle, missing_moments
+from nmm.contact.halfway import Rows, halfway_rows
 from nmm.contact.held import Conditioned, Held
 from nmm.contact.joints import Joints, find_joints
 from nmm.contact.mean_springs import MeanSprings, end_shares
 from nmm.contact.memory import Memory
-from nmm.contact.narrow import Contacts, find_contacts, follow
-from nmm.contact.overlaps import face_points, faced
+from nmm.contact.narrow import Contacts, follow
+from nmm.contact.overlaps import face_points
 from nmm.contact.points import ContactPoints, concatenate, rows
 from nmm.contact.problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.record import Breaking, ContactRecord, Solved
-from nmm.contact.search import NeighbourList
-from nmm.contact.sides import sides
 from nmm.contact.stations import Stations
 from nmm.contact.surface import Surface
 from nmm.contact.turns import Turns, slid_under_load
 from nmm.effects.base import Effect, Setup
-from nmm.effects.contact_pairs import (
-    GLUED,
-    MISSING,
-    held_bodies,
-    interface_law,
-    interface_of_regions,
-    no_interface,
-)
-from nmm.errors import SceneError, SolveError
+from nmm.effects.contact_momentum import Momentum
+from nmm.effects.contact_pairs import held_bodies, interface_law, interface_of_regions
+from nmm.effects.contact_partners import Partners
+from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
-
-# Share of the penetrations by which gaps may be off for the turn of bodies within a step.
-HALFWAY = 1e-4
 
 
 class Contact(Effect):
@@ -75,36 +64,29 @@ class Contact(Effect):
         self,
         model: Model,
         laws: Laws,
-        interface_of: Ints,
+        partners: Partners,
         enforcement: Enforcement,
         stations: str,
         start: State,
         held: Bools,
-        cracked: bool = False,
-        face_points: int = 0,
-        origin: Floats | None = None,
+        bends: bool,
     ) -> None:
-        self._origin = np.zeros(2) if origin is None else origin
         self._model = model
-        self._face_points = face_points
-        self._cracked = cracked
-        self._held = held
         self._laws = laws
-        self._interface_of = interface_of
-        self._glued = bool((interface_of == GLUED).any())
+        self._partners = partners
+        self._sides = partners.sides
         self._enforcement = enforcement
         # All but the penalty replace springs that are not the joints' own by exact conditions.
         self._exact = enforcement.name != "penalty"
+        self._bends = bends
         self._memory = Memory()
         self._solved: tuple[StepProblem, StepAnswer] | None = None
-        self._sides = sides(model.manifold)
-        surface = self._sides.surface(start.frames, start.deformation)
-        self._neighbours: NeighbourList | None = None
         self._last: Contacts | None = None
-        self._known: list[tuple[State, Surface]] = []
-        self.record = ContactRecord(self._follow_joints(surface, stations))
+        self.record = ContactRecord(self._follow_joints(partners.surface(start), stations))
         self._stations = Stations.of(self._sides, self.record.book.points)
         self._unbonded = self.record.book.broken
+        curved = bends or self._stations is not None
+        self.momentum = Momentum(model, self._sides, held, curved)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -123,17 +105,23 @@ class Contact(Effect):
         options: dict[str, Any] = dict(method.options)
         if method.enforcement == "penalty":
             options.setdefault("max_passes", method.max_passes)
+        points = face_points(setup.formulation)
         return cls(
             setup.model,
             laws,
-            interface_of_regions(setup),
+            Partners(
+                setup.model,
+                interface_of_regions(setup),
+                within_bodies=bool(setup.scene.cracks),
+                face_points=points,
+                origin=setup.origin,
+            ),
             make_enforcement(method.enforcement, options),
             method.joint_points,
             setup.start,
             held_bodies(setup),
-            cracked=bool(setup.scene.cracks),
-            face_points=face_points(setup.formulation),
-            origin=setup.origin,
+            # Faces bend between their ends: contacts act at points of the material.
+            bends=points > 2,
         )
 
     def candidates(self, state: State, reach: float, step: float | None = None) -> ContactPoints:
@@ -141,11 +129,11 @@ class Contact(Effect):
 
         ``step`` is its length (s), None in statics: bodies in flight meet where they fly to.
         """
-        surface = self._surface(state)
+        surface = self._partners.surface(state)
         record = self.record
         joints = record.book.now(surface, self._apart(state))
-        found = self._search(surface, 2 * reach, self._flight(state, step))
-        new = searched_points(found, self._interfaces(found.vertex, found.edge), surface)
+        found = self._partners.search(state, 2 * reach, step, record.book, record.found)
+        new = searched_points(found, self._partners.interfaces(found.vertex, found.edge), surface)
         if self._bends:
             apart = Stations.at(self._sides, new).apart(new, state.frames, state.deformation)
             new = replace(new, gap=np.einsum("ij,ij->i", apart, new.normal))
@@ -239,44 +227,6 @@ class Contact(Effect):
             contacts = break_bonds(contacts, broken)
             turns = Turns(self._laws, contacts)
 
-    def halfway(
-        self, solved: Solved, before: State, after: State, used: State | None
-    ) -> State | None:
-        """Where the forces of a step should have acted; None if ``used`` (None: before) will do.
-
-        Gaps are off by about a turn times a motion; that matters beside the penetrations.
-        """
-        acts = solved.answer.normal_force != 0
-        if not acts.any() or not self._of_blocks or self._bends or self._stations is not None:
-            return None
-        half = middle(before, after)
-        was = before if used is None else used
-        edges = self._model.manifold.boundary.body
-        body = np.unique(edges[[solved.contacts.edge_a[acts], solved.contacts.edge_b[acts]]])
-        turn, turned = (_largest_turn(one, half, body) for one in (before, was))
-        way, moved = (_largest_way(one, half, body) for one in (before, was))
-        way += turn * float(np.sqrt(self._model.manifold.body_area[body].max()))
-        off = 2 * (turned * way + moved * turn)
-        return half if off > HALFWAY * np.abs(solved.answer.gap[acts]).max() else None
-
-    def kept_momentum(
-        self, solved: Solved, before: State, after: State, step: float, balance: Floats
-    ) -> Floats:
-        """Velocity (n,) that a step lacks of what keeps momentum and angular momentum.
-
-        The moments that contact forces owe (`halfway.missing_moments`), and the sum of what is
-        left of the forces ``balance`` (n,), load less inner forces, when contact has taken its own.
-        """
-        assert solved.rows is not None
-        through, modes = solved.rows, self._model.manifold.rigid_modes
-        forces = solved.answer.normal_force, solved.answer.shear_force
-        half = middle(before, after)
-        push = through.normal.T @ forces[0] + through.tangent.T @ forces[1]
-        owed = np.asarray(self._modes_turned @ (balance - push)).reshape(-1, 3)
-        acted = np.asarray(self._modes_turned @ push)
-        owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, acted)
-        return np.asarray(modes @ (step * self._ease_of_all * owed.ravel()))
-
     def _rows(self, contacts: ContactPoints, state: State, halfway: State | None) -> Rows:
         if halfway is not None:
             return halfway_rows(contacts, self._sides, self._model, state, halfway)
@@ -289,7 +239,7 @@ class Contact(Effect):
         """Keep the accepted contacts as the start of the next step, and return them."""
         bonded = np.array([law.bonded for law in self._laws.laws])[solved.contacts.interface]
         done = answered(solved.contacts, solved.answer, bonded, solved.sliding)
-        surface = self._surface(state)
+        surface = self._partners.surface(state)
         self.record = ContactRecord(
             book=self.record.book.keep(done.take(done.is_joint), surface, self._apart(state)),
             found=self._last,
@@ -299,24 +249,7 @@ class Contact(Effect):
 
     def passage(self, before: State, after: State) -> str:
         """Say where a body went through another in the step last solved; empty if none did."""
-        assert self._neighbours is not None
-        start = self._surface(before)
-        vertex, edge = self._neighbours.update(start)
-        if self._glued:
-            meets = self._interfaces(vertex, edge) != GLUED
-            vertex, edge = vertex[meets], edge[meets]
-        found = find_crossings(start, self._surface(after), (vertex, edge))
-        if not len(found):
-            return ""
-        first = np.array([int(found.fraction.argmin())])
-        x, y = start.start[found.vertex[first]][0] + self._origin
-        if self._interfaces(found.vertex[first], found.edge[first])[0] == MISSING:
-            return no_interface(x, y)
-        return (
-            f"the corner at [{x:.6g}, {y:.6g}] goes through an edge of another block after "
-            f"{100 * found.free_fraction:.2g} % of the step, deeper than a tenth of the thinner "
-            "block: shorten the step, or raise [contact] normal_penalty"
-        )
+        return self._partners.passage(before, after)
 
     @property
     def broken_bonds(self) -> int:
@@ -325,7 +258,7 @@ class Contact(Effect):
 
     def position(self, contacts: ContactPoints, state: State) -> Floats:
         """Return where the contacts are (m, 2)."""
-        return self._surface(state).at(contacts.edge_b, contacts.parameter_b)
+        return self._partners.surface(state).at(contacts.edge_b, contacts.parameter_b)
 
     def acting(self) -> csc_array | None:
         """Return the matrix of the last system with the springs that acted in it."""
@@ -366,84 +299,19 @@ class Contact(Effect):
         body = self._model.manifold.boundary.body
         pair = body[contacts.edge_a] * self._model.manifold.n_bodies + body[contacts.edge_b]
         modes = self._model.manifold.rigid_modes
-        critical = 2 * np.sqrt(normal * meeting_mass(rows, pair, modes, self._ease))
+        critical = 2 * np.sqrt(normal * meeting_mass(rows, pair, modes, self.momentum.ease))
         coefficient = self._laws.damping(contacts) * critical
         return Dashpots.of(coefficient, step, normal, contacts.gap)
-
-    @cached_property
-    def _of_blocks(self) -> bool:
-        """Whether every body is one element, whose points' rows hold all its unknowns."""
-        manifold = self._model.manifold
-        return len(manifold.elements) == manifold.n_bodies == manifold.n_covers
-
-    @cached_property
-    def _modes_turned(self) -> csr_array:
-        """(3 B, n) forces and moments on the bodies from forces on the unknowns."""
-        return csr_array(self._model.manifold.rigid_modes.T)
-
-    @cached_property
-    def _ease_of_all(self) -> Floats:
-        """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those without mass."""
-        modes = self._model.manifold.rigid_modes
-        rigid = (modes.T @ (self._model.mass @ modes)).diagonal()
-        return np.asarray(np.divide(1.0, rigid, out=np.zeros_like(rigid), where=rigid > 0))
-
-    @property
-    def _ease(self) -> Floats:
-        """(3 B,) the same; 0 of bodies that are held."""
-        return np.where(np.repeat(self._held, 3), 0.0, self._ease_of_all)
-
-    @property
-    def _bends(self) -> bool:
-        """Whether contacts act at points of the material because faces bend between corners."""
-        return self._face_points > 2
-
-    def _surface(self, state: State) -> Surface:
-        """Edges of a state; those at the start and at the end of a step are kept."""
-        for known, surface in self._known:
-            if known is state:
-                return surface
-        surface = self._sides.surface(state.frames, state.deformation)
-        self._known = [*self._known[-1:], (state, surface)]
-        return surface
 
     def _apart(self, state: State) -> Apart:
         """How far apart the sides of joints are in a state."""
         if self._stations is None:
-            return partial(apart_on, self._surface(state))
+            return partial(apart_on, self._partners.surface(state))
         return partial(self._stations.apart, frames=state.frames, deformation=state.deformation)
-
-    def _flight(self, state: State, step: float | None) -> Floats | None:
-        """Return how far (n, 2) the vertices fly in a step; None where nothing does."""
-        if step is None or not state.velocity.any():
-            return None
-        vertices = self._sides.start
-        rate = state.frames.to_global(vertices.body, vertices.rows.apply(state.velocity))
-        return np.asarray(step * rate)
-
-    def _search(self, surface: Surface, reach: float, motion: Floats | None) -> Contacts:
-        if self._neighbours is None or self._neighbours.skin < 2 * reach:
-            self._neighbours = NeighbourList(4 * reach, within_bodies=self._cracked)
-        vertex, edge = self._neighbours.update(surface)
-        found = find_contacts(surface, vertex, edge, reach, self.record.found, motion)
-        if self._face_points:
-            found = faced(surface, found, self._face_points, self.record.book.edges(len(surface)))
-        interface = self._interfaces(found.vertex, found.edge)
-        missing = (interface == MISSING) & (found.gap <= 0)
-        if missing.any():
-            x, y = surface.start[found.vertex[missing]][0] + self._origin
-            raise (SceneError if self.record.found is None else SolveError)(no_interface(x, y))
-        meets = (interface >= 0) & ~self.record.book.hides(found)
-        return found if meets.all() else found.take(meets)
-
-    def _interfaces(self, vertex: Ints, edge: Ints) -> Ints:
-        manifold = self._model.manifold
-        region = manifold.element_region[manifold.boundary.element]
-        return self._interface_of[region[vertex], region[edge]]
 
     def _follow_joints(self, surface: Surface, stations: str) -> JointBook:
         joints = find_joints(surface)
-        interface = self._interfaces(joints.edge_a, joints.edge_b)
+        interface = self._partners.interfaces(joints.edge_a, joints.edge_b)
         makes = np.array([law.makes_joints for law in self._laws.laws])
         wanted = (interface >= 0) & makes[np.maximum(interface, 0)]
         joints = joints.take(wanted)
@@ -468,11 +336,3 @@ class Contact(Effect):
         share = far_a / (far_a + far_b)
         mixed = share * softness[a] + (1 - share) * softness[b]
         return np.asarray(apart * np.where(softness[a] == softness[b], softness[a], mixed))
-
-
-def _largest_turn(one: State, other: State, body: Ints) -> float:
-    return float(np.abs(other.frames.angle - one.frames.angle)[body].max())
-
-
-def _largest_way(one: State, other: State, body: Ints) -> float:
-    return float(np.hypot(*(other.frames.centre - one.frames.centre)[body].T).max())

@@ -252,12 +252,12 @@ class Stepper:
                 contacts, halfway = self._candidates(state, reach, step), None
                 continue
             if good and step is not None and not self._still:
-                half = contact.halfway(solved, state, result.state, halfway)
+                half = contact.momentum.halfway(solved, state, result.state, halfway)
                 if half is not None and halves < HALVES:
                     halfway, halves = half, halves + 1
                     continue
                 result = self._faster(
-                    result, contact.kept_momentum(solved, state, result.state, step, rest)
+                    result, contact.momentum.kept(solved, state, result.state, step, rest)
                 )
             through = contact.passage(state, result.state) if good else ""
             return replace(

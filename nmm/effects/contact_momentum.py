@@ -1,0 +1,103 @@
+"""What keeps momentum and angular momentum where bodies touch: half way, and what is still owed."""
+
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.contact.halfway import middle, missing_moments
+from nmm.contact.record import Solved
+from nmm.contact.sides import Sides
+
+# Share of the penetrations by which gaps may be off for the turn of bodies within a step.
+HALFWAY = 1e-4
+
+
+class Momentum:
+    """Inertia of the bodies as contact needs it.
+
+    Parameters
+    ----------
+    model, sides
+        Manifold with its masses, and its boundary edges.
+    held
+        (B,) bodies that a support holds as a whole.
+    curved
+        Whether contacts act at points of the material, where forces stay at the start of a step.
+    """
+
+    def __init__(self, model: Model, sides: Sides, held: Bools, curved: bool) -> None:
+        self._model, self._sides = model, sides
+        self._held, self._curved = held, curved
+
+    def halfway(
+        self, solved: Solved, before: State, after: State, used: State | None
+    ) -> State | None:
+        """Where the forces of a step should have acted; None if ``used`` (None: before) will do.
+
+        Gaps are off by about a turn times a motion; that matters beside the penetrations.
+        """
+        acts = solved.answer.normal_force != 0
+        if not acts.any() or not self._of_blocks or self._curved:
+            return None
+        half = middle(before, after)
+        was = before if used is None else used
+        edges = self._model.manifold.boundary.body
+        body = np.unique(edges[[solved.contacts.edge_a[acts], solved.contacts.edge_b[acts]]])
+        turn, turned = (_largest_turn(one, half, body) for one in (before, was))
+        way, moved = (_largest_way(one, half, body) for one in (before, was))
+        way += turn * float(np.sqrt(self._model.manifold.body_area[body].max()))
+        off = 2 * (turned * way + moved * turn)
+        return half if off > HALFWAY * np.abs(solved.answer.gap[acts]).max() else None
+
+    def kept(
+        self, solved: Solved, before: State, after: State, step: float, balance: Floats
+    ) -> Floats:
+        """Velocity (n,) that a step lacks of what keeps momentum and angular momentum.
+
+        The moments that contact forces owe (`halfway.missing_moments`), and the sum of what is
+        left of the forces ``balance`` (n,), load less inner forces, when contact has taken its own.
+        """
+        assert solved.rows is not None
+        through, modes = solved.rows, self._model.manifold.rigid_modes
+        forces = solved.answer.normal_force, solved.answer.shear_force
+        half = middle(before, after)
+        push = through.normal.T @ forces[0] + through.tangent.T @ forces[1]
+        owed = np.asarray(self._modes_turned @ (balance - push)).reshape(-1, 3)
+        acted = np.asarray(self._modes_turned @ push)
+        owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, acted)
+        return np.asarray(modes @ (step * self._ease_of_all * owed.ravel()))
+
+    @cached_property
+    def _of_blocks(self) -> bool:
+        """Whether every body is one element, whose points' rows hold all its unknowns."""
+        manifold = self._model.manifold
+        return len(manifold.elements) == manifold.n_bodies == manifold.n_covers
+
+    @cached_property
+    def _modes_turned(self) -> csr_array:
+        """(3 B, n) forces and moments on the bodies from forces on the unknowns."""
+        return csr_array(self._model.manifold.rigid_modes.T)
+
+    @cached_property
+    def _ease_of_all(self) -> Floats:
+        """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those without mass."""
+        modes = self._model.manifold.rigid_modes
+        rigid = (modes.T @ (self._model.mass @ modes)).diagonal()
+        return np.asarray(np.divide(1.0, rigid, out=np.zeros_like(rigid), where=rigid > 0))
+
+    @property
+    def ease(self) -> Floats:
+        """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those that are held."""
+        return np.where(np.repeat(self._held, 3), 0.0, self._ease_of_all)
+
+
+def _largest_turn(one: State, other: State, body: Ints) -> float:
+    return float(np.abs(other.frames.angle - one.frames.angle)[body].max())
+
+
+def _largest_way(one: State, other: State, body: Ints) -> float:
+    return float(np.hypot(*(other.frames.centre - one.frames.centre)[body].T).max())

@@ -1,0 +1,138 @@
+"""Which points of the bodies may meet in a step, and which have gone through one another."""
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.contact.crossing import find_crossings
+from nmm.contact.following import JointBook
+from nmm.contact.narrow import Contacts, find_contacts
+from nmm.contact.overlaps import faced
+from nmm.contact.search import NeighbourList
+from nmm.contact.sides import sides
+from nmm.contact.surface import Surface
+from nmm.effects.contact_pairs import GLUED, MISSING, no_interface
+from nmm.errors import SceneError, SolveError
+
+
+class Partners:
+    """The search for contacts over the steps of a run: edges in place, neighbours, pairs that meet.
+
+    Attributes
+    ----------
+    sides
+        The boundary edges as they move with the unknowns.
+
+    Parameters
+    ----------
+    model
+        Manifold and materials.
+    interface_of
+        (N, N) index of the interface between any two regions, see `contact_pairs`.
+    within_bodies
+        Whether faces of one body may meet, as those of a crack.
+    face_points
+        Points a stretch of faces that lie on each other; 0 where contact is at corners.
+    origin
+        (2,) where the axes lie in those of the scene (m), for messages.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        interface_of: Ints,
+        within_bodies: bool,
+        face_points: int,
+        origin: Floats,
+    ) -> None:
+        self._model, self.sides = model, sides(model.manifold)
+        self._interface_of = interface_of
+        self._glued = bool((interface_of == GLUED).any())
+        self._within_bodies, self._face_points = within_bodies, face_points
+        self._origin = origin
+        self._neighbours: NeighbourList | None = None
+        self._known: list[tuple[State, Surface]] = []
+
+    def surface(self, state: State) -> Surface:
+        """Edges of a state; those at the start and at the end of a step are kept."""
+        for known, surface in self._known:
+            if known is state:
+                return surface
+        surface = self.sides.surface(state.frames, state.deformation)
+        self._known = [*self._known[-1:], (state, surface)]
+        return surface
+
+    def interfaces(self, vertex: Ints, edge: Ints) -> Ints:
+        """Index (m,) of the interface of a vertex and an edge; GLUED and MISSING are negative."""
+        manifold = self._model.manifold
+        region = manifold.element_region[manifold.boundary.element]
+        return self._interface_of[region[vertex], region[edge]]
+
+    def search(
+        self,
+        state: State,
+        reach: float,
+        step: float | None,
+        book: JointBook,
+        before: Contacts | None,
+    ) -> Contacts:
+        """Find the contacts of a step but for those of joints.
+
+        Parameters
+        ----------
+        reach
+            No point moves further in the step (m).
+        step
+            Its length (s), None in statics: bodies in flight meet where they fly to.
+        book, before
+            Joints, whose contacts are theirs, and what the last accepted step found.
+
+        Raises
+        ------
+        SceneError, SolveError
+            Where bodies touch whose materials have no interface: at the start, later.
+        """
+        surface, motion = self.surface(state), self._flight(state, step)
+        if self._neighbours is None or self._neighbours.skin < 2 * reach:
+            self._neighbours = NeighbourList(4 * reach, within_bodies=self._within_bodies)
+        vertex, edge = self._neighbours.update(surface)
+        found = find_contacts(surface, vertex, edge, reach, before, motion)
+        if self._face_points:
+            found = faced(surface, found, self._face_points, book.edges(len(surface)))
+        interface = self.interfaces(found.vertex, found.edge)
+        missing = (interface == MISSING) & (found.gap <= 0)
+        if missing.any():
+            x, y = surface.start[found.vertex[missing]][0] + self._origin
+            raise (SceneError if before is None else SolveError)(no_interface(x, y))
+        meets = (interface >= 0) & ~book.hides(found)
+        return found if meets.all() else found.take(meets)
+
+    def passage(self, before: State, after: State) -> str:
+        """Say where a body went through another in the step last solved; empty if none did."""
+        assert self._neighbours is not None
+        start = self.surface(before)
+        vertex, edge = self._neighbours.update(start)
+        if self._glued:
+            meets = self.interfaces(vertex, edge) != GLUED
+            vertex, edge = vertex[meets], edge[meets]
+        found = find_crossings(start, self.surface(after), (vertex, edge))
+        if not len(found):
+            return ""
+        first = np.array([int(found.fraction.argmin())])
+        x, y = start.start[found.vertex[first]][0] + self._origin
+        if self.interfaces(found.vertex[first], found.edge[first])[0] == MISSING:
+            return no_interface(x, y)
+        return (
+            f"the corner at [{x:.6g}, {y:.6g}] goes through an edge of another block after "
+            f"{100 * found.free_fraction:.2g} % of the step, deeper than a tenth of the thinner "
+            "block: shorten the step, or raise [contact] normal_penalty"
+        )
+
+    def _flight(self, state: State, step: float | None) -> Floats | None:
+        """Return how far (n, 2) the vertices fly in a step; None where nothing does."""
+        if step is None or not state.velocity.any():
+            return None
+        vertices = self.sides.start
+        rate = state.frames.to_global(vertices.body, vertices.rows.apply(state.velocity))
+        return np.asarray(step * rate)
