@@ -39,7 +39,7 @@ class Barrier(Enforcement):
     ----------
     width
         ``w`` (m); None takes a thousandth of what the largest contact force of the first step
-        would press into its contact (compliance times force).
+        with contact would press in (compliance times force); before, of the largest motion.
     max_passes
         Most Newton steps for one bound, and most updates of the bound.
     tolerance
@@ -64,8 +64,10 @@ class Barrier(Enforcement):
             return singular_answer(springs, linear_solver, fault)
         force = max(float(np.abs(f).max(initial=0.0)) for f in springs.forces(rough.increment))
         ease = float(np.mean(compliances(problem)[0])) if problem.n_contacts else 1.0
-        width = self.width or memory.barrier_width or 1e-3 * force * ease or 1e-3 * ease
-        memory.barrier_width = width
+        moved = float(np.abs(problem.normal_rows @ rough.increment).max(initial=0.0))
+        width = self.width or memory.barrier_width or 1e-3 * (force * ease or moved or ease)
+        if force > 0:  # blocks that fly do not yet say how hard they will meet
+            memory.barrier_width = width
         well = Potential(problem, width, max(force, width / ease) / width)
         weight = CutSprings.of(problem).weight
         descent = Descent(memory.pattern_of(problem), linear_solver, weight)
