@@ -123,3 +123,11 @@ def test_default_width_scales_with_force_and_compliance(power: int) -> None:
     assert memory.barrier_width is not None
     # the rough springs have the stiffness 1/c of the block: they carry half of the unit load
     assert memory.barrier_width == pytest.approx(0.5e-3 * ease, rel=1e-6)
+
+
+def test_width_is_not_kept_from_a_step_without_contact() -> None:
+    problem = make_problem(np.eye(2), [0.0, 1.0], [[0.0, 1.0]], [[1.0, 0.0]], gap=[5.0])
+    memory = Memory()
+    answer = make_enforcement("barrier").solve(problem, make_solver(), memory)
+    assert answer.verdict.converged
+    assert memory.barrier_width is None
