@@ -45,7 +45,7 @@ from nmm.contact.surface import Surface
 from nmm.contact.turns import Turns, slid_under_load
 from nmm.effects.base import Effect, Setup
 from nmm.effects.contact_momentum import Momentum
-from nmm.effects.contact_pairs import held_bodies, interface_law, interface_of_regions
+from nmm.effects.contact_pairs import held_bodies, interface_law, pairs_of
 from nmm.effects.contact_partners import Partners
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
@@ -111,7 +111,7 @@ class Contact(Effect):
             laws,
             Partners(
                 setup.model,
-                interface_of_regions(setup),
+                pairs_of(setup),
                 within_bodies=bool(setup.scene.cracks),
                 face_points=points,
                 origin=setup.origin,

@@ -6,6 +6,7 @@ sub-blocks of one block are glued and never meet.
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -52,8 +53,32 @@ def interface_law(item: Any) -> InterfaceLaw:
     return kind(**given, **item.options)
 
 
-def interface_of_regions(setup: Setup) -> Ints:
-    """Index (N, N) of the interface between any two regions; MISSING where the scene has none."""
+@dataclass(frozen=True)
+class Pairs:
+    """The interface of any two regions, by their materials.
+
+    Attributes
+    ----------
+    table
+        (M, M) index of the interface of two materials; MISSING where the scene has none.
+    material
+        (N,) of the regions.
+    glued
+        Whether pieces of one region are glued and never meet.
+    """
+
+    table: Ints
+    material: Ints
+    glued: bool
+
+    def interface(self, one: Ints, other: Ints) -> Ints:
+        """Index (m,) of the interface between regions; GLUED and MISSING are negative."""
+        found = self.table[self.material[one], self.material[other]]
+        return np.where(one == other, GLUED, found) if self.glued else found
+
+
+def pairs_of(setup: Setup) -> Pairs:
+    """Return the interfaces of a scene's materials."""
     materials = list(setup.scene.materials)
     names: Mapping[int, str] = dict(enumerate(materials))
     order = {id(item): number for number, item in enumerate(setup.scene.interfaces.values())}
@@ -63,11 +88,7 @@ def interface_of_regions(setup: Setup) -> Ints:
             table[i, j] = order[id(setup.scene.interface(names[i], names[j]))]
         except SceneError:
             continue
-    material = setup.region_material
-    found = table[np.ix_(material, material)]
-    if setup.formulation.cover.glued:
-        np.fill_diagonal(found, GLUED)
-    return found
+    return Pairs(table, setup.region_material, setup.formulation.cover.glued)
 
 
 def held_bodies(setup: Setup) -> Bools:

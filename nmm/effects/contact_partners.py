@@ -12,7 +12,7 @@ from nmm.contact.overlaps import faced
 from nmm.contact.search import NeighbourList
 from nmm.contact.sides import sides
 from nmm.contact.surface import Surface
-from nmm.effects.contact_pairs import GLUED, MISSING, no_interface
+from nmm.effects.contact_pairs import GLUED, MISSING, Pairs, no_interface
 from nmm.errors import SceneError, SolveError
 
 
@@ -28,8 +28,8 @@ class Partners:
     ----------
     model
         Manifold and materials.
-    interface_of
-        (N, N) index of the interface between any two regions, see `contact_pairs`.
+    pairs
+        Which regions meet, by which interface.
     within_bodies
         Whether faces of one body may meet, as those of a crack.
     face_points
@@ -41,14 +41,13 @@ class Partners:
     def __init__(
         self,
         model: Model,
-        interface_of: Ints,
+        pairs: Pairs,
         within_bodies: bool,
         face_points: int,
         origin: Floats,
     ) -> None:
         self._model, self.sides = model, sides(model.manifold)
-        self._interface_of = interface_of
-        self._glued = bool((interface_of == GLUED).any())
+        self._pairs = pairs
         self._within_bodies, self._face_points = within_bodies, face_points
         self._origin = origin
         self._neighbours: NeighbourList | None = None
@@ -67,7 +66,7 @@ class Partners:
         """Index (m,) of the interface of a vertex and an edge; GLUED and MISSING are negative."""
         manifold = self._model.manifold
         region = manifold.element_region[manifold.boundary.element]
-        return self._interface_of[region[vertex], region[edge]]
+        return self._pairs.interface(region[vertex], region[edge])
 
     def search(
         self,
@@ -113,7 +112,7 @@ class Partners:
         assert self._neighbours is not None
         start = self.surface(before)
         vertex, edge = self._neighbours.update(start)
-        if self._glued:
+        if self._pairs.glued:
             meets = self.interfaces(vertex, edge) != GLUED
             vertex, edge = vertex[meets], edge[meets]
         found = find_crossings(start, self.surface(after), (vertex, edge))
