@@ -123,6 +123,11 @@ class Laws:
         return rise
 
     @cached_property
+    def bonded(self) -> Bools:
+        """(n,) whether joints of each law hold together at the start."""
+        return np.array([law.bonded for law in self.laws], dtype=bool)
+
+    @cached_property
     def dilates(self) -> bool:
         """Whether any law has a dilation angle."""
         return any(law.dilation_angle for law in self.laws)

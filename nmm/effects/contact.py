@@ -132,8 +132,8 @@ class Contact(Effect):
         surface = self._partners.surface(state)
         record = self.record
         joints = record.book.now(surface, self._apart(state))
-        found = self._partners.search(state, 2 * reach, step, record.book, record.found)
-        new = searched_points(found, self._partners.interfaces(found.vertex, found.edge), surface)
+        found, interface = self._partners.search(state, 2 * reach, step, record.book, record.found)
+        new = searched_points(found, interface, surface)
         if self._bends:
             apart = Stations.at(self._sides, new).apart(new, state.frames, state.deformation)
             new = replace(new, gap=np.einsum("ij,ij->i", apart, new.normal))
@@ -237,7 +237,7 @@ class Contact(Effect):
 
     def commit(self, solved: Solved, state: State) -> ContactPoints:
         """Keep the accepted contacts as the start of the next step, and return them."""
-        bonded = np.array([law.bonded for law in self._laws.laws])[solved.contacts.interface]
+        bonded = self._laws.bonded[solved.contacts.interface]
         done = answered(solved.contacts, solved.answer, bonded, solved.sliding)
         surface = self._partners.surface(state)
         self.record = ContactRecord(
@@ -315,7 +315,7 @@ class Contact(Effect):
         makes = np.array([law.makes_joints for law in self._laws.laws])
         wanted = (interface >= 0) & makes[np.maximum(interface, 0)]
         joints = joints.take(wanted)
-        bonded = np.array([law.bonded for law in self._laws.laws])[interface[wanted]]
+        bonded = self._laws.bonded[interface[wanted]]
         distance = self._distance(joints)
         return joint_book(surface, joints, interface[wanted], bonded, distance, stations)
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.crossing import find_crossings
@@ -46,27 +47,25 @@ class Partners:
         face_points: int,
         origin: Floats,
     ) -> None:
-        self._model, self.sides = model, sides(model.manifold)
+        self.sides = sides(model.manifold)
         self._pairs = pairs
         self._within_bodies, self._face_points = within_bodies, face_points
         self._origin = origin
         self._neighbours: NeighbourList | None = None
-        self._known: list[tuple[State, Surface]] = []
+        self._surfaces = KeptOfStates(self._surface)
+        boundary = model.manifold.boundary
+        self._region = model.manifold.element_region[boundary.element]
 
     def surface(self, state: State) -> Surface:
         """Edges of a state; those at the start and at the end of a step are kept."""
-        for known, surface in self._known:
-            if known is state:
-                return surface
-        surface = self.sides.surface(state.frames, state.deformation)
-        self._known = [*self._known[-1:], (state, surface)]
-        return surface
+        return self._surfaces.of(state)
+
+    def _surface(self, state: State) -> Surface:
+        return self.sides.surface(state.frames, state.deformation)
 
     def interfaces(self, vertex: Ints, edge: Ints) -> Ints:
         """Index (m,) of the interface of a vertex and an edge; GLUED and MISSING are negative."""
-        manifold = self._model.manifold
-        region = manifold.element_region[manifold.boundary.element]
-        return self._pairs.interface(region[vertex], region[edge])
+        return self._pairs.interface(self._region[vertex], self._region[edge])
 
     def search(
         self,
@@ -75,8 +74,8 @@ class Partners:
         step: float | None,
         book: JointBook,
         before: Contacts | None,
-    ) -> Contacts:
-        """Find the contacts of a step but for those of joints.
+    ) -> tuple[Contacts, Ints]:
+        """Find the contacts of a step but for those of joints, and their interfaces (m,).
 
         Parameters
         ----------
@@ -105,7 +104,7 @@ class Partners:
             x, y = surface.start[found.vertex[missing]][0] + self._origin
             raise (SceneError if before is None else SolveError)(no_interface(x, y))
         meets = (interface >= 0) & ~book.hides(found)
-        return found if meets.all() else found.take(meets)
+        return (found, interface) if meets.all() else (found.take(meets), interface[meets])
 
     def passage(self, before: State, after: State) -> str:
         """Say where a body went through another in the step last solved; empty if none did."""

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, move, strain_only, vertex_points
 from nmm.effects.base import Instant
@@ -102,7 +103,7 @@ class Stepper:
         self._weighted: tuple[csc_array, float, csc_array] | None = None
         self._soft: tuple[Model, csc_array] | None = None
         self._masses: tuple[csc_array, Ints, Factor] | None = None
-        self._places: list[tuple[State, Floats]] = []
+        self._places = KeptOfStates(self._placed)
         self._held: Held | None = None
 
     @property
@@ -140,7 +141,7 @@ class Stepper:
                 self.model, self.plan, self._lay, state, attempt.increment, place
             )
             self.vertices = vertex_points(self.model.manifold)
-            self._places = []
+            self._places.forget()
         return state, contacts
 
     def remember(self) -> "ContactRecord | None":
@@ -392,12 +393,10 @@ class Stepper:
 
     def place(self, state: State) -> Floats:
         """Return where the elements' vertices are (P, 2)."""
-        for known, place in self._places:
-            if known is state:
-                return place
-        place = self.vertices.place(state.frames, state.deformation)
-        self._places = [*self._places[-1:], (state, place)]
-        return place
+        return self._places.of(state)
+
+    def _placed(self, state: State) -> Floats:
+        return self.vertices.place(state.frames, state.deformation)
 
     def condition(self, state: State) -> float | None:
         """Estimate the condition number of the last system, springs of contact included."""

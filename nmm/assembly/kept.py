@@ -1,0 +1,29 @@
+"""What is made of a state, kept while it is the start or the end of a step."""
+
+from collections.abc import Callable
+from typing import Generic, TypeVar
+
+from nmm.assembly.motion import State
+
+T = TypeVar("T")
+
+
+class KeptOfStates(Generic[T]):
+    """Values made of the last two states that were asked for, told apart by identity."""
+
+    def __init__(self, make: Callable[[State], T]) -> None:
+        self._make = make
+        self._known: list[tuple[State, T]] = []
+
+    def of(self, state: State) -> T:
+        """Return the value of a state, made where it is not kept."""
+        for known, value in self._known:
+            if known is state:
+                return value
+        value = self._make(state)
+        self._known = [*self._known[-1:], (state, value)]
+        return value
+
+    def forget(self) -> None:
+        """Keep nothing: what values are made with has changed."""
+        self._known = []
