@@ -12,6 +12,7 @@ from nmm.scene import parse_scene
 from nmm.stepping.modes import lowest_modes
 from nmm.stepping.run import run
 from nmm.stepping.solid import solid
+from nmm.verification.problems.waves import BarWave
 
 SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])])
 DENSITY = 3.0
@@ -106,45 +107,13 @@ def test_lame_mode_and_three_rigid_motions_under_a_lumped_mass(
     assert np.abs(modes.frequency - 2.755359030).min() < tolerance * 2.755
 
 
-BAR = """
-plane = "stress"
-duration = 20.0
-[inertia]
-[materials.m]
-young_modulus = 1
-poisson_ratio = 0.0
-density = 1
-[[blocks]]
-name = "b"
-material = "m"
-vertices = [[0, 0], [10, 0], [10, 0.5], [0, 0.5]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 0.5]]
-fix = ["x"]
-[[supports]]
-name = "pin"
-point = [0, 0]
-fix = ["y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[10, 0], [10, 0.5]]
-traction = [1e-3, 0]
-[[monitors]]
-name = "end"
-point = [10, 0.25]
-[[monitors]]
-name = "middle"
-point = [5, 0.25]
-"""
 LUMPED = '[integrator]\ntype = "newmark"\nstep = 0.05\nmass = "lumped"\n'
 
 
 @pytest.mark.parametrize(("degree", "size"), [(0, 0.2), (1, 0.3)])
 def test_a_wave_arrives_in_time_and_doubles_at_the_end(degree: int, size: float) -> None:
     cover = f'[cover]\ntype = "triangles"\nsize = {size}\ndegree = {degree}\nangle = 0.3\n'
-    found = run(parse_scene(BAR, "bar"), parse_formulation(cover + LUMPED))
+    found = run(BarWave().parsed(), parse_formulation(cover + LUMPED))
     assert found.summary.status == "converged", found.summary.sentence
     time, middle = found.history["time"], found.history["monitor:middle:ux"]
     # Benchmark B16.
