@@ -16,7 +16,7 @@ from integration.polygons import Polygons
 from nmm.geometry.blocks import Regions
 from nmm.results.frame import Frame
 from nmm.results.sink import Sink
-from nmm.results.summary import Summary
+from nmm.results.tee import Tee
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -84,11 +84,11 @@ def _moved(value: Any, by: Floats) -> Any:
     return tuple(float(number + shift) for number, shift in zip(value, by, strict=True))
 
 
-class MovedBack:
+class MovedBack(Tee):
     """Sink that hands on what it gets with all places moved by ``by`` (2,)."""
 
     def __init__(self, sink: Sink, by: Floats) -> None:
-        self._sink = sink
+        super().__init__([sink])
         self._by = by
 
     def begin(
@@ -101,7 +101,7 @@ class MovedBack:
         region_names: Sequence[str] = (),
     ) -> None:
         """See `Sink.begin`."""
-        self._sink.begin(
+        super().begin(
             elements.with_points(elements.points + self._by),
             element_region,
             material_names,
@@ -116,12 +116,4 @@ class MovedBack:
             points=frame.points + self._by,
             contact_position=frame.contact_position + self._by,
         )
-        self._sink.frame(moved)
-
-    def row(self, values: Mapping[str, float]) -> None:
-        """See `Sink.row`."""
-        self._sink.row(values)
-
-    def finish(self, summary: Summary) -> None:
-        """See `Sink.finish`."""
-        self._sink.finish(summary)
+        super().frame(moved)
