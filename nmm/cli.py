@@ -1,9 +1,9 @@
 """The verbs of the command line. What they need is imported inside them, so that help is fast."""
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
@@ -29,6 +29,7 @@ app = typer.Typer(
     help="Numerical manifold method in 2D: blocks, joints, contact and fracture.",
     no_args_is_help=True,
     add_completion=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
 )
 
@@ -38,6 +39,8 @@ FormulationFile = Annotated[
 ]
 Out = Annotated[Path | None, typer.Option("--out", "-o", help="Folder of the run.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print the verdict only.")]
+
+Read = TypeVar("Read")
 
 DEMO = "kitoh_beam/kitoh_130.toml"
 RUNS = Path("runs")
@@ -93,15 +96,8 @@ def demo(out: Out = None, quiet: Quiet = False) -> None:
 
 @app.command()
 def check(scene: SceneFile, formulation: FormulationFile = None) -> None:
-    """Name every fault of a scene; exit code 1 if there is one."""
-    from nmm.errors import NmmError
-
-    faults: list[str] = []
-    for read, place in ((_check_scene, scene), (_read_formulation, formulation)):
-        try:
-            read(place)
-        except NmmError as error:
-            faults += [str(fault) for fault in error.faults]
+    """Name every fault of the files; exit code 1 if there is one."""
+    faults = _faults(scene, formulation)
     tell_faults(faults)
     if faults:
         typer.echo(f"{len(faults)} fault{'s' * (len(faults) > 1)}", err=True)
@@ -129,8 +125,10 @@ def new(
     from nmm.errors import NmmError
     from nmm.shipped import starter
 
-    path = Path(name).with_suffix(".toml")
+    path = Path(name if name.endswith(".toml") else f"{name}.toml")
     with faults_told():
+        if path.stem in ("", ".", "..", ".toml"):
+            raise NmmError(f"name: {name!r}: expected the name of a file: nmm new slope")
         if path.exists():
             raise NmmError(f"{path}: exists: expected a new name: choose another one")
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -145,7 +143,9 @@ def plot(
     frame: Annotated[
         int | None, typer.Option(help="Number of the frame, from the end when negative.")
     ] = None,
-    magnification: Annotated[float | None, typer.Option(help="Factor on displacements.")] = None,
+    magnification: Annotated[
+        float | None, typer.Option(min=0, help="Factor on displacements.")
+    ] = None,
     component: Annotated[
         str, typer.Option(help="Stress drawn: mises, xx, yy, xy, major, minor.")
     ] = "mises",
@@ -241,12 +241,31 @@ def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) ->
     yield f"elements: {elements:,}"
 
 
-def _check_scene(place: Path | None) -> None:
+def _faults(place: Path, formulation: Path | None) -> list[str]:
+    """Lines about keys and values of both files, then about blocks and parts that they name."""
     import nmm
+    from nmm.errors import NmmError
+    from nmm.formulation import Formulation
     from nmm.geometry import regions
+    from nmm.stepping.parts import check_parts
 
-    if place is not None:
-        regions(nmm.read_scene(place))
+    faults: list[str] = []
+
+    def tried(read: Callable[..., Read], *given: object) -> Read | None:
+        try:
+            return read(*given)
+        except NmmError as error:
+            faults.extend(str(fault) for fault in error.faults)
+            return None
+
+    _import_beside(place)
+    scene = tried(nmm.read_scene, place)
+    chosen = tried(_read_formulation, formulation)
+    if scene is not None:
+        tried(regions, scene)
+    if scene is not None and not (formulation and chosen is None):
+        tried(check_parts, scene, chosen or scene.formulation or Formulation())
+    return faults
 
 
 def _read_formulation(place: Path | None) -> "Formulation | None":

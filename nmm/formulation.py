@@ -8,10 +8,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from nmm.errors import FormulationError
 from nmm.scene.document import parse, read_text
+from nmm.scene.faults import Source
 from nmm.scene.fields import (
     Angle,
     BlockName,
@@ -311,6 +312,13 @@ class Formulation(Frozen):
     loading: LoadSteps = Field(default=LoadSteps(), description="a table [loading]")
     solver: Solver = Field(default=Solver(), description="a table [solver]")
 
+    _source: Source = PrivateAttr(default_factory=lambda: Source("formulation"))
+
+    @property
+    def source(self) -> Source:
+        """Where it was read; `source.place("cover", "size")` is "file:line: cover.size"."""
+        return self._source
+
 
 def read_formulation(path: str | Path) -> Formulation:
     """Formulation of a TOML file.
@@ -325,7 +333,9 @@ def read_formulation(path: str | Path) -> Formulation:
 
 def parse_formulation(text: str, place: str = "formulation") -> Formulation:
     """Formulation of a TOML text; `place` names it in errors."""
-    return parse(text, Formulation, place, FormulationError)[0]
+    formulation, source = parse(text, Formulation, place, FormulationError)
+    formulation._source = source
+    return formulation
 
 
 def canonical_text(formulation: Formulation) -> str:

@@ -40,11 +40,13 @@ def cost(
         typer.Option(help="Also finite elements of scikit-fem, with commas: P1,P2,P3."),
     ] = None,
     quantity: Annotated[
-        str | None, typer.Option(help="What error is taken of; the scene's first [[reference]].")
+        str | None, typer.Option(help="What error is taken of; else the scene's first reference.")
     ] = None,
     exponent: Annotated[
         float | None,
-        typer.Option(help="Of the strongest singularity, 0.5 at crack tips: for theory's orders."),
+        typer.Option(
+            min=0, help="Of the strongest singularity, 0.5 at crack tips: for theory's orders."
+        ),
     ] = None,
     repeats: Annotated[int, typer.Option(min=1, help="Counted repeats of each run.")] = 3,
     memory: Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")] = True,

@@ -21,11 +21,20 @@ FAILED = "failed"
 
 @contextmanager
 def faults_told() -> Iterator[None]:
-    """Print the faults of an error one a line and leave with exit code 1."""
+    """Print the faults of an error one a line and leave with exit code 1.
+
+    So is a file or folder that cannot be read or written.
+    """
     try:
         yield
     except NmmError as error:
         tell_faults([str(fault) for fault in error.faults])
+        raise typer.Exit(1) from None
+    except OSError as error:
+        if error.filename is None:
+            raise
+        expected = "a place that can be read and written: choose another one, or free it"
+        tell_faults([f"{error.filename}: {error.strerror}: expected {expected}"])
         raise typer.Exit(1) from None
 
 

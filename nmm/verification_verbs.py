@@ -68,7 +68,8 @@ def publish(
         Path | None, typer.Option("--formulation", "-f", help="Formulation file, TOML.")
     ] = None,
     quantity: Annotated[
-        list[str] | None, typer.Option(help="Quantity to publish; the scene's [[reference]]s.")
+        list[str] | None,
+        typer.Option(help="Quantity to publish, repeatable; else those of the scene's references."),
     ] = None,
     tolerance: Annotated[float, typer.Option(min=0, help="Relative tolerance.")] = 1e-6,
     source: Annotated[str, typer.Option(help="Who publishes it, and where.")] = "",
@@ -177,10 +178,9 @@ def _sum_up(outcomes: "list[Outcome]", missed: "list[Outcome]") -> None:
             out.print(f"  {one.label}: {what}", style="red", highlight=False, markup=False)
             out.print(f"    in {kind.__module__}:{kind.__qualname__}", highlight=False)
     seconds = sum(one.seconds for one in outcomes)
+    told = f"{len(missed)} missed" if missed else "all within tolerance"
     out.print(
-        f"{len(outcomes)} runs, {len(missed)} missed, {seconds:.3g} s"
-        if missed
-        else f"{len(outcomes)} runs, all within tolerance, {seconds:.3g} s",
+        f"{len(outcomes)} run{'s' * (len(outcomes) != 1)}, {told}, {seconds:.3g} s",
         style="red" if missed else "green",
         highlight=False,
     )

@@ -2,11 +2,10 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from nmm.contact.problem import StepAnswer, StepProblem
-from nmm.errors import FormulationError
 from nmm.registry import Registry
 
 if TYPE_CHECKING:
@@ -68,11 +67,5 @@ def make_enforcement(name: str, options: Mapping[str, Any] | None = None) -> Enf
     FormulationError
         When the name or an option is not known.
     """
-    kind = ENFORCEMENTS.load(name)
-    known = [item.name for item in fields(kind)]
-    for key in options or {}:
-        if key not in known:
-            raise FormulationError(
-                f'enforcement "{name}": {key}: expected one of {", ".join(known)}'
-            )
-    return kind(**(options or {}))
+    made: Enforcement = ENFORCEMENTS.make(name, options)
+    return made

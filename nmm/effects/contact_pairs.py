@@ -43,14 +43,15 @@ WHERE_GIVEN = (
 def interface_law(item: Any) -> InterfaceLaw:
     """Return the law of a scene's interface: with a fracture energy the common one softens."""
     softens = item.law == "mohr_coulomb" and item.fracture_energy is not None
-    kind = INTERFACE_LAWS.load("linear_softening" if softens else item.law)
     given = {name: getattr(item, name) for name in ALWAYS}
     for name in WHERE_GIVEN:
         if getattr(item, name) is not None:
             given[name] = getattr(item, name)
     if item.restitution is not None:
         given["damping"] = damping_of(item.restitution)
-    return kind(**given, **item.options)
+    name = "linear_softening" if softens else item.law
+    law: InterfaceLaw = INTERFACE_LAWS.make(name, item.options, **given)
+    return law
 
 
 @dataclass(frozen=True)

@@ -20,11 +20,13 @@ from nmm.scene.lines import Path, line_numbers
 class Source:
     """Where a model was read: file name and TOML text, scanned for line numbers when first asked.
 
+    A model that is a part of another's file has its key path there as ``root``.
     Two sources are always equal, so that equal scenes from different files compare equal.
     """
 
     name: str = "scene"
     text: str = ""
+    root: Path = ()
 
     @cached_property
     def lines(self) -> dict[Path, int]:
@@ -33,13 +35,17 @@ class Source:
 
     def place(self, *path: str | int) -> str:
         """`file:line: dotted.path`; the line is that of the nearest key that is in the file."""
+        path = (*self.root, *path)
         dotted = ".".join(str(part) for part in path)
-        line = self.line(*path)
+        line = self._line(path)
         where = f"{self.name}:{line}" if line else self.name
         return f"{where}: {dotted}" if dotted else where
 
     def line(self, *path: str | int) -> int:
         """Line of the nearest key that is in the file, 0 if there is none."""
+        return self._line((*self.root, *path))
+
+    def _line(self, path: Path) -> int:
         lengths = range(len(path), 0, -1)
         return next((self.lines[path[:n]] for n in lengths if path[:n] in self.lines), 0)
 

@@ -14,6 +14,9 @@ from pydantic_core import PydanticCustomError
 
 from nmm.scene.units import EXAMPLES, UnitError, convert
 
+# No integer beyond it is a floating-point number.
+LARGEST = 10**308
+
 
 class Frozen(BaseModel):
     """Base of all scene and formulation models: immutable, closed, finite numbers only."""
@@ -40,6 +43,8 @@ def quantity(unit: str) -> BeforeValidator:
                 value = convert(value, unit)
             except UnitError as error:
                 raise fault(repr(value), error.expected, error.remedy) from None
+        if isinstance(value, int) and abs(value) > LARGEST:
+            raise fault("too many digits", f"a number in {unit}", "write it as 1e9, and check it")
         # Adding 0.0 turns -0.0 into 0.0, so that both give the same scene hash.
         return float(value) + 0.0 if isinstance(value, int | float) else value
 

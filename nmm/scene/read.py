@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -27,14 +28,19 @@ def read_scene(path: str | Path) -> Scene:
 def parse_scene(text: str, place: str = "scene") -> Scene:
     """Scene of a TOML text; `place` names it in errors."""
     scene, source = parse(text, Scene, place, SceneError)
-    scene._source = source
-    return scene
+    return _read_from(source, scene)
 
 
 def build_scene(tables: dict[str, Any], place: str = "scene") -> Scene:
     """Scene of tables as `tomllib` gives them, for scenes made by a program."""
-    scene = build(tables, Scene, Source(place), SceneError)
-    scene._source = Source(place)
+    return _read_from(Source(place), build(tables, Scene, Source(place), SceneError))
+
+
+def _read_from(source: Source, scene: Scene) -> Scene:
+    """Tell a scene, and the formulation in it, where they stand."""
+    scene._source = source
+    if scene.formulation is not None:
+        scene.formulation._source = replace(source, root=("formulation",))
     return scene
 
 

@@ -44,4 +44,5 @@ def build_model(scene: "Scene", formulation: "Formulation", regions: "Regions") 
 def material_law(item: "Material") -> Law:
     """Return the law of a scene's material."""
     constants = {"young_modulus": item.young_modulus, "poisson_ratio": item.poisson_ratio}
-    return MATERIAL_LAWS.load(item.law)(**constants, **item.options)
+    law: Law = MATERIAL_LAWS.make(item.law, item.options, **constants)
+    return law

@@ -11,10 +11,14 @@ start no contact pulls, so that closing and opening never give more than the spr
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.registry import Registry
+
+if TYPE_CHECKING:
+    from nmm.formulation import Integrator as Table
 
 
 @dataclass(frozen=True)
@@ -239,3 +243,17 @@ INTEGRATORS = Registry[type[Integrator]](
         "generalized_alpha": "nmm.stepping.integrators:GeneralizedAlpha",
     },
 )
+
+
+def make_integrator(table: "Table") -> Integrator:
+    """Return the integrator that a formulation's ``[integrator]`` names.
+
+    Raises
+    ------
+    FormulationError
+        When the name or an option is not known, or the integrator refuses its value.
+    """
+    made: Integrator = INTEGRATORS.make(
+        table.type, table.options, kinetic_factor=table.kinetic_factor
+    )
+    return made

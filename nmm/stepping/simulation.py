@@ -25,8 +25,9 @@ from nmm.scene import scene_hash
 from nmm.stepping.build import block_functions, build_model
 from nmm.stepping.cures import cures, solver_for, warnings
 from nmm.stepping.dynamics import Schedule, run_in_time
-from nmm.stepping.integrators import INTEGRATORS, Integrator
+from nmm.stepping.integrators import make_integrator
 from nmm.stepping.origin import MovedBack, own_origin, shifted, shifted_regions
+from nmm.stepping.parts import check_parts
 from nmm.stepping.plan import Plan, compile_plan
 from nmm.stepping.recorder import Monitor, Recorder, monitors
 from nmm.stepping.relay import Lay, check_relay
@@ -130,7 +131,7 @@ class Simulation:
         quiet = Stepper(
             self.stepper.model,
             self.stepper.plan.joined(Inertia(self.stepper.model)),
-            _integrator(self.formulation),
+            make_integrator(self.formulation.integrator),
             self.stepper.solver,
             small=False,
         )
@@ -192,6 +193,7 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
     begun = perf_counter()
     regions = build_regions(scene)
     _check(scene, formulation)
+    check_parts(scene, formulation)
     asked, origin = (scene, formulation), own_origin(regions.polygons.points)
     if origin.any():
         regions = shifted_regions(regions, -origin)
@@ -208,7 +210,7 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
     stepper = Stepper(
         model,
         plan,
-        _integrator(formulation),
+        make_integrator(formulation.integrator),
         solver_for(model.manifold, formulation.solver),
         small=_small(scene, formulation),
         lay=_lay(formulation, model, plan),
@@ -216,12 +218,6 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
     stepper.seconds["covers"] = built - begun
     stepper.seconds["effects"] = perf_counter() - built
     return Simulation(*asked, regions, stepper, plan.begin(start), monitors(setup), begun, origin)
-
-
-def _integrator(formulation: Formulation) -> Integrator:
-    part = formulation.integrator
-    kind = INTEGRATORS.load(part.type)
-    return kind(kinetic_factor=part.kinetic_factor, **part.options)
 
 
 def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:

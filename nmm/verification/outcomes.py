@@ -2,9 +2,10 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from difflib import get_close_matches
 from time import process_time
 
-from nmm.errors import NmmError
+from nmm.errors import Fault, FormulationError, NmmError
 from nmm.verification.base import Case, Checks
 from nmm.verification.registry import CASES
 
@@ -60,7 +61,12 @@ def named(text: str) -> list[str]:
 
     A name stands for all that begin with it and go on with another word or letter: "B" for all of
     that group, "B8" for "B8" and "B8 oblique", "B1" for "B1 friction" and "B1 cohesion" and not
-    "B10". What nothing begins with, such as ``module:Class``, is left as it is.
+    "B10". A ``module:Class`` is left as it is.
+
+    Raises
+    ------
+    FormulationError
+        When no name begins with it.
     """
     wanted = text.lower()
     found = [
@@ -69,7 +75,15 @@ def named(text: str) -> list[str]:
         if name.lower().startswith(wanted)
         and not (wanted[-1:].isdigit() and name[len(wanted) : len(wanted) + 1].isdigit())
     ]
-    return (found if text else []) or [text]
+    if text and found:
+        return found
+    if ":" in text:
+        return [text]
+    near = [name for name in CASES.table if text and wanted in name.lower()]
+    near = near or get_close_matches(text, CASES.table, n=1)
+    expected = "a benchmark of `nmm verify --list`, a published case folder, or module:Class"
+    remedy = f'did you mean "{near[0]}"?' if near else "correct the name"
+    raise FormulationError(Fault("benchmark", f'"{text}"', expected, remedy))
 
 
 def runs(names: Iterable[str] | None = None, slow: bool = False) -> Iterator[tuple[Case, str]]:

@@ -130,6 +130,59 @@ def test_check_finds_faults_of_geometry(tmp_path):
     assert str(path) in result.stderr
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('"rigid_strain"', '"rigid_strian"', 'cover: functions: "rigid_strian"'),
+        ('"block"  ', '"blok"  ', "expected one of block, sub_blocks, triangles"),
+        ('"1 ms"', '"1 ms"\ntype = "newmarc"', 'did you mean "newmark"?'),
+        (
+            '"1 ms"',
+            '"1 ms"\ntype = "newmark"\n[formulation.integrator.options]\nbeta = "x"',
+            "integrator \"newmark\": beta: 'x': expected a number",
+        ),
+        ("density =", 'law = "plastic"\ndensity =', 'materials.rock.law: material law: "plastic"'),
+        ("# cohesion", 'law = "x"\n# cohesion', 'interfaces.joint.law: interface law: "x"'),
+    ],
+)
+def test_check_names_parts_that_do_not_exist_with_their_line(old, new, said, tmp_path):
+    path = tmp_path / "a.toml"
+    assert old in starter()
+    path.write_text(starter().replace(old, new, 1))
+    result = call("check", path)
+    assert result.exit_code == 1
+    (line, count) = result.stderr.splitlines()
+    assert line.startswith(f"{path}:")
+    assert said in line
+    assert count == "1 fault"
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ('enforcement = "penality"', 'contact.enforcement: enforcement: "penality"'),
+        ("options = {toleranc = 1e-9}", "toleranc: expected one of iteration, max_passes"),
+    ],
+)
+def test_a_wrong_enforcement_is_named_by_check_and_by_run(table, said, scene, tmp_path):
+    chosen = tmp_path / "f.toml"
+    chosen.write_text(f"[contact]\n{table}\n")
+    for verb in ("check", "run"):
+        result = call(verb, scene, "--formulation", chosen)
+        assert result.exit_code == 1
+        assert f"{chosen}:2: " in result.stderr
+        assert said in result.stderr
+
+
+def test_a_place_that_cannot_be_written_is_one_line(scene, tmp_path):
+    (tmp_path / "file").write_text("")
+    result = call("run", scene, "--out", tmp_path / "file" / "run")
+    assert result.exit_code == 1
+    (line,) = result.stderr.splitlines()
+    assert line.startswith(str(tmp_path / "file"))
+    assert "expected a place that can be read and written" in line
+
+
 def test_check_passes_a_sound_scene(scene):
     result = call("check", scene)
     assert result.exit_code == 0, result.output
@@ -175,6 +228,9 @@ def test_new_writes_a_scene_that_is_sound_and_refuses_to_replace_one(tmp_path):
     result = call("new", path)
     assert result.exit_code == 1
     assert path.read_text() == "mine"
+    assert call("new", "").exit_code == 1
+    call("new", tmp_path / "slope.v2")
+    assert (tmp_path / "slope.v2.toml").exists()
 
 
 def test_a_stopped_run_can_be_drawn(tmp_path, write_run):

@@ -75,7 +75,7 @@ def folder(tmp_path):
 def test_a_published_folder_is_reproduced(folder):
     result = call("verify", folder)
     assert result.exit_code == 0, result.output
-    assert "1 runs, all within tolerance" in result.stdout
+    assert "1 run, all within tolerance" in result.stdout
 
 
 def test_a_value_that_is_missed_gives_exit_code_1(folder):
@@ -149,7 +149,10 @@ def test_a_name_stands_for_all_that_begin_with_it():
     assert {"B1 friction", "B2", "B18 shear"} <= set(named("b"))
     assert not any(name.startswith("C") for name in named("b"))
     assert named("mine:Case") == ["mine:Case"]
-    assert named("") == [""]
+    with pytest.raises(NmmError, match="B1 friction"):
+        named("friction")
+    with pytest.raises(NmmError, match="nmm verify --list"):
+        named("")
 
 
 def test_slow_variants_run_when_their_benchmark_is_named_in_full(monkeypatch):
