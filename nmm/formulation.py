@@ -28,7 +28,7 @@ from nmm.scene.fields import (
     fault,
 )
 
-_PART = 'a registered name or "module:Name"'
+_OWN = 'or "module:Name"'
 _OF_BLOCKS = ("block", "sub_blocks")
 
 
@@ -128,8 +128,17 @@ class Cover(_Part):
     A mesh has local functions "monomials" of degree 1 unless others are named.
     """
 
-    type: PartName = Field(default="block", description=_PART, examples=["triangles"])
-    functions: PartName = Field(default="rigid_strain", description=_PART, examples=["monomials"])
+    type: PartName = Field(
+        default="block",
+        description='"block", "sub_blocks", "triangles", "quads", "graded", "bspline", "mls" '
+        f"{_OWN} of a cover",
+        examples=["triangles"],
+    )
+    functions: PartName = Field(
+        default="rigid_strain",
+        description='"rigid_strain", "rigid" or "monomials"; meshes take monomials',
+        examples=["monomials"],
+    )
     degree: Count | None = Field(
         default=None, ge=0, description="a degree, an integer >= 0", examples=[1]
     )
@@ -227,7 +236,11 @@ class Glue(Frozen):
 class ContactMethod(_Part):
     """Enforcement of contact and joint conditions."""
 
-    enforcement: PartName = Field(default="penalty", description=_PART, examples=["penalty"])
+    enforcement: PartName = Field(
+        default="penalty",
+        description=f'"penalty", "augmented", "lagrange", "cone", "barrier" {_OWN}',
+        examples=["cone"],
+    )
     normal_penalty: Number = Field(
         default=10.0, gt=0, description="a multiple of E x thickness, > 0", examples=[10.0]
     )
@@ -241,7 +254,10 @@ class ContactMethod(_Part):
         examples=[0.5],
     )
     max_passes: Count = Field(
-        default=20, gt=0, description="a number of passes, > 0", examples=[20]
+        default=20,
+        gt=0,
+        description="a number of open-close passes of springs, > 0",
+        examples=[20],
     )
     points: Literal["auto", "vertices", "faces"] = Field(
         default="auto",
@@ -250,14 +266,20 @@ class ContactMethod(_Part):
         examples=["faces"],
     )
     joint_points: Literal["corners", "gauss"] = Field(
-        default="corners", description='"corners" or "gauss"', examples=["corners"]
+        default="corners",
+        description='"corners" or "gauss": where joints act and are judged along their edge',
+        examples=["gauss"],
     )
 
 
 class Integrator(_Part):
     """Time integration of dynamic scenes."""
 
-    type: PartName = Field(default="shi", description=_PART, examples=["newmark"])
+    type: PartName = Field(
+        default="shi",
+        description=f'"shi", "newmark", "generalized_alpha" {_OWN}',
+        examples=["newmark"],
+    )
     step: Time = Field(default=1e-3, gt=0, description="a step in s, > 0", examples=["1 ms"])
     mass: Literal["consistent", "lumped"] = Field(
         default="consistent",
@@ -296,7 +318,11 @@ class LoadSteps(Frozen):
 class Solver(_Part):
     """Linear solver."""
 
-    type: PartName = Field(default="auto", description=_PART, examples=["auto"])
+    type: PartName = Field(
+        default="auto",
+        description=f'"auto", "cholesky", "superlu", "qdldl" {_OWN}',
+        examples=["cholesky"],
+    )
 
 
 class Formulation(Frozen):

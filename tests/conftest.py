@@ -131,6 +131,62 @@ def write_run():
     return made_up_run
 
 
+BAR = """
+title = "bar"
+plane = "stress"
+[materials.m]
+young_modulus = 1.0
+poisson_ratio = {poisson}
+[[blocks]]
+material = "m"
+vertices = [[0, 0], [{length}, 0], [{length}, 1], [0, 1]]
+[[supports]]
+name = "wall"
+segment = [[0, 0], [0, 1]]
+fix = {fix}
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[{length}, 0], [{length}, 1]]
+traction = {traction}
+"""
+
+
+def bar(length=4, poisson=0.3, fix='["x", "y"]', traction="[1e-3, 0]", more="", law=None):
+    """The text of a scene: a bar of modulus 1 and depth 1, held at its left end, pulled right."""
+    text = BAR.format(length=length, poisson=poisson, fix=fix, traction=traction) + more
+    return text.replace("[materials.m]", f'[materials.m]\nlaw = "{law}"') if law else text
+
+
+@pytest.fixture(scope="session")
+def bar_text():
+    """The function that writes the scene of a bar."""
+    return bar
+
+
+@pytest.fixture(scope="session")
+def projectile():
+    """The text of a scene: a square thrown with a spin, in free flight."""
+    return """
+plane = "stress"
+duration = 1.0
+[inertia]
+[gravity]
+[materials.m]
+young_modulus = 1e7
+poisson_ratio = 0.3
+density = 1000
+[[blocks]]
+name = "b"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[initial_velocities]]
+block = "b"
+velocity = [3, 4]
+angular_velocity = 2.0
+"""
+
+
 @pytest.fixture(scope="session")
 def memory_run():
     """A made-up run of 40 Voronoi blocks and 4 frames in memory."""

@@ -1,5 +1,6 @@
 """What the manual shows works as it stands there."""
 
+import importlib.util
 import re
 from pathlib import Path
 
@@ -69,30 +70,26 @@ point = [2, 1]
     assert uy == pytest.approx(1e6 / (0.05 * 11e9) * 1.0, rel=1e-4)
 
 
-def test_the_benchmark_of_the_manual_is_one_class(tmp_path, monkeypatch):
+def test_pages_of_keys_are_those_of_the_models_that_read_the_files():
+    spec = importlib.util.spec_from_file_location("keys", ROOT / "docs/keys.py")
+    keys = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(keys)
+    for name, text in keys.pages().items():
+        assert (ROOT / "docs" / name).read_text() == text, "write it anew: python docs/keys.py"
+
+
+def test_the_keys_of_parts_name_all_that_are_built_in():
+    from covers.registry import COVERS
+    from nmm.interfaces.base import INTERFACE_LAWS
+
+    page = (ROOT / "docs/formulation.md").read_text() + (ROOT / "docs/scene.md").read_text()
+    assert all(f'"{name}"' in page for name in [*COVERS, *INTERFACE_LAWS.table])
+
+
+def test_the_benchmark_of_the_manual_is_one_class(tmp_path, monkeypatch, bar_text):
     (code,) = (one for one in blocks("docs/extending.md", "python") if "SceneCase" in one)
-    scene = """
-title = "bar"
-plane = "stress"
-[materials.m]
-young_modulus = 1.0
-poisson_ratio = 0.0
-[[blocks]]
-material = "m"
-vertices = [[0, 0], [4, 0], [4, 1], [0, 1]]
-[[supports]]
-name = "wall"
-segment = [[0, 0], [0, 1]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[4, 0], [4, 1]]
-traction = [1e-3, 0]
-[[monitors]]
-name = "tip"
-point = [4, 0.5]
-"""
+    tip = '[[monitors]]\nname = "tip"\npoint = [4, 0.5]\n'
+    scene = bar_text(poisson=0.0, more=tip)
     (tmp_path / "tip_cases.py").write_text(code.replace('"""..."""', repr(scene)))
     monkeypatch.syspath_prepend(tmp_path)
     from nmm.verification import verify

@@ -203,7 +203,9 @@ class Monitor(Frozen):
 class Reference(Frozen):
     """An answer from elsewhere that a result is compared with."""
 
-    quantity: str = Field(description="what is compared", examples=["peak load factor"])
+    quantity: str = Field(
+        description="a number of summary.json or a column of history.csv", examples=["failure_load"]
+    )
     value: AnyQuantity = Field(description="a number in SI", examples=[9124.0])
     tolerance: Number = Field(ge=0, description="a relative tolerance, >= 0", examples=[0.02])
     source: str = Field(description="where the value comes from", examples=["linear programme"])

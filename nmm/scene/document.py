@@ -12,6 +12,13 @@ from pydantic import BaseModel, ValidationError
 from nmm.errors import Fault, NmmError
 from nmm.scene.faults import Source, report
 
+# Model, what its file is called, and keys that it has and files of the other kinds have not.
+OWN_KEYS = {
+    "Scene": ("a scene", {"materials", "blocks", "tessellations", "plane"}),
+    "Formulation": ("a formulation", {"cover", "integrator", "rotation", "solver", "glue"}),
+    "Plan": ("a study", {"scene", "scenes", "vary"}),
+}
+
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -38,12 +45,13 @@ def parse(text: str, model: type[Model], place: str, error: type[NmmError]) -> t
     Raises
     ------
     error
-        The text is no TOML, or the model refuses it; one fault a line.
+        The text is no TOML or a file of another kind, or the model refuses it; one fault a line.
     """
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as cause:
         raise error(_syntax(str(cause), place)) from None
+    _refuse_other_kind(data, model, place, error)
     source = Source(place, text)
     return build(data, model, source, error), source
 
@@ -54,6 +62,18 @@ def build(data: dict[str, Any], model: type[Model], source: Source, error: type[
         return model.model_validate(data)
     except ValidationError as cause:
         raise error(*report(cause, model, source)) from None
+
+
+def _refuse_other_kind(
+    data: dict[str, Any], model: type[Model], place: str, error: type[NmmError]
+) -> None:
+    """Say in one line that a file of another kind was given, in place of one line a key."""
+    wanted, own = OWN_KEYS.get(model.__name__, ("", data.keys()))
+    if data.keys() & own:
+        return
+    for kind, keys in OWN_KEYS.values():
+        if data.keys() & keys:
+            raise error(Fault(place, kind, wanted, f"give the file of {wanted} here"))
 
 
 def _syntax(message: str, place: str) -> Fault:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -89,7 +90,8 @@ def _fault(detail: Any, model: type[BaseModel], source: Source) -> Fault:
         return Fault(place, f'unknown key "{path[-1]}"', "a known key", remedy)
     expected = (info.description if info else None) or detail["msg"]
     key = next((part for part in reversed(path) if isinstance(part, str)), "value")
-    sample = f"{key} = {_sample(info)}"
+    table = re.search(r"\[+[\w.]+\]+", expected)
+    sample = table[0] if table else f"{key} = {_sample(info)}"
     if kind == "missing":
         return Fault(place, "missing", expected, f"add {sample}")
     return Fault(place, _short(detail["input"]), expected, f"write for example {sample}")

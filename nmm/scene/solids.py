@@ -32,7 +32,7 @@ class Material(Frozen):
     """Law and constants of the inside of blocks."""
 
     law: PartName = Field(
-        default="elastic", description='a law: a registered name or "module:Name"'
+        default="elastic", description='"elastic", or "module:Name" of a law of one\'s own'
     )
     density: Density | None = Field(
         default=None, gt=0, description="a density in kg/m3, > 0", examples=example("kg/m^3")
@@ -67,7 +67,8 @@ class Interface(Frozen):
     """Law and constants of the joints and contacts between two materials."""
 
     law: PartName = Field(
-        default="mohr_coulomb", description='a law: a registered name or "module:Name"'
+        default="mohr_coulomb",
+        description='"mohr_coulomb", "linear_softening", "bilinear_softening" or "module:Name"',
     )
     between: Annotated[tuple[str, str] | Literal["any"], BeforeValidator(_pair)] = Field(
         default="any", description='two materials or "any"', examples=[["rock", "rock"]]
@@ -81,7 +82,11 @@ class Interface(Frozen):
     tensile_strength: Stress = Field(
         default=0.0, ge=0, description="a tensile strength in Pa, >= 0", examples=["2.9 MPa"]
     )
-    bonded: Flag = Field(default=False, description="true or false", examples=[True])
+    bonded: Flag = Field(
+        default=False,
+        description="true or false: whether strength acts until the joint fails for the first time",
+        examples=[True],
+    )
     normal_stiffness: SpringStiffness | None = Field(
         default=None, gt=0, description="a normal stiffness in Pa/m, > 0", examples=example("Pa/m")
     )
@@ -92,7 +97,10 @@ class Interface(Frozen):
         default=None, gt=0, description="a fracture energy in J/m2, > 0", examples=example("J/m^2")
     )
     shear_fracture_energy: SurfaceEnergy | None = Field(
-        default=None, gt=0, description="a fracture energy in J/m2, > 0", examples=example("J/m^2")
+        default=None,
+        gt=0,
+        description="a fracture energy of sliding in J/m2, > 0; that of opening if not given",
+        examples=example("J/m^2"),
     )
     residual_friction_angle: Annotated[Angle, AfterValidator(_friction)] | None = Field(
         default=None,
@@ -103,13 +111,23 @@ class Interface(Frozen):
         default=None, description="a dilation angle in [0, pi/2) rad", examples=example("rad")
     )
     dilation_slip: Length | None = Field(
-        default=None, gt=0, description="a way slid in m, > 0", examples=["5 mm"]
+        default=None,
+        gt=0,
+        description="a way slid in m, > 0, after which nothing dilates any more",
+        examples=["5 mm"],
     )
     damping: Number | None = Field(
-        default=None, ge=0, description="a share of critical damping, >= 0", examples=[0.1]
+        default=None,
+        ge=0,
+        description="a share of critical damping of the pressed contact, >= 0",
+        examples=[0.1],
     )
     restitution: Number | None = Field(
-        default=None, gt=0, le=1, description="a coefficient in (0, 1]", examples=[0.5]
+        default=None,
+        gt=0,
+        le=1,
+        description="a coefficient of restitution in (0, 1], in place of damping",
+        examples=[0.5],
     )
     options: dict[str, Any] = Field(
         default={}, description="a table of options of a law of one's own"

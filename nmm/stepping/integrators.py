@@ -10,7 +10,7 @@ start no contact pulls, so that closing and opening never give more than the spr
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
@@ -165,16 +165,8 @@ class Shi(Newmark):
     damping ratio ``omega dt / 4``.
     """
 
-    beta: float = 0.5
-    gamma: float = 1.0
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if (self.beta, self.gamma) != (0.5, 1.0):
-            raise FormulationError(
-                f"[integrator] beta, gamma: {self.beta}, {self.gamma}: expected none for "
-                'type = "shi": use type = "newmark" to choose them'
-            )
+    beta: float = field(default=0.5, init=False)
+    gamma: float = field(default=1.0, init=False)
 
 
 @dataclass(frozen=True)
@@ -184,6 +176,8 @@ class GeneralizedAlpha(Newmark):
     ``alpha_m = (2 rho - 1)/(rho + 1)``, ``alpha_f = rho/(rho + 1)``; order 2.
     """
 
+    beta: float = field(default=0.25, init=False)
+    gamma: float = field(default=0.5, init=False)
     rho_inf: float = 0.8
 
     def __post_init__(self) -> None:

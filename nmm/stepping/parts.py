@@ -5,6 +5,7 @@ is not named is a built-in one and is not imported for this.
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from nmm.errors import Fault, FormulationError, NmmError
@@ -29,7 +30,7 @@ def check_parts(scene: "Scene", formulation: "Formulation") -> None:
     FormulationError
         All names that are not known and all options that are refused, one line each.
     """
-    faults = []
+    faults: list[Fault | str] = []
     for source, path, part, check in _named(scene, formulation):
         keys = [key for key in NAMING if key in part.model_fields_set]
         try:
@@ -37,9 +38,16 @@ def check_parts(scene: "Scene", formulation: "Formulation") -> None:
                 check(part)
         except NmmError as error:
             place = source.place(*path, *(keys if len(keys) == 1 else ()))
-            faults += [f"{place}: {fault}" for fault in error.faults]
+            faults += [_placed(fault, place) for fault in error.faults]
     if faults:
         raise FormulationError(*faults)
+
+
+def _placed(fault: Fault | str, place: str) -> Fault | str:
+    """Put the place in the file before a fault; what is said there already is not said twice."""
+    if isinstance(fault, Fault) and place.endswith(fault.place):
+        return replace(fault, place=place)
+    return f"{place}: {fault}"
 
 
 def _named(

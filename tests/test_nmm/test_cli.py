@@ -160,7 +160,7 @@ def test_check_names_parts_that_do_not_exist_with_their_line(old, new, said, tmp
 @pytest.mark.parametrize(
     ("table", "said"),
     [
-        ('enforcement = "penality"', 'contact.enforcement: enforcement: "penality"'),
+        ('enforcement = "penality"', 'contact.enforcement: "penality"'),
         ("options = {toleranc = 1e-9}", "toleranc: expected one of iteration, max_passes"),
     ],
 )

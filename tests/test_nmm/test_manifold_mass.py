@@ -124,31 +124,11 @@ def test_a_wave_arrives_in_time_and_doubles_at_the_end(degree: int, size: float)
     assert abs(found.summary.energy_balance or 1.0) < 1e-3
 
 
-PROJECTILE = """
-plane = "stress"
-duration = 1.0
-[inertia]
-[gravity]
-[materials.m]
-young_modulus = 1e7
-poisson_ratio = 0.3
-density = 1000
-[[blocks]]
-name = "b"
-material = "m"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[initial_velocities]]
-block = "b"
-velocity = [3, 4]
-angular_velocity = 2.0
-"""
-
-
 @pytest.mark.parametrize("degree", [0, 1, 2])
-def test_a_projectile_keeps_parabola_and_spin(degree: int) -> None:
+def test_a_projectile_keeps_parabola_and_spin(degree: int, projectile: str) -> None:
     cover = f'[cover]\ntype = "triangles"\nsize = 0.4\ndegree = {degree}\nangle = 0.3\n'
     step = '[integrator]\ntype = "shi"\nstep = 0.02\nmass = "lumped"\n'
-    found = run(parse_scene(PROJECTILE, "p"), parse_formulation(cover + step))
+    found = run(parse_scene(projectile, "p"), parse_formulation(cover + step))
     assert found.summary.status == "converged", found.summary.sentence
     frames = found.state.frames
     # Benchmark B13.

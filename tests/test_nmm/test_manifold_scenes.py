@@ -19,25 +19,6 @@ MESHES = {
 }
 DDA = '[cover]\ntype = "block"\n'
 
-PROJECTILE = """
-plane = "stress"
-duration = 1.0
-[inertia]
-[gravity]
-[materials.m]
-young_modulus = 1e7
-poisson_ratio = 0.3
-density = 1000
-[[blocks]]
-name = "b"
-material = "m"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[initial_velocities]]
-block = "b"
-velocity = [3, 4]
-angular_velocity = 2.0
-"""
-
 BAR = """
 plane = "stress"
 duration = 20.0
@@ -111,8 +92,8 @@ def simulate(scene: str, formulation: str, extra: str = "") -> Run:
 
 
 @pytest.mark.parametrize("name", [*MESHES])
-def test_a_projectile_flies_its_parabola_and_turns_exactly(name: str) -> None:
-    found = simulate(PROJECTILE, MESHES[name], '[integrator]\ntype = "shi"\nstep = 0.02\n')
+def test_a_projectile_flies_its_parabola_and_turns_exactly(name: str, projectile: str) -> None:
+    found = simulate(projectile, MESHES[name], '[integrator]\ntype = "shi"\nstep = 0.02\n')
     frames = found.state.frames
     # Benchmark B13: constant acceleration is what Shi's rule integrates exactly.
     np.testing.assert_allclose(frames.centre[0], [3.5, 4.5 - 9.81 / 2], atol=1e-9)
@@ -123,8 +104,8 @@ def test_a_projectile_flies_its_parabola_and_turns_exactly(name: str) -> None:
     assert found.summary.equilibrium_residual < 1e-10
 
 
-def test_a_spinning_square_of_linear_covers_does_not_grow() -> None:
-    spin = PROJECTILE.replace("[gravity]\n", "").replace(
+def test_a_spinning_square_of_linear_covers_does_not_grow(projectile: str) -> None:
+    spin = projectile.replace("[gravity]\n", "").replace(
         "velocity = [3, 4]", "velocity = [0, 0]", 1
     )
     spin = spin.replace("angular_velocity = 2.0", f"angular_velocity = {2 * np.pi}")

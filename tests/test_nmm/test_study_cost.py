@@ -16,30 +16,15 @@ from nmm.study.record import Record
 from nmm.study.reference import extrapolated_reference, sizes_of
 from nmm.study.variants import SIZE, Case, cases_of, read_formulations, with_settings
 
-SCENE = """
-title = "bar"
-plane = "stress"
-[materials.m]
-young_modulus = 1.0
-poisson_ratio = 0.3
-[[blocks]]
-material = "m"
-vertices = [[0, 0], [4, 0], [4, 1], [0, 1]]
-[[supports]]
-name = "wall"
-segment = [[0, 0], [0, 1]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[4, 0], [4, 1]]
-traction = [0, 1e-3]
-"""
+
+@pytest.fixture
+def bent(bar_text):
+    return bar_text(traction="[0, 1e-3]")
 
 
 @pytest.fixture
-def bar():
-    return nmm.scene.parse_scene(SCENE)
+def bar(bent):
+    return nmm.scene.parse_scene(bent)
 
 
 def made(name="a", unknowns=10, value=1.0, seconds=1.0, status="converged", **settings):
@@ -153,9 +138,9 @@ def test_a_setting_that_leads_nowhere_is_named(bar):
         with_settings(Case("a", bar, formulation()), {"blocks.7.material": "m"})
 
 
-def test_the_key_of_a_case_depends_on_its_content_only(bar):
+def test_the_key_of_a_case_depends_on_its_content_only(bar, bent):
     first = Case("a", bar, formulation())
-    assert first.key == Case("b", nmm.scene.parse_scene(SCENE + "# no matter"), formulation()).key
+    assert first.key == Case("b", nmm.scene.parse_scene(bent + "# no matter"), formulation()).key
     assert first.key != with_settings(first, {"materials.m.young_modulus": 2.0}).key
 
 
@@ -203,9 +188,9 @@ def test_a_cost_study_writes_figure_page_and_records(bar, tmp_path):
     assert study.reference.value == pytest.approx(beam, rel=0.02)  # the wall holds the corners
 
 
-def test_the_verb_takes_formulations_sizes_and_settings(tmp_path):
+def test_the_verb_takes_formulations_sizes_and_settings(tmp_path, bent):
     scene, kind = tmp_path / "bar.toml", tmp_path / "quads.toml"
-    scene.write_text(SCENE)
+    scene.write_text(bent)
     kind.write_text('[cover]\ntype = "quads"\nsize = 1\n')
     words = ["cost", scene, "--formulations", kind, "--sizes", "2,1", "--repeats", 1]
     words += ["--vary", "formulation.cover.degree=0,1", "--quantity", "energy", "--out", tmp_path]

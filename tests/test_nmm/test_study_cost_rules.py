@@ -19,25 +19,7 @@ from nmm.study.reference import Reference
 from nmm.study.theory import order_in_size, spanned_degree
 from nmm.study.variants import cases_of
 
-BAR = """
-title = "bar"
-plane = "stress"
-[materials.m]
-young_modulus = 1.0
-poisson_ratio = 0.3
-{law}
-[[blocks]]
-material = "m"
-vertices = [[0, 0], [4, 0], [4, 1], [0, 1]]
-[[supports]]
-name = "wall"
-segment = [[0, 0], [0, 1]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[4, 0], [4, 1]]
-traction = [1e-3, 0]
+REFERENCE = """
 [[reference]]
 quantity = "external_work"
 value = 2e-6
@@ -63,8 +45,8 @@ def made(name, cover, unknowns, value, seconds, **settings):
     )
 
 
-def test_a_varied_scene_is_refused_as_its_answer_varies_too():
-    bar = nmm.parse_scene(BAR.format(law=""))
+def test_a_varied_scene_is_refused_as_its_answer_varies_too(bar_text):
+    bar = nmm.parse_scene(bar_text(more=REFERENCE))
     with pytest.raises(NmmError, match=r"--vary materials\.m\.young_modulus: changes the scene"):
         cost_study(bar, DDA, {"materials.m.young_modulus": [1.0, 2.0]}, memory=False)
 
@@ -143,11 +125,11 @@ def test_the_commit_is_that_of_the_checkout():
     assert running.commit().split(" ")[0] in known
 
 
-def test_parts_beside_a_scene_are_found_in_processes_of_a_pool(tmp_path, monkeypatch):
+def test_parts_beside_a_scene_are_found_in_processes_of_a_pool(tmp_path, monkeypatch, bar_text):
     (tmp_path / "soft_law.py").write_text(
         "from nmm.materials.elastic import Elastic\n\n\nclass Soft(Elastic):\n    pass\n"
     )
-    (tmp_path / "bar.toml").write_text(BAR.format(law='law = "soft_law:Soft"'))
+    (tmp_path / "bar.toml").write_text(bar_text(law="soft_law:Soft"))
     monkeypatch.chdir(tmp_path)
     scene = nmm.read_scene("bar.toml")
     monkeypatch.chdir("/")  # a worker elsewhere: the name of the file leads nowhere there

@@ -19,25 +19,6 @@ from nmm.study.store import Store
 from nmm.study.sweep import Sweep, run_study
 from nmm.study.sweep_report import groups, sweep_page
 
-SCENE = """
-title = "bar"
-plane = "stress"
-[materials.m]
-young_modulus = 1.0
-poisson_ratio = 0.0
-[[blocks]]
-material = "m"
-vertices = [[0, 0], [4, 0], [4, 1], [0, 1]]
-[[supports]]
-name = "wall"
-segment = [[0, 0], [0, 1]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[4, 0], [4, 1]]
-traction = [1e-3, 0]
-"""
 STUDY = """
 title = "stiffness"
 scene = "bar.toml"
@@ -64,8 +45,8 @@ def deadly(**constants):
 
 
 @pytest.fixture
-def study(tmp_path):
-    (tmp_path / "bar.toml").write_text(SCENE)
+def study(tmp_path, bar_text):
+    (tmp_path / "bar.toml").write_text(bar_text(poisson=0.0))
     (tmp_path / "dda.toml").write_text('title = "DDA"\n')
     (tmp_path / "nmm.toml").write_text('title = "NMM"\n[cover]\ntype = "quads"\nsize = 1\n')
     path = tmp_path / "study.toml"
@@ -116,8 +97,8 @@ def test_a_study_is_run_summed_up_and_not_run_again(study, tmp_path):
     assert stamps == {path: path.stat().st_mtime_ns for path in (out / "cases").iterdir()}
 
 
-def test_several_scenes_are_cases_named_by_their_files(study, tmp_path):
-    (tmp_path / "long.toml").write_text(SCENE.replace("4, 0]", "8, 0]").replace("4, 1]", "8, 1]"))
+def test_several_scenes_are_cases_named_by_their_files(study, tmp_path, bar_text):
+    (tmp_path / "long.toml").write_text(bar_text(length=8, poisson=0.0))
     listed = 'scenes = ["bar.toml", "long.toml"]'
     study.write_text(STUDY.replace('scene = "bar.toml"', listed).replace('"dda.toml", ', ""))
     plan, cases = read_plan(study)
@@ -171,16 +152,14 @@ def test_a_case_that_lacks_a_quantity_is_run_again(study, tmp_path):
 
 
 @pytest.fixture
-def laws(study, monkeypatch):
+def laws(study, monkeypatch, bar_text):
     """Makes scenes of the study use a law of this file."""
     monkeypatch.setenv("PYTHONPATH", os.path.dirname(__file__))
     monkeypatch.syspath_prepend(os.path.dirname(__file__))
 
     def use(name):
-        text = SCENE.replace(
-            "[materials.m]", f'[materials.m]\nlaw = "{__name__.split(".")[-1]}:{name}"'
-        )
-        (study.parent / "bar.toml").write_text(text)
+        law = f"{__name__.split('.')[-1]}:{name}"
+        (study.parent / "bar.toml").write_text(bar_text(poisson=0.0, law=law))
         return read_plan(study)
 
     return use

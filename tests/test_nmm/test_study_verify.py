@@ -15,25 +15,6 @@ from nmm.verification.outcomes import named
 from nmm.verification.published import PublishedCase
 
 ROOT = Path(__file__).resolve().parents[2]
-SCENE = """
-title = "bar"
-plane = "stress"
-[materials.m]
-young_modulus = 1.0
-poisson_ratio = 0.3
-[[blocks]]
-material = "m"
-vertices = [[0, 0], [4, 0], [4, 1], [0, 1]]
-[[supports]]
-name = "wall"
-segment = [[0, 0], [0, 1]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[4, 0], [4, 1]]
-traction = [1e-3, 0]
-"""
 MODULE = '''
 from nmm.verification.base import Case, Check
 
@@ -64,9 +45,9 @@ def call(*words):
 
 
 @pytest.fixture
-def folder(tmp_path):
+def folder(tmp_path, bar_text):
     scene = tmp_path / "bar.toml"
-    scene.write_text(SCENE)
+    scene.write_text(bar_text())
     result = call("publish", scene, "--quantity", "energy", "--out", tmp_path / "case")
     assert result.exit_code == 0, result.output
     return tmp_path / "case"
