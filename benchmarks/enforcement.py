@@ -4,14 +4,17 @@ Walls of bricks, a pile of Voronoi cells, a block that slides down a slope and a
 supports start to move under gravity and a lateral acceleration that grows by 0.05 m/s2 a step
 (blocks of six unknowns, dt 1 ms, friction 0.6). No search, no scene: the contact solution alone.
 
-    python benchmarks/enforcement.py                     # the table
-    python benchmarks/enforcement.py --page              # and docs/enforcements.md with its records
+    python benchmarks/enforcement.py                     # the table of small scenes
+    python benchmarks/enforcement.py --page              # all, and docs/enforcements.md
+    python benchmarks/enforcement.py --page --resume --blocks 1000 --budget 900
     python benchmarks/enforcement.py --solvers --blocks 100 1000 10000
 
 ``force error`` is that of the contact resultants on the blocks in the last step, relative, in the
 norm weighted with the diagonal, against the same law solved to 1e-12 (springs) or 1e-10 (exact).
-It is left out beyond 500 blocks. ``gap error`` is the deepest penetration over the compliance of
-its contact times the largest force. Rows that do not converge are printed as they are.
+Where that does not converge it is solved less tightly, which the row says, and where it spends the
+budget itself the error is left out. ``gap error`` is the deepest penetration over the compliance of
+its contact times the largest force. Rows that do not converge are printed as they are, rows that
+spend their budget are stopped and say so.
 """
 
 import argparse
@@ -19,14 +22,16 @@ import os
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-import json
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass
-from pathlib import Path
+from dataclasses import dataclass, replace
 from time import process_time
 
 import numpy as np
 from block_scenes import Motion, Scene, incline, pile, supports, wall
+from budget import Overtime, apart, limit
+from kinds import KINDS, Reference
+from records import RECORDS, keep, load, read, stamp, standing
+from records import Row as Measurement
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
@@ -38,90 +43,90 @@ from nmm.contact.rounds import compliances
 from nmm.contact.springs import CutSprings
 from nmm.solvers.linear import make_solver
 
-RECORDS = Path(__file__).parents[1] / "docs" / "enforcements"
+PATH = RECORDS / "enforcement.jsonl"
 SCENES = {"slope": incline, "supports": supports, "wall": wall, "pile": pile}
-SIZES = (("slope", 1), ("supports", 1), ("wall", 100), ("pile", 100), ("wall", 1000))
-LARGE = ("open-close 10 E", "penalty 1 E", "penalty 10 E", "cone")
-"""What is measured beyond `MANY` blocks."""
-MANY = 500
-TIGHT = {"tolerance": 1e-12}
-EXACT = {"tolerance": 1e-10, "gap_tolerance": 1e-9}
+SMALL = (("slope", 1), ("supports", 1), ("wall", 100), ("pile", 100))
+SIZES = (*SMALL, ("wall", 1000), ("pile", 1000))
 
 
-@dataclass(frozen=True)
-class Kind:
-    """An enforcement with its options and penalty (in Young's moduli), and what it is held to."""
+@dataclass(frozen=True, kw_only=True)
+class Row(Measurement):
+    """One enforcement on one scene: medians over the steps after the first.
 
-    name: str
-    penalty: float
-    options: dict[str, object]
-    reference: tuple[str, dict[str, object]]
-
-
-KINDS = {
-    "open-close 10 E": Kind(
-        "penalty", 10.0, {"iteration": "open_close", "max_passes": 40}, ("penalty", TIGHT)
-    ),
-    "penalty 1 E": Kind("penalty", 1.0, {}, ("penalty", TIGHT)),
-    "penalty 10 E": Kind("penalty", 10.0, {}, ("penalty", TIGHT)),
-    "penalty 100 E": Kind("penalty", 100.0, {}, ("penalty", TIGHT)),
-    "augmented": Kind("augmented", 10.0, {}, ("cone", EXACT)),
-    "lagrange": Kind("lagrange", 10.0, {}, ("cone", EXACT)),
-    "cone": Kind("cone", 10.0, {}, ("cone", EXACT)),
-    "barrier": Kind("barrier", 10.0, {}, ("cone", EXACT)),
-}
-
-
-@dataclass(frozen=True)
-class Row:
-    """One enforcement on one scene: medians over the steps after the first."""
+    ``force_error`` is negative where it was not measured. ``sentence`` says what did not end as
+    asked for.
+    """
 
     scene: str
-    blocks: int
-    contacts: int
+    size: int
     enforcement: str
-    converged: int
-    steps: int
-    force_error: float
-    gap_error: float
-    penetration: float
-    passes: float
-    factorisations: float
-    seconds: float
-    seconds_largest: float
+    sentence: str = ""
+    blocks: int = 0
+    contacts: int = 0
+    converged: int = 0
+    steps: int = 0
+    asked: int = 0
+    force_error: float = -1.0
+    gap_error: float = 0.0
+    penetration: float = 0.0
+    passes: float = 0.0
+    factorisations: float = 0.0
+    seconds: float = 0.0
+    seconds_largest: float = 0.0
+
+    @property
+    def key(self) -> tuple[str, int, str]:
+        """Scene, size and enforcement."""
+        return self.scene, self.size, self.enforcement
 
 
-def measured(name: str, n_blocks: int, kind: str, steps: int) -> Row:
-    """Run ``steps`` steps; what the first one compiles and lays out is left out."""
-    chosen = KINDS[kind]
-    scene = SCENES[name](n_blocks, chosen.penalty)
-    done = list(_run(scene, make_enforcement(chosen.name, chosen.options), steps))
-    answers = [answer for _, answer, _ in done]
+_Step = tuple[StepProblem, StepAnswer, float]
+
+
+def measured(name: str, size: int, kind: str, steps: int, budget: float) -> Row:
+    """Run ``steps`` steps, or what the budget allows; then look for the force error."""
+    busy, began, said = load(), process_time(), []
+    chosen, done = KINDS[kind], []
+    row = Row(scene=name, size=size, enforcement=kind, asked=steps, budget=budget)
+    scene = SCENES[name](size, chosen.penalty)
+    try:
+        with limit(budget):
+            for one in _run(scene, make_enforcement(chosen.name, chosen.options), steps):
+                done += [one]
+    except Overtime:
+        said.append(f"stopped after {len(done)} of {steps} steps: the budget was spent")
+    if done:
+        missed = [answer.verdict for _, answer, _ in done if not answer.verdict.converged]
+        said += [f"{len(missed)} of {len(done)} steps: {missed[-1].sentence}"] if missed else []
+        row = _figures(row, scene, done)
+        error, why = _error(*done[-1][:2], chosen.reference, budget)
+        row, said = replace(row, force_error=error), said + why
+    used = process_time() - began
+    return replace(row, sentence="; ".join(said), used=used, **stamp(busy))
+
+
+def _figures(row: Row, scene: Scene, done: list[_Step]) -> Row:
+    later = done[1:] or done
     problem, answer, _ = done[-1]
-    seconds = [busy for _, _, busy in done[1:]]
     depth = np.maximum(-answer.gap, 0.0)
     force = float(np.abs(answer.normal_force).max(initial=0.0))
     pressed = float((depth / compliances(problem)[0]).max(initial=0.0))
-    return Row(
-        name,
-        len(scene.volume),
-        scene.problem.n_contacts,
-        kind,
-        sum(answer.verdict.converged for answer in answers),
-        steps,
-        _error(problem, answer, *chosen.reference) if n_blocks <= MANY else -1.0,
-        pressed / force if force > 0 else 0.0,
-        float(depth.max(initial=0.0)),
-        float(np.median([answer.passes for answer in answers[1:]])),
-        float(np.median([answer.factorisations for answer in answers[1:]])),
-        float(np.median(seconds)),
-        float(np.max(seconds)),
+    return replace(
+        row,
+        blocks=len(scene.volume),
+        contacts=scene.problem.n_contacts,
+        converged=sum(one.verdict.converged for _, one, _ in done),
+        steps=len(done),
+        gap_error=pressed / force if force > 0 else 0.0,
+        penetration=float(depth.max(initial=0.0)),
+        passes=float(np.median([one.passes for _, one, _ in later])),
+        factorisations=float(np.median([one.factorisations for _, one, _ in later])),
+        seconds=float(np.median([busy for _, _, busy in later])),
+        seconds_largest=float(np.max([busy for _, _, busy in later])),
     )
 
 
-def _run(
-    scene: Scene, method: Enforcement, steps: int
-) -> Iterator[tuple[StepProblem, StepAnswer, float]]:
+def _run(scene: Scene, method: Enforcement, steps: int) -> Iterator[_Step]:
     solver, memory, motion = make_solver(), Memory(), Motion(scene)
     problem = motion.problem
     for _ in range(steps):
@@ -131,12 +136,24 @@ def _run(
         problem = motion.next_problem(answer)
 
 
-def _error(problem: StepProblem, answer: StepAnswer, name: str, options: dict) -> float:
-    reference = make_enforcement(name, options).solve(problem, make_solver())
-    weight = CutSprings.of(problem).weight
-    expected = weight * _resultants(problem, reference)
-    found = weight * _resultants(problem, answer)
-    return float(np.linalg.norm(found - expected) / np.linalg.norm(expected))
+def _error(
+    problem: StepProblem, answer: StepAnswer, reference: Reference, budget: float
+) -> tuple[float, list[str]]:
+    """Force error, -1 where it is not known, and what is to be said of that."""
+    for number, options in enumerate(reference.options):
+        try:
+            with limit(budget):
+                tight = make_enforcement(reference.name, options).solve(problem, make_solver())
+        except Overtime:
+            return -1.0, ["no force error: the tight solution spent the budget too"]
+        if tight.verdict.converged:
+            weight = CutSprings.of(problem).weight
+            expected = weight * _resultants(problem, tight)
+            found = weight * _resultants(problem, answer)
+            with_what = options or "its own tolerances"
+            said = [f"force error against {reference.name} with {with_what}"] if number else []
+            return float(np.linalg.norm(found - expected) / np.linalg.norm(expected)), said
+    return -1.0, [f"no force error: the tight solution: {tight.verdict.sentence}"]
 
 
 def _resultants(problem: StepProblem, answer: StepAnswer) -> Floats:
@@ -150,30 +167,29 @@ def table(rows: list[Row]) -> str:
         "| scene | blocks | contacts | enforcement | converged | force error | gap error | "
         "penetration (m) | passes | factors | ms a step | ms, largest |"
     )
-    lines = [
+    return "\n".join([head, "|" + "---|" * 12, *map(line, rows)])
+
+
+def line(r: Row) -> str:
+    """One row of the table."""
+    if not r.steps:
+        return f"| {r.scene} | {r.size} | | {r.enforcement} | 0 of {r.asked} | | | | | | | |"
+    return (
         f"| {r.scene} | {r.blocks} | {r.contacts} | {r.enforcement} | {r.converged} of {r.steps} | "
         f"{_power(r.force_error)} | {r.gap_error:.0e} | {r.penetration:.0e} | {r.passes:.0f} | "
         f"{r.factorisations:.0f} | {1e3 * r.seconds:.1f} | {1e3 * r.seconds_largest:.1f} |"
-        for r in rows
-    ]
-    return "\n".join([head, "|" + "---|" * 12, *lines])
+    )
+
+
+def sentences(rows: list[Row]) -> str:
+    """What is to be said of rows that are not as asked for, one point each."""
+    told = [row for row in rows if row.sentence]
+    return "\n".join(f"- {r.scene}, {r.size} blocks, {r.enforcement}: {r.sentence}" for r in told)
 
 
 def _power(error: float) -> str:
     """Error as text; negative where it was not measured."""
     return f"{error:.0e}" if error >= 0 else ""
-
-
-def _write(rows: list[Row]) -> None:
-    """Put rows in the place of the same ones in the records, and write the page."""
-    from enforcement_page import read, write
-
-    RECORDS.mkdir(exist_ok=True)
-    known = {(r.scene, r.blocks, r.enforcement): r for r in read(RECORDS, "enforcement", Row)}
-    known |= {(r.scene, r.blocks, r.enforcement): r for r in rows}
-    text = json.dumps([asdict(row) for row in known.values()], indent=1)
-    (RECORDS / "enforcement.json").write_text(text + "\n")
-    write(RECORDS)
 
 
 def solvers(sizes: list[int], names: list[str]) -> str:
@@ -211,34 +227,63 @@ def _seconds(work: Callable[[], object], repeats: int) -> float:
 
 def main() -> None:
     """Measure and print, or write."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    chosen = _options()
+    if chosen.solvers:
+        print(solvers(chosen.blocks or [100, 1000, 10000], ["cholesky", "superlu", "qdldl"]))
+        return
+    usual = SIZES if chosen.page else SMALL
+    sizes = [
+        (name, size)
+        for name, many in usual
+        for size in ((chosen.blocks or [many]) if many > 1 else [many])
+        if name in (chosen.scenes or (("wall", "pile") if chosen.blocks else SCENES))
+    ]
+    known = {row.key: row for row in read(PATH, Row)} if chosen.page else {}
+    rows: list[Row] = []
+    for key in ((*one, kind) for one in dict.fromkeys(sizes) for kind in chosen.enforcement):
+        old = known.get(key)
+        if old and standing(old, chosen.resume, chosen.budget, old.steps == old.asked):
+            continue
+        row, fault = apart(measured, *key, chosen.steps, chosen.budget)
+        if row is None:
+            scene, size, kind = key
+            broken = Row(scene=scene, size=size, enforcement=kind, asked=chosen.steps)
+            row = replace(broken, sentence=fault, **stamp())
+        rows.append(row)
+        print(f"{line(row)} {row.sentence}", flush=True)
+        if chosen.page:
+            keep(PATH, row)
+            _page()
+    if chosen.page:
+        _page()
+    else:
+        print("\n" + table(rows))
+
+
+def _page() -> None:
+    from enforcement_page import write
+
+    write(RECORDS)
+
+
+def _options() -> argparse.Namespace:
+    form: Callable[..., object] = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=form)
     parser.add_argument("--blocks", type=int, nargs="+", help="sizes of walls and piles")
     parser.add_argument("--scenes", nargs="+", choices=SCENES)
     parser.add_argument("--enforcement", nargs="+", choices=KINDS, default=list(KINDS))
     parser.add_argument("--steps", type=int, default=6)
-    parser.add_argument("--page", action="store_true", help="write docs/enforcements.md")
+    parser.add_argument("--budget", type=float, default=300.0, help="processor seconds a row")
+    parser.add_argument("--page", action="store_true", help="keep rows, write docs/enforcements.md")
+    parser.add_argument(
+        "--resume",
+        nargs="?",
+        const="same",
+        choices=("same", "any"),
+        help="with --page: pass over rows measured at the same commit of the code, or at any",
+    )
     parser.add_argument("--solvers", action="store_true", help="linear solvers instead")
-    chosen = parser.parse_args()
-    if chosen.solvers:
-        print(solvers(chosen.blocks or [100, 1000, 10000], ["cholesky", "superlu", "qdldl"]))
-        return
-    sizes = [
-        (name, blocks)
-        for name, usual in SIZES
-        for blocks in ((chosen.blocks or [usual]) if usual > 1 else [usual])
-        if name in (chosen.scenes or SCENES)
-    ]
-    rows: list[Row] = []
-    for name, blocks in dict.fromkeys(sizes):
-        for kind in chosen.enforcement:
-            if blocks > MANY and kind not in LARGE:
-                continue
-            rows.append(measured(name, blocks, kind, chosen.steps))
-            print(table(rows[-1:]).splitlines()[-1], flush=True)
-            if chosen.page:
-                _write(rows)
-    if not chosen.page:
-        print("\n" + table(rows))
+    return parser.parse_args()
 
 
 if __name__ == "__main__":

@@ -1,59 +1,123 @@
-"""The page docs/enforcements.md from the records of enforcement.py and steps.py.
+"""The page docs/enforcements.md from the records of enforcement.py, steps.py and settling_pile.py.
 
 python benchmarks/enforcement_page.py
 """
 
 import json
-import platform
 from pathlib import Path
 
 import enforcement
-import numpy as np
-import scipy
-import steps
+import step_rows
+from enforcement_summary import aims, choice, crowd, origins, short
+from kinds import KINDS
+from records import RECORDS, read
+from step_rows import StepRow
 
 TEXT = """# Which enforcement of contact
 
 Five enforcements solve one step of contact; all find Coulomb's cone without dilatancy. `penalty`
-lets bodies press into one another by force over stiffness; `augmented`, `lagrange` and `cone`
-leave no gap within a tolerance (1e-7 of what the largest force would press in); `barrier` keeps a
-distance. *Open-close* is Shi's iteration on the same springs as `penalty` (`[contact.options]
+lets bodies press into one another by force over stiffness, here 1, 10 or 100 times Young's modulus
+(E); `augmented`, `lagrange` and `cone` leave no gap within a tolerance; `barrier` keeps a distance.
+*Open-close* is Shi's iteration on the same springs as `penalty` (`[contact.options]
 iteration = "open_close"`).
+
+## In short
+
+{short}
+
+{load}
+
+## Which to choose
+
+*Cost*: processor seconds of a whole step over those of the default, at the largest number of blocks
+where both converged. *Converges to*: the largest number of blocks up to which every step did, and
+how the next size ended. *Penetration* of blocks of half a metre, and *force error*: the worst on
+walls and piles of [the contact solution alone](#the-contact-solution-alone).
+
+{choice}
 
 {advice}
 
+## Whole steps beside the aims
+
+Seconds of a whole step over the aim: 1 and less is met, **bold** is missed; where not every step
+converged, the table says so. An aim is met by any enforcement that converges.
+
+{aims}
+
+## Whole steps
+
+Search, assembly, contact, update and output of a run of 1 s with steps of 1 ms, its first steps
+from rest under gravity (friction 0.6); the first {warm} are left out. *ms a step*: processor
+milliseconds of one thread; in brackets where not every step converged, and then for a step's
+length of motion. *Grows as*: since the next smaller size. Phases are parts of the wall-clock time.
+Steps beyond the budget of a row are left out, and it says so.
+
+### Wall
+
+Bricks in running bond on a held base, laid without gaps.
+
+{wall}
+
+### Pile
+
+Voronoi cells of 1 m2 in a box open above, as deep as wide, that touch along whole edges.
+
+{pile}
+
+### Before the first step
+
+Processor seconds from a scene in memory to the first step, and its two parts by the clock:
+geometry and covers (tessellation and checks of a pile among them), and effects (joints and sides
+of contact).
+
+{prepare}
+
 ## The contact solution alone
 
-`python benchmarks/enforcement.py --page` writes this table and [its
-records](enforcements/enforcement.json). *Slope*: a block slides on 30 degrees where friction
-holds 20. *Supports*: a beam on two flat supports, eight forces for six unknowns. *Wall*: bricks
-in running bond. *Pile*: Voronoi cells in a box. Blocks of six unknowns start to fall under
-gravity and a lateral acceleration that grows by 0.05 m/s2 a step of 1 ms. *Force error*: of the
-resultants of contact on the blocks, against the same law solved to 1e-12 (springs) or 1e-10
-(exact). *Gap error*: the deepest penetration over the compliance of its contact times the largest
-force. Processor milliseconds of one thread, medians over the steps after the first, on a machine
-with other work: read ratios.
+*Slope*: a block slides on 30 degrees where friction holds 20. *Supports*: a beam on two flat
+supports, eight forces for six unknowns. *Wall*: bricks in running bond. *Pile*: Voronoi cells in a
+box. Blocks of six unknowns start to fall under gravity and a lateral acceleration that grows by
+0.05 m/s2 a step of 1 ms. *Force error*: of the resultants of contact on the blocks, relative,
+against the same law solved to 1e-12 (springs) or 1e-10 (exact). *Gap error*: the deepest
+penetration over the compliance of its contact times the largest force. Processor milliseconds of
+one thread, medians over the steps after the first.
 
-{enforcement}
+{alone}
 
-## Whole steps of a wall
+## A pile that comes to rest
 
-`python benchmarks/steps.py --page` writes this table and [its records](enforcements/steps.json):
-search, assembly, contact, update and output of a wall of bricks on a held base, steps of 1 ms,
-the first three left out.
+Loose cells fall together in a box (`benchmarks/settling_pile.py`). *Energy*: its largest rise,
+over the work of the weight. *Motion*: kinetic energy left, over its largest.
 
-{steps}
+{settling}
 
-{versions}
+## How it was measured
+
+```
+python benchmarks/enforcement.py --page --budget SECONDS   # contact alone
+python benchmarks/steps.py --page --budget SECONDS         # whole steps
+python benchmarks/settling_pile.py --records docs/enforcements/settling_pile.jsonl ...
+python benchmarks/enforcement_page.py                      # this page from the records, no more
+```
+
+Each row goes to [enforcement.jsonl](enforcements/enforcement.jsonl) or
+[steps.jsonl](enforcements/steps.jsonl) as soon as it is measured, with its date, commit, load of
+the machine, budget and seconds; `--blocks`, `--scenes` and `--enforcement` choose rows, `--resume`
+passes over those that are there. On a machine with other work read ratios.
+
+- Contact alone: {alone_origin}
+- Whole steps: {steps_origin}
 """
 
 ADVICE = """**Of the classical three, none is best everywhere.**
 
-- **Penalty** is the quickest and the most robust, and the default at 10 E. Springs share the load
-  where contacts outnumber unknowns, and a pass costs a solve with a kept factor. Poor where gaps
-  matter: it leaves penetrations of force over stiffness, and ten times stiffer springs cost two to
-  four times the passes. Shi's open-close iteration on the same springs is poor on walls and piles:
-  it cycles, which the verdict reports, and factorises in every pass.
+- **Penalty** is the most robust, and at 10 E the default. Springs share the load where contacts
+  outnumber unknowns, and a pass costs a solve with a kept factor. Poor where gaps matter: it leaves
+  penetrations of force over stiffness, and stiffer springs cost more passes. Shi's open-close
+  iteration on the same springs factorises in every pass. With soft springs it settles on walls; on
+  piles and with stiffer springs it cycles, which the verdict reports, and shorter steps do not help
+  where blocks only touch.
 - **Augmented Lagrangian** removes the penetration by rounds of multipliers. Poor where many
   contacts share few unknowns, as in walls: an error of forces that hardly stretches any contact
   dies slowly, so springs must grow from round to round, and a round then takes many factors.
@@ -61,35 +125,80 @@ ADVICE = """**Of the classical three, none is best everywhere.**
   on walls and piles: a brick has more contacts than unknowns, the matrix of the active set is
   singular, and the rounds of `cone` take over after it was tried in vain. The sentence of the
   step says so.
-- **Cone** starts with two rounds, asks the interior point where they are not near, and finishes
-  with stiffer rounds, so every step of the table converges. It is not the default: on walls it
-  costs over ten times the penalty's seconds, and exact forces are hardly determined. Answers that
-  obey every condition to 1e-7 differ by up to 4e-3 in the resultants on a wall of 100 bricks with
-  friction, and by 4e-6 without. So much force error an exact enforcement can show.
-- **Barrier** is smooth, and no gap passes its wall, half a width behind touching; every step of the
-  table converges. It takes a factorisation every Newton step, a hundred on the pile, and its errors
-  are those of its width."""
+- **Cone** starts with rounds, asks the interior point where they are not near, and finishes with
+  stiffer rounds. It is not the default: it costs many times the penalty's seconds, and exact forces
+  of walls with friction are hardly determined ([Limits](limits.md)): answers that obey every
+  condition differ in their resultants, and so much force error an exact enforcement can show.
+- **Barrier** is smooth, and no gap passes its wall, half a width behind touching. It takes a
+  factorisation every Newton step, and its errors are those of its width."""
 
 
-def read(records: Path, name: str, kind: type) -> list:
-    """Rows of a record; none where there is no record."""
-    path = records / f"{name}.json"
-    return [kind(**item) for item in json.loads(path.read_text())] if path.exists() else []
+ORDER = {name: at for at, name in enumerate((*enforcement.SCENES, *KINDS))}
+"""Of scenes and of enforcements on the page."""
 
 
 def write(records: Path) -> None:
     """Write the page from the records there are."""
-    found = {
-        "enforcement": enforcement.table(read(records, "enforcement", enforcement.Row)),
-        "steps": steps.table(read(records, "steps", steps.Cost)),
-    }
-    versions = (
-        f"{platform.machine()}, Python {platform.python_version()}, numpy {np.__version__}, "
-        f"scipy {scipy.__version__}."
+    records.with_suffix(".md").write_text(page(records))
+
+
+def page(records: Path) -> str:
+    """Text of the page."""
+    rows, steps = read(records / "enforcement.jsonl", enforcement.Row), step_rows_of(records)
+    rows = sorted(_known(rows), key=lambda r: (r.size, ORDER[r.scene], ORDER[r.enforcement]))
+    return TEXT.format(
+        advice=ADVICE,
+        choice=choice(rows, steps),
+        aims=aims(steps),
+        short=short(steps),
+        load=crowd([*rows, *steps]),
+        warm=max((row.left_out for row in steps), default=0),
+        wall=_scene(steps, "wall"),
+        pile=_scene(steps, "pile"),
+        prepare=step_rows.preparation(steps),
+        alone=_with(enforcement.table(rows), enforcement.sentences(rows)),
+        settling=settling(records / "settling_pile.jsonl"),
+        alone_origin=origins(rows),
+        steps_origin=origins(steps),
     )
-    text = TEXT.format(advice=ADVICE, versions=versions, **found)
-    records.with_suffix(".md").write_text(text)
+
+
+def step_rows_of(records: Path) -> list[StepRow]:
+    """Rows of whole steps by scene, enforcement and size."""
+    steps = _known(read(records / "steps.jsonl", StepRow))
+    return sorted(steps, key=lambda r: (ORDER[r.scene], ORDER[r.enforcement], r.size))
+
+
+def _known(rows: list) -> list:
+    """Rows of scenes and enforcements that there are."""
+    return [row for row in rows if row.scene in ORDER and row.enforcement in ORDER]
+
+
+def _scene(steps: list[StepRow], scene: str) -> str:
+    rows = [row for row in steps if row.scene == scene]
+    return _with(step_rows.table(rows), step_rows.sentences(rows))
+
+
+def _with(table: str, points: str) -> str:
+    return f"{table}\n\n{points}" if points else table
+
+
+def settling(path: Path) -> str:
+    """Table of piles that came to rest."""
+    head = "| blocks | depth (m) | enforcement | Shi's factor | steps | ms | passes | s a step | "
+    head += "how it ended | energy | motion | overlap | lost |"
+    lines = [head, "|" + "---|" * 13]
+    for text in path.read_text().splitlines() if path.exists() else []:
+        r = json.loads(text)
+        lines.append(
+            f"| {r['blocks']} | {r['height']:.3g} | {r['enforcement']} {r['penalty']:g} E | "
+            f"{r['kinetic_factor']:g} | {r['steps']} | {1e3 * r['step']:g} | "
+            f"{r['passes_a_step']:.0f} | {r['seconds_a_step']:.2g} | {r['sentence']} | "
+            f"{r['energy_rise']:.0e} | {r['kinetic_energy']:.0e} | {r['largest_overlap']:.0e} | "
+            f"{r['lost']} |"
+        )
+    return "\n".join(lines)
 
 
 if __name__ == "__main__":
-    write(enforcement.RECORDS)
+    write(RECORDS)

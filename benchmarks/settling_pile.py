@@ -19,63 +19,13 @@ from time import process_time
 
 import numpy as np
 import shapely
-from shapely.affinity import scale
+from records import stamp
+from whole_scenes import BOX, THICK, pile
 
 import nmm
-from integration.polygons import Polygons
-from nmm.formulation import parse_formulation
-from nmm.geometry.voronoi import tessellate
+from nmm.formulation import Formulation
 
-HEAD = """
-title = "Settling pile"
-plane = "strain"
-duration = {duration}
-[materials.rock]
-density = 2000.0
-young_modulus = 1e9
-poisson_ratio = 0.2
-[interfaces.dry]
-friction_angle = 0.54
-[gravity]
-[inertia]
-[contact]
-"""
-FORMULATION = """
-[integrator]
-type = "shi"
-step = {step}
-kinetic_factor = {kinetic_factor}
-[contact]
-enforcement = "{enforcement}"
-normal_penalty = {penalty}
-"""
-WALL = 1.0
-FIXED = ("floor", "left", "right")
 RAW = argparse.RawDescriptionHelpFormatter
-
-
-def pile(blocks: int, height: float, gap: float, duration: float, seed: int = 1) -> str:
-    """Return the scene: loose blocks, ``height`` metres deep, between a floor and two walls."""
-    width = blocks / height
-    region = Polygons.from_shapely([shapely.box(0.0, 0.0, width, height)])
-    cells = tessellate(region, blocks, seed=seed).to_shapely()
-    shrunk = [scale(c, 1 - gap, 1 - gap, origin=c.centroid) for c in cells]
-    rings = [np.array(cell.exterior.coords)[:-1] for cell in shrunk]
-    box = (
-        ("floor", (-WALL, -WALL, width + WALL, 0.0)),
-        ("left", (-WALL, 0.0, 0.0, 1.2 * height)),
-        ("right", (width, 0.0, width + WALL, 1.2 * height)),
-    )
-    parts = [HEAD.format(duration=duration)]
-    parts += [_block(name, np.array(shapely.box(*at).exterior.coords)[:-1]) for name, at in box]
-    parts += [f'[[supports]]\nname = "{n}"\nblock = "{n}"\nfix = ["x", "y"]\n' for n in FIXED]
-    parts += [_block(f"block {number}", ring) for number, ring in enumerate(rings)]
-    return "\n".join(parts)
-
-
-def _block(name: str, ring: np.ndarray) -> str:
-    vertices = ", ".join(f"[{x:.15g}, {y:.15g}]" for x, y in ring)
-    return f'[[blocks]]\nname = "{name}"\nmaterial = "rock"\nvertices = [{vertices}]\n'
 
 
 def energy_rise(history: dict[str, np.ndarray]) -> float:
@@ -98,15 +48,16 @@ def overlap(shapes: np.ndarray) -> float:
 def measure(options: argparse.Namespace) -> dict[str, float | str]:
     """Run one pile; return what is recorded of it."""
     height = options.height or options.blocks**0.5
-    text = pile(options.blocks, height, options.gap, options.duration)
-    scene = nmm.parse_scene(text, "settling pile")
-    formulation = parse_formulation(FORMULATION.format(**vars(options)))
+    scene = pile(options.blocks, options.duration, height=height, gap=options.gap)
+    integrator = {"type": "shi", "step": options.step, "kinetic_factor": options.kinetic_factor}
+    contact = {"enforcement": options.enforcement, "normal_penalty": options.penalty}
+    formulation = Formulation.model_validate({"integrator": integrator, "contact": contact})
     started = process_time()
     run = nmm.run(scene, formulation, progress=_say if options.progress else None)
     seconds = process_time() - started
     history, one = run.history, run.summary
     shapes = np.array(run.manifold.elements.with_points(run.frames[-1].points).to_shapely())
-    box = shapely.box(0.0, 0.0, options.blocks / height, 1.2 * height).buffer(WALL / 10)
+    box = shapely.box(0.0, 0.0, options.blocks / height, 1.2 * height).buffer(THICK / 10)
     return {
         "blocks": options.blocks,
         "height": height,
@@ -125,8 +76,9 @@ def measure(options: argparse.Namespace) -> dict[str, float | str]:
         "kinetic_energy": float(history["kinetic_energy"][-1] / history["kinetic_energy"].max()),
         "largest_penetration": float(history["penetration"].max()),
         "largest_overlap": overlap(shapes),
-        "lost": int((~shapely.covered_by(shapes[len(FIXED) :], box)).sum()),
+        "lost": int((~shapely.covered_by(shapes[len(BOX) :], box)).sum()),
         "residual": float(history["residual"].max()),
+        **stamp(),
     }
 
 

@@ -1,9 +1,15 @@
-"""Seconds a step of a brick wall, by phase, number of blocks and enforcement, with growth.
+"""Seconds a step of whole runs, by phase, number of blocks and enforcement, with growth.
 
-Staggered bricks of 0.5 m x 0.25 m on a held base, friction 0.6, no bond, gravity and inertia:
+A wall of bricks and a pile of Voronoi cells begin to move under gravity (friction 0.6, no bond,
+steps of 1 ms); search, assembly, contact, update and output are counted.
 
-    python benchmarks/steps.py --blocks 100 1000 10000 --enforcement penalty cone --steps 20
-    python benchmarks/steps.py --page           # what docs/enforcements.md shows, and its records
+    python benchmarks/steps.py --blocks 100 1000 --enforcement "penalty 1 E" cone
+    python benchmarks/steps.py --page                      # all that docs/enforcements.md shows
+    python benchmarks/steps.py --page --resume --blocks 100000 --budget 900
+
+With ``--page`` each row goes to docs/enforcements/steps.jsonl as soon as it is measured, and the
+page is written from the records. A row that spends its budget is stopped and says so; one that is
+expected to need more is not run.
 """
 
 import argparse
@@ -11,177 +17,190 @@ import os
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-import json
-from dataclasses import asdict, dataclass, replace
-from itertools import pairwise
-from pathlib import Path
+import resource
+from collections.abc import Callable
+from dataclasses import replace
 from time import perf_counter, process_time
+from typing import Any
 
 import numpy as np
+from budget import Overtime, apart, limit
+from kinds import DEFAULT, KINDS
+from records import RECORDS, keep, load, read, stamp, standing
+from step_rows import DT, PHASES, StepRow, expected, line, table
+from whole_scenes import SCENES
 
 from nmm.formulation import Formulation
 from nmm.results.sink import MemorySink
-from nmm.scene.model import Scene
-from nmm.stepping.simulation import prepare
+from nmm.stepping.simulation import Simulation, prepare
+from nmm.stepping.verdict import FAILED
 
-PHASES = ("search", "assembly", "solve", "update")
-RECORDS = Path(__file__).parents[1] / "docs" / "enforcements"
-# Enforcement, penalty (E t), numbers of blocks and steps of the page.
-RUNS = (
-    ("penalty", 1.0, (100, 1000, 10000), 8),
-    ("penalty", 10.0, (100, 1000, 10000), 8),
-    ("penalty", 100.0, (100,), 8),
-    ("cone", 10.0, (100, 1000), 6),
-    ("augmented", 10.0, (100,), 6),
-    ("lagrange", 10.0, (100,), 6),
-    ("barrier", 10.0, (100,), 6),
-)
-# Steps left out of the mean: compiled code is loaded and the first list of neighbours built.
+PATH = RECORDS / "steps.jsonl"
+SIZES = (100, 1000, 10_000, 100_000)
+USUAL = ("penalty 1 E", DEFAULT)
+# Steps left out of means: the list of neighbours and the factor are made, nothing is known yet.
 WARM = 3
+# A run of 1 s is begun, so that frames are written as often as in one: every 17th step.
+DURATION = 1.0
 
 
-def wall(n_blocks: int, duration: float) -> Scene:
-    """Running bond with half bricks at alternate ends."""
-    courses = max(2, round(np.sqrt(n_blocks)))
-    width = max(2, round(n_blocks / courses))
-    base = [[-0.5, -0.25], [0.5 * width + 0.5, -0.25], [0.5 * width + 0.5, 0], [-0.5, 0]]
-    blocks = [{"name": "base", "material": "rock", "vertices": base}]
-    for course in range(courses):
-        cuts = np.arange(width + 1) * 0.5
-        if course % 2:
-            cuts = np.r_[0, 0.25 + np.arange(width) * 0.5, 0.5 * width]
-        low, high = 0.25 * course, 0.25 * (course + 1)
-        for left, right in pairwise(cuts):
-            corners = [[left, low], [right, low], [right, high], [left, high]]
-            blocks.append({"material": "rock", "vertices": corners})
-    return Scene.model_validate(
-        {
-            "title": "wall",
-            "plane": "strain",
-            "duration": duration,
-            "materials": {"rock": {"young_modulus": 1e9, "poisson_ratio": 0.2, "density": 2000.0}},
-            "interfaces": {"bed": {"friction_angle": float(np.arctan(0.6))}},
-            "blocks": blocks,
-            "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
-            "gravity": {},
-            "inertia": {},
-            "contact": {},
+class _Enough(BaseException):
+    """All steps are done."""
+
+
+class _Clock:
+    """Takes times after every accepted step, and ends the run after enough of them."""
+
+    def __init__(self, simulation: Simulation, memory: MemorySink, steps: int) -> None:
+        self.spent, self.memory, self.steps = simulation.stepper.seconds, memory, steps
+        self.elapsed, self.own = [perf_counter()], [process_time()]
+        self.phases = [dict(self.spent)]
+        self.time = [0.0]
+
+    def __call__(self, share: float, text: str) -> None:
+        self.elapsed.append(perf_counter())
+        self.own.append(process_time())
+        self.phases.append(dict(self.spent))
+        self.time.append(self.memory.rows[-1]["time"])
+        if self.time[-1] > (self.steps - 0.5) * DT:
+            raise _Enough
+
+    def figures(self) -> dict[str, Any]:
+        """Means over the steps after the first ones, as fields of a row."""
+        done = len(self.time) - 1
+        if not done:
+            return {}
+        lengths = np.diff(self.time)
+        first = min(WARM, done - 1)
+        share = DT / (self.time[-1] - self.time[first])
+        elapsed = (self.elapsed[-1] - self.elapsed[first]) * share
+        last, before = self.phases[-1], self.phases[first]
+        phases = {n: (last.get(n, 0.0) - before.get(n, 0.0)) * share for n in PHASES[:-1]}
+        return {
+            "done": done,
+            "left_out": first,
+            "cut": int((lengths < 0.999 * DT).sum()),
+            "seconds": (self.own[-1] - self.own[first]) * share,
+            "elapsed": elapsed,
+            "phases": phases | {"rest": elapsed - sum(phases.values())},
+            "passes": float(np.mean([row["passes"] for row in self.memory.rows[first:]])),
+            "contacts": int(sum(self.memory.rows[-1][s] for s in ("open", "stick", "slide"))),
         }
-    )
 
 
-@dataclass(frozen=True)
-class Cost:
-    """Mean seconds a step after the first ones, all and by phase, and passes a step.
-
-    ``growth`` is the exponent of processor seconds over blocks since the size before (0: none).
-    ``processor`` counts the seconds of this process alone, on a machine that others share.
-    """
-
-    enforcement: str
-    penalty: float
-    blocks: int
-    contacts: int
-    status: str
-    total: float
-    processor: float
-    phases: dict[str, float]
-    passes: float
-    growth: float = 0.0
+def measure(scene: str, size: int, enforcement: str, steps: int, budget: float) -> StepRow:
+    """Run one scene with one enforcement for a number of steps, or until the budget is spent."""
+    busy = load()
+    _run("wall", 12, enforcement, 2)  # compiled code is loaded
+    began = process_time()
+    row = StepRow(scene=scene, enforcement=enforcement, size=size, status="stopped", asked=steps)
+    row = replace(row, budget=budget)
+    try:
+        with limit(budget):
+            row = _run(scene, size, enforcement, steps, row)
+    except Overtime:
+        row = replace(row, sentence=f"{budget:g} s were spent before the first step")
+    used = process_time() - began
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+    return replace(row, used=used, memory=memory, **stamp(busy))
 
 
-def measure(n_blocks: int, enforcement: str, steps: int, penalty: float) -> Cost:
-    """Run the wall once."""
-    contact = {"enforcement": enforcement, "normal_penalty": penalty}
-    scene = wall(n_blocks, steps * 1e-3)
-    simulation = prepare(scene, Formulation.model_validate({"contact": contact}))
-    seconds, stamps, own, marks = simulation.stepper.seconds, [], [], []
-
-    def note(share: float, text: str) -> None:
-        stamps.append(perf_counter())
-        own.append(process_time())
-        marks.append(dict(seconds))
-
-    memory = MemorySink()
-    simulation.run([memory], note)
-    if len(stamps) <= WARM + 1:
-        none = dict.fromkeys(PHASES, 0.0)
-        return Cost(enforcement, penalty, len(scene.blocks), 0, "failed", 0.0, 0.0, none, 0.0)
-    count = len(stamps) - 1 - WARM
-    return Cost(
-        enforcement,
-        penalty,
-        len(scene.blocks),
-        len(memory.frames[-1].contact_gap),
-        "all converged" if len(stamps) == steps else f"stopped after {len(stamps)}",
-        (stamps[-1] - stamps[WARM]) / count,
-        (own[-1] - own[WARM]) / count,
-        {name: (marks[-1][name] - marks[WARM][name]) / count for name in PHASES},
-        float(np.mean(memory.history["passes"][WARM:])),
-    )
+def _run(
+    scene: str, size: int, enforcement: str, steps: int, row: StepRow | None = None
+) -> StepRow | None:
+    """Prepare and run; an overrun of the budget after that is told in the row."""
+    kind, began = KINDS[enforcement], process_time()
+    contact = {"enforcement": kind.name, "normal_penalty": kind.penalty, "options": kind.options}
+    formulation = Formulation.model_validate({"contact": contact, "integrator": {"step": DT}})
+    simulation = prepare(SCENES[scene](size, DURATION), formulation)
+    prepared, memory = process_time() - began, MemorySink()
+    parts = {name: simulation.stepper.seconds[name] for name in ("covers", "effects")}
+    clock = _Clock(simulation, memory, steps)
+    status, sentence, since = "converged", "", 0.0
+    try:
+        simulation.run([memory], clock)
+    except _Enough:
+        pass
+    except Overtime:
+        status, since = "stopped", process_time() - clock.own[-1]
+        done = f"{len(clock.time) - 1} of {steps} steps"
+        sentence = f"stopped after {done}, {since:.3g} s into the next: the budget was spent"
+    if memory.summary.status == FAILED:
+        status, sentence = "failed", memory.summary.sentence
+    if row is None:
+        return None
+    row = replace(row, **clock.figures(), blocks=len(simulation.regions), prepare=parts)
+    status = "cut" if status == "converged" and row.cut else status
+    return replace(row, status=status, sentence=sentence, prepared=prepared, unfinished=since)
 
 
-def grown(costs: list[Cost]) -> list[Cost]:
-    """Costs of one enforcement with their growth from size to size."""
-    found = costs[:1]
-    for last, cost in pairwise(costs):
-        known = last.processor > 0 and cost.processor > 0
-        times = np.log(cost.processor / last.processor) if known else 0.0
-        found.append(replace(cost, growth=float(times / np.log(cost.blocks / last.blocks))))
-    return found
-
-
-def table(costs: list[Cost]) -> str:
-    """Costs as a table in Markdown; milliseconds, phases as parts of the whole."""
-    head = "| enforcement | penalty | blocks | contacts | ms a step | grows as | "
-    head += " | ".join(f"{phase} %" for phase in (*PHASES, "rest")) + " | passes | steps |"
-    lines = [head, "|" + "---|" * (8 + len(PHASES) + 1)]
-    for c in costs:
-        whole = c.total or 1.0
-        parts = [100 * c.phases[phase] / whole for phase in PHASES]
-        shares = " | ".join(f"{part:.0f}" for part in (*parts, 100 - sum(parts)))
-        growth = f"N^{c.growth:.2f}" if c.growth else ""
-        lines.append(
-            f"| {c.enforcement} | {c.penalty:g} E | {c.blocks} | {c.contacts} | "
-            f"{1e3 * c.processor:.1f} | {growth} | {shares} | {c.passes:.1f} | {c.status} |"
-        )
-    return "\n".join(lines)
+def row_of(
+    scene: str, size: int, enforcement: str, steps: int, budget: float, known: list[StepRow]
+) -> StepRow:
+    """Measure in a process of its own; what is expected to need more than the budget is not run."""
+    empty = StepRow(scene=scene, enforcement=enforcement, size=size, status="not run", asked=steps)
+    empty = replace(empty, budget=budget)
+    seconds, reason = expected(empty, known, WARM + 2)
+    if seconds > budget:
+        return replace(empty, sentence=f"not run: {reason}, budget {budget:g} s", **stamp())
+    found, fault = apart(measure, scene, size, enforcement, steps, budget)
+    return found or replace(empty, status="broken", sentence=fault, **stamp())
 
 
 def main() -> None:
-    """Print the table, or write the page."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--blocks", type=int, nargs="+", default=[100, 1000, 10000])
-    parser.add_argument("--enforcement", nargs="+", default=["penalty"])
-    parser.add_argument("--steps", type=int, default=20)
-    parser.add_argument("--penalty", type=float, default=1.0, help="normal penalty in E x t")
-    parser.add_argument("--page", action="store_true", help="write docs/enforcements.md")
-    parser.add_argument("--only", action="store_true", help="with --page: what is named, no more")
-    options = parser.parse_args()
-    runs = [(name, options.penalty, options.blocks, options.steps) for name in options.enforcement]
-    costs: list[Cost] = []
-    for name, penalty, sizes, steps in RUNS if options.page and not options.only else runs:
-        some = []
-        for n_blocks in sizes:
-            some.append(measure(n_blocks, name, steps, penalty))
-            print(table(grown(some)).splitlines()[-1], flush=True)
-            if options.page:
-                _write(costs + grown(some))
-        costs += grown(some)
-    if not options.page:
-        print("\n" + table(costs))
+    """Print the table, or keep the rows and write the page."""
+    options = _options()
+    rows: list[StepRow] = read(PATH, StepRow) if options.page else []
+    done: list[StepRow] = []
+    wanted = [
+        (scene, size, kind)
+        for size in sorted(options.blocks)
+        for scene in options.scenes
+        for kind in options.enforcement
+    ]
+    for scene, size, kind in wanted:
+        old = next((row for row in rows if row.key == (scene, kind, size)), None)
+        if old is not None and standing(old, options.resume, options.budget, old.ended):
+            continue
+        row = row_of(scene, size, kind, options.steps, options.budget, rows)
+        rows = [one for one in rows if one.key != row.key] + [row]
+        done.append(row)
+        print(f"{scene:5}{line(row, rows)} {row.sentence}", flush=True)
+        if options.page and not (row.status == "not run" and old is not None and old.seconds):
+            keep(PATH, row)
+            _page()
+    if options.page:
+        _page()
+    else:
+        print("\n" + table(done))
 
 
-def _write(costs: list[Cost]) -> None:
-    """Put costs in the place of the same ones in the records, and write the page."""
-    from enforcement_page import read, write
+def _page() -> None:
+    from enforcement_page import write
 
-    RECORDS.mkdir(exist_ok=True)
-    known = {(c.enforcement, c.penalty, c.blocks): c for c in read(RECORDS, "steps", Cost)}
-    known |= {(c.enforcement, c.penalty, c.blocks): c for c in costs}
-    text = json.dumps([asdict(cost) for cost in known.values()], indent=1)
-    (RECORDS / "steps.json").write_text(text + "\n")
     write(RECORDS)
+
+
+def _options() -> argparse.Namespace:
+    form: Callable[..., Any] = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=form)
+    parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
+    parser.add_argument("--blocks", type=int, nargs="+", help="sizes")
+    parser.add_argument("--enforcement", nargs="+", choices=KINDS)
+    parser.add_argument("--steps", type=int, default=12)
+    parser.add_argument("--budget", type=float, default=300.0, help="processor seconds a row")
+    parser.add_argument("--page", action="store_true", help="keep rows, write docs/enforcements.md")
+    parser.add_argument(
+        "--resume",
+        nargs="?",
+        const="same",
+        choices=("same", "any"),
+        help="with --page: pass over rows measured at the same commit of the code, or at any",
+    )
+    options = parser.parse_args()
+    options.blocks = options.blocks or (SIZES if options.page else SIZES[:2])
+    options.enforcement = options.enforcement or (list(KINDS) if options.page else USUAL)
+    return options
 
 
 if __name__ == "__main__":
