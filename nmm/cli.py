@@ -180,7 +180,8 @@ def _run(
     except KeyboardInterrupt:
         typer.secho(f"stopped; what was written can be drawn: nmm plot {out}", err=True)
         raise typer.Exit(130) from None
-    files = [*_draw(done, out, scene), *_paraview(done, out)]
+    # Drawn from the folder, as `nmm plot` does, which knows the covers too.
+    files = [*_draw(nmm.read_run(out), out, scene), *_paraview(done, out)]
     tell_run(scene, done)
     if not quiet:
         console().print(render(done.summary))

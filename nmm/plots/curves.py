@@ -66,7 +66,8 @@ def curve(
     y_values, y_text = _readable(run, y, y_factor, y_label)
     dots = "o" if len(x_values) <= 60 else ""
     axes.plot(x_values, y_values, color=CYCLE[0], linewidth=1.2, marker=dots, markersize=3.0)
-    _on_grid(axes, x_text, y_text, f"{words_of(y)} against {words_of(x)}")
+    title = f"{_signed(words_of(y), y_factor)} against {_signed(words_of(x), x_factor)}"
+    _on_grid(axes, x_text, y_text, title)
     save(axes, path)
     return axes
 
@@ -231,7 +232,12 @@ def _readable(
     if text is not None:
         return values, text
     scale, unit = prefixed(values, unit_of(name))
-    return scale * values, label(words_of(name), unit)
+    return scale * values, label(_signed(words_of(name), factor), unit)
+
+
+def _signed(words: str, factor: float) -> str:
+    """Say that a column is drawn with its sign changed."""
+    return f"-{words}" if factor < 0 else words
 
 
 def _common(columns: Sequence[str]) -> str:

@@ -66,9 +66,9 @@ def draw_all(
     covering = _covering(run, scene)
     if covering is not None and covering.laid is not None and covering.cut is not None:
         covers(covering.laid, covering.cut, path=file("covers.png"))
-    if run.frames[-1].stage != "dynamic" and _moved(run):
-        load_displacement(run, path=file("load_displacement.png"))
-    if len(run.history):
+    if _steps(run) > 1:  # one step is no curve
+        if run.frames[-1].stage != "dynamic" and _moved(run):
+            load_displacement(run, path=file("load_displacement.png"))
         overview(run, path=file("history.png"))
     return drawn
 
@@ -78,6 +78,10 @@ def _last_before_failure(run: RunData) -> int:
         if run.frames[number].stage != "failure":
             return number
     return -1
+
+
+def _steps(run: RunData) -> int:
+    return max((len(values) for values in run.history.values()), default=0)
 
 
 def _moved(run: RunData) -> bool:

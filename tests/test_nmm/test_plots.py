@@ -257,7 +257,8 @@ def test_the_colour_bar_has_a_unit(memory_run):
 def test_a_curve_holds_the_columns_in_readable_units(memory_run):
     axes = plots.curve(memory_run, "monitor:middle:uy", x_factor=-1)
     x, y = axes.lines[0].get_data()
-    assert axes.get_xlabel() == "uy of middle  (µm)"
+    assert axes.get_xlabel() == "-uy of middle  (µm)"
+    assert axes.get_title(loc="left") == "load factor against -uy of middle"
     assert np.allclose(x, -1e6 * memory_run.history["monitor:middle:uy"])
     assert np.array_equal(y, memory_run.history["load_factor"])
 

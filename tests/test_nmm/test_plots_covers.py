@@ -76,3 +76,4 @@ def test_a_run_on_a_mesh_has_a_picture_of_its_covers(tmp_path):
     files = plots.draw_all(stored, tmp_path / "pictures", scene=scene)
     assert tmp_path / "pictures/covers.png" in files
     assert (tmp_path / "pictures/covers.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    assert "history.png" not in {file.name for file in files}  # one step is no curve
