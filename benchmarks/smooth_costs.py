@@ -31,7 +31,7 @@ from nmm.assembly.places import on_edges
 from nmm.effects.supports import Method
 from nmm.formulation import Solver
 from nmm.materials.elastic import Elastic
-from nmm.solvers import cholesky
+from nmm.solvers import plans
 from nmm.solvers.linear import LinearSolver, make_solver
 from nmm.stepping.cures import solver_for
 from nmm.stepping.equilibrium import END, body_force, hold
@@ -130,7 +130,7 @@ def solutions(
         if name == "superlu" and len(force) > MOST_FOR_SUPERLU:
             clock.seconds[name] = np.nan
             continue
-        cholesky._PLANS.clear()
+        plans.PLANS.clear()
         factor = settings(name).factorise(matrix)
         found = factor.solve(force)
         clock.stop(name)

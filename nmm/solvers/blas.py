@@ -10,24 +10,29 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from llvmlite import ir  # type: ignore[import-untyped]
 from numba import types
 from numba.extending import get_cython_function_address, intrinsic
 
-from integration.arrays import Ints
+from integration.arrays import Floats, Ints
 
+Index = npt.NDArray[np.int32]
 VERBS = ("set", "get")
 
 
 @cache
-def addresses() -> Ints:
-    """Return the addresses of dpotrf, dtrsm and dsyrk, which compiled code takes as arguments."""
-    found = [
-        get_cython_function_address("scipy.linalg.cython_lapack", "dpotrf"),
-        get_cython_function_address("scipy.linalg.cython_blas", "dtrsm"),
-        get_cython_function_address("scipy.linalg.cython_blas", "dsyrk"),
-    ]
+def addresses(lapack: str, *blas: str) -> Ints:
+    """Return the addresses of kernels by name, which compiled code takes as arguments."""
+    found = [get_cython_function_address("scipy.linalg.cython_lapack", lapack)]
+    found += [get_cython_function_address("scipy.linalg.cython_blas", name) for name in blas]
     return np.array(found, dtype=np.int64)
+
+
+def words() -> tuple[npt.NDArray[np.uint8], Index, Floats]:
+    """Arguments that LAPACK takes by address: letters, room for four integers, (1, -1, 0)."""
+    letters = np.frombuffer(b"LNRTU", dtype=np.uint8)
+    return letters, np.zeros(4, dtype=np.int32), np.array([1.0, -1.0, 0.0])
 
 
 def _caller(count: int) -> Any:
@@ -47,9 +52,8 @@ def _caller(count: int) -> Any:
     return intrinsic(call)
 
 
-call5 = _caller(5)
-call10 = _caller(10)
-call11 = _caller(11)
+call5, call6, call8 = _caller(5), _caller(6), _caller(8)
+call10, call11, call13 = _caller(10), _caller(11), _caller(13)
 
 
 @contextmanager

@@ -8,6 +8,7 @@ supernodes, small ones are merged with their parents at the price of a few expli
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numba as nb
 import numpy as np
@@ -16,6 +17,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
 from nmm.solvers.dissection import dissect
+from nmm.solvers.places import Shape, lower_places, upper_places
 
 Index = npt.NDArray[np.int32]
 
@@ -85,10 +87,28 @@ class Fronts:
         rank = np.empty_like(node_order)
         rank[node_order] = np.arange(len(rank))
         order = np.argsort(rank[node_of], kind="stable")
-        source, target = _places(indptr, indices, order, *fronts)
+        source, target = lower_places(indptr, indices, order, *fronts)
         n_children, stack = _stack(*fronts[:3])
         places = n_children, source, target, int(stack)
         return cls(indptr, indices, order, *fronts, *places, mirrored)
+
+    @property
+    def shape(self) -> Shape:
+        """First places, row starts, rows and panel starts."""
+        return self.first, self.row_start, self.rows, self.panel_start
+
+    @cached_property
+    def beside_start(self) -> Ints:
+        """(S+1,) starts of what stands beside pivot blocks, behind the panels."""
+        sizes = np.diff(self.first) * np.diff(self.row_start)
+        return np.concatenate([[0], np.cumsum(sizes)]) + int(self.panel_start[-1])
+
+    @cached_property
+    def places(self) -> tuple[Ints, Ints]:
+        """All entries of the matrix, and their places in the panels and beside them."""
+        pattern = self.indptr, self.indices, self.order
+        source, target = upper_places(*pattern, self.shape, self.beside_start)
+        return np.concatenate([self.source, source]), np.concatenate([self.target, target])
 
     def fits(self, matrix: csc_array) -> bool:
         """Whether the matrix has the pattern of this plan."""
@@ -405,41 +425,6 @@ def _expanded(
     columns = np.diff(first)
     panels = np.concatenate([[0], np.cumsum(columns * (columns + below))])
     return first, np.concatenate([[0], np.cumsum(below)]), rows, panels
-
-
-@nb.njit(cache=True)
-def _places(
-    indptr: Index,
-    indices: Index,
-    order: Ints,
-    first: Ints,
-    row_start: Ints,
-    rows: Ints,
-    panel_start: Ints,
-) -> tuple[Ints, Ints]:
-    n = len(order)
-    place = np.empty(n, dtype=np.int64)
-    for k in range(n):
-        place[order[k]] = k
-    source = np.empty(len(indices), dtype=np.int64)
-    target = np.empty(len(indices), dtype=np.int64)
-    count = 0
-    for s in range(len(first) - 1):
-        columns = first[s + 1] - first[s]
-        below = rows[row_start[s] : row_start[s + 1]]
-        height = columns + len(below)
-        for k in range(first[s], first[s + 1]):
-            j = order[k]
-            for e in range(indptr[j], indptr[j + 1]):
-                i = place[indices[e]]
-                if i < k:
-                    continue
-                inside = i < first[s + 1]
-                row = i - first[s] if inside else columns + np.searchsorted(below, i)
-                source[count] = e
-                target[count] = panel_start[s] + (k - first[s]) * height + row
-                count += 1
-    return source[:count].copy(), target[:count].copy()
 
 
 @nb.njit(cache=True)

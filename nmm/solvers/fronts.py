@@ -5,31 +5,30 @@ import numpy as np
 import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
-from nmm.solvers.blas import call5, call10, call11
+from nmm.solvers.blas import Index, call5, call8, call10, call11
+
+KERNELS = "dpotrf", "dtrsm", "dsyrk", "dtrsv", "dgemv"
 
 
 @nb.njit(cache=True)
 def factorise(
     kernels: Ints,
+    letters: npt.NDArray[np.uint8],
+    sizes: Index,
+    scalars: Floats,
     data: Floats,
     source: Ints,
     target: Ints,
+    n_children: Ints,
     first: Ints,
     row_start: Ints,
     rows: Ints,
     panel_start: Ints,
-    n_children: Ints,
+    panels: Floats,
     stack: Floats,
-    letters: npt.NDArray[np.uint8],
-    sizes: npt.NDArray[np.int32],
-    scalars: Floats,
-) -> tuple[Floats, int]:
-    """Panels of the factor, and the first place whose pivot is not positive (-1: none).
-
-    ``letters``, ``sizes`` and ``scalars`` hold the arguments "LNRT", room for four integers, and
-    (1, -1): LAPACK takes addresses, so somebody outside has to own them.
-    """
-    panels = np.zeros(panel_start[-1])
+) -> int:
+    """Fill the panels of the factor; the first place whose pivot is not positive (-1: none)."""
+    panels[: panel_start[-1]] = 0.0
     for k in range(len(source)):
         panels[target[k]] += data[source[k]]
     count = len(first) - 1
@@ -38,11 +37,13 @@ def factorise(
     base[0] = 0
     n_held = 0
     local = np.empty(first[-1], dtype=np.int64)
+    start, shift = np.empty_like(local), np.empty_like(local)
     at = letters.ctypes.data
     lower, plain, right, turned = at, at + 1, at + 2, at + 3
     n_c = sizes.ctypes.data
     n_r, n_h, info = n_c + 4, n_c + 8, n_c + 12
-    one, minus = scalars.ctypes.data, scalars[1:].ctypes.data
+    one = scalars.ctypes.data
+    minus = one + 8
     for s in range(count):
         c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
         h = c + r
@@ -56,62 +57,99 @@ def factorise(
         for _ in range(n_children[s]):
             child = held[n_held - 1]
             n_held -= 1
-            _collect(
-                panel,
-                update,
-                stack[base[n_held] : base[n_held + 1]],
-                local,
-                rows[row_start[child] : row_start[child + 1]],
-                c,
-                h,
-            )
+            size = row_start[child + 1] - row_start[child]
+            n_runs = runs(rows[row_start[child] : row_start[child + 1]], local, c, start, shift)
+            part = stack[base[n_held] : base[n_held + 1]]
+            _collect(panel, update, part, c, h, size, start, shift, n_runs)
         sizes[0], sizes[1], sizes[2] = c, r, h
-        call5(kernels[0], (lower, n_c, panel.ctypes.data, n_h, info))
+        block = panel.ctypes.data
+        call5(kernels[0], (lower, n_c, block, n_h, info))
         if sizes[3] != 0:
-            return panels, first[s] + sizes[3] - 1
+            return int(first[s] + sizes[3] - 1)
         if r > 0:
-            below = panel[c:].ctypes.data
-            call11(
-                kernels[1],
-                (right, lower, turned, plain, n_r, n_c, one, panel.ctypes.data, n_h, below, n_h),
-            )
-            call10(
-                kernels[2],
-                (lower, plain, n_r, n_c, minus, below, n_h, one, update.ctypes.data, n_r),
-            )
+            below, new = panel[c:].ctypes.data, update.ctypes.data
+            call11(kernels[1], (right, lower, turned, plain, n_r, n_c, one, block, n_h, below, n_h))
+            call10(kernels[2], (lower, plain, n_r, n_c, minus, below, n_h, one, new, n_r))
             place = base[n_held]
-            for k in range(r * r):  # down to where the children's updates were
-                stack[place + k] = update[k]
+            if n_children[s] > 0:
+                for k in range(r * r):  # down to where the children's updates were
+                    stack[place + k] = update[k]
             held[n_held] = s
             n_held += 1
             base[n_held] = place + r * r
-    return panels, -1
+    return -1
+
+
+@nb.njit(cache=True)
+def runs(rows: Ints, local: Ints, c: int, start: Ints, shift: Ints) -> int:
+    """Stretches of rows that stay neighbours in a front, none across its pivot block's end.
+
+    Row ``i`` of a stretch goes to ``i + shift``. Returns their number; one more start ends them.
+    """
+    count = 0
+    for i in range(len(rows)):
+        at = local[rows[i]]
+        if i == 0 or at == c or at - i != shift[count - 1]:
+            start[count], shift[count] = i, at - i
+            count += 1
+    start[count] = len(rows)
+    return count
 
 
 @nb.njit(cache=True)
 def _collect(
-    panel: Floats, update: Floats, child: Floats, local: Ints, rows: Ints, c: int, h: int
+    panel: Floats,
+    update: Floats,
+    child: Floats,
+    c: int,
+    h: int,
+    size: int,
+    start: Ints,
+    shift: Ints,
+    n_runs: int,
 ) -> None:
-    r, size = h - c, len(rows)
-    for j in range(size):
-        column = local[rows[j]]
-        if column < c:
-            for i in range(j, size):
-                panel[column * h + local[rows[i]]] += child[j * size + i]
-        else:
-            for i in range(j, size):
-                update[(column - c) * r + local[rows[i]] - c] += child[j * size + i]
+    for q in range(n_runs):
+        for j in range(start[q], start[q + 1]):
+            column = j + shift[q]
+            if column < c:
+                add(panel[column * h :], 0, child[j * size :], j, q, start, shift, n_runs)
+            else:
+                into = update[(column - c) * (h - c) :]
+                add(into, c, child[j * size :], j, q, start, shift, n_runs)
 
 
-@nb.njit(cache=True, fastmath=True)
+@nb.njit(cache=True, inline="always")
+def add(
+    into: Floats,
+    above: int,
+    column: Floats,
+    begin: int,
+    run: int,
+    start: Ints,
+    shift: Ints,
+    n_runs: int,
+) -> None:
+    """Add a column from row ``begin`` on to one that leaves out ``above`` rows."""
+    for p in range(run, n_runs):
+        a, b, off = max(begin, start[p]), start[p + 1], shift[p] - above
+        given, taken = column[a:b], into[a + off : b + off]
+        for i in range(len(given)):  # slices: plain enough for vector instructions
+            taken[i] += given[i]
+
+
+@nb.njit(cache=True)
 def solve(
+    kernels: Ints,
+    letters: npt.NDArray[np.uint8],
+    sizes: Index,
+    scalars: Floats,
     rhs: Floats,
-    order: npt.NDArray[np.int64],
-    panels: Floats,
+    order: Ints,
     first: Ints,
     row_start: Ints,
     rows: Ints,
     panel_start: Ints,
+    panels: Floats,
 ) -> Floats:
     """Solution for one right-hand side."""
     n, count = len(rhs), len(first) - 1
@@ -119,53 +157,36 @@ def solve(
     for k in range(n):
         x[k] = rhs[order[k]]
     work = np.empty(n)
+    at = letters.ctypes.data
+    lower, plain, turned = at, at + 1, at + 3
+    n_c = sizes.ctypes.data
+    n_r, n_h, step = n_c + 4, n_c + 8, n_c + 12
+    sizes[3] = 1
+    one = scalars.ctypes.data
+    minus, zero = one + 8, one + 16
+    ends = work.ctypes.data
     for s in range(count):
         c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
-        h = c + r
-        part = work[:h]
-        part[:c] = x[first[s] : first[s + 1]]
-        part[c:] = 0.0
-        for j in range(0, c - 1, 2):  # columns in pairs: half the traffic of the sums
-            a = panels[panel_start[s] + j * h : panel_start[s] + (j + 1) * h]
-            b = panels[panel_start[s] + (j + 1) * h : panel_start[s] + (j + 2) * h]
-            u = part[j] / a[j]
-            v = (part[j + 1] - a[j + 1] * u) / b[j + 1]
-            part[j], part[j + 1] = u, v
-            for i in range(j + 2, h):
-                part[i] -= a[i] * u + b[i] * v
-        if c % 2:
-            a = panels[panel_start[s] + (c - 1) * h : panel_start[s] + c * h]
-            u = part[c - 1] / a[c - 1]
-            part[c - 1] = u
-            for i in range(c, h):
-                part[i] -= a[i] * u
-        x[first[s] : first[s + 1]] = part[:c]
-        for k in range(r):
-            x[rows[row_start[s] + k]] += part[c + k]
+        sizes[0], sizes[1], sizes[2] = c, r, c + r
+        own = x[first[s] :].ctypes.data
+        block = panels[panel_start[s] :].ctypes.data
+        call8(kernels[3], (lower, plain, plain, n_c, block, n_h, own, step))
+        if r > 0:
+            below = panels[panel_start[s] + c :].ctypes.data
+            call11(kernels[4], (plain, n_r, n_c, minus, below, n_h, own, step, zero, ends, step))
+            for k in range(r):
+                x[rows[row_start[s] + k]] += work[k]
     for s in range(count - 1, -1, -1):
         c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
-        h = c + r
-        part = work[:h]
-        part[:c] = x[first[s] : first[s + 1]]
-        for k in range(r):
-            part[c + k] = x[rows[row_start[s] + k]]
-        if c % 2:
-            a = panels[panel_start[s] + (c - 1) * h : panel_start[s] + c * h]
-            total = 0.0
-            for i in range(c, h):
-                total += a[i] * part[i]
-            part[c - 1] = (part[c - 1] - total) / a[c - 1]
-        for j in range(c - c % 2 - 2, -1, -2):
-            a = panels[panel_start[s] + j * h : panel_start[s] + (j + 1) * h]
-            b = panels[panel_start[s] + (j + 1) * h : panel_start[s] + (j + 2) * h]
-            of_a, of_b = 0.0, 0.0
-            for i in range(j + 2, h):
-                of_a += a[i] * part[i]
-                of_b += b[i] * part[i]
-            v = (part[j + 1] - of_b) / b[j + 1]
-            part[j + 1] = v
-            part[j] = (part[j] - of_a - a[j + 1] * v) / a[j]
-        x[first[s] : first[s + 1]] = part[:c]
+        sizes[0], sizes[1], sizes[2] = c, r, c + r
+        own = x[first[s] :].ctypes.data
+        block = panels[panel_start[s] :].ctypes.data
+        if r > 0:
+            below = panels[panel_start[s] + c :].ctypes.data
+            for k in range(r):
+                work[k] = x[rows[row_start[s] + k]]
+            call11(kernels[4], (turned, n_r, n_c, minus, below, n_h, ends, step, one, own, step))
+        call8(kernels[3], (lower, turned, plain, n_c, block, n_h, own, step))
     result = np.empty(n)
     for k in range(n):
         result[order[k]] = x[k]

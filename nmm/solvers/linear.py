@@ -243,6 +243,11 @@ class Factor:
         return Factor(shifted, self.matrix, self.scale, parts, deflated=True)
 
 
+def sorted_rows(matrix: csc_array) -> csc_array:
+    """Return the matrix with ascending rows in every column, itself where it has them."""
+    return matrix if matrix.has_sorted_indices else matrix.sorted_indices()
+
+
 def _limit(growth: float) -> float:
     """Residual to accept: where the solution outgrows its load, rounding of it sets the floor."""
     return max(ACCEPTED, ROUNDING * growth)
@@ -291,6 +296,7 @@ SOLVERS: Registry[type[LinearSolver]] = Registry(
     {
         "auto": "nmm.solvers.auto:Auto",
         "cholesky": "nmm.solvers.cholesky:Cholesky",
+        "lu": "nmm.solvers.lu:FrontalLU",
         "superlu": "nmm.solvers.superlu:SuperLU",
         "qdldl": "nmm.solvers.qdldl:Qdldl",
     },

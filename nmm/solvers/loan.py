@@ -1,0 +1,43 @@
+"""Room for factors that is used again: fresh memory costs as much as the numbers put into it.
+
+A factor of a thousand bricks takes 6 MB. The allocator returns as much to the system at once, and
+the next factorisation pays for every page of it again.
+"""
+
+from collections import deque
+
+import numpy as np
+
+from integration.arrays import Floats
+
+KEPT = 2**24
+"""Most numbers that are kept without a user, 128 MB."""
+SPARE: deque[Floats] = deque()
+
+
+class Loan:
+    """At least ``size`` numbers of any value, free to be lent again once nobody holds the loan.
+
+    Those who use ``numbers`` must hold the loan for as long. Threads may take and leave loans at
+    the same time: a deque is changed in one piece.
+    """
+
+    def __init__(self, size: int) -> None:
+        self.numbers = _taken(size)
+
+    def __del__(self) -> None:
+        SPARE.append(self.numbers)
+        while SPARE and sum(map(len, tuple(SPARE))) > KEPT:
+            SPARE.popleft()
+
+
+def _taken(size: int) -> Floats:
+    for _ in range(len(SPARE)):
+        try:
+            found = SPARE.popleft()
+        except IndexError:  # another thread took the last one
+            break
+        if size <= len(found) <= 2 * size + 64:
+            return found
+        SPARE.append(found)
+    return np.empty(size)
