@@ -3,7 +3,7 @@
 The factor of all springs acting is kept over steps and is safe wherever the search stands. That of
 the springs that act there makes the end quick, once most states are right: what is wrong with few
 contacts acceleration mends in as many solves. On a wall of 1 000 bricks at ten times Young's
-modulus 15 solves with the first, one factorisation and 5 solves with the second do what the first
+modulus 10 solves with the first, one factorisation and 5 solves with the second do what the first
 alone does in 30 to 100, and at a hundred times what it does not do in 300
 (`benchmarks/enforcement.py`).
 """
@@ -13,20 +13,24 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.chord import Chord
+from nmm.contact.chord import Chord, Patience
 from nmm.contact.memory import KeptFactor, Memory
 from nmm.contact.springs import CutSprings, Settled
 from nmm.errors import SolveError
 from nmm.solvers.linear import Factor, LinearSolver
 
-WIDE, NARROW = 15, 12
+WIDE, NARROW = 20, 20
 """Solves in a row with the factor of all springs, and with that of those that act."""
-LOOK = 4
-"""Solves in which the second must halve the out-of-balance force to go on."""
+SLOW = Patience(ahead=10, below=1e-3)
+"""When the first is left before its turn is over: where most states are right and it is slow."""
+LOST = Patience(ahead=80)
+"""When the second is: it would take long, because states are wrong."""
 QUICK = 0.1
 """Reduction after which the second is renewed at once, without the first in between."""
 REST = 1e-6
 """Part of their stiffness left to springs that do not act, so that nothing comes free."""
+DRAG = 0.02
+"""Part of the shear stiffness left where contacts slide: some of them may stick in the end."""
 
 
 @dataclass(frozen=True)
@@ -73,13 +77,13 @@ class Alternation:
             When even with all springs acting the load moves a free part.
         """
         kept = self._all_acting()
-        self._steps(kept.factor, min(WIDE, budget.solves))
+        self._steps(kept.factor, min(WIDE, budget.solves), SLOW)
         narrow = 0
         while self._open and narrow < budget.factors and self.solves < budget.solves:
             before, narrow = self.defect.size, narrow + 1
             factor = self._acting()
             if factor is not None:
-                self._steps(factor, NARROW, LOOK)
+                self._steps(factor, NARROW, LOST)
             if self._open and not self.defect.size < QUICK * before:
                 if not kept.as_new(self.springs.problem):
                     self.memory.forget(kept)
@@ -114,16 +118,16 @@ class Alternation:
         is_open, sliding = springs.states(self.increment)
         loose = is_open & (springs.problem.limits.tension <= 0)
         normal = np.where(is_open, REST, 1.0) * springs.normal_stiffness
-        shear = np.where(sliding | loose, REST, 1.0) * springs.shear_stiffness
+        left = np.where(loose, REST, np.where(sliding, DRAG, 1.0))
+        shear = left * springs.shear_stiffness
         self.factorisations += 1
         try:
             return self.linear.factorise(pattern.matrix(springs.problem, normal, shear))
         except SolveError:
             return None
 
-    def _steps(self, factor: Factor, budget: int, look: int | None = None) -> None:
-        """Take chord steps; every ``look`` of them must halve the out-of-balance force."""
+    def _steps(self, factor: Factor, budget: int, patience: Patience | None = None) -> None:
         chord = Chord(self.springs, factor, self.increment, self.defect)
-        chord.run(budget, self.tolerance, look)
+        chord.run(budget, self.tolerance, patience)
         self.solves += chord.solves
         self.increment, self.defect = chord.increment, chord.defect

@@ -18,6 +18,32 @@ GROWTH = 3.0
 """An accelerated step that multiplies the best defect by more than this is taken back."""
 
 
+@dataclass(frozen=True)
+class Patience:
+    """How long an iteration may go on that gets on slowly.
+
+    Attributes
+    ----------
+    ahead
+        Most solves that may lie ahead at the rate of the last ones.
+    below
+        Relative out-of-balance force below which it is judged.
+    look
+        Solves over which the rate is taken.
+    """
+
+    ahead: float
+    below: float = np.inf
+    look: int = 4
+
+    def lost(self, sizes: list[float], tolerance: float) -> bool:
+        """Whether the best ``sizes`` so far, one a solve, forecast too many solves."""
+        if len(sizes) <= self.look or not sizes[-1] < self.below:
+            return False
+        gain = np.log(sizes[-1 - self.look] / sizes[-1]) / self.look
+        return not gain * self.ahead >= np.log(sizes[-1] / tolerance)
+
+
 @dataclass
 class History:
     """Differences of the last iterates: corrections, and steps plus corrections.
@@ -78,12 +104,12 @@ class Chord:
     depth: int = 10
     solves: int = 0
 
-    def run(self, budget: int, tolerance: float, look: int | None = None) -> bool:
+    def run(self, budget: int, tolerance: float, patience: Patience | None = None) -> bool:
         """Take at most ``budget`` solves; return whether ``tolerance`` was reached.
 
-        Every ``look`` solves must halve the best defect, or the run ends.
+        Without ``patience`` slow runs go on as well.
         """
-        most, mark, due = self.solves + budget, self.defect.size, self.solves + (look or 0)
+        most, sizes = self.solves + budget, [self.defect.size]
         history = History(self.depth)
         history.start(len(self.increment))
         at, defect = self.increment, self.defect
@@ -107,10 +133,9 @@ class Chord:
                 break
             if found.size < self.defect.size:
                 self.increment, self.defect = at, found
-            if look is not None and self.solves >= due:
-                if not self.defect.size < 0.5 * mark:
-                    break
-                mark, due = self.defect.size, due + look
+            sizes.append(self.defect.size)
+            if patience is not None and patience.lost(sizes, tolerance):
+                break
         return self.defect.size <= tolerance
 
     def _correction(self, defect: Defect) -> Floats:

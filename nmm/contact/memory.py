@@ -18,6 +18,9 @@ KEPT = 4
 TURN = 1e-3
 """A kept factor is as good as new while the rows have changed by less than this part."""
 
+STEPS = 2
+"""Last steps from which the next one may start."""
+
 STEP = ("force", "gap", "slip")
 """What stays from solution to solution of one step."""
 
@@ -69,8 +72,10 @@ class Memory:
         Pattern of matrix and springs.
     start
         Unknowns to start the next solution from, of the same step.
-    last
-        Unknowns found last, from which the next step may start.
+    found
+        Unknowns found for the last steps, latest first, from which the next one may start.
+    moving
+        Whether inertia determines the motion of every body (`nmm.contact.start`).
     kept
         Last factors with all springs acting: rounds of multipliers use springs of several
         stiffnesses in one step.
@@ -83,10 +88,12 @@ class Memory:
 
     pattern: SpringPattern | None = None
     start: Floats | None = None
-    last: Floats | None = None
+    found: list[Floats] = field(default_factory=list)
+    moving: bool = False
     kept: list[KeptFactor] = field(default_factory=list)
     answered: tuple[StepProblem, StepAnswer] | None = None
     barrier_width: float | None = None
+    _load: Floats | None = None
 
     def known(self, problem: StepProblem) -> StepAnswer | None:
         """Answer of the last solution if it was of the same problem; it took no passes."""
@@ -115,6 +122,15 @@ class Memory:
     def forget(self, kept: KeptFactor) -> None:
         """Drop a factor that no longer serves."""
         self.kept = [other for other in self.kept if other is not kept]
+
+    def keep(self, increment: Floats, load: Floats) -> None:
+        """Keep the unknowns found under a load, in place of what was found under it before."""
+        if not np.isfinite(increment).all():
+            return
+        again = self._load is not None and _equal(self._load, load)
+        before = [old for old in self.found[int(again) :] if len(old) == len(increment)]
+        self.found = [increment, *before[: STEPS - 1]]
+        self._load = load
 
     def started(self, problem: StepProblem) -> StepProblem:
         """The problem with the forces of its last solution, where only its rows have turned."""

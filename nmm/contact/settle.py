@@ -6,14 +6,13 @@ more over the last few; chord steps are quick where most states are right, and l
 
 from dataclasses import replace
 
-import numpy as np
-
 from integration.arrays import Floats
 from nmm.contact.alternation import Alternation, Budget
 from nmm.contact.interior import InteriorPoint
 from nmm.contact.memory import Memory
 from nmm.contact.newton import polish
 from nmm.contact.springs import CutSprings, Settled
+from nmm.contact.start import start_from
 from nmm.solvers.linear import LinearSolver
 
 SMALL = 120
@@ -46,7 +45,8 @@ def settle(
     """
     budget = budget or Budget()
     near, memory.start = memory.start, None
-    increment = _start(springs, memory, near if start is None else start)
+    given = near if start is None else start
+    increment = start_from(springs, memory.found, memory.moving) if given is None else given
     small = len(increment) <= SMALL
     if small or (near is not None and springs.problem.n_contacts <= FEW):
         quick = _polished(springs, linear, memory, increment)
@@ -92,16 +92,6 @@ def _joined(before: Settled, then: Settled) -> Settled:
     )
 
 
-def _start(springs: CutSprings, memory: Memory, given: Floats | None) -> Floats:
-    """Unknowns to start from: those given, else none or those of the step before."""
-    if given is not None:
-        return given
-    rest, last = np.zeros_like(springs.problem.force), memory.last
-    if last is None or len(last) != len(rest):
-        return rest
-    return last if springs.defect(last).size < springs.defect(rest).size else rest
-
-
 def _polished(
     springs: CutSprings, linear: LinearSolver, memory: Memory, increment: Floats
 ) -> Settled:
@@ -110,6 +100,5 @@ def _polished(
 
 
 def _kept(found: Settled, memory: Memory) -> Settled:
-    if np.isfinite(found.increment).all():
-        memory.last = found.increment
+    memory.keep(found.increment, found.springs.problem.force)
     return found

@@ -164,6 +164,7 @@ class Contact(Effect):
         unknowns besides.
         """
         enforcement = self._enforcement if held is None else Conditioned(self._enforcement, held)
+        self._memory.moving = step is not None
         through = self._rows(contacts, state, halfway)
         turns = Turns(self._laws, contacts)
         nowhere = np.zeros(len(contacts), dtype=bool)
