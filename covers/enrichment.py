@@ -152,3 +152,12 @@ def singular_fields(item: Enrichment, points: Floats, side: Floats) -> tuple[Flo
     angle = np.where(wrong, np.copysign(2 * np.pi - np.abs(angle), side), angle)
     value, gradient = item.functions.evaluate(radius, angle)
     return value @ turn.T, np.einsum("ab,mnbc,dc->mnad", turn, gradient, turn)
+
+
+def sides(places: Floats, enrichments: "Sequence[Enrichment]", which: Ints) -> Floats:
+    """Side of the bisector (N, k), 1 on the left, of places (N, 2) about singular points (N, k)."""
+    points = np.array([item.point for item in enrichments])[which]
+    ahead = np.array([item.direction for item in enrichments])[which]
+    away = places[:, None] - points
+    left = ahead[..., 0] * away[..., 1] - ahead[..., 1] * away[..., 0]
+    return np.where(left >= 0, 1.0, -1.0)

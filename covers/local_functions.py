@@ -9,13 +9,15 @@ cover's unknowns. ``C`` (`combination`) is the identity for plain polynomials; D
 is a particular ``C`` over the linear monomials (Shi 1988): nothing downstream asks which it is.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from covers.small_matrices import inverses
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from integration.monomials import count
 
 
@@ -126,6 +128,26 @@ class Rigid(RigidStrain):
     def combination(self) -> Floats:
         """The first three columns of the block basis."""
         return RigidStrain().combination[:, :3]
+
+
+@dataclass(frozen=True)
+class Kinds:
+    """Local functions of covers.
+
+    Attributes
+    ----------
+    functions
+        The different ones.
+    which
+        (C,) which of them each physical cover has.
+    """
+
+    functions: tuple[LocalFunctions, ...]
+    which: Ints
+
+    def each(self, of: Callable[[LocalFunctions], Any]) -> Any:
+        """Return an array (C,) of what the functions of each physical cover have."""
+        return np.array([of(item) for item in self.functions])[self.which]
 
 
 FUNCTIONS: dict[str, type[LocalFunctions]] = {

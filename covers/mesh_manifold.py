@@ -7,10 +7,16 @@ import numpy as np
 
 from covers.base import Cover
 from covers.cut_cells import CutCells
+from covers.cut_coordinates import (
+    covers_coordinates,
+    elements_coordinates,
+    fitted_covers,
+    part_frames,
+)
 from covers.dependence import dependent_functions
 from covers.element_groups import ElementGroup
-from covers.enrichment import EnrichedFields, Enrichment, enriched_covers
-from covers.local_functions import LocalFunctions
+from covers.enrichment import EnrichedFields, Enrichment, enriched_covers, sides
+from covers.local_functions import Kinds, LocalFunctions
 from covers.manifold import Manifold
 from covers.polynomial_groups import (
     PhysicalCovers,
@@ -22,35 +28,17 @@ from covers.polynomial_groups import (
 )
 from covers.quadrature_groups import QuadratureGroup
 from covers.rigid_modes import rigid_modes, stretch_modes
+from covers.singular_rules import singular_rule
 from covers.small_matrices import inverses
 from covers.weighted_fields import WeightedFields
-from covers.whitening import Frames, cover_frames, element_frames, element_spread
+from covers.whitening import Frames
 from integration.arrays import Bools, Floats, Ints
 from integration.monomials import affine
-from integration.polygons import Polygons, diameters
-from integration.rules import PointRule, polygon_rule
-from integration.singular import tip_rule
+from integration.polygons import diameters
+from integration.rules import polygon_rule
 
-# Elements nearer to a singular point than this many of their diameters are integrated about it.
-NEAR_TIP = 1.25
-# Degree beyond that of the polynomials to which functions that are none are integrated.
-RATIONAL, SINGULAR, FRACTIONAL = 6, 8, 8
-
-
-@dataclass(frozen=True)
-class Kinds:
-    """Local functions of covers.
-
-    Attributes
-    ----------
-    functions
-        The different ones.
-    which
-        (C,) which of them each physical cover has.
-    """
-
-    functions: tuple[LocalFunctions, ...]
-    which: Ints
+# Degree beyond that of the polynomials to which weights that are none are integrated.
+RATIONAL = 6
 
 
 def mesh_manifold(
@@ -87,7 +75,7 @@ def mesh_manifold(
     dependent = dependent_functions(
         cover, cut, kinds.functions, kinds.which, lambda: (groups, n_unknowns)
     )
-    higher = np.array([item.degree > 0 for item in kinds.functions])[kinds.which]
+    higher = kinds.each(lambda item: item.degree > 0)
     return Manifold(
         elements=cut.elements,
         element_body=cut.element_body,
@@ -133,23 +121,24 @@ class _Builder:
     offset: Ints
     fitted: Bools
     enriched: Ints
-    centre: Floats
-    matrix: Floats
+    frames: Frames
 
     @classmethod
     def of(
         cls, cover: Cover, cut: CutCells, kinds: Kinds, enrichments: tuple[Enrichment, ...]
     ) -> "_Builder":
         enriched = enriched_covers(cut, cover.patch_centre, enrichments)
-        size = np.array([item.n_unknowns for item in kinds.functions])[kinds.which]
+        size = kinds.each(lambda item: item.n_unknowns)
         if enrichments:
             extra = np.array([item.functions.number for item in enrichments])
             size = size + np.where(enriched >= 0, extra[enriched], 0)
         offset = np.concatenate([[0], np.cumsum(size)])
-        frames, parts = _element_frames(cut)
-        fitted = _fitted(cut, kinds)
-        centre, matrix = _cover_frames(cover, cut, kinds, fitted, parts, frames)
-        covers = PhysicalCovers(cut.cover_patch, cut.cover_body, centre, matrix, offset[:-1])
+        frames, parts = part_frames(cut)
+        fitted = fitted_covers(cut, kinds)
+        own = covers_coordinates(cover, cut, kinds, fitted, parts, frames)
+        covers = PhysicalCovers(
+            cut.cover_patch, cut.cover_body, own.centre, own.matrix, offset[:-1]
+        )
         return cls(
             cover,
             cut,
@@ -159,7 +148,7 @@ class _Builder:
             offset,
             fitted,
             enriched,
-            *_all(cut, frames, parts),
+            elements_coordinates(cut, frames, parts),
         )
 
     def groups(self) -> Iterator[ElementGroup]:
@@ -238,10 +227,10 @@ class _Builder:
         source = elements[first]
         origin = np.where(
             alike[:, None],
-            corner + (self.centre[source] - corner[first])[shape],
-            self.centre[elements],
+            corner + (self.frames.centre[source] - corner[first])[shape],
+            self.frames.centre[elements],
         )
-        return Shapes(elements, shape, first, origin, self.matrix[source])
+        return Shapes(elements, shape, first, origin, self.frames.matrix[source])
 
     def _rational(
         self, elements: Ints, slots: Ints, active: Ints, functions: list[LocalFunctions]
@@ -266,6 +255,7 @@ class _Builder:
         n_enriched: int,
     ) -> ElementGroup:
         which = self.enriched[active[:, :n_enriched]]
+        degree = max(item.degree for item in functions) + (self.cover.weight_degree or 2)
         number = self.enrichments[0].functions.number
         base = combined(functions)
         polynomial = unknowns_of(functions, self.covers, active)
@@ -290,9 +280,11 @@ class _Builder:
                 n_enriched,
                 self.enrichments,
                 which,
-                self._side(elements, which),
+                sides(self.cut.elements.centroids[elements], self.enrichments, which),
             ),
-            rule=self._singular_rule(elements, which[:, 0], functions),
+            rule=singular_rule(
+                self.cut.elements.take(elements), self.enrichments, which[:, 0], degree
+            ),
         )
 
     def _fields(
@@ -300,90 +292,3 @@ class _Builder:
     ) -> WeightedFields:
         cells = self.cut.element_cell[elements]
         return WeightedFields(self.cover, cells, slots, active, tuple(functions), self.covers)
-
-    def _side(self, elements: Ints, which: Ints) -> Floats:
-        """Side of the bisector (n, k) on which the elements lie."""
-        points = np.array([item.point for item in self.enrichments])[which]
-        ahead = np.array([item.direction for item in self.enrichments])[which]
-        away = self.cut.elements.centroids[elements][:, None] - points
-        left = ahead[..., 0] * away[..., 1] - ahead[..., 1] * away[..., 0]
-        return np.where(left >= 0, 1.0, -1.0)
-
-    def _singular_rule(
-        self, elements: Ints, which: Ints, functions: list[LocalFunctions]
-    ) -> PointRule:
-        """About the singular point where it is near, by Gauss points elsewhere."""
-        polygons = self.cut.elements.take(elements)
-        degree = max(item.degree for item in functions) + (self.cover.weight_degree or 2)
-        tips = np.array([item.point for item in self.enrichments])[which]
-        size = diameters(polygons)
-        near = np.hypot(*(polygons.centroids - tips).T) < NEAR_TIP * size
-        powers = np.array([item.functions.exponent for item in self.enrichments])
-        # Half powers are integrated exactly, others need more points along the radius.
-        more = 0 if np.array_equal(2 * powers, np.round(2 * powers)) else FRACTIONAL
-        order = 2 * degree + 2 + more
-        near_rule = tip_rule(polygons.take(np.flatnonzero(near)), tips[near], order)
-        far_rule = polygon_rule(polygons.take(np.flatnonzero(~near)), 2 * degree + SINGULAR)
-        return _joined(near_rule, np.flatnonzero(near), far_rule, np.flatnonzero(~near))
-
-
-def _joined(first: PointRule, its: Ints, second: PointRule, others: Ints) -> PointRule:
-    owner = np.concatenate([its[first.owner], others[second.owner]])
-    order = np.argsort(owner, kind="stable")
-    points = np.concatenate([first.points, second.points])[order]
-    return PointRule(points, np.concatenate([first.weights, second.weights])[order], owner[order])
-
-
-def _element_frames(cut: CutCells) -> tuple[Frames, Ints]:
-    """Coordinates of the elements that are not whole cells, and which those are."""
-    parts = np.flatnonzero(~cut.element_whole)
-    if not len(parts):
-        return Frames(np.zeros((0, 2)), np.zeros((0, 2, 2))), parts
-    return element_frames(cut.elements.take(parts)), parts
-
-
-def _all(cut: CutCells, frames: Frames, parts: Ints) -> tuple[Floats, Floats]:
-    """Centre (E, 2) and matrix (E, 2, 2) of all elements."""
-    centre = cut.elements.centroids.copy()
-    matrix = np.eye(2) * (2 / diameters(cut.elements))[:, None, None]
-    centre[parts], matrix[parts] = frames.centre, frames.matrix
-    return centre, matrix
-
-
-def _fitted(cut: CutCells, kinds: Kinds) -> Bools:
-    """Covers (C,) whose coordinates are fitted: touched by a cut, with polynomials to fit."""
-    touched = np.zeros(cut.n_covers + 1, dtype=bool)
-    touched[cut.covers[~cut.element_whole]] = True
-    able = [item.degree > 0 and not item.physical_length for item in kinds.functions]
-    return np.asarray(touched[:-1] & np.array(able)[kinds.which])
-
-
-def _cover_frames(
-    cover: Cover, cut: CutCells, kinds: Kinds, fitted: Bools, parts: Ints, frames: Frames
-) -> tuple[Floats, Floats]:
-    """Centre (C, 2) and matrix (C, 2, 2): of the patch, or fitted to what is left of it."""
-    centre = cover.patch_centre[cut.cover_patch].copy()
-    physical = np.array([item.physical_length for item in kinds.functions])[kinds.which]
-    size = np.where(physical, 1.0, cover.patch_size[cut.cover_patch])
-    matrix = np.eye(2) / size[:, None, None]
-    if fitted.any():
-        element, slot = np.nonzero((cut.covers >= 0) & fitted[cut.covers])
-        number = np.cumsum(fitted) - 1
-        own = np.unique(element)
-        place = np.zeros(len(cut.elements), dtype=np.int64)
-        place[own] = np.arange(len(own))
-        polygons = cut.elements.take(own)
-        spread = element_spread(polygons, _some(cut, polygons, own, parts, frames))
-        found = cover_frames(
-            spread, place[element], number[cut.covers[element, slot]], int(fitted.sum())
-        )
-        centre[fitted], matrix[fitted] = found.centre, found.matrix
-    return centre, matrix
-
-
-def _some(cut: CutCells, polygons: Polygons, own: Ints, parts: Ints, frames: Frames) -> Frames:
-    """Frames of some elements: their own when they are parts of cells, those of squares else."""
-    matrix = np.eye(2) * (2 / diameters(polygons))[:, None, None]
-    mine = np.isin(own, parts)
-    matrix[mine] = frames.matrix[np.searchsorted(parts, own[mine])]
-    return Frames(polygons.centroids, matrix)

@@ -57,7 +57,8 @@ def cost(
     with faults_told():
         _one_thread()
         from nmm.study.cost import cost_study, yardsticks
-        from nmm.study.cost_report import levels, write_cost_report
+        from nmm.study.cost_levels import levels
+        from nmm.study.cost_report import write_cost_report
         from nmm.study.variants import SIZE
 
         said = ([f"{SIZE}={sizes}"] if sizes else []) + (vary or [])

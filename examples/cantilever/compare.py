@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.errors import field_errors
 from nmm.assembly.places import on_segment
-from nmm.effects.supports import Method
+from nmm.effects.edge_supports import Method
 from nmm.formulation import Cover, read_formulation
 from nmm.geometry import regions
 from nmm.scene import read_scene

@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.places import at_point, on_edges
-from nmm.effects.supports import Method
+from nmm.effects.edge_supports import Method
 from nmm.formulation import Cover, read_formulation
 from nmm.materials.elastic import Elastic
 from nmm.stepping.equilibrium import equilibrium, hold, traction

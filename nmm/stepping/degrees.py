@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
-from covers.local_functions import Monomials
-from covers.mesh_manifold import Kinds
+from covers.local_functions import Kinds, Monomials
 from integration.arrays import Bools, Floats
 from nmm.errors import FormulationError
 

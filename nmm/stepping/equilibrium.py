@@ -15,11 +15,12 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State, initial_state, strain_only
 from nmm.assembly.places import Place
 from nmm.effects.base import Effect, Instant, defines
+from nmm.effects.edge_supports import Method
 from nmm.effects.field_loads import FieldLoad
 from nmm.effects.glue import glue, shared_edges
 from nmm.effects.loads import Load, Loads
 from nmm.effects.seams import Seams
-from nmm.effects.supports import Method, Supports
+from nmm.effects.supports import Supports
 from nmm.formulation import Glue, Solver
 from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor

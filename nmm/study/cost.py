@@ -5,9 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
 from nmm.scene import Scene
+from nmm.study.front import front
 from nmm.study.measure import Progress, measure
 from nmm.study.record import Record
 from nmm.study.reference import Reference, by_name, extrapolated_reference, stated_reference
@@ -39,6 +42,31 @@ class CostStudy:
     def error(self, record: Record) -> float:
         """Return the relative error of a record."""
         return self.reference.error(record)
+
+    @property
+    def floor(self) -> float:
+        """Relative error below which the reference says nothing."""
+        reference = self.reference
+        if not reference.extrapolated:
+            return 0.0
+        return reference.uncertainty / (abs(reference.value) or 1.0)
+
+    def errors(self, records: Sequence[Record]) -> list[float]:
+        """Errors, nan for failed runs; none below what the reference can tell."""
+        return [max(self.error(one), self.floor) if one.valid else np.nan for one in records]
+
+    def points(self, cost: str) -> dict[str, tuple[list[float], list[float]]]:
+        """Return a cost ("median_seconds", "unknowns") and error of the runs of formulations."""
+        return {
+            name: ([float(getattr(one, cost) or np.nan) for one in many], self.errors(many))
+            for name, many in self.by_formulation().items()
+        }
+
+    def front(self) -> list[Record]:
+        """Return the records that none beats in both seconds and error."""
+        seconds = [one.median_seconds for one in self.records]
+        best = front(seconds, self.errors(self.records)).tolist()
+        return [one for one, on in zip(self.records, best, strict=True) if on]
 
 
 def cost_study(

@@ -1,16 +1,16 @@
-"""The page, figure and raw records of a cost study."""
+"""The page of a cost study, written beside its figure and raw records."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from textwrap import wrap
 
 import numpy as np
 
 from nmm.study.cost import CostStudy, write_records
-from nmm.study.front import Cost, costs_at_levels, front
+from nmm.study.cost_figure import draw
+from nmm.study.cost_levels import level_table
 from nmm.study.orders import Order, observed_order
-from nmm.study.record import Record
-from nmm.study.reference import Reference, sizes_of
+from nmm.study.record import Record, finest
+from nmm.study.reference import sizes_of
 from nmm.study.theory import order_in_size, order_in_step
 
 # Wall over processor seconds above which something else took the processor.
@@ -27,77 +27,10 @@ def write_cost_report(study: CostStudy, out: Path) -> list[Path]:
     return [page, picture, raw]
 
 
-def draw(study: CostStudy, path: Path) -> None:
-    """Draw the work-precision figure."""
-    from nmm.plots.work_precision import Series, work_precision
-
-    on_front = _front(study)
-    sizes = {one.unknowns for one in study.records if one.unknowns}
-    counted = "unknowns" if len(sizes) > 1 else "steps"
-    methods = distinguished(study)
-    series = {
-        name: Series(
-            error=_errors(study, many),
-            seconds=[one.median_seconds for one in many],
-            counts=[float(getattr(one, counted) or np.nan) for one in many],
-            memory=[float(one.memory or np.nan) for one in many],
-            on_front=[id(one) in on_front for one in many],
-            valid=[one.valid for one in many],
-            phases=_finest(many).phases,
-            effects=_by_effect(_finest(many)),
-            family=many[0].family,
-            method=methods[name],
-        )
-        for name, many in study.by_formulation().items()
-    }
-    reference = study.reference
-    size = abs(reference.value) or 1.0
-    work_precision(
-        series,
-        title=study.title,
-        counted=counted,
-        reference=_against(reference),
-        error_name=f"{_kind(reference)} of {reference.quantity.replace('_', ' ')}",
-        uncertainty=reference.uncertainty / size if reference.extrapolated else 0.0,
-        path=path,
-    )
-
-
-def distinguished(study: CostStudy) -> dict[str, str]:
-    """Return what tells formulations apart: their cover, else their enforcement or integrator."""
-    groups = study.by_formulation()
-    for part in ("cover", "enforcement", "integrator"):
-        found = {name: many[0].method.get(part, "") for name, many in groups.items()}
-        if len(set(found.values())) == len(found):
-            return found
-    return {name: many[0].method.get("cover", "") for name, many in groups.items()}
-
-
-def _kind(reference: Reference) -> str:
-    """Errors are relative but for a reference of zero."""
-    return "relative error" if reference.value else "error"
-
-
-def _by_effect(one: Record) -> dict[str, float]:
-    """Return seconds by effect: the search is contact's, its solution is named as such."""
-    found = dict(one.effects)
-    if "contact" in found:
-        found["contact"] += one.phases.get("search", 0.0)
-        found["solution with contact"] = one.phases.get("solve", 0.0)
-    return found
-
-
-def _against(reference: Reference) -> str:
-    """Say under the title what errors are taken against."""
-    text = f"error against {reference.value:.6g}: {reference.source}"
-    if reference.extrapolated:
-        text += f", uncertainty {reference.uncertainty:.1g}"
-    return "\n".join(wrap(text, 98))
-
-
 def cost_page(study: CostStudy, picture: str) -> str:
     """Return the page in Markdown."""
     reference = study.reference
+    front = study.front()
     spread = "uncertainty" if reference.extrapolated else "tolerance"
     lines = [
         f"# What accuracy costs: {study.title or 'scene'}",
@@ -109,83 +42,18 @@ def cost_page(study: CostStudy, picture: str) -> str:
         f"![work-precision]({picture})",
         "",
         "| formulation | settings | unknowns | steps | passes | seconds: median | least | memory |"
-        f" value | {_kind(reference)} | front | verdict |",
+        f" value | {reference.kind_of_error} | front | verdict |",
         "|---|---|---|---|---|---|---|---|---|---|---|---|",
-        *(_row(study, one, id(one) in _front(study)) for one in study.records),
+        *(_row(study, one, one in front) for one in study.records),
         "",
         *_section("Observed orders", _orders(study)),
         *_section("Where the runs go", _limits(study)),
         *_section("Failed runs", _failed(study)),
         *_section("Time by effect", _effects(study)),
-        *_section("Cost at equal error", _level_table(study)),
+        *_section("Cost at equal error", level_table(study)),
         *_section("How it was measured", _conditions(study)),
     ]
     return "\n".join(lines).rstrip() + "\n"
-
-
-def levels(study: CostStudy) -> list[str]:
-    """Sentences: at error e, A costs r times B; only between measured points.
-
-    Where DDA, manifolds and finite elements stand side by side, the cheapest of each are compared.
-    """
-    groups = study.by_formulation()
-    families = {name: many[0].family for name, many in groups.items()}
-    lines = []
-    for level, at in costs_at_levels(_points(study, "median_seconds")).items():
-        if len(at) < 2 or all(cost.at_most for cost in at.values()):
-            continue
-        order = sorted(at, key=lambda name: at[name].value)
-        best = order[0]
-        shown = order[1:]
-        if len(set(families.values())) > 1:
-            cheapest = {families[name]: name for name in reversed(order)}
-            shown = [name for name in order[1:] if name in cheapest.values()]
-        ratios = [
-            f"{name} costs {'at most ' * at[name].at_most}{at[name].value / at[best].value:.2g} "
-            "times that"
-            for name in shown
-        ]
-        missed = ", ".join(name for name in groups if name not in at)
-        text = "; ".join([f"at error {level:g}, {best} costs {at[best]} s", *ratios])
-        lines.append(f"- {text}" + (f"; not reached by {missed}" if missed else ""))
-    return lines
-
-
-def _points(study: CostStudy, cost: str) -> dict[str, tuple[list[float], list[float]]]:
-    """Return cost and error of the runs of each formulation."""
-    return {
-        name: ([float(getattr(one, cost) or np.nan) for one in many], _errors(study, many))
-        for name, many in study.by_formulation().items()
-    }
-
-
-def _level_table(study: CostStudy) -> list[str]:
-    """Table of seconds and unknowns at equal error, each over the least of its column."""
-    seconds = costs_at_levels(_points(study, "median_seconds"))
-    unknowns = costs_at_levels(_points(study, "unknowns"))
-    shown = [level for level, at in seconds.items() if len(at) > 1]
-    if not shown:
-        return []
-    lines = [
-        f"| seconds; unknowns at error | {' | '.join(f'{level:g}' for level in shown)} |",
-        f"|---|{'---|' * len(shown)}",
-    ]
-    for name in study.by_formulation():
-        cells = []
-        for level in shown:
-            first = _ratio(seconds[level], name)
-            cells.append(f"{first}; {unknowns[level][name].value:,.0f}" if first else "")
-        lines.append(f"| {name} | {' | '.join(cells)} |")
-    return [*lines, "", *levels(study)]
-
-
-def _ratio(at: Mapping[str, Cost], name: str) -> str:
-    """Seconds of one formulation and how many times the least they are; empty if not reached."""
-    if name not in at:
-        return ""
-    least = min(cost.value for cost in at.values())
-    sign = "<= " * at[name].at_most
-    return f"{sign}{at[name].value:.2g} s ({at[name].value / least:.2g} x)"
 
 
 def _section(title: str, lines: Sequence[str]) -> list[str]:
@@ -217,7 +85,7 @@ def _row(study: CostStudy, one: Record, best: bool) -> str:
 def _orders(study: CostStudy) -> list[str]:
     """Observed orders with their confidence, from errors above the reference's uncertainty."""
     lines = []
-    floor = _floor(study)
+    floor = study.floor
     for name, many in study.by_formulation().items():
         used = [one for one in many if one.valid and study.error(one) > floor]
         if len(used) < 2:
@@ -274,10 +142,8 @@ def _effects(study: CostStudy) -> list[str]:
     """Wall-clock seconds of the dearest run of each formulation by effect."""
     lines = []
     for many in study.by_formulation().values():
-        one = _finest(many)
-        spent = ", ".join(
-            f"{effect} {seconds:.2g} s" for effect, seconds in _by_effect(one).items()
-        )
+        one = finest(many)
+        spent = ", ".join(f"{effect} {seconds:.2g} s" for effect, seconds in one.by_effect.items())
         if spent:
             lines.append(f"- {one.label}: {spent}")
     return lines
@@ -288,17 +154,11 @@ def _failed(study: CostStudy) -> list[str]:
 
 
 def _shaded(study: CostStudy) -> list[str]:
-    floor = _floor(study)
+    floor = study.floor
     low = [one for one in study.records if one.valid and study.error(one) < floor]
     if not low:
         return []
     return [f'{len(low)} errors lie below that uncertainty and mean no more than "less than it".']
-
-
-def _floor(study: CostStudy) -> float:
-    """Relative error below which the reference says nothing."""
-    reference = study.reference
-    return reference.uncertainty / (abs(reference.value) or 1.0) if reference.extrapolated else 0.0
 
 
 def _conditions(study: CostStudy) -> list[str]:
@@ -319,19 +179,3 @@ def _conditions(study: CostStudy) -> list[str]:
         f"{versions}{commit}. Scene {first.scene_hash[:12]}{seed}. Raw records with all hashes, "
         "seeds and repeats: `records.jsonl`.",
     ]
-
-
-def _finest(records: Sequence[Record]) -> Record:
-    valid = [one for one in records if one.valid and one.seconds] or list(records)
-    return max(valid, key=lambda one: one.median_seconds if one.seconds else -1.0)
-
-
-def _front(study: CostStudy) -> set[int]:
-    best = front([one.median_seconds for one in study.records], _errors(study, study.records))
-    return {id(one) for one, on in zip(study.records, best.tolist(), strict=True) if on}
-
-
-def _errors(study: CostStudy, records: Sequence[Record]) -> list[float]:
-    """Errors, nan for failed runs; none below what the reference can tell."""
-    floor = _floor(study)
-    return [max(study.error(one), floor) if one.valid else float("nan") for one in records]

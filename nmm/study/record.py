@@ -1,7 +1,7 @@
 """What is kept of one measured case: numbers, cost, and all that it can be repeated from."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any, Self
 
@@ -80,6 +80,15 @@ class Record:
         return float(np.median(self.seconds)) if self.seconds else float("nan")
 
     @property
+    def by_effect(self) -> dict[str, float]:
+        """Seconds by effect: the search is contact's, its solution is named as such."""
+        found = dict(self.effects)
+        if "contact" in found:
+            found["contact"] += self.phases.get("search", 0.0)
+            found["solution with contact"] = self.phases.get("solve", 0.0)
+        return found
+
+    @property
     def label(self) -> str:
         """Name and settings in words."""
         settings = ", ".join(f"{key} = {value}" for key, value in self.settings.items())
@@ -100,6 +109,12 @@ class Record:
         for name in ("seconds", "wall"):
             values[name] = tuple(values[name])
         return cls(**values)
+
+
+def finest(records: Sequence[Record]) -> Record:
+    """Return the dearest of records in processor seconds, a valid one where there is one."""
+    valid = [one for one in records if one.valid and one.seconds] or list(records)
+    return max(valid, key=lambda one: one.median_seconds if one.seconds else -1.0)
 
 
 def _plain(value: Any) -> Any:

@@ -36,6 +36,11 @@ class Reference:
     extrapolated: bool = False
     limits: dict[str, Extrapolated] = field(default_factory=dict)
 
+    @property
+    def kind_of_error(self) -> str:
+        """Errors are relative but for a reference of zero."""
+        return "relative error" if self.value else "error"
+
     def error(self, record: Record) -> float:
         """Relative error of a record; nan where the run gave none."""
         off = abs(record.quantities.get(self.quantity, np.nan) - self.value)

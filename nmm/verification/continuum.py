@@ -14,8 +14,9 @@ from nmm.assembly.errors import Field, FieldErrors, field_errors, stresses
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, at_point, on_edges
+from nmm.effects.edge_supports import Method
 from nmm.effects.support_methods import Springs, Support
-from nmm.effects.supports import Method, Supports
+from nmm.effects.supports import Supports
 from nmm.formulation import Formulation
 from nmm.verification.base import Case
 from nmm.verification.formulations import chosen

@@ -10,9 +10,9 @@ from covers.base import Cover
 from covers.bspline import BSplines
 from covers.cutting import cut
 from covers.dependence import _counted
-from covers.local_functions import Monomials, Rigid, RigidStrain
+from covers.local_functions import Kinds, Monomials, Rigid, RigidStrain
 from covers.manifold import Manifold
-from covers.mesh_manifold import Kinds, mesh_manifold
+from covers.mesh_manifold import mesh_manifold
 from covers.moving_least_squares import MovingLeastSquares
 from covers.quads import Quads
 from covers.triangles import Triangles

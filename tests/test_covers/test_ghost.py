@@ -5,9 +5,9 @@ import pytest
 
 from covers.cutting import cut
 from covers.ghost import ghost, neighbours
-from covers.local_functions import LocalFunctions, Monomials, RigidStrain
+from covers.local_functions import Kinds, LocalFunctions, Monomials, RigidStrain
 from covers.manifold import Manifold
-from covers.mesh_manifold import Kinds, mesh_manifold
+from covers.mesh_manifold import mesh_manifold
 from covers.triangles import Triangles
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons

@@ -5,9 +5,9 @@ import pytest
 
 from covers.bspline import BSplines
 from covers.cutting import cut
-from covers.local_functions import Monomials, RigidStrain
+from covers.local_functions import Kinds, Monomials, RigidStrain
 from covers.manifold import Manifold
-from covers.mesh_manifold import Kinds, mesh_manifold
+from covers.mesh_manifold import mesh_manifold
 from covers.moving_least_squares import MovingLeastSquares
 from covers.quads import Quads
 from covers.triangles import Triangles

@@ -8,7 +8,7 @@ from integration.polygons import Polygons
 from nmm.assembly.errors import field_errors
 from nmm.assembly.model import Model
 from nmm.assembly.places import on_edges
-from nmm.effects.supports import Method
+from nmm.effects.edge_supports import Method
 from nmm.formulation import Cover
 from nmm.materials.elastic import Elastic
 from nmm.stepping.equilibrium import Equilibrium, body_force, equilibrium, glued, hold

@@ -13,8 +13,9 @@ from integration.polygons import Polygons
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import at_point, on_edges
 from nmm.effects.base import Effect
+from nmm.effects.edge_supports import Method
 from nmm.effects.support_methods import Springs
-from nmm.effects.supports import Method, Supports
+from nmm.effects.supports import Supports
 from nmm.formulation import Cover, Enrichment
 from nmm.fracture.stress_intensity import StressIntensity, stress_intensity
 from nmm.materials.elastic import Elastic

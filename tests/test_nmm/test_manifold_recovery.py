@@ -10,7 +10,8 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, at_point, on_edges
 from nmm.assembly.recovery import recovered_stress
-from nmm.effects.supports import Method, Supports
+from nmm.effects.edge_supports import Method
+from nmm.effects.supports import Supports
 from nmm.errors import GeometryError
 from nmm.formulation import Cover, Enrichment
 from nmm.materials.elastic import Elastic

@@ -6,7 +6,7 @@ import pytest
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.places import on_edges
-from nmm.effects.supports import Method
+from nmm.effects.edge_supports import Method
 from nmm.formulation import Cover, Solver
 from nmm.materials.elastic import Elastic
 from nmm.stepping.equilibrium import equilibrium, hold

@@ -11,7 +11,8 @@ from nmm.errors import NmmError
 from nmm.plots.families import METHODS, styles
 from nmm.study import running
 from nmm.study.cost import CostStudy, cost_study
-from nmm.study.cost_report import cost_page, levels
+from nmm.study.cost_levels import levels
+from nmm.study.cost_report import cost_page
 from nmm.study.front import LEVELS, levels_of
 from nmm.study.pool import run_here
 from nmm.study.record import Record

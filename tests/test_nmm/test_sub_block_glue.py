@@ -11,7 +11,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, on_edges
 from nmm.effects.artificial_joints import ArtificialJoints
-from nmm.effects.supports import Method
+from nmm.effects.edge_supports import Method
 from nmm.formulation import Cover
 from nmm.materials.elastic import Elastic
 from nmm.stepping.equilibrium import body_force, equilibrium, hold, traction

@@ -12,7 +12,8 @@ from nmm.assembly.places import on_edges
 from nmm.contact.enforcement import make_enforcement
 from nmm.contact.held import Conditioned, Held
 from nmm.contact.problem import Limits, StepProblem
-from nmm.effects.supports import Method, Supports
+from nmm.effects.edge_supports import Method
+from nmm.effects.supports import Supports
 from nmm.formulation import Cover, parse_formulation
 from nmm.materials.elastic import Elastic
 from nmm.scene import parse_scene
