@@ -320,7 +320,7 @@ class Solver(_Part):
 
     type: PartName = Field(
         default="auto",
-        description=f'"auto", "cholesky", "superlu", "qdldl" {_OWN}',
+        description=f'"auto", "cholesky", "lu", "superlu", "qdldl" {_OWN}',
         examples=["cholesky"],
     )
 

@@ -1,5 +1,6 @@
 """What a linear solver is: a decomposition; scaling, refinement and judgement are common to all."""
 
+import sys
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -277,18 +278,28 @@ def ruiz_scale(matrix: csc_array, sweeps: int = 3) -> Floats:
 
 def _scaled(matrix: csc_array, scale: Floats, shift: float) -> csc_array:
     """``diag(scale) matrix diag(scale)`` plus ``shift`` on the diagonal; zeros keep their place."""
-    counts = np.diff(matrix.indptr)
-    data = matrix.data * scale[matrix.indices] * np.repeat(scale, counts)
+    data, diagonals = _scaled_data(matrix, scale, shift)
     scaled = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
-    if shift:
-        diagonal = np.flatnonzero(matrix.indices == np.repeat(np.arange(len(scale)), counts))
-        if len(diagonal) == len(scale):
-            data[diagonal] += shift
-        else:
-            from scipy.sparse import eye_array
+    if shift and diagonals < len(scale):
+        from scipy.sparse import eye_array
 
-            scaled = csc_array(scaled + shift * eye_array(len(scale)))
+        data, _ = _scaled_data(matrix, scale, 0.0)
+        plain = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
+        scaled = csc_array(plain + shift * eye_array(len(scale)))
     return scaled
+
+
+def _scaled_data(matrix: csc_array, scale: Floats, shift: float) -> tuple[Floats, int]:
+    """Scaled entries, the shift added to those on the diagonal, and the number of these."""
+    if "numba" in sys.modules and matrix.indices.dtype == np.int32:
+        from nmm.solvers.scaling import scaled_data
+
+        return scaled_data(matrix.indptr, matrix.indices, matrix.data, scale, shift)
+    column = np.repeat(np.arange(len(scale)), np.diff(matrix.indptr))
+    data = matrix.data * scale[matrix.indices] * scale[column]
+    diagonal = np.flatnonzero(matrix.indices == column)
+    data[diagonal] += shift
+    return data, len(diagonal)
 
 
 SOLVERS: Registry[type[LinearSolver]] = Registry(

@@ -1,6 +1,7 @@
 """Multifrontal LU factorisation in compiled code, kept only where its answers are good."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -100,6 +101,11 @@ def _factorised(matrix: csc_array) -> FactorisedLU | None:
 
 def _residual(matrix: csc_array, found: FactorisedLU) -> float:
     """Largest residual of a load of ones of either sign; infinite for numbers that are not."""
-    load = np.random.default_rng(0).choice([-1.0, 1.0], size=matrix.shape[0])
+    load = _ones(matrix.shape[0])
     rest = np.abs(load - matrix @ found.solve(load))
     return float(rest.max()) if np.isfinite(rest).all() else np.inf
+
+
+@lru_cache(maxsize=4)
+def _ones(n: int) -> Floats:
+    return np.random.default_rng(0).choice([-1.0, 1.0], size=n)
