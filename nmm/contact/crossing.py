@@ -70,7 +70,11 @@ def find_crossings(
     body that is left on its far side within the step (Provot 1997, for triangles in space).
     """
     pairs = _meeting(before, after, within_bodies) if candidates is None else candidates
-    near = _can_meet(before, after, *pairs)
+    # Compiled code is loaded by the first search, not by whoever names this module.
+    from nmm.contact.crossing_kernel import can_meet
+
+    edges = before.start, before.end, after.start, before.next, before.thickness
+    near = can_meet(*edges, *pairs, DEPTH)
     v, e = pairs[0][near], pairs[1][near]
     if not len(v):
         return Crossings(v, e, np.empty(0))
@@ -134,20 +138,6 @@ def _meeting(before: Surface, after: Surface, within_bodies: bool) -> tuple[Ints
         return np.empty(0, np.int64), np.empty(0, np.int64)
     moved = after.start - before.start
     return near_pairs(before, float(np.hypot(*np.ptp(moved, axis=0))), within_bodies)
-
-
-def _can_meet(before: Surface, after: Surface, v: Ints, e: Ints) -> Bools:
-    """Pairs of which neither the sum of motions nor the start excludes a crossing.
-
-    Where no end of an edge moves by more than an eighth of its length, a vertex that comes too deep
-    does more than three quarters of it along the normal at the start; half is on the safe side.
-    """
-    moved = np.hypot(*(after.start - before.start).T)
-    relative = moved[v] + np.maximum(moved[e], moved[before.next[e]])
-    deepest = cross(before.direction[e], before.start[v] - before.start[e]) + relative
-    far = relative > 0.125 * before.length[e]
-    allowed = DEPTH * np.minimum(before.thickness[v], before.thickness[e])
-    return np.asarray((deepest >= 0.0) & (far | (deepest >= 0.5 * allowed)))
 
 
 def _first_root(c0: Floats, c1: Floats, c2: Floats) -> Floats:

@@ -18,6 +18,7 @@ from scipy.sparse import csr_array, diags_array
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames, State
+from nmm.contact.moment_kernel import moments, pushed
 from nmm.contact.points import ContactPoints, rows
 from nmm.contact.sides import Sides, tangents
 
@@ -37,6 +38,14 @@ class Rows:
     normal: csr_array
     tangent: csr_array
     direction: Floats
+
+    def push(self, normal: Floats, shear: Floats) -> Floats:
+        """Return what forces (m,) of the contacts are on the unknowns (n,)."""
+        n, t = self.normal, self.tangent
+        found = pushed(
+            n.indptr, n.indices, n.data, t.indptr, t.indices, t.data, normal, shear, n.shape[1]
+        )
+        return np.asarray(found)
 
 
 def middle(before: State, after: State) -> State:
@@ -128,15 +137,17 @@ def missing_moments(
     acted
         (3 B,) what the rows have made of them: forces and moments on the bodies.
     """
-    normal, shear = forces
-    point = sides.at(contacts.edge_a, contacts.parameter_a).place(half.frames, half.deformation)
-    force = normal[:, None] * made.direction + shear[:, None] * tangents(made.direction)
-    edges, n_bodies = sides.manifold.boundary.body, len(half.frames.angle)
-    owed = np.zeros(n_bodies)
-    for edge, sign in ((contacts.edge_a, 1.0), (contacts.edge_b, -1.0)):
-        body = edges[edge]
-        arm = point - half.frames.centre[body]
-        moment = sign * (arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0])
-        owed += np.bincount(body, moment, minlength=n_bodies)
+    half_way = sides.surface(half.frames, half.deformation)
+    owed = moments(
+        half_way.start,
+        half_way.end,
+        half_way.body,
+        half.frames.centre,
+        contacts.edge_a,
+        contacts.parameter_a,
+        contacts.edge_b,
+        made.direction,
+        *forces,
+    )
     # Forces of the rows act on the bodies with the sign changed.
     return np.asarray(acted.reshape(-1, 3)[:, 2] - owed)

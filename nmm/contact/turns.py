@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from nmm.contact.bonds import Laws
 from nmm.contact.fixed_point import FixedPoint
 from nmm.contact.points import ContactPoints
@@ -20,6 +20,8 @@ MOST = 200
 """Turns after which a step is given up."""
 SETTLED = 1e-9
 """Change of damage, or of the rise of the faces over the largest gap, that is as good as none."""
+
+NONE = Twins(np.zeros(0, dtype=np.int64), np.zeros(0))
 
 
 class Turns:
@@ -41,12 +43,7 @@ class Turns:
         self._laws = laws
         self.start = self.contacts = start
         self._soft = laws.softening(start)
-        opened, whole = (
-            laws.springs(start, np.full(len(start), is_open))[0] for is_open in (True, False)
-        )
-        self._stiffness = whole
-        index = np.flatnonzero(self._soft & (opened < (1 - 1e-9) * whole))
-        self.twins = Twins(index, opened[index] / whole[index])
+        self._stiffness, self.twins = _whole_and_opened(laws, start, self._soft)
         self.rise = self.lift = laws.lift(start, start.worn)
         self.done = False
         self._count = 0
@@ -102,6 +99,17 @@ class Turns:
         work = normal @ (after.gap - before.gap) + shear @ way
         stored = self._laws.energy(after) - self._laws.energy(before)
         return float(rubbed[~self._soft].sum() + work - stored)
+
+
+def _whole_and_opened(laws: Laws, start: ContactPoints, soft: Bools) -> tuple[Floats, Twins]:
+    """Normal stiffness (m,) of whole bonds (N/m), and those of the ``soft`` that opened once."""
+    if not soft.any():
+        return np.zeros(len(start)), NONE
+    opened, whole = (
+        laws.springs(start, np.full(len(start), is_open))[0] for is_open in (True, False)
+    )
+    index = np.flatnonzero(soft & (opened < (1 - 1e-9) * whole))
+    return whole, Twins(index, opened[index] / whole[index])
 
 
 def slid_under_load(problem: StepProblem, answer: StepAnswer) -> Floats:

@@ -65,7 +65,7 @@ class Momentum:
         through, modes = solved.rows, self._model.manifold.rigid_modes
         forces = solved.answer.normal_force, solved.answer.shear_force
         half = middle(before, after)
-        push = through.normal.T @ forces[0] + through.tangent.T @ forces[1]
+        push = through.push(*forces)
         owed = np.asarray(self._modes_turned @ (balance - push)).reshape(-1, 3)
         acted = np.asarray(self._modes_turned @ push)
         owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, acted)
