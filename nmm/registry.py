@@ -103,6 +103,8 @@ def _check_options(
             expected = f"one of {', '.join(known)}" if known else "no option"
             raise FormulationError(Fault(place, key, expected, remedy))
         hint = known[key]
+        if value is None and str(hint).endswith("| None"):
+            continue
         named = hint if isinstance(hint, str) else getattr(hint, "__name__", str(hint))
         types, words = READ.get(named.removesuffix(" | None"), ((object,), ""))
         is_number = isinstance(value, int | float) and not isinstance(value, bool)

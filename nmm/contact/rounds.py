@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from integration.arrays import Floats
 from nmm.contact.alternation import Budget
@@ -19,6 +20,8 @@ GAIN = 0.02
 """Part of the error that a round must leave at most for its springs to stay as they are."""
 NEAR = 3.0
 """Errors this many times the tolerance are likely within it after the next round."""
+UNHELD = 1e13
+"""Compliance times stiffness of a contact from which an unknown is held by rounding alone."""
 FAILURES = 2
 """Rounds that may miss their own tolerance before the iteration is given up."""
 
@@ -56,15 +59,14 @@ class Round:
 def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
     """(m,) compliance ``c = g^T diag(K)^-1 g`` (m/N) of normal and tangent rows ``g``.
 
-    Only unknowns that the matrix holds count. Where there are none or their hold is weak the
-    problem's stiffness ``k`` stands in, so that ``c <= 1e4 / k``; where that is the joint's own,
-    ``c = 1 / k``.
+    Only unknowns that the matrix holds count, against the problem's stiffness ``k`` at the contact.
+    Where there are none or their hold is weak ``k`` stands in, so that ``c <= 1e4 / k``; where that
+    is the joint's own, ``c = 1 / k``.
     """
     diagonal = problem.matrix.diagonal()
-    held = diagonal > 1e-12 * np.abs(diagonal).max(initial=0.0)
-    ease = np.divide(1.0, diagonal, out=np.zeros_like(diagonal), where=held)
-    normal = problem.normal_rows.multiply(problem.normal_rows) @ ease
-    shear = problem.tangent_rows.multiply(problem.tangent_rows) @ ease
+    ease = np.divide(1.0, diagonal, out=np.zeros_like(diagonal), where=diagonal > 0)
+    normal = _held_ease(problem.normal_rows, ease, problem.normal_stiffness)
+    shear = _held_ease(problem.tangent_rows, ease, problem.shear_stiffness)
     own = problem.own_stiffness
     found = []
     for compliance, stiffness in (
@@ -74,6 +76,14 @@ def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
         largest = np.where(compliance > 0, np.minimum(compliance, 1e4 / stiffness), 1 / stiffness)
         found.append(np.where(own, 1 / stiffness, largest))
     return found[0], found[1]
+
+
+def _held_ease(rows: csr_array, ease: Floats, stiffness: Floats) -> Floats:
+    """Sum ``g^2 / K`` (m,) over the unknowns that are held by more than rounding, `UNHELD`."""
+    owner = np.repeat(np.arange(len(stiffness)), np.diff(rows.indptr))
+    each = rows.data**2 * ease[rows.indices]
+    each[each * stiffness[owner] > UNHELD] = 0.0
+    return np.bincount(owner, each, len(stiffness)).astype(float)
 
 
 def stiff_springs(problem: StepProblem, scale: float | None) -> CutSprings:
