@@ -50,6 +50,7 @@ class Augmented(Enforcement):
     """
 
     name: ClassVar[str] = "augmented"
+    multipliers: ClassVar[bool] = True
     scale: float | None = 10.0
     growth: float = 10.0
     max_rounds: int = 50

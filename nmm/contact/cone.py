@@ -72,6 +72,7 @@ class Cone(Enforcement):
     """
 
     name: ClassVar[str] = "cone"
+    multipliers: ClassVar[bool] = True
     scale: float = 10.0
     growth: float = 10.0
     max_rounds: int = 12

@@ -15,9 +15,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Enforcement(ABC):
-    """Base of contact enforcements; a frozen set of options."""
+    """Base of contact enforcements; a frozen set of options.
+
+    Attributes
+    ----------
+    name
+        Its name in files.
+    multipliers
+        Whether forces are whatever exact conditions need: on faces of meshes these are then held
+        in the mean (`nmm.contact.weak`).
+    """
 
     name: ClassVar[str]
+    multipliers: ClassVar[bool] = False
 
     @abstractmethod
     def solve(

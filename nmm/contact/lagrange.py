@@ -60,6 +60,7 @@ class Lagrange(Enforcement):
     """
 
     name: ClassVar[str] = "lagrange"
+    multipliers: ClassVar[bool] = True
     max_passes: int = 20
     rescue: int = 100
     tolerance: float = 1e-8

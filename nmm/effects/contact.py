@@ -42,7 +42,9 @@ from nmm.contact.problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.record import Breaking, ContactRecord, Solved
 from nmm.contact.stations import Stations
 from nmm.contact.surface import Surface
+from nmm.contact.traces import Traces
 from nmm.contact.turns import Turns, slid_under_load
+from nmm.contact.weak import WeakFaces
 from nmm.effects.base import Effect, Setup
 from nmm.effects.contact_momentum import Momentum
 from nmm.effects.contact_pairs import held_bodies, interface_law, pairs_of
@@ -70,6 +72,7 @@ class Contact(Effect):
         start: State,
         held: Bools,
         bends: bool,
+        in_the_mean: bool = False,
     ) -> None:
         self._model = model
         self._laws = laws
@@ -79,6 +82,8 @@ class Contact(Effect):
         # All but the penalty replace springs that are not the joints' own by exact conditions.
         self._exact = enforcement.name != "penalty"
         self._bends = bends
+        weak = in_the_mean and enforcement.multipliers
+        self._traces = Traces.of(self._sides, model.modulus) if weak else None
         self._memory = Memory()
         self._solved: tuple[StepProblem, StepAnswer] | None = None
         self._last: Contacts | None = None
@@ -122,6 +127,8 @@ class Contact(Effect):
             held_bodies(setup),
             # Faces bend between their ends: contacts act at points of the material.
             bends=points > 2,
+            # Fields of blocks follow what single points ask for.
+            in_the_mean=points > 0 and not setup.formulation.cover.of_blocks,
         )
 
     def candidates(self, state: State, reach: float, step: float | None = None) -> ContactPoints:
@@ -166,6 +173,7 @@ class Contact(Effect):
         enforcement = self._enforcement if held is None else Conditioned(self._enforcement, held)
         self._memory.moving = step is not None
         through = self._rows(contacts, state, halfway)
+        weak = self._weak(contacts, state)
         turns = Turns(self._laws, contacts)
         nowhere = np.zeros(len(contacts), dtype=bool)
         passes, loss = 0, 0.0
@@ -190,13 +198,16 @@ class Contact(Effect):
                 shear_force=contacts.shear_force,
                 compliant=own | (dashpots.stiffness > 0),
             )
-            joined = turns.twins.joined(problem)
+            doubled = turns.twins.joined(problem)
+            wide = None if weak is None else weak.wider(doubled.n_contacts)
+            joined = doubled if wide is None else wide.joined(doubled)
             # A step that looks further and finds no other contacts asks the same again.
             found = self._memory.known(joined) if held is None else None
             if found is None:
                 found = enforcement.solve(self._memory.started(joined), solver, self._memory)
             self._memory.answered = None if held is not None else (joined, found)
-            answer = turns.twins.merged(found)
+            whole = found if wide is None else wide.merged(found, joined, doubled)
+            answer = turns.twins.merged(whole)
             passes += answer.passes
             self._solved = (problem if held is None else held.reduced(problem), answer)
             if not answer.verdict.converged:
@@ -235,6 +246,12 @@ class Contact(Effect):
         stations = Stations.at(self._sides, contacts) if self._bends else self._stations
         found = rows(contacts, self._sides, state.frames, n_unknowns, stations)
         return Rows(*found, contacts.normal)
+
+    def _weak(self, contacts: ContactPoints, state: State) -> WeakFaces | None:
+        """Return how exact conditions on faces of meshes are held in the mean; None elsewhere."""
+        if self._traces is None:
+            return None
+        return WeakFaces.of(contacts, self._partners.surface(state), self._traces)
 
     def commit(self, solved: Solved, state: State) -> ContactPoints:
         """Keep the accepted contacts as the start of the next step, and return them."""

@@ -142,18 +142,12 @@ class Pressure(SceneCase):
         return self.enforcement
 
     def pressures(self, run: "Run") -> tuple[Floats, Floats, Floats]:
-        """Return contacts from left to right: places, forces and ends (m + 1,) of their lengths.
-
-        The length of a contact that presses goes half way to its neighbours.
-        """
+        """Return places, forces and lengths of the contacts that press, from left to right."""
         frame = run.frames[-1]
         place, force = frame.contact_position[:, 0], -frame.contact_force[:, 0]
-        acts = force > 1e-9 * force.sum()
-        order = np.argsort(place[acts])
-        x, f = place[acts][order], force[acts][order]
-        middle = (x[1:] + x[:-1]) / 2
-        ends = np.concatenate([[1.5 * x[0] - x[1] / 2], middle, [1.5 * x[-1] - x[-2] / 2]])
-        return x, f, ends
+        acts = np.flatnonzero(force > 1e-9 * force.sum())
+        order = acts[np.argsort(place[acts])]
+        return place[order], force[order], frame.contact_length[order]
 
 
 @dataclass(frozen=True)
@@ -205,13 +199,11 @@ class Hertz(Pressure):
         return np.concatenate([corners[:0:-1] * [-1, 1], corners])
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return triangles that grow away from the contact; the plane is one cell or two."""
-        options = {"focus": [[0.0, 0.0]], "radius": 1.3 * self.half_width, "growth": 0.4}
-        return _covered(
+        """Return a net that grows away from the contact; the plane is one cell or two."""
+        return _graded(
             super().formulation(scene, name),
-            type="graded",
             size=self.step,
-            options=options,
+            options={"focus": [[0.0, 0.0]], "radius": 1.3 * self.half_width, "growth": 0.4},
             nets=[{"block": "plane", "size": 0.3, "shift": (0.3, 0.3)}],
         )
 
@@ -220,13 +212,7 @@ class Hertz(Pressure):
 
         Hertz's ``p^2`` falls linearly with ``x^2``.
         """
-        x, force, ends = self.pressures(run)
-        length = np.diff(ends)
-        if self.enforcement == "penalty":
-            frame = run.frames[-1]
-            order = np.argsort(frame.contact_position[:, 0])
-            acts = frame.contact_force[order, 0] < -1e-9 * force.sum()
-            length = frame.contact_length[order][acts]
+        x, force, length = self.pressures(run)
         near = np.abs(x) < 0.8 * self.half_width
         slope, top = np.polyfit(x[near] ** 2, (force / length)[near] ** 2, 1)
         reason = "the benchmark's, for 15 contacts in b"
@@ -287,10 +273,9 @@ class Punch(Pressure):
         )
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return triangles that grow away from the corners; the punch is one cell or two."""
-        return _covered(
+        """Return a net that grows away from the corners; the punch is one cell or two."""
+        return _graded(
             super().formulation(scene, name),
-            type="graded",
             size=1 / 40,
             options={"focus": [[-1.0, 0.0], [1.0, 0.0]], "radius": 0.1, "growth": 0.12},
             nets=[{"block": "punch", "size": 3.0, "shift": (0.3, 0.3)}],
@@ -298,7 +283,8 @@ class Punch(Pressure):
 
     def measure(self, run: "Run") -> Checks:
         """Compare the share of the force in the middle half of the face."""
-        _, force, ends = self.pressures(run)
+        x, force, length = self.pressures(run)
+        ends = x[0] - length[0] / 2 + np.concatenate([[0.0], np.cumsum(length)])
         sums = np.concatenate([[0.0], np.cumsum(force)])
         low, high = np.interp([-0.5, 0.5], ends, sums)
         share = float((high - low) / sums[-1])
@@ -326,6 +312,13 @@ def _pins(places: dict[str, tuple[float, float]], name: str = "pin") -> list[str
         'fix = ["x"]\n'
         for block, point in places.items()
     ]
+
+
+def _graded(formulation: "Formulation", **changes: Any) -> "Formulation":
+    """Return a formulation with nets of triangles or quads that grow away from foci."""
+    quads = formulation.cover.type == "quads"
+    kind = "nmm.verification.graded_quads:GradedQuads" if quads else "graded"
+    return _covered(formulation, type=kind, **changes)
 
 
 def _covered(formulation: "Formulation", **changes: Any) -> "Formulation":
