@@ -77,18 +77,13 @@ def cracked_frame(index, frame_type, elements, ends, pairs):
 def made_up_run(sink, blocks=40, frames=4):
     """Write a run of a beam that breaks in the middle into a sink."""
     from integration.polygons import Polygons
-    from nmm.results import Frame, Summary
+    from nmm.results import Frame, Summary, Topology
 
     cells, ends, pairs = voronoi_beam(blocks)
     elements = Polygons.from_shapely(cells)
     material = (elements.centroids[:, 1] < 0.02).astype(np.int64)
-    sink.begin(
-        elements,
-        np.arange(blocks),
-        ("concrete", "mortar"),
-        region_material=material,
-        region_names=[f"cell {n}" for n in range(blocks)],
-    )
+    names = tuple(f"cell {n}" for n in range(blocks))
+    sink.begin(Topology(elements, np.arange(blocks), material, ("concrete", "mortar"), names))
     for index in range(frames):
         sink.frame(cracked_frame(index, Frame, elements, ends, pairs))
         factor = 0.5 * index

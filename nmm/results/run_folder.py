@@ -6,17 +6,14 @@ flushed line by line, so a run that was killed can be read up to its last step.
 """
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from integration.arrays import Ints
-from integration.polygons import Polygons
 from nmm.errors import NmmError
 from nmm.results import files
-from nmm.results.frame import Frame
+from nmm.results.frame import Frame, Topology
 from nmm.results.history import HistoryFile
-from nmm.results.sink import make_topology
 from nmm.results.summary import Summary
 
 
@@ -55,19 +52,8 @@ class RunFolder:
         self._history = HistoryFile(self.path / files.HISTORY)
         self._topologies = 0
 
-    def begin(
-        self,
-        elements: Polygons,
-        element_region: Ints,
-        material_names: Sequence[str],
-        *,
-        region_material: Ints,
-        region_names: Sequence[str] = (),
-    ) -> None:
+    def begin(self, topology: Topology) -> None:
         """Write the elements as the topology of the frames to come."""
-        topology = make_topology(
-            elements, element_region, material_names, region_material, region_names
-        )
         files.write_topology(self.path / files.topology_name(self._topologies), topology)
         self._topologies += 1
 

@@ -6,8 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
-from integration.polygons import Polygons
+from integration.arrays import Floats
 from nmm.results.frame import Frame, Topology
 from nmm.results.summary import Summary
 
@@ -15,15 +14,7 @@ from nmm.results.summary import Summary
 class Sink(Protocol):
     """Receiver of a run: `begin`, then frames and rows as they come, then `finish`."""
 
-    def begin(
-        self,
-        elements: Polygons,
-        element_region: Ints,
-        material_names: Sequence[str],
-        *,
-        region_material: Ints,
-        region_names: Sequence[str] = (),
-    ) -> None:
+    def begin(self, topology: Topology) -> None:
         """Take the elements; called again whenever cutting has changed them."""
 
     def frame(self, frame: Frame) -> None:
@@ -52,23 +43,6 @@ class RunData(Protocol):
         """History columns by name, one value a step."""
 
 
-def make_topology(
-    elements: Polygons,
-    element_region: Ints,
-    material_names: Sequence[str],
-    region_material: Ints,
-    region_names: Sequence[str],
-) -> Topology:
-    """Bundle the arguments of `Sink.begin`."""
-    return Topology(
-        elements=elements,
-        element_region=np.asarray(element_region, dtype=np.int64),
-        region_material=np.asarray(region_material, dtype=np.int64),
-        material_names=tuple(material_names),
-        region_names=tuple(region_names),
-    )
-
-
 class MemorySink:
     """Keeps topologies, frames, history and summary in memory.
 
@@ -81,19 +55,9 @@ class MemorySink:
         self.rows: list[dict[str, float]] = []
         self.summary = Summary()
 
-    def begin(
-        self,
-        elements: Polygons,
-        element_region: Ints,
-        material_names: Sequence[str],
-        *,
-        region_material: Ints,
-        region_names: Sequence[str] = (),
-    ) -> None:
+    def begin(self, topology: Topology) -> None:
         """Keep the elements as the topology of the frames to come."""
-        self.topologies.append(
-            make_topology(elements, element_region, material_names, region_material, region_names)
-        )
+        self.topologies.append(topology)
 
     def frame(self, frame: Frame) -> None:
         """Keep one frame."""

@@ -2,9 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from integration.arrays import Ints
-from integration.polygons import Polygons
-from nmm.results.frame import Frame
+from nmm.results.frame import Frame, Topology
 from nmm.results.sink import Sink
 from nmm.results.summary import Summary
 
@@ -15,24 +13,10 @@ class Tee:
     def __init__(self, sinks: Sequence[Sink]) -> None:
         self._sinks = sinks
 
-    def begin(
-        self,
-        elements: Polygons,
-        element_region: Ints,
-        material_names: Sequence[str],
-        *,
-        region_material: Ints,
-        region_names: Sequence[str] = (),
-    ) -> None:
+    def begin(self, topology: Topology) -> None:
         """See `Sink.begin`."""
         for sink in self._sinks:
-            sink.begin(
-                elements,
-                element_region,
-                material_names,
-                region_material=region_material,
-                region_names=region_names,
-            )
+            sink.begin(topology)
 
     def frame(self, frame: Frame) -> None:
         """See `Sink.frame`."""
@@ -56,15 +40,7 @@ class Frames:
     def __init__(self, sink: Sink) -> None:
         self._sink = sink
 
-    def begin(
-        self,
-        elements: Polygons,
-        element_region: Ints,
-        material_names: Sequence[str],
-        *,
-        region_material: Ints,
-        region_names: Sequence[str] = (),
-    ) -> None:
+    def begin(self, topology: Topology) -> None:
         """Ignore: the topology stands."""
 
     def frame(self, frame: Frame) -> None:

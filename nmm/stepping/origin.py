@@ -5,16 +5,15 @@ blocks, supports and loads are shifted once at the door, by a sum that rounds no
 written is shifted back.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
-from integration.polygons import Polygons
+from integration.arrays import Floats
 from nmm.geometry.blocks import Regions
-from nmm.results.frame import Frame
+from nmm.results.frame import Frame, Topology
 from nmm.results.sink import Sink
 from nmm.results.tee import Tee
 
@@ -91,23 +90,11 @@ class MovedBack(Tee):
         super().__init__([sink])
         self._by = by
 
-    def begin(
-        self,
-        elements: Polygons,
-        element_region: Ints,
-        material_names: Sequence[str],
-        *,
-        region_material: Ints,
-        region_names: Sequence[str] = (),
-    ) -> None:
+    def begin(self, topology: Topology) -> None:
         """See `Sink.begin`."""
-        super().begin(
-            elements.with_points(elements.points + self._by),
-            element_region,
-            material_names,
-            region_material=region_material,
-            region_names=region_names,
-        )
+        elements = topology.elements
+        moved = elements.with_points(elements.points + self._by)
+        super().begin(replace(topology, elements=moved))
 
     def frame(self, frame: Frame) -> None:
         """See `Sink.frame`."""

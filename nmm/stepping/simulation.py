@@ -17,6 +17,7 @@ from nmm.effects.base import Setup
 from nmm.errors import FormulationError, SceneError
 from nmm.formulation import Formulation, formulation_hash
 from nmm.geometry.regions import regions as build_regions
+from nmm.results.frame import Topology
 from nmm.results.run_folder import RunFolder
 from nmm.results.sink import Sink
 from nmm.results.summary import Summary
@@ -89,11 +90,13 @@ class Simulation:
         if self.origin.any():
             sink = MovedBack(sink, self.origin)
         sink.begin(
-            self.stepper.model.manifold.elements,
-            self.stepper.model.manifold.element_region,
-            list(self.scene.materials),
-            region_material=self.regions.material,
-            region_names=self.regions.name,
+            Topology(
+                elements=self.stepper.model.manifold.elements,
+                element_region=self.stepper.model.manifold.element_region,
+                region_material=np.asarray(self.regions.material, dtype=np.int64),
+                material_names=tuple(self.scene.materials),
+                region_names=tuple(self.regions.name),
+            )
         )
         recorder = Recorder(self.stepper, sink, self.monitors)
         recorder.frame(self.start, "load" if self.scene.inertia is None else "dynamic", None)

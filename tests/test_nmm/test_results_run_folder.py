@@ -17,14 +17,7 @@ from nmm.results.sink import MemorySink
 
 def fill(sink, run):
     """Hand everything of a run in memory to another sink."""
-    topology = run.topologies[0]
-    sink.begin(
-        topology.elements,
-        topology.element_region,
-        topology.material_names,
-        region_material=topology.region_material,
-        region_names=topology.region_names,
-    )
+    sink.begin(run.topologies[0])
     for frame, row in zip(run.frames, run.rows, strict=True):
         sink.frame(frame)
         sink.row(row)
@@ -147,12 +140,7 @@ def test_frames_after_a_cut_belong_to_the_new_topology(tmp_path, memory_run):
     topology = memory_run.topologies[0]
     for sink in (RunFolder(tmp_path / "run"), MemorySink()):
         for index, frame in enumerate(memory_run.frames[:2]):
-            sink.begin(
-                topology.elements,
-                topology.element_region,
-                topology.material_names,
-                region_material=topology.region_material,
-            )
+            sink.begin(topology)
             sink.frame(replace(frame, index=index))
         run = sink if isinstance(sink, MemorySink) else read_run(tmp_path / "run")
         assert len(run.topologies) == 2
