@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Floats
 from nmm.interfaces.limits import Limits
 from nmm.registry import Registry
 
@@ -67,10 +67,6 @@ class InterfaceLaw(ABC):
         self, normal_force: Floats, shear_force: Floats, length: Floats, thickness: float
     ) -> Floats:
         """Return force over strength (m,) of intact bonds; above 1 a bond cannot hold."""
-
-    def breaks_in_tension(self, normal_force: Floats, length: Floats, thickness: float) -> Bools:
-        """Say which overloaded bonds (m,) fail by pull rather than by shear."""
-        return normal_force >= self.tensile_strength * length * thickness
 
     def friction(self, damage: Floats) -> Floats:
         """Return the tangent (m,) of the friction angle: residual where the bond is broken."""

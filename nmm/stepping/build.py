@@ -6,7 +6,8 @@ import numpy as np
 
 from nmm.assembly.model import Model
 from nmm.materials.base import MATERIAL_LAWS, Law
-from nmm.stepping.covering import cover_regions, local_functions
+from nmm.stepping.covering import local_functions
+from nmm.stepping.solid import covered
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
@@ -19,24 +20,17 @@ block_functions = local_functions
 
 def build_model(scene: "Scene", formulation: "Formulation", regions: "Regions") -> Model:
     """Cover the regions and give the elements their materials."""
-    laws = [material_law(item) for item in scene.materials.values()]
-    kappa = np.array([law.kolosov(scene.plane) for law in laws])
-    cracks = [np.array(crack.points) for crack in scene.cracks]
-    material = np.asarray(regions.material)
-    covering = cover_regions(regions, formulation.cover, cracks, kappa[material])
-    manifold = covering.manifold
-    density = [item.density or 0.0 for item in scene.materials.values()]
-    material = material[manifold.element_region]
+    materials = scene.materials.values()
     moves = scene.loading is not None and scene.loading.motion_after_failure is not None
     has_mass = scene.gravity is not None or scene.inertia is not None or moves
-    elasticity = np.array([law.stiffness(scene.plane) for law in laws])
-    return Model(
-        manifold=manifold,
-        elasticity=elasticity[material],
-        density=np.array(density)[material] if has_mass else np.zeros(len(material)),
-        modulus=np.array([law.modulus for law in laws])[material],
+    return covered(
+        regions,
+        formulation.cover,
+        [material_law(item) for item in materials],
+        scene.plane,
+        cracks=[np.array(crack.points) for crack in scene.cracks],
+        density=np.array([(item.density or 0.0) * has_mass for item in materials]),
         thickness=scene.thickness,
-        cut=covering.cut,
         lumped=formulation.integrator.mass == "lumped",
     )
 

@@ -49,15 +49,46 @@ def solid(
     own = np.zeros(n, dtype=np.int64) if material is None else material
     names = tuple(f"#{number}" for number in range(n))
     regions = Regions(polygons, own, names, np.arange(n))
-    kappa = np.array([law.kolosov(plane) for law in laws])[own]
-    lines: list[Floats] = [np.asarray(crack, dtype=float) for crack in cracks]
-    covering = cover_regions(regions, cover, lines, kappa)
-    of_element = own[covering.manifold.element_region]
     weights = np.zeros(len(laws)) if density is None else np.array(density, dtype=float)
+    lines = [np.asarray(crack, dtype=float) for crack in cracks]
+    return covered(
+        regions,
+        cover,
+        laws,
+        plane,
+        cracks=lines,
+        density=weights,
+        thickness=thickness,
+        lumped=lumped,
+    )
+
+
+def covered(
+    regions: Regions,
+    cover: Cover,
+    laws: Sequence[Law],
+    plane: str,
+    *,
+    cracks: list[Floats],
+    density: Floats,
+    thickness: float,
+    lumped: bool,
+) -> Model:
+    """Cover regions and give the elements the numbers of their materials.
+
+    Parameters
+    ----------
+    regions
+        N regions with their materials, numbers of the ``laws`` and of the densities (kg/m3).
+    """
+    own = np.asarray(regions.material)
+    kappa = np.array([law.kolosov(plane) for law in laws])
+    covering = cover_regions(regions, cover, cracks, kappa[own])
+    of_element = own[covering.manifold.element_region]
     return Model(
         manifold=covering.manifold,
         elasticity=np.array([law.stiffness(plane) for law in laws])[of_element],
-        density=weights[of_element],
+        density=density[of_element],
         modulus=np.array([law.modulus for law in laws])[of_element],
         thickness=thickness,
         cut=covering.cut,
