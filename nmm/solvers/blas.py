@@ -19,6 +19,7 @@ from integration.arrays import Floats, Ints
 
 Index = npt.NDArray[np.int32]
 VERBS = ("set", "get")
+LETTERS, SCALARS = np.frombuffer(b"LNRTU", dtype=np.uint8), np.array([1.0, -1.0, 0.0])
 
 
 @cache
@@ -31,8 +32,7 @@ def addresses(lapack: str, *blas: str) -> Ints:
 
 def words() -> tuple[npt.NDArray[np.uint8], Index, Floats]:
     """Arguments that LAPACK takes by address: letters, room for four integers, (1, -1, 0)."""
-    letters = np.frombuffer(b"LNRTU", dtype=np.uint8)
-    return letters, np.zeros(4, dtype=np.int32), np.array([1.0, -1.0, 0.0])
+    return LETTERS, np.empty(4, dtype=np.int32), SCALARS
 
 
 def _caller(count: int) -> Any:

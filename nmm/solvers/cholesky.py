@@ -28,18 +28,12 @@ class Factorised:
         """Return the solution of one right-hand side (n,) or of several (n, k)."""
         if rhs.ndim == 2:
             return np.stack([self.solve(column) for column in rhs.T], axis=1)
-        p = self.plan
+        p, x = self.plan, np.empty(len(rhs))
         one = np.ascontiguousarray(rhs, dtype=np.float64)
+        outside = addresses(*fronts.KERNELS), *words()
         with one_thread():
-            x = fronts.solve(
-                addresses(*fronts.KERNELS),
-                *words(),
-                one,
-                p.order,
-                *p.shape,
-                self.panels.numbers,
-            )
-        return np.asarray(x)
+            fronts.solve(*outside, one, p.order, *p.shape, self.panels.numbers, x)
+        return x
 
 
 @dataclass(frozen=True)

@@ -150,8 +150,9 @@ def solve(
     rows: Ints,
     panel_start: Ints,
     panels: Floats,
-) -> Floats:
-    """Solution for one right-hand side."""
+    solution: Floats,
+) -> None:
+    """Fill in the solution for one right-hand side: arrays are slow to return."""
     n, count = len(rhs), len(first) - 1
     x = np.empty(n)
     for k in range(n):
@@ -187,7 +188,5 @@ def solve(
                 work[k] = x[rows[row_start[s] + k]]
             call11(kernels[4], (turned, n_r, n_c, minus, below, n_h, ends, step, one, own, step))
         call8(kernels[3], (lower, turned, plain, n_c, block, n_h, own, step))
-    result = np.empty(n)
     for k in range(n):
-        result[order[k]] = x[k]
-    return result
+        solution[order[k]] = x[k]

@@ -33,20 +33,13 @@ class FactorisedLU:
         """Return the solution of one right-hand side (n,) or of several (n, k)."""
         if rhs.ndim == 2:
             return np.stack([self.solve(column) for column in rhs.T], axis=1)
-        p = self.plan
+        p, x = self.plan, np.empty(len(rhs))
         one = np.ascontiguousarray(rhs, dtype=np.float64)
+        outside = addresses(*lu_fronts.KERNELS), *words()
+        numbers = p.beside_start, self.panels.numbers, self.swaps
         with one_thread():
-            x = lu_fronts.solve(
-                addresses(*lu_fronts.KERNELS),
-                *words(),
-                one,
-                p.order,
-                *p.shape,
-                p.beside_start,
-                self.panels.numbers,
-                self.swaps,
-            )
-        return np.asarray(x)
+            lu_fronts.solve(*outside, one, p.order, *p.shape, *numbers, x)
+        return x
 
 
 @dataclass(frozen=True)
