@@ -122,7 +122,10 @@ def study(
     out: Out = None,
     quiet: Quiet = False,
 ) -> None:
-    """Run a sweep or an ensemble; what is done already is skipped."""
+    """Run a sweep or an ensemble; what is done already is skipped.
+
+    Exit code 2 when all cases failed.
+    """
     with faults_told():
         _one_thread()
         from nmm.study.plan import read_plan
@@ -149,12 +152,16 @@ def study(
             raise typer.Exit(130) from None
         files = write_sweep(done, folder)
         failed = sum(not one.valid for one in done.records)
-        typer.echo(f"{len(done.records)} cases, {done.skipped} done before, {failed} failed")
+        count = len(done.records)
+        plural = "s" * (count != 1)
+        typer.echo(f"{count} case{plural}, {done.skipped} done before, {failed} failed")
         if not quiet:
             for line in sweep_page(done).splitlines():
                 if line.startswith(("|", "- ")):
                     typer.echo(line)
         tell_files(files)
+    if failed == count:
+        raise typer.Exit(2)
 
 
 def calibrate(

@@ -93,10 +93,15 @@ def run(
 
     Raises
     ------
+    TypeError
+        When something else than a scene or a formulation is given, such as the name of a file.
     NmmError
         When scene or formulation cannot be run at all. A run that starts and fails ends with a
         summary whose status is "failed" and whose sentence says why.
     """
+    _refuse_other(scene, "Scene", "nmm.read_scene")
+    if formulation is not None:
+        _refuse_other(formulation, "Formulation", "nmm.read_formulation")
     simulation = prepare(scene, formulation or scene.formulation or Formulation())
     memory = MemorySink()
     folder = None if out is None else simulation.folder(Path(out))
@@ -113,3 +118,8 @@ def run(
         topologies=memory.topologies,
         origin=simulation.origin,
     )
+
+
+def _refuse_other(given: object, kind: str, reader: str) -> None:
+    if type(given).__name__ != kind:
+        raise TypeError(f"nmm.run: {given!r}: expected a {kind}: read a file by {reader}(path)")

@@ -64,9 +64,9 @@ def read_plan(path: Path) -> tuple[Plan, list[Case]]:
         )
     strange = [key for key in plan.over if key not in plan.vary]
     if strange:
+        known = ", ".join(plan.vary) or "which is empty"
         raise NmmError(
-            f"{path}: over: {strange[0]}: expected a key of [vary] ({', '.join(plan.vary)}): "
-            "correct it"
+            f"{path}: over: {strange[0]}: expected a key of [vary] ({known}): correct it"
         )
     cases = [
         one

@@ -134,10 +134,16 @@ def value_of(text: str) -> Any:
 
 def _set(tables: Any, path: str, value: Any) -> None:
     *way, last = path.split(".")
-    place = tables
+    place: Any = tables
+    named: Any = tables.get(way[0]) if way and way[0] in ("materials", "interfaces") else None
     try:
         for part in way:
-            place = place[int(part)] if isinstance(place, list) else place.setdefault(part, {})
+            if isinstance(place, list):
+                place = place[int(part)]
+            elif place is named:  # a material or interface that the scene does not have
+                place = place[part]
+            else:
+                place = place.setdefault(part, {})
         if isinstance(place, list):
             place[int(last)] = value
         else:

@@ -116,6 +116,11 @@ def test_a_structure_without_support_is_refused_by_the_solution_not_answered() -
     assert len(run.history) == 0
 
 
+def test_the_name_of_a_file_is_no_scene() -> None:
+    with pytest.raises(TypeError, match=r"nmm\.run: 'a\.toml': expected a Scene: read a file by"):
+        nmm.run("a.toml")
+
+
 def test_unnamed_effects_are_neither_built_nor_imported() -> None:
     import subprocess
     import sys

@@ -136,6 +136,8 @@ def test_blocks_are_not_run_again_for_every_size_of_a_cover(bar):
 def test_a_setting_that_leads_nowhere_is_named(bar):
     with pytest.raises(NmmError, match=r"setting blocks\.7\.material: leads nowhere"):
         with_settings(Case("a", bar, formulation()), {"blocks.7.material": "m"})
+    with pytest.raises(NmmError, match=r"setting materials\.n\.young_modulus: leads nowhere"):
+        with_settings(Case("a", bar, formulation()), {"materials.n.young_modulus": 2.0})
 
 
 def test_the_key_of_a_case_depends_on_its_content_only(bar, bent):
