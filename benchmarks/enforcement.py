@@ -140,18 +140,21 @@ def _error(
     problem: StepProblem, answer: StepAnswer, reference: Reference, budget: float
 ) -> tuple[float, list[str]]:
     """Force error, -1 where it is not known, and what is to be said of that."""
-    for number, options in enumerate(reference.options):
+    for number, (name, options) in enumerate(reference):
         try:
             with limit(budget):
-                tight = make_enforcement(reference.name, options).solve(problem, make_solver())
+                tight = make_enforcement(name, options).solve(problem, make_solver())
         except Overtime:
             return -1.0, ["no force error: the tight solution spent the budget too"]
         if tight.verdict.converged:
             weight = CutSprings.of(problem).weight
             expected = weight * _resultants(problem, tight)
             found = weight * _resultants(problem, answer)
-            with_what = options or "its own tolerances"
-            said = [f"force error against {reference.name} with {with_what}"] if number else []
+            tight_to = ", ".join(f"{key} = {value:g}" for key, value in options.items())
+            other = (
+                f"force error against {name} with {tight_to}: {reference[0][0]} did not converge"
+            )
+            said = [other] if number else []
             return float(np.linalg.norm(found - expected) / np.linalg.norm(expected)), said
     return -1.0, [f"no force error: the tight solution: {tight.verdict.sentence}"]
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import enforcement
 import step_rows
 from enforcement_summary import aims, choice, crowd, origins, short
-from kinds import KINDS
+from kinds import KINDS, USUAL
 from records import RECORDS, read
 from step_rows import StepRow
 
@@ -64,6 +64,12 @@ Bricks in running bond on a held base, laid without gaps.
 Voronoi cells of 1 m2 in a box open above, as deep as wide, that touch along whole edges.
 
 {pile}
+
+### Growth by phase
+
+Exponents of processor seconds over blocks.
+
+{phases}
 
 ### Before the first step
 
@@ -155,6 +161,7 @@ def page(records: Path) -> str:
         warm=max((row.left_out for row in steps), default=0),
         wall=_scene(steps, "wall"),
         pile=_scene(steps, "pile"),
+        phases=step_rows.phase_growth(steps, USUAL),
         prepare=step_rows.preparation(steps),
         alone=_with(enforcement.table(rows), enforcement.sentences(rows)),
         settling=settling(records / "settling_pile.jsonl"),

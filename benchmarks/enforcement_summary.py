@@ -112,7 +112,7 @@ def _default(steps: list[StepRow]) -> str:
 
 
 def _met_and_missed(rows: dict[tuple[str, int], StepRow | None], named: bool) -> str:
-    lists: dict[str, list[str]] = {}
+    lists: dict[str, list[str]] = {"met": [], "missed": []}
     for (scene, size), row in rows.items():
         what = f"{scene} of {size}"
         if row is None or not row.sound:
@@ -120,11 +120,10 @@ def _met_and_missed(rows: dict[tuple[str, int], StepRow | None], named: bool) ->
             lists.setdefault(state, []).append(what)
             continue
         by = f", {row.enforcement}" if named else ""
-        figures = f"{milliseconds(row.seconds)} ms, {_short(row.ratio)} of the aim{by}"
+        figures = f"{milliseconds(row.seconds)} ms, {_short(row.ratio)} times the aim{by}"
         lists.setdefault("met" if row.ratio <= 1 else "missed", []).append(f"{what} ({figures})")
-    met = len(lists.get("met", []))
-    parts = [f"{state}: {', '.join(some)}" for state, some in lists.items()]
-    return f"{met} of {len(rows)} met; " + "; ".join(parts)
+    parts = [f"{state}: {', '.join(some)}" for state, some in lists.items() if some]
+    return f"{len(lists['met'])} of {len(rows)} met; " + "; ".join(parts)
 
 
 def _growing(steps: list[StepRow]) -> str:

@@ -5,19 +5,14 @@ from dataclasses import dataclass, field
 Options = dict[str, object]
 
 
-@dataclass(frozen=True)
-class Reference:
-    """A tight solution: options are tried in order, the first that converges counts."""
-
-    name: str
-    options: tuple[Options, ...]
-
-
-SPRINGS = Reference("penalty", ({"tolerance": 1e-12},))
-EXACT = Reference(
-    "cone",
-    ({"tolerance": 1e-10, "gap_tolerance": 1e-9}, {"gap_tolerance": 1e-8}, {}),
+Reference = tuple[tuple[str, Options], ...]
+"""Enforcements with options that are tried in order; the first that converges counts."""
+SPRINGS: Reference = (("penalty", {"tolerance": 1e-12}),)
+EXACT: Reference = (
+    ("cone", {"tolerance": 1e-10, "gap_tolerance": 1e-9}),
+    ("augmented", {"gap_tolerance": 1e-8}),
 )
+"""Where the first fails the second goes another way: the cone again would confirm itself."""
 
 
 @dataclass(frozen=True)
@@ -57,3 +52,5 @@ KINDS = {
 """Shi's own passes first, as the classical reference."""
 DEFAULT = "penalty 10 E"
 """What a formulation that says nothing has."""
+USUAL = ("penalty 1 E", DEFAULT)
+"""What most runs of many blocks have."""

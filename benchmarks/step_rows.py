@@ -193,6 +193,27 @@ def steps_text(row: StepRow) -> str:
     return f"{row.status} after {row.done} of {row.asked}{shorter}"
 
 
+def phase_growth(rows: list[StepRow], kinds: tuple[str, ...]) -> str:
+    """Table of the exponents of every phase from size to size."""
+    head = "| scene | enforcement | blocks | " + " | ".join((*PHASES, "whole")) + " |"
+    lines = [head, "|" + "---|" * (4 + len(PHASES))]
+    for row in rows:
+        last = smaller(row, rows)
+        if row.enforcement not in kinds or last is None or not row.sound:
+            continue
+        times = np.log(row.blocks / last.blocks)
+        powers = [np.log(_spent(row, name) / _spent(last, name)) / times for name in PHASES]
+        cells = " | ".join(f"{power:.2f}" for power in (*powers, growth(row, rows)))
+        sizes = f"{last.size} to {row.size}"
+        lines.append(f"| {row.scene} | {row.enforcement} | {sizes} | {cells} |")
+    return "\n".join(lines)
+
+
+def _spent(row: StepRow, phase: str) -> float:
+    """Processor seconds of a phase: its part of the wall-clock time of all."""
+    return row.seconds * max(row.phases[phase], 1e-9) / row.elapsed
+
+
 def preparation(rows: list[StepRow]) -> str:
     """Table of what comes before the first step, a line for each scene and size; the quickest."""
     lines = ["| scene | blocks | s | grows as | covers (s) | effects (s) |", "|" + "---|" * 6]

@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 from budget import Overtime, apart, limit
-from kinds import DEFAULT, KINDS
+from kinds import KINDS, USUAL
 from records import RECORDS, keep, load, read, stamp, standing
 from step_rows import DT, PHASES, StepRow, expected, line, table
 from whole_scenes import SCENES
@@ -37,7 +37,6 @@ from nmm.stepping.verdict import FAILED
 
 PATH = RECORDS / "steps.jsonl"
 SIZES = (100, 1000, 10_000, 100_000)
-USUAL = ("penalty 1 E", DEFAULT)
 # Steps left out of means: the list of neighbours and the factor are made, nothing is known yet.
 WARM = 3
 # A run of 1 s is begun, so that frames are written as often as in one: every 17th step.
@@ -51,8 +50,8 @@ class _Enough(BaseException):
 class _Clock:
     """Takes times after every accepted step, and ends the run after enough of them."""
 
-    def __init__(self, simulation: Simulation, memory: MemorySink, steps: int) -> None:
-        self.spent, self.memory, self.steps = simulation.stepper.seconds, memory, steps
+    def __init__(self, simulation: Simulation, steps: int) -> None:
+        self.spent, self.memory, self.steps = simulation.stepper.seconds, MemorySink(), steps
         self.elapsed, self.own = [perf_counter()], [process_time()]
         self.phases = [dict(self.spent)]
         self.time = [0.0]
@@ -91,47 +90,48 @@ class _Clock:
 def measure(scene: str, size: int, enforcement: str, steps: int, budget: float) -> StepRow:
     """Run one scene with one enforcement for a number of steps, or until the budget is spent."""
     busy = load()
-    _run("wall", 12, enforcement, 2)  # compiled code is loaded
+    small = _simulation("wall", 12, enforcement)
+    _advanced(small, _Clock(small, 2))  # compiled code is loaded
     began = process_time()
     row = StepRow(scene=scene, enforcement=enforcement, size=size, status="stopped", asked=steps)
     row = replace(row, budget=budget)
     try:
         with limit(budget):
-            row = _run(scene, size, enforcement, steps, row)
+            simulation = _simulation(scene, size, enforcement)
+            row = replace(row, prepared=process_time() - began)
+            clock = _Clock(simulation, steps)
+            row = replace(row, **_advanced(simulation, clock), **clock.figures())
     except Overtime:
         row = replace(row, sentence=f"{budget:g} s were spent before the first step")
+    if row.status == "converged" and row.cut:
+        row = replace(row, status="cut")
     used = process_time() - began
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
     return replace(row, used=used, memory=memory, **stamp(busy))
 
 
-def _run(
-    scene: str, size: int, enforcement: str, steps: int, row: StepRow | None = None
-) -> StepRow | None:
-    """Prepare and run; an overrun of the budget after that is told in the row."""
-    kind, began = KINDS[enforcement], process_time()
+def _simulation(scene: str, size: int, enforcement: str) -> Simulation:
+    kind = KINDS[enforcement]
     contact = {"enforcement": kind.name, "normal_penalty": kind.penalty, "options": kind.options}
     formulation = Formulation.model_validate({"contact": contact, "integrator": {"step": DT}})
-    simulation = prepare(SCENES[scene](size, DURATION), formulation)
-    prepared, memory = process_time() - began, MemorySink()
+    return prepare(SCENES[scene](size, DURATION), formulation)
+
+
+def _advanced(simulation: Simulation, clock: _Clock) -> dict[str, Any]:
+    """Run; how it ended, as fields of a row."""
     parts = {name: simulation.stepper.seconds[name] for name in ("covers", "effects")}
-    clock = _Clock(simulation, memory, steps)
-    status, sentence, since = "converged", "", 0.0
+    fields = {"status": "converged", "blocks": len(simulation.regions), "prepare": parts}
     try:
-        simulation.run([memory], clock)
+        simulation.run([clock.memory], clock)
     except _Enough:
-        pass
+        return fields
     except Overtime:
-        status, since = "stopped", process_time() - clock.own[-1]
-        done = f"{len(clock.time) - 1} of {steps} steps"
+        since = process_time() - clock.own[-1]
+        done = f"{len(clock.time) - 1} of {clock.steps} steps"
         sentence = f"stopped after {done}, {since:.3g} s into the next: the budget was spent"
-    if memory.summary.status == FAILED:
-        status, sentence = "failed", memory.summary.sentence
-    if row is None:
-        return None
-    row = replace(row, **clock.figures(), blocks=len(simulation.regions), prepare=parts)
-    status = "cut" if status == "converged" and row.cut else status
-    return replace(row, status=status, sentence=sentence, prepared=prepared, unfinished=since)
+        return fields | {"status": "stopped", "sentence": sentence, "unfinished": since}
+    # it ran neither to the last step asked for nor out of time: it gave up
+    return fields | {"status": FAILED, "sentence": clock.memory.summary.sentence}
 
 
 def row_of(
@@ -152,27 +152,39 @@ def main() -> None:
     options = _options()
     rows: list[StepRow] = read(PATH, StepRow) if options.page else []
     done: list[StepRow] = []
-    wanted = [
-        (scene, size, kind)
-        for size in sorted(options.blocks)
-        for scene in options.scenes
-        for kind in options.enforcement
-    ]
-    for scene, size, kind in wanted:
+    for scene, size, kind in _wanted(options):
         old = next((row for row in rows if row.key == (scene, kind, size)), None)
-        if old is not None and standing(old, options.resume, options.budget, old.ended):
+        if old is not None and _stands(old, options):
             continue
         row = row_of(scene, size, kind, options.steps, options.budget, rows)
+        print(f"{scene:5}{line(row, [*rows, row])} {row.sentence}", flush=True)
+        if row.status == "not run" and old is not None and old.seconds:
+            continue  # a measurement with more budget is worth more
         rows = [one for one in rows if one.key != row.key] + [row]
         done.append(row)
-        print(f"{scene:5}{line(row, rows)} {row.sentence}", flush=True)
-        if options.page and not (row.status == "not run" and old is not None and old.seconds):
+        if options.page:
             keep(PATH, row)
             _page()
     if options.page:
         _page()
     else:
         print("\n" + table(done))
+
+
+def _wanted(options: argparse.Namespace) -> list[tuple[str, int, str]]:
+    """Rows from small to large: what a large one will cost is then known before."""
+    return [
+        (scene, size, kind)
+        for size in sorted(options.blocks)
+        for scene in options.scenes
+        for kind in options.enforcement
+    ]
+
+
+def _stands(old: StepRow, options: argparse.Namespace) -> bool:
+    if old.status in ("not run", "broken"):
+        return False
+    return standing(old, options.resume, options.budget, old.ended)
 
 
 def _page() -> None:

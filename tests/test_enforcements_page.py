@@ -119,7 +119,7 @@ def test_missed_aims_are_told_by_their_factor_and_met_ones_too():
     rows = [step_row(100, 6e-3), step_row(1000, 30e-3)]  # aims 5 and 40 ms
     text = short(rows)
     assert "1 of 6 met" in text
-    assert "wall of 100 (6.0 ms, 1.2 of the aim, penalty 1 E)" in text
+    assert "wall of 100 (6.0 ms, 1.2 times the aim, penalty 1 E)" in text
     assert "| **1.2** |" in aims(rows)
     assert "| 0.75 |" in aims(rows)
 

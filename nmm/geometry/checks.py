@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
+import numpy.typing as npt
 import shapely
 
 from integration.arrays import Floats, Ints
@@ -94,9 +95,7 @@ def overlap_faults(
     smaller block's area is what rounded coordinates leave and passes.
     """
     shapes = polygons.to_shapely()
-    first, second = shapely.STRtree(shapes).query(shapes, predicate="intersects")
-    once = (first < second) & (group[first] != group[second])
-    first, second = first[once], second[once]
+    first, second = _deep_boxes(shapes, polygons.areas, group)
     common = shapely.area(shapely.intersection(shapes[first], shapes[second]))
     smaller = np.minimum(polygons.areas[first], polygons.areas[second])
     found = np.flatnonzero(common > OVERLAP * smaller)
@@ -115,6 +114,22 @@ def overlap_faults(
             remedy = "move one of them or share the edge"
             faults.append(Fault(place(int(group[b])), value, "blocks that do not overlap", remedy))
     return faults
+
+
+def _deep_boxes(shapes: npt.NDArray[np.object_], areas: Floats, group: Ints) -> tuple[Ints, Ints]:
+    """Pairs of blocks of different groups that meet, and whose boxes share more than may overlap.
+
+    Blocks laid flush, as bricks, share next to none, and their intersections need not be found.
+    """
+    first, second = shapely.STRtree(shapes).query(shapes, predicate="intersects")
+    once = (first < second) & (group[first] != group[second])
+    first, second = first[once], second[once]
+    boxes = shapely.bounds(shapes)
+    low = np.maximum(boxes[first, :2], boxes[second, :2])
+    high = np.minimum(boxes[first, 2:], boxes[second, 2:])
+    shared = np.prod(np.maximum(high - low, 0.0), axis=1)
+    deep = shared > OVERLAP * np.minimum(areas[first], areas[second])
+    return first[deep], second[deep]
 
 
 def _point(point: Floats) -> str:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 
 from nmm.errors import GeometryError
 from nmm.geometry import regions
@@ -163,6 +164,19 @@ def test_unsound_holes_are_refused(holes: Any, part: str) -> None:
 
 def _with_blocks(*blocks: Any) -> Scene:
     return build_scene({"plane": "strain", "materials": {"rock": ROCK}, "blocks": blocks}, "s.toml")
+
+
+def test_the_overlaps_told_are_those_of_every_pair_of_blocks() -> None:
+    rng = np.random.default_rng(3)
+    # triangles with random and flush places, some sharing an edge, some a corner, some ground
+    corner = rng.integers(0, 6, (40, 2)) + 0.3 * rng.integers(0, 2, (40, 2))
+    outlines = [[[x, y], [x + 1, y], [x, y + 1]] for x, y in corner.tolist()]
+    shapes = [shapely.Polygon(ring) for ring in outlines]
+    pairs = [(a, b) for a in range(40) for b in range(a)]
+    # areas are 0.5 m2: of what the pairs share nothing lies between rounding and 1e-3 m2
+    expected = sum(shapes[a].intersection(shapes[b]).area > 1e-3 for a, b in pairs)
+    assert 5 < expected < len(pairs)
+    assert len(_faults(_scene(*outlines))) == expected
 
 
 def test_overlapping_and_nested_blocks_are_refused() -> None:
