@@ -3,7 +3,7 @@
 import numpy as np
 
 from covers.boundary import ring_edges
-from covers.local_functions import LocalFunctions
+from covers.local_functions import Kinds, LocalFunctions
 from covers.manifold import Manifold
 from covers.polynomial_groups import PhysicalCovers, Shapes, Weights, polynomial_group
 from covers.rigid_modes import rigid_modes, stretch_modes
@@ -34,7 +34,8 @@ def block_manifold(polygons: Polygons, regions: Ints, functions: LocalFunctions)
     shapes = Shapes(blocks, blocks, blocks, centre, np.eye(2) / (size / 2)[:, None, None])
     weights = Weights(0, np.ones((n, 1, 1)))
     group = polynomial_group(shapes, polygons, blocks[:, None], weights, [functions], covers)
-    modes = ((functions,), np.zeros(n, dtype=np.int64), covers, int(offset[-1]), centre)
+    kinds = Kinds((functions,), np.zeros(n, dtype=np.int64))
+    modes = (kinds, covers, int(offset[-1]), centre)
     return Manifold(
         elements=polygons,
         element_body=blocks,

@@ -10,14 +10,14 @@ from integration.arrays import Floats, Ints
 
 
 def components(n: int, first: Ints, second: Ints) -> Ints:
-    """Connected component of each of ``n`` things, given pairs of connected ones."""
+    """Connected component (n,) of each of ``n`` things, given pairs (p,) of connected ones."""
     graph = csr_array((np.ones(len(first), dtype=np.int8), (first, second)), shape=(n, n))
     label = connected_components(graph, directed=False)[1].astype(np.int64)
     return by_first_occurrence(label, np.unique(label, return_index=True)[1])[1]
 
 
 def unique_rows(points: Floats) -> tuple[Ints, Ints]:
-    """First occurrence of each distinct row, in order of occurrence, and the row of each point."""
+    """First occurrences (k,) of the distinct rows of points (n, 2), in order, and each row (n,)."""
     order = np.lexsort((points[:, 1], points[:, 0]))
     ordered = points[order]
     new = np.ones(len(points), dtype=bool)
@@ -28,7 +28,7 @@ def unique_rows(points: Floats) -> tuple[Ints, Ints]:
 
 
 def by_first_occurrence(group: Ints, first: Ints) -> tuple[Ints, Ints]:
-    """Groups renumbered in the order of their first members ``first``: first members, groups."""
+    """Groups (n,) renumbered in the order of their first members (k,): first members, groups."""
     order = np.argsort(first)
     rank = np.empty(len(first), dtype=np.int64)
     rank[order] = np.arange(len(first))

@@ -31,7 +31,10 @@ def crack_segments(cracks: Sequence[npt.ArrayLike]) -> Segments:
 
 
 def clipped(segments: Segments, low: Floats, high: Floats) -> Segments:
-    """The parts of segments inside a box (Liang and Barsky 1984); ends inside stay as they are."""
+    """The parts of segments inside a box (Liang and Barsky 1984); ends inside stay as they are.
+
+    ``low`` and ``high`` (2,) are corners of the box, m.
+    """
     along = segments.end - segments.start
     with np.errstate(divide="ignore", invalid="ignore"):
         one, two = (low - segments.start) / along, (high - segments.start) / along

@@ -121,7 +121,10 @@ def neighbours(faces: Faces, pieces: Pieces, element: Ints) -> Ints:
 
 
 def joined_sides(faces: Faces, pieces: Pieces, element: Ints, across: Ints, group: Ints) -> Bools:
-    """Half-edges (2 n,) of an element with nothing that parts it from the one across."""
+    """Half-edges (2 n,) of an element with nothing that parts it from the one across.
+
+    ``element`` and ``across`` (2 n,) are on either side, -1 outside; ``group`` (N,) of regions.
+    """
     both = (element >= 0) & (across >= 0)
     same = group[pieces.region[element]] == group[pieces.region[across]]
     return np.asarray(both & same & (np.repeat(faces.crack, 2) < 0))

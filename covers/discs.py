@@ -9,7 +9,11 @@ from integration.arrays import Floats, Ints
 
 
 def discs_of_cells(nodes: Floats, radius: Floats, corners: Floats) -> Ints:
-    """Patches (C, k) whose open disc meets each cell, filled up with -1."""
+    """Patches (C, k) whose open disc meets each cell, filled up with -1.
+
+    Discs have ``nodes`` (V, 2) and ``radius`` (V,), m; cells ``corners`` (C, v, 2), convex and
+    counter-clockwise.
+    """
     middle = corners.mean(axis=1)
     reach = np.linalg.norm(corners - middle[:, None], axis=2).max(axis=1)
     found = cKDTree(nodes).query_ball_point(

@@ -61,7 +61,7 @@ def half_edges(steps: Floats, edges: Ints) -> HalfEdges:
 
 
 def walks(following: Ints, start: Ints, length: Ints) -> Ints:
-    """Members of closed walks one after the other, each from its ``start``."""
+    """Members of closed walks (k,), one after the other, each from its ``start`` (k,)."""
     begin = np.cumsum(length) - length
     out = np.empty(int(length.sum()), dtype=np.int64)
     current, active, step = start.copy(), np.arange(len(start)), 0

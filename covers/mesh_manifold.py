@@ -70,7 +70,7 @@ def mesh_manifold(
     lowest = min(item.degree for item in kinds.functions)
     by_nodes = cover.precision >= 1 and lowest == 0
     nodes = cover.patch_centre[cut.cover_patch] if by_nodes else None
-    modes = (kinds.functions, kinds.which, builder.covers, n_unknowns, body_centroid, nodes)
+    modes = (kinds, builder.covers, n_unknowns, body_centroid, nodes)
     groups = tuple(builder.groups())
     dependent = dependent_functions(
         cover, cut, kinds.functions, kinds.which, lambda: (groups, n_unknowns)

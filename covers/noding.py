@@ -68,7 +68,7 @@ class Lines:
 
 
 def lines_between(points: Floats, resolution: Resolution, start: Ints, end: Ints) -> Lines:
-    """Lines between points (n, 2); of points within a step the first remains."""
+    """Lines (m,) between points (n, 2); of points within a step the first remains."""
     steps = resolution.steps(points)
     first, vertex = clusters(steps)
     return Lines(steps[first], points[first], vertex[start], vertex[end], np.arange(len(start)))

@@ -1,20 +1,17 @@
 """Unknowns of the rigid motions of each body."""
 
-from collections.abc import Sequence
-
 import numpy as np
 from scipy.sparse import csc_array
 
-from covers.local_functions import LocalFunctions
+from covers.local_functions import Kinds
 from covers.polynomial_groups import PhysicalCovers
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats
 
 STILL, TURN = np.zeros((2, 2)), np.array([[0.0, -1.0], [1.0, 0.0]])
 
 
 def rigid_modes(
-    functions: Sequence[LocalFunctions],
-    which: Ints,
+    kinds: Kinds,
     covers: PhysicalCovers,
     n_unknowns: int,
     body_centroid: Floats,
@@ -27,19 +24,18 @@ def rigid_modes(
 
     Parameters
     ----------
-    functions, which
-        Local functions, and which of them each cover (C,) has.
+    kinds
+        Local functions of each cover.
     nodes
         (C, 2) nodes of weights with linear precision: covers then take the field's values there,
         whatever their degrees; None lets every cover hold the field itself.
     """
     fields = [(np.array([1.0, 0.0]), STILL), (np.array([0.0, 1.0]), STILL), (np.zeros(2), TURN)]
-    return _modes(fields, functions, which, covers, n_unknowns, body_centroid, nodes)
+    return _modes(fields, kinds, covers, n_unknowns, body_centroid, nodes)
 
 
 def stretch_modes(
-    functions: Sequence[LocalFunctions],
-    which: Ints,
+    kinds: Kinds,
     covers: PhysicalCovers,
     n_unknowns: int,
     body_centroid: Floats,
@@ -47,23 +43,22 @@ def stretch_modes(
 ) -> csc_array:
     """Return the unknowns (n_unknowns, B) of the field ``X - Xc`` of each body."""
     fields = [(np.zeros(2), np.eye(2))]
-    return _modes(fields, functions, which, covers, n_unknowns, body_centroid, nodes)
+    return _modes(fields, kinds, covers, n_unknowns, body_centroid, nodes)
 
 
 def _modes(
     fields: list[tuple[Floats, Floats]],
-    functions: Sequence[LocalFunctions],
-    which: Ints,
+    kinds: Kinds,
     covers: PhysicalCovers,
     n_unknowns: int,
     body_centroid: Floats,
     nodes: Floats | None = None,
 ) -> csc_array:
     """Unknowns of linear fields ``value + gradient (X - Xc)`` of each body, a column each."""
-    kinds = len(fields)
-    total = csc_array((n_unknowns, kinds * len(body_centroid)))
-    for number, item in enumerate(functions):  # a handful of kinds of covers
-        index = np.flatnonzero(which == number)
+    each = len(fields)
+    total = csc_array((n_unknowns, each * len(body_centroid)))
+    for number, item in enumerate(kinds.functions):  # a handful of kinds of covers
+        index = np.flatnonzero(kinds.which == number)
         arm = (covers.centre if nodes is None else nodes)[index]
         arm = arm - body_centroid[covers.body[index]]
         held = 1.0 if nodes is None else 0.0
@@ -78,7 +73,7 @@ def _modes(
         ]
         values = np.stack(unknowns, axis=2)
         rows = (covers.first_unknown[index, None] + np.arange(item.n_unknowns))[:, :, None]
-        columns = kinds * covers.body[index, None, None] + np.arange(kinds)
+        columns = each * covers.body[index, None, None] + np.arange(each)
         rows, columns = np.broadcast_arrays(rows, columns)
         part = (values.ravel(), (rows.ravel(), columns.ravel()))
         total = total + csc_array(part, shape=total.shape)

@@ -15,14 +15,14 @@ def offsets(counts: npt.ArrayLike) -> Ints:
 
 
 def ranges(bounds: Ints, chosen: Ints) -> tuple[Ints, Ints]:
-    """Rows of the chosen ranges, one range after the other, and the length of each range."""
+    """Rows (m,) of the chosen ranges (k,), one after the other, and the length (k,) of each."""
     counts = np.diff(bounds)[chosen]
     begin = bounds[:-1][chosen] - (np.cumsum(counts) - counts)
     return np.repeat(begin, counts) + np.arange(counts.sum()), counts
 
 
 def sums(values: Floats, bounds: Ints) -> Floats:
-    """Sum of the rows of each range, none of which may be empty."""
+    """Sum (n, ...) of the rows (m, ...) of each range, none of which may be empty."""
     if len(bounds) == 1:
         return np.zeros((0, *values.shape[1:]))
     return np.add.reduceat(values, bounds[:-1], axis=0)

@@ -41,6 +41,7 @@ def lumped_mass(group: ElementGroup, shape: Ints, density: Floats) -> Floats:
 
     A row sum for constant functions; for higher degrees the mass and the momentum of every field,
     and the energy of fields that all covers hold alike, rigid motions among them, are exact.
+    ``shape`` and ``density`` (kg/m2) are those (m,) of the elements.
     """
     scalar = _taken(group.lumped_products(), shape) * density[:, None, None]
     return _both_components(group, scalar)

@@ -180,7 +180,7 @@ def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
 def strain_only(
     model: Model, state: State, increment: Floats, rigid: Floats | None = None
 ) -> State:
-    """Return the state after ``increment`` in small displacements: the bodies' axes stay.
+    """Return the state after ``increment`` (n,) in small displacements: the bodies' axes stay.
 
     Rigid motions (3 B,) that the increment does not hold move the frames, rotations as tilts.
     """

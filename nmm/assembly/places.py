@@ -48,6 +48,8 @@ def at_point(manifold: Manifold, point: Floats, regions: Bools | None = None) ->
 
     Parameters
     ----------
+    point
+        (2,) m.
     regions
         (N,) which input regions count; None is all.
     """
@@ -68,7 +70,8 @@ def on_segment(
 ) -> Place:
     """Return Gauss points on the parts of the bodies' edges that lie on a segment (2, 2).
 
-    ``order`` is the degree of the polynomials that the points integrate exactly.
+    ``order`` is the degree of the polynomials that the points integrate exactly; ``regions`` (N,)
+    says which input regions count, None is all.
     """
     edges = manifold.boundary
     a, b = segment
