@@ -51,3 +51,21 @@ def test_the_hash_ignores_units_and_sees_options(tmp_path: Path) -> None:
     assert formulation_hash(read_formulation(path)) == formulation_hash(Formulation())
     other = parse_formulation("[integrator.options]\nbeta = 0.25")
     assert formulation_hash(other) != formulation_hash(Formulation())
+
+
+@pytest.mark.parametrize(
+    ("option", "said"),
+    [
+        ({"max_passes": 1.5}, 'enforcement "penalty": max_passes: 1.5: expected a whole number'),
+        ({"max_passes": True}, "max_passes: True: expected a whole number"),
+        ({"tolerance": "1e-9"}, "tolerance: '1e-9': expected a number"),
+        ({"iteration": 1}, "iteration: 1: expected a text"),
+        ({"max_pases": 3}, 'max_pases: expected one of .*: did you mean "max_passes"?'),
+    ],
+)
+def test_an_option_of_another_type_or_name_is_refused(option: dict[str, object], said: str) -> None:
+    from nmm.contact.enforcement import make_enforcement
+
+    with pytest.raises(FormulationError, match=said):
+        make_enforcement("penalty", option)
+    assert make_enforcement("penalty", {"tolerance": 1}) is not None  # 1 is a number as 1.0 is
