@@ -5,18 +5,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from integration.arrays import Floats
 from nmm.contact.alternation import Budget
 from nmm.contact.answer import free_part, singular_answer, worst_contacts
-from nmm.contact.barrier_descent import Descent
 from nmm.contact.barrier_potential import Potential
+from nmm.contact.barrier_search import Search
 from nmm.contact.enforcement import Enforcement
 from nmm.contact.law import label
 from nmm.contact.memory import Memory
 from nmm.contact.problem import StepAnswer, StepProblem, Verdict
 from nmm.contact.rounds import compliances, stiff_springs
 from nmm.contact.settle import settle
-from nmm.contact.springs import CutSprings, Settled
+from nmm.contact.springs import Settled
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
 
@@ -27,10 +26,9 @@ class Barrier(Enforcement):
 
     Normal forces follow ``b(x) = -(x - w)^2 ln(x / w)``, ``x = gap + w/2``: they act within
     half a width ``w`` of touching and grow without bound at ``gap = -w/2``, which no step reaches.
-    Friction is a smooth function of the slip that meets Coulomb's bound at a slip of ``w/2``. The
-    potential is convex for a given bound, so Newton's method with a line search comes near its
-    minimum from anywhere; Newton's method on the balance with the bound that follows the normal
-    force ends it where friction does not give way to and fro. Otherwise the bound is updated.
+    Friction is a smooth function of the slip that meets Coulomb's bound at a slip of ``w/2``.
+    Three methods are tried in turn (`Search`): Newton's on unknowns and forces together, the same
+    after an interior point has found most states, and descent inside the walls.
 
     Gaps are wrong by up to ``w/2`` and sticking slips by up to ``w/2``: these are the numbers to
     choose ``w`` by. Contacts with a tension limit or a stiffness of their own are springs.
@@ -41,7 +39,7 @@ class Barrier(Enforcement):
         ``w`` (m); None takes a thousandth of what the largest contact force of the first step
         with contact would press in (compliance times force); before, of the largest motion.
     max_passes
-        Most Newton steps for one bound, and most updates of the bound.
+        Most Newton steps of each method; in the descent, for one friction bound and of bounds.
     tolerance
         Largest relative out-of-balance force (-).
     """
@@ -54,7 +52,7 @@ class Barrier(Enforcement):
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
     ) -> StepAnswer:
-        """Balance the step from no motion, with the friction of roughly settled springs."""
+        """Balance the step from roughly settled springs, or in the end from no motion."""
         problem.check()
         memory = memory or Memory()
         springs = stiff_springs(problem, 1.0)
@@ -69,66 +67,57 @@ class Barrier(Enforcement):
         if force > 0:  # blocks that fly do not yet say how hard they will meet
             memory.barrier_width = width
         well = Potential(problem, width, max(force, width / ease) / width)
-        weight = CutSprings.of(problem).weight
-        descent = Descent(memory.pattern_of(problem), linear_solver, weight)
-        bound = well.bound(springs.forces(rough.increment)[0])
-        found = descent.balanced(
-            well, np.zeros_like(problem.force), bound, self.tolerance, self.max_passes
-        )
-        return _Outcome(self, well, linear_solver, descent.factorisations, *found).answer(memory)
+        search = Search(well, memory.pattern_of(problem), linear_solver, self.tolerance)
+        found = search.run(rough, self.max_passes)
+        return _Outcome(self, well, linear_solver, found).answer(memory)
 
 
 @dataclass(frozen=True)
 class _Outcome:
-    """Where the descent ended."""
+    """Where the search ended."""
 
     options: Barrier
     well: Potential
     linear: LinearSolver
-    factorisations: int
-    increment: Floats
-    residual: float
-    updates: int
+    found: Settled
 
     def answer(self, memory: Memory) -> StepAnswer:
         """Forces under the bound of their own normal force, and the verdict on them."""
         well, problem = self.well, self.well.problem
-        gap, slip = problem.gaps(self.increment), problem.slips(self.increment)
+        gap, slip = problem.gaps(self.found.increment), problem.slips(self.found.increment)
         pull = well.pull(gap, slip)
         bound = well.bound(pull.normal)
         reach = np.where(well.spring, bound / problem.shear_stiffness, well.width / 2)
         is_open = np.where(well.spring, gap > well.stretch, well.distance(gap) >= 1)
         loose = is_open & (problem.limits.tension <= 0)
         return StepAnswer(
-            increment=self.increment,
+            increment=self.found.increment,
             normal_force=pull.normal,
             shear_force=pull.shear,
             gap=gap,
             slip=np.where(loose, 0.0, np.clip(slip, -reach, reach)),
             state=label(problem, is_open, np.abs(slip) > reach),
-            passes=self.factorisations,
-            residual=self.residual,
+            passes=self.found.solves,
+            residual=self.found.size,
             verdict=self._verdict(memory),
-            factorisations=self.factorisations,
+            factorisations=self.found.factorisations,
             solver=self.linear.name,
         )
 
     def _verdict(self, memory: Memory) -> Verdict:
-        how = f"{self.factorisations} Newton steps and {self.updates} friction bounds"
+        how = self.found.story
         half = self.well.width / 2
-        if self.residual <= self.options.tolerance:
+        if self.found.size <= self.options.tolerance:
             deep = f"; {self.well.deep} contacts began deeper than that" if self.well.deep else ""
             sentence = f"settled by {how}, gaps and slips within {half:.1e} m{deep}"
             return Verdict(True, "converged", sentence)
-        springs = CutSprings.of(self.well.problem)
-        found = Settled(springs, self.increment, self.residual, 0, 0, how)
-        free = free_part(found, self.linear, memory)
+        free = free_part(self.found, self.linear, memory)
         if free is not None:
             return free
-        worst = worst_contacts(springs, self.increment)
+        worst = worst_contacts(self.found.springs, self.found.increment)
         named = ", ".join(str(i) for i in worst[:5])
         sentence = (
-            f"out of balance by {self.residual:.1e} after {how}, most at contacts {named}; "
+            f"out of balance by {self.found.size:.1e} after {how}, most at contacts {named}; "
             "shorten the step or widen the barrier"
         )
         return Verdict(False, "stalled", sentence, worst)

@@ -71,9 +71,7 @@ class Descent:
 
     def size(self, well: Potential, increment: Floats) -> float:
         """Relative out-of-balance force, friction bounded by its own normal force."""
-        problem = well.problem
-        pull = well.pull(problem.gaps(increment), problem.slips(increment))
-        return relative_residual(problem, self.weight, increment, pull.normal, pull.shear)
+        return well.imbalance(increment, self.weight)
 
     def minimum(
         self, well: Potential, increment: Floats, bound: Floats, tolerance: float, budget: int

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from nmm.contact.balance import relative_residual
 from nmm.contact.problem import StepProblem
 
 DEEPEST = 0.49
@@ -81,8 +82,12 @@ class Potential:
 
     def normal(self, gap: Floats) -> tuple[Floats, Floats]:
         """Force and stiffness of every contact in its normal direction."""
+        return self.normal_at(self.distance(gap), gap)
+
+    def normal_at(self, distance: Floats, gap: Floats) -> tuple[Floats, Floats]:
+        """The same at distances known better than gaps, which count for springs."""
         k = self.problem.normal_stiffness
-        x = np.clip(self.distance(gap), 1e-300, 1.0)
+        x = np.clip(distance, 1e-100, 1.0)
         log, rest = np.log(x), x - 1
         force = -self.scale * self.width * (2 * rest * log + rest**2 / x)
         curve = self.scale * (-2 * log - 4 * rest / x + (rest / x) ** 2)
@@ -113,9 +118,27 @@ class Potential:
 
     def pull(self, gap: Floats, slip: Floats, bound: Floats | None = None) -> Pull:
         """Forces for a given bound of the friction, or for that of their own normal force."""
-        normal, stiff_n = self.normal(gap)
+        normal, stiff = self.normal(gap)
         given = self.bound(normal) if bound is None else bound
-        shear, stiff_t, sense = self.shear(slip, given)
-        follows = (normal < 0) if bound is None else np.zeros_like(self.spring)
-        mixed = -self.problem.limits.friction * sense * stiff_n * follows
-        return Pull(normal, shear, stiff_n, stiff_t, mixed)
+        return self.pulled(normal, stiff, slip, given, follows=bound is None)
+
+    def pulled(
+        self, normal: Floats, stiff: Floats, slip: Floats, bound: Floats, follows: bool
+    ) -> Pull:
+        """Forces for normal forces, their stiffness and a bound, which may follow them."""
+        shear, stiff_t, sense = self.shear(slip, bound)
+        moves = (normal < 0) & follows
+        mixed = -self.problem.limits.friction * sense * stiff * moves
+        return Pull(normal, shear, stiff, stiff_t, mixed)
+
+    def imbalance(self, increment: Floats, weight: Floats) -> float:
+        """Relative out-of-balance force of unknowns (n,), infinite at or behind a wall.
+
+        Friction is bounded by its own normal force; ``weight`` (n,) makes forces comparable.
+        """
+        problem = self.problem
+        gap, slip = problem.gaps(increment), problem.slips(increment)
+        if not (self.distance(gap) > 0).all():
+            return np.inf
+        pull = self.pull(gap, slip)
+        return relative_residual(problem, weight, increment, pull.normal, pull.shear)
