@@ -7,7 +7,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.contact.barrier_descent import Descent
 from nmm.contact.barrier_newton import Newton, Start
-from nmm.contact.barrier_path import Path
+from nmm.contact.barrier_path import Path, Point
 from nmm.contact.barrier_potential import Potential
 from nmm.contact.pattern import SpringPattern
 from nmm.contact.springs import CutSprings, Settled
@@ -15,8 +15,8 @@ from nmm.solvers.linear import LinearSolver
 
 QUICK, PATIENT, LONG = 20, 40, 40
 """Most steps of the first attempt, of the second, and of the path before it."""
-GOAL = 3e-3
-"""Product of force and distance at which the path ends, over largest force and width."""
+GOALS = 3e-3, 1e-4
+"""Products of force and distance at which the path is left, over largest force and width."""
 
 
 @dataclass(frozen=True)
@@ -63,16 +63,24 @@ class Search:
 
     def _inside(self, newton: Newton, path: Path, rough: Settled, passes: int) -> Floats | None:
         """Unknowns (n,) by way of the interior point."""
-        well = self.well
-        goal = GOAL * well.scale * well.width**2
-        begun = path.start(rough.springs, rough.increment)
-        point = path.followed(begun, goal, min(LONG, passes))
-        if point is None:
-            return None
-        gap, slip = point.distance - path.behind, point.ahead - point.back
-        trials = newton.curves.trials(gap, slip, -point.pressure, point.shear)
-        start = Start(point.increment, trials)
-        return newton.run(start, self.tolerance, min(PATIENT, passes), patient=True)
+        point = path.start(rough.springs, rough.increment)
+        for goal in GOALS:
+            size = goal * self.well.scale * self.well.width**2
+            reached = path.followed(point, size, min(LONG, passes))
+            if reached is None:
+                break
+            point, start = reached, _free(newton, path, reached)
+            found = newton.run(start, self.tolerance, min(PATIENT, passes), patient=True)
+            if found is not None:
+                return found
+        return None
+
+
+def _free(newton: Newton, path: Path, point: Point) -> Start:
+    """Start at a point of the path."""
+    gap, slip = point.distance - path.behind, point.ahead - point.back
+    trials = newton.curves.trials(gap, slip, -point.pressure, point.shear)
+    return Start(point.increment, trials)
 
 
 def _cut(newton: Newton, rough: Settled) -> Start:
