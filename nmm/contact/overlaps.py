@@ -32,6 +32,8 @@ LOBATTO = {
         (1 / 12, 5 / 12, 5 / 12, 1 / 12),
     ),
 }
+# Edges that faces are followed beyond what the search found.
+ROUNDS = 50
 # Ends of edges within this part of the mean edge are one point.
 SAME = 1e-9
 
@@ -93,7 +95,11 @@ def face_points(formulation: Formulation) -> int:
 
 
 def faced(
-    surface: Surface, found: Contacts, points: int = 2, joints: Ints | None = None
+    surface: Surface,
+    found: Contacts,
+    points: int = 2,
+    joints: Ints | None = None,
+    whole: bool = False,
 ) -> FaceContacts:
     """Return contacts with those at overlaps of edges replaced by the points of the overlaps.
 
@@ -105,9 +111,19 @@ def faced(
         Points an overlap: a key of `LOBATTO`.
     joints
         Pairs of edges, ``a * n + b`` with ``a < b``, whose overlaps something else carries.
+    whole
+        Whether faces count as far as they go on side by side, and not as far as the search found
+        corners: a mean over a part of a face must not hang on the reach of the search.
     """
+    n = max(len(surface), 1)
     pairs, own = _edge_pairs(surface, found)
-    overlaps, is_overlap = _overlaps(surface, *np.divmod(pairs, max(len(surface), 1)), joints)
+    overlaps, is_overlap = _overlaps(surface, *np.divmod(pairs, n), joints)
+    for _ in range(ROUNDS if whole else 0):  # neighbours of all overlaps at once
+        more = np.setdiff1d(_beside(surface, overlaps), pairs)
+        if not len(more):
+            break
+        pairs = np.union1d(pairs, more)
+        overlaps, is_overlap = _overlaps(surface, *np.divmod(pairs, n), joints)
     replaced = np.isin(own, pairs[is_overlap]).any(axis=0)
     rest = found.take(np.flatnonzero(~replaced))
     zero = np.zeros(len(rest))
@@ -137,6 +153,15 @@ def _edge_pairs(surface: Surface, found: Contacts) -> tuple[Ints, Ints]:
     other = np.where(corner == e[near], surface.previous[corner], corner)
     around = np.concatenate([own.ravel(), key(v[near], other), key(before[near], other)])
     return np.unique(around), own
+
+
+def _beside(surface: Surface, overlaps: Overlaps) -> Ints:
+    """Pairs of edges where faces go on beyond overlaps."""
+    n, a, b = len(surface), overlaps.a, overlaps.b
+    after, before = surface.next, surface.previous
+    one = np.concatenate([a, a, after[a], before[a], after[a], before[a]])
+    other = np.concatenate([after[b], before[b], b, b, before[b], after[b]])
+    return np.unique(np.minimum(one, other) * n + np.maximum(one, other))
 
 
 def _overlaps(surface: Surface, a: Ints, b: Ints, joints: Ints | None) -> tuple[Overlaps, Bools]:

@@ -16,9 +16,9 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
-from scipy.sparse import block_diag, csr_array, eye_array
+from scipy.sparse import block_diag, csc_array, csr_array, eye_array
 
-from integration.arrays import Ints
+from integration.arrays import Floats, Ints
 from nmm.contact.points import ContactPoints
 from nmm.contact.problem import OPEN, Limits, StepAnswer, StepProblem
 from nmm.contact.stretches import Entries, functions_along
@@ -106,12 +106,12 @@ class WeakFaces:
     def merged(self, answer: StepAnswer, joined: StepProblem, problem: StepProblem) -> StepAnswer:
         """Return the answer at the points; forces are those of the pressure there.
 
-        Slip that the mean keeps as elastic and slip that it loses are told apart alike. Gaps are
-        those of the points: only their means are zero.
+        Gaps are those of the points: only their means are zero. What slid under load is made of
+        the functions, so that its work and the means of the slip that is left are right.
         """
         share, increment = self.share, answer.increment
         normal, shear = share.T @ answer.normal_force, share.T @ answer.shear_force
-        slid = self.functions.T @ (joined.slips(increment) - answer.slip)
+        slid = self._made_of_functions(joined.slips(increment) - answer.slip)
         # The function with the largest part in a point's force says what the point does.
         size = np.abs(answer.normal_force) + np.abs(answer.shear_force)
         felt = csr_array(share.T)
@@ -127,6 +127,15 @@ class WeakFaces:
             slip=np.where(alone, answer.slip[leading], problem.slips(increment) - slid),
             state=np.where(rests, OPEN, answer.state[leading]),
         )
+
+    def _made_of_functions(self, means: Floats) -> Floats:
+        """Values (m,) at the points of a sum of the functions with given means (k,)."""
+        from scipy.sparse.linalg import spsolve
+
+        if not means.any():
+            return np.zeros(self.functions.shape[1])
+        turned = csc_array(self.functions.T)
+        return np.asarray(turned @ spsolve(csc_array(self.share @ turned), means))
 
 
 def _in_order(found: Entries, single: Ints, m: int) -> tuple[Ints, int]:

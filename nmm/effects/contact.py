@@ -82,8 +82,7 @@ class Contact(Effect):
         # All but the penalty replace springs that are not the joints' own by exact conditions.
         self._exact = enforcement.name != "penalty"
         self._bends = bends
-        weak = in_the_mean and enforcement.multipliers
-        self._traces = Traces.of(self._sides, model.modulus) if weak else None
+        self._traces = Traces.of(self._sides, model.modulus) if in_the_mean else None
         self._memory = Memory()
         self._solved: tuple[StepProblem, StepAnswer] | None = None
         self._last: Contacts | None = None
@@ -111,6 +110,10 @@ class Contact(Effect):
         if method.enforcement == "penalty":
             options.setdefault("max_passes", method.max_passes)
         points = face_points(setup.formulation)
+        enforcement = make_enforcement(method.enforcement, options)
+        # Fields of blocks follow what single points ask for.
+        in_the_mean = enforcement.multipliers and not setup.formulation.cover.of_blocks
+        in_the_mean &= points > 0
         return cls(
             setup.model,
             laws,
@@ -120,15 +123,15 @@ class Contact(Effect):
                 within_bodies=bool(setup.scene.cracks),
                 face_points=points,
                 origin=setup.origin,
+                whole_faces=in_the_mean,
             ),
-            make_enforcement(method.enforcement, options),
+            enforcement,
             method.joint_points,
             setup.start,
             held_bodies(setup),
             # Faces bend between their ends: contacts act at points of the material.
             bends=points > 2,
-            # Fields of blocks follow what single points ask for.
-            in_the_mean=points > 0 and not setup.formulation.cover.of_blocks,
+            in_the_mean=in_the_mean,
         )
 
     def candidates(self, state: State, reach: float, step: float | None = None) -> ContactPoints:

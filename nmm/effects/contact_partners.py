@@ -35,6 +35,8 @@ class Partners:
         Whether faces of one body may meet, as those of a crack.
     face_points
         Points a stretch of faces that lie on each other; 0 where contact is at corners.
+    whole_faces
+        Whether such faces count beyond the reach of the search (`nmm.contact.overlaps.faced`).
     origin
         (2,) where the axes lie in those of the scene (m), for messages.
     """
@@ -46,11 +48,12 @@ class Partners:
         within_bodies: bool,
         face_points: int,
         origin: Floats,
+        whole_faces: bool = False,
     ) -> None:
         self.sides = sides(model.manifold)
         self._pairs = pairs
         self._within_bodies, self._face_points = within_bodies, face_points
-        self._origin = origin
+        self._origin, self._whole_faces = origin, whole_faces
         self._neighbours: NeighbourList | None = None
         self._surfaces = KeptOfStates(self._surface)
         boundary = model.manifold.boundary
@@ -97,7 +100,8 @@ class Partners:
         vertex, edge = self._neighbours.update(surface)
         found = find_contacts(surface, vertex, edge, reach, before, motion)
         if self._face_points:
-            found = faced(surface, found, self._face_points, book.edges(len(surface)))
+            joints = book.edges(len(surface))
+            found = faced(surface, found, self._face_points, joints, self._whole_faces)
         interface = self.interfaces(found.vertex, found.edge)
         missing = (interface == MISSING) & (found.gap <= 0)
         if missing.any():
