@@ -21,6 +21,7 @@ from nmm.contact.balance import with_springs
 from nmm.contact.bonds import Laws, break_bonds
 from nmm.contact.dashpots import Dashpots, meeting_mass
 from nmm.contact.enforcement import Enforcement, make_enforcement
+from nmm.contact.evenly import solved_evenly
 from nmm.contact.following import (
     Apart,
     JointBook,
@@ -40,6 +41,7 @@ from nmm.contact.overlaps import face_points
 from nmm.contact.points import ContactPoints, concatenate, rows
 from nmm.contact.problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.record import Breaking, ContactRecord, Solved
+from nmm.contact.softness import Softness
 from nmm.contact.stations import Stations
 from nmm.contact.surface import Surface
 from nmm.contact.traces import Traces
@@ -81,6 +83,7 @@ class Contact(Effect):
         self._enforcement = enforcement
         # All but the penalty replace springs that are not the joints' own by exact conditions.
         self._exact = enforcement.name != "penalty"
+        self._softness = Softness.of(model)
         self._bends = bends
         self._traces = Traces.of(self._sides, model.modulus) if in_the_mean else None
         self._memory = Memory()
@@ -182,6 +185,9 @@ class Contact(Effect):
         passes, loss = 0, 0.0
         while True:
             normal, shear, own = self._laws.springs(turns.start, nowhere)
+            if self._exact:
+                share = self._softness.of_contacts(turns.start, own)
+                normal, shear = share * normal, share * shear
             dashpots = self._dashpots(turns.start, normal, through.normal, step)
             shares = end_shares(weight, self._exact, own, self._laws.softening(turns.start))
             springs = MeanSprings.of(turns.start, (normal, shear), shares, turns.rise, dashpots)
@@ -207,7 +213,9 @@ class Contact(Effect):
             # A step that looks further and finds no other contacts asks the same again.
             found = self._memory.known(joined) if held is None else None
             if found is None:
-                found = enforcement.solve(self._memory.started(joined), solver, self._memory)
+                started = self._memory.started(joined)
+                solve = solved_evenly if held is None else type(enforcement).solve
+                found = solve(enforcement, started, solver, self._memory)
             self._memory.answered = None if held is not None else (joined, found)
             whole = found if wide is None else wide.merged(found, joined, doubled)
             answer = turns.twins.merged(whole)
