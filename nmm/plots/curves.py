@@ -140,6 +140,8 @@ def history(
     NmmError
         When the history has no such column, or the columns differ in unit.
     """
+    from matplotlib.ticker import MaxNLocator
+
     units = {unit_of(name) for name in columns}
     if len(units) != 1:
         raise NmmError(
@@ -155,9 +157,13 @@ def history(
         axes.plot(x_values, shown, color=colour, linewidth=1.2, label=words_of(name))
     if log:
         axes.set_yscale("log")
-    one_name = words_of(columns[0]) if len(columns) == 1 else _common(columns)
+    counted = set(columns) <= set(STATES)
+    alone = len(columns) == 1 and not counted
+    one_name = words_of(columns[0]) if alone else _common(columns)
     _on_grid(axes, x_text, label(one_name, unit), one_name)
-    if len(columns) > 1:
+    if counted or set(columns) <= {"passes"}:
+        axes.yaxis.set_major_locator(MaxNLocator("auto", integer=True, min_n_ticks=1))
+    if not alone:
         axes.legend(loc="best", frameon=False, fontsize=SMALL)
     save(axes, path)
     return axes

@@ -278,6 +278,16 @@ def test_the_overview_draws_what_changed_only(memory_run):
     assert titles == ["load factor", "contact points", "residual", "uy of middle"]
 
 
+def test_contacts_of_one_state_are_counted_in_whole_numbers_and_named():
+    run = MemorySink()
+    for step in range(3):
+        run.row({"time": 0.1 * step, "slide": 2})
+    (axes,) = plots.overview(run)
+    assert axes.get_title(loc="left") == "contact points"
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["slide"]
+    assert all(tick == round(tick) for tick in axes.get_yticks())
+
+
 def test_an_overview_of_nothing_is_empty():
     assert plots.overview(MemorySink()) == []
 
