@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
 from covers.base import Cover
+from covers.small_matrices import inverses
 from integration.arrays import Floats, Ints
 from integration.monomials import affine, differentiate, evaluate
 
@@ -29,6 +31,29 @@ class PolynomialCover(Cover):
     cell_matrix: Floats
     table: Floats
     degree: int
+
+    @classmethod
+    def _of_stars(
+        cls, vertices: Floats, cells: Ints, sizes: Floats, shapes: Ints, table: Floats, degree: int
+    ) -> Self:
+        """Patches about the vertices; cells are images of the unit triangle or square.
+
+        Reference coordinates run from the first corner to the second and to the last.
+        """
+        corner = vertices[cells]
+        sides = np.stack([corner[:, 1] - corner[:, 0], corner[:, -1] - corner[:, 0]], axis=2)
+        return cls(
+            vertices=vertices,
+            cell_vertices=cells,
+            cell_patches=cells,
+            patch_centre=vertices,
+            patch_size=sizes,
+            cell_shape=shapes,
+            cell_origin=corner[:, 0],
+            cell_matrix=inverses(sides),
+            table=table,
+            degree=degree,
+        )
 
     @property
     def weight_degree(self) -> int:

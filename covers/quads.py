@@ -9,7 +9,6 @@ import numpy.typing as npt
 
 from covers.polynomial_cover import PolynomialCover
 from covers.regular_nets import grid_cells, grid_vertices, regular_net
-from covers.small_matrices import inverses
 from covers.stars import counter_clockwise, star_sizes
 from integration.arrays import Floats, Ints
 
@@ -89,17 +88,4 @@ class Quads(PolynomialCover):
 
     @classmethod
     def _of(cls, vertices: Floats, cells: Ints, sizes: Floats, shapes: Ints) -> Self:
-        corner = vertices[cells]
-        sides = np.stack([corner[:, 1] - corner[:, 0], corner[:, 3] - corner[:, 0]], axis=2)
-        return cls(
-            vertices=vertices,
-            cell_vertices=cells,
-            cell_patches=cells,
-            patch_centre=vertices,
-            patch_size=sizes,
-            cell_shape=shapes,
-            cell_origin=corner[:, 0],
-            cell_matrix=inverses(sides),
-            table=BILINEAR,
-            degree=2,
-        )
+        return cls._of_stars(vertices, cells, sizes, shapes, BILINEAR, 2)

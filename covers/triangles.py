@@ -9,7 +9,6 @@ import numpy.typing as npt
 
 from covers.polynomial_cover import PolynomialCover
 from covers.regular_nets import regular_net
-from covers.small_matrices import inverses
 from covers.stars import counter_clockwise, star_sizes
 from integration.arrays import Floats, Ints
 
@@ -66,20 +65,7 @@ class Triangles(PolynomialCover):
 
     @classmethod
     def _of(cls, vertices: Floats, cells: Ints, sizes: Floats, shapes: Ints) -> Self:
-        corner = vertices[cells]
-        sides = np.stack([corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]], axis=2)
-        return cls(
-            vertices=vertices,
-            cell_vertices=cells,
-            cell_patches=cells,
-            patch_centre=vertices,
-            patch_size=sizes,
-            cell_shape=shapes,
-            cell_origin=corner[:, 0],
-            cell_matrix=inverses(sides),
-            table=HATS,
-            degree=1,
-        )
+        return cls._of_stars(vertices, cells, sizes, shapes, HATS, 1)
 
 
 def _rows_of_triangles(columns: int, rows: int) -> tuple[Ints, Ints]:
