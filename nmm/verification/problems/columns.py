@@ -8,8 +8,8 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.verification import text
-from nmm.verification.base import Check, Checks, SceneCase, holds
-from nmm.verification.reading import converged, way
+from nmm.verification.base import Check, Checks, SceneCase, holds, limit
+from nmm.verification.reading import converged, joint_force, way
 from nmm.verification.text import G
 
 if TYPE_CHECKING:
@@ -69,15 +69,17 @@ class LeaningColumns(SceneCase):
 
     def scene(self) -> str:
         """Return the columns on a held base with a step under each."""
+        # What falls is followed in time; what stands is found at once.
+        return self._scene("" if self.stands else "duration = 2.0\n[inertia]\n")
+
+    def _scene(self, head: str) -> str:
         columns = self.corners()
         stairs = [point for one in columns for point in (one[0], one[1])]
         ends = [(self.wide * len(columns), -10.0), (-self.wide, -10.0), (-self.wide, 0.0)]
         base = np.array([*stairs, *ends])[::-1]
-        # What falls is followed in time; what stands is found at once.
-        time = "" if self.stands else "duration = 2.0\n[inertia]\n"
         lean = float(np.radians(self.lean))
         return text.scene(
-            f'title = "Leaning columns"\nplane = "stress"\n{time}[contact]\n[gravity]\n'
+            f'title = "Leaning columns"\nplane = "stress"\n{head}[contact]\n[gravity]\n'
             f"acceleration = [{float(-G * np.sin(lean))}, {float(-G * np.cos(lean))}]\n"
             "[formulation.integrator]\nstep = 0.01\n",
             [
@@ -124,3 +126,97 @@ class LeaningColumns(SceneCase):
                 "at_most",
             ),
         }
+
+
+# Thrusts on the columns from 12 down, of each by the one above it, and what the toe needs besides
+# (N/m), at a friction of tan phi = 0.7855.
+_TOPPLING = [292.47, 825.66, 1555.96, 2826.72, 3922.16, 4594.80, 4837.01, 4637.52, 3978.13, 2825.58]
+PRINTED = 1e3 * np.array([*_TOPPLING, 1413.56, 472.21, 1.54])
+
+
+@dataclass(frozen=True)
+class ToppledColumns(LeaningColumns):
+    """The thrusts between the columns when they do what limit equilibrium assumes of them.
+
+    The printed thrusts are one of many states that friction allows: they need columns 4 to 13 to
+    stand on their lower corners and touch at the upper ones, and friction between all columns to
+    be used up. Columns do that which turn as the toe gives way: so the lowest column is held and
+    drawn back by ``retreat`` under its full weight. Its neighbours slide after it, those above
+    turn, the three highest stay and let go.
+
+    As the columns turn, the arms of their weights grow: at column 13 by 10 times the turn, which
+    is a tenth of the retreat per metre.
+    """
+
+    name: ClassVar[str] = "B30 thrusts"
+    title: ClassVar[str] = "Thrusts between Goodman and Bray's columns as their toe gives way"
+    source: ClassVar[str] = "Goodman and Bray 1976; their balance of single columns, computed anew"
+    formulations: ClassVar[tuple[str, ...]] = ("rigid", "dda", "augmented")
+    friction: float = float(np.degrees(np.arctan(0.7855)))
+    retreat: float = 2e-3
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return the friction of the printed thrusts."""
+        return [cls()]
+
+    @property
+    def variant(self) -> str:
+        """Nothing: there is one."""
+        return ""
+
+    def scene(self) -> str:
+        """Return the columns with the lowest one drawn back."""
+        head = '[loading]\nscaled = ["toe"]\n[formulation.loading]\nincrement = 0.05\n'
+        toe = (
+            '[[supports]]\nname = "toe"\nblock = "column 1"\nfix = ["x", "y"]\n'
+            f"displacement = [{-self.retreat!r}, 0]\n"
+        )
+        return text.scene(self._scene(head), [toe])
+
+    def balanced(self) -> Floats:
+        """Thrusts (13,) below columns 13 to 1 by the balance of one column after the other (N/m).
+
+        A column that topples turns about its lower corner; thrusts act at the top of the lower of
+        two columns, with friction ``T = P tan phi`` on both sides. One that slides uses up the
+        friction of its base too.
+        """
+        tan, lean, thrust, found = np.tan(np.radians(self.friction)), np.radians(self.lean), 0.0, []
+        tops = np.array([n * self.step + high for n, high in enumerate(self.heights)])
+        for n in range(12, -1, -1):
+            foot, high = n * self.step, self.heights[n]
+            weight = self.weight * high * self.wide
+            # Where the columns above and below touch this one, over its foot.
+            above = min(tops[n], tops[n + 1]) - foot
+            below = min(tops[n], tops[n - 1]) - foot if n else 0.0
+            arm = (high * np.sin(lean) - self.wide * np.cos(lean)) / 2
+            moment = thrust * (above - self.wide * tan) + weight * arm
+            topples = moment / below if n else -np.inf
+            slides = thrust - weight * (np.cos(lean) * tan - np.sin(lean)) / (1 - tan**2)
+            thrust = max(topples, slides, 0.0)
+            found.append(thrust)
+        return np.array(found)
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the normal force of every joint between columns."""
+        reason = "2.6e-4 of turn at column 13 for 2 mm of retreat, less below"
+        found = {
+            "farthest balance from print (N)": limit(
+                float(np.abs(self.balanced() - PRINTED).max()),
+                5.0,
+                "half of the last digit printed",
+            )
+        }
+        if not converged(run):
+            return {"in equilibrium": holds(False, run.summary.sentence)}
+        thrusts = [-joint_force(run, self._joint(n), np.array([1.0, 0.0]))[0] for n in range(1, 16)]
+        for n, thrust in zip(range(12, 0, -1), PRINTED, strict=False):
+            name = f"thrust on column {n} (N)"
+            found[name] = Check(float(thrusts[n - 1]), float(thrust), 5e-3, reason)
+        most = float(np.abs(thrusts[12:]).max())
+        found["thrust above column 13 (N)"] = limit(most, 1.0, "the columns above stand alone")
+        return found
+
+    def _joint(self, n: int) -> Floats:
+        """A point between column ``n`` and the next above it."""
+        return np.array([n * self.wide, 0.0])
