@@ -125,7 +125,7 @@ class Newton:
         normal = pull.normal_stiffness * at.gap
         shear = pull.shear_stiffness * at.slip + pull.mixed_stiffness * at.gap
         load = at.rest + problem.normal_rows.T @ normal + problem.tangent_rows.T @ shear
-        step = -factor.refined(load)
+        step = -factor.apply(load)
         self.solves += 1
         opening = problem.normal_rows @ step + at.gap
         sliding = problem.tangent_rows @ step + at.slip

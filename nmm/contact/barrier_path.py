@@ -176,7 +176,7 @@ class _System:
         known = self.stiff * self.gap - targets[0] / at.distance
         known_shear = self.stiff_shear * (self.slip - to_ahead + to_back) + self.drag * known
         load = self.rest + problem.normal_rows.T @ known + problem.tangent_rows.T @ known_shear
-        increment = -self.factor.refined(load)
+        increment = -self.factor.apply(load)
         opening = problem.normal_rows @ increment
         normal = self.stiff * opening + known
         sliding = problem.tangent_rows @ increment
