@@ -87,7 +87,7 @@ class Fronts:
         rank = np.empty_like(node_order)
         rank[node_order] = np.arange(len(rank))
         order = np.argsort(rank[node_of], kind="stable")
-        source, target = lower_places(indptr, indices, order, *fronts)
+        source, target = lower_places(indptr, indices, order, fronts)
         n_children, stack = _stack(*fronts[:3])
         places = n_children, source, target, int(stack)
         return cls(indptr, indices, order, *fronts, *places, mirrored)

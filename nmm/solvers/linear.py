@@ -214,8 +214,10 @@ class Factor:
             found = float(np.linalg.norm(self.scale * defect)) / size
             if not found < rest:
                 break
+            # Rounding has the last word where a turn does not halve what is left; a shift is slow.
+            stays = found > 0.5 * rest and not self.solver.shift
             best, rest = x, found
-            if rest < 1e-15 or turn == self.solver.refinements:
+            if stays or rest < 1e-15 or turn == self.solver.refinements:
                 break
             x = x + self.apply(defect)
         if self.solver.shift and rest > SLOW:

@@ -3,7 +3,6 @@
 import numba as nb
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import csc_array
 
 from integration.arrays import Ints
 
@@ -12,40 +11,10 @@ Shape = tuple[Ints, Ints, Ints, Ints]
 """First places, row starts, rows and panel starts of supernodes."""
 
 
-@nb.njit(cache=True)
-def lower_places(
-    indptr: Index,
-    indices: Index,
-    order: Ints,
-    first: Ints,
-    row_start: Ints,
-    rows: Ints,
-    panel_start: Ints,
-) -> tuple[Ints, Ints]:
+def lower_places(indptr: Index, indices: Index, order: Ints, shape: Shape) -> tuple[Ints, Ints]:
     """Entries in the lower triangle, after ordering, and their places."""
-    n = len(order)
-    place = np.empty(n, dtype=np.int64)
-    for k in range(n):
-        place[order[k]] = k
-    source = np.empty(len(indices), dtype=np.int64)
-    target = np.empty(len(indices), dtype=np.int64)
-    count = 0
-    for s in range(len(first) - 1):
-        columns = first[s + 1] - first[s]
-        below = rows[row_start[s] : row_start[s + 1]]
-        height = columns + len(below)
-        for k in range(first[s], first[s + 1]):
-            j = order[k]
-            for e in range(indptr[j], indptr[j + 1]):
-                i = place[indices[e]]
-                if i < k:
-                    continue
-                inside = i < first[s + 1]
-                row = i - first[s] if inside else columns + np.searchsorted(below, i)
-                source[count] = e
-                target[count] = panel_start[s] + (k - first[s]) * height + row
-                count += 1
-    return source[:count].copy(), target[:count].copy()
+    nothing = np.empty(0, dtype=np.int64)
+    return _places(indptr, indices, np.arange(len(indices)), order, *shape, nothing)
 
 
 def upper_places(
@@ -56,17 +25,68 @@ def upper_places(
     Those of a pivot block go into its panel; those beside it follow all panels, transposed, and
     start at ``beside_start`` (S+1,) for every supernode.
     """
-    n, (first, _, _, panel_start) = len(order), shape
-    number = np.arange(len(indices))
-    turned = csc_array((number, indices, indptr), shape=(n, n)).T.tocsc()
-    pattern = turned.indptr.astype(np.int32), turned.indices.astype(np.int32)
-    source, mirrored = lower_places(*pattern, order, *shape)
-    s = np.searchsorted(panel_start, mirrored, side="right") - 1
-    wide = np.diff(first)[s]
-    high = np.diff(panel_start)[s] // wide
-    column, row = np.divmod(mirrored - panel_start[s], high)
-    inside = panel_start[s] + row * high + column
-    beside = beside_start[s] + column * (high - wide) + row - wide
-    target = np.where(row < wide, inside, beside)
-    off = row != column
-    return turned.data[source[off]], target[off]
+    return _places(*_turned(indptr, indices), order, *shape, beside_start)
+
+
+@nb.njit(cache=True)
+def _turned(indptr: Index, indices: Index) -> tuple[Index, Index, Ints]:
+    """Pattern of the transpose, and which entry stands at every place of it."""
+    n = len(indptr) - 1
+    ptr = np.zeros(n + 1, dtype=np.int32)
+    for i in indices:
+        ptr[i + 1] += 1
+    for j in range(n):
+        ptr[j + 1] += ptr[j]
+    at = ptr[:-1].copy()
+    columns = np.empty(len(indices), dtype=np.int32)
+    entry = np.empty(len(indices), dtype=np.int64)
+    for j in range(n):
+        for e in range(indptr[j], indptr[j + 1]):
+            i = indices[e]
+            columns[at[i]], entry[at[i]] = j, e
+            at[i] += 1
+    return ptr, columns, entry
+
+
+@nb.njit(cache=True)
+def _places(
+    indptr: Index,
+    indices: Index,
+    entry: Ints,
+    order: Ints,
+    first: Ints,
+    row_start: Ints,
+    rows: Ints,
+    panel_start: Ints,
+    beside_start: Ints,
+) -> tuple[Ints, Ints]:
+    """Lower triangle of a pattern, or of its transpose where there are starts beside panels."""
+    n, above = len(order), len(beside_start) > 0
+    place, local = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
+    for k in range(n):
+        place[order[k]] = k
+    source = np.empty(len(indices), dtype=np.int64)
+    target = np.empty(len(indices), dtype=np.int64)
+    count = 0
+    for s in range(len(first) - 1):
+        c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
+        for k in range(c):
+            local[first[s] + k] = k
+        for k in range(r):
+            local[rows[row_start[s] + k]] = c + k
+        for k in range(c):
+            j = order[first[s] + k]
+            for e in range(indptr[j], indptr[j + 1]):
+                i = place[indices[e]]
+                if i < first[s] + k or (above and i == first[s] + k):
+                    continue
+                row = local[i]
+                source[count] = entry[e]
+                if not above:
+                    target[count] = panel_start[s] + k * (c + r) + row
+                elif row < c:
+                    target[count] = panel_start[s] + row * (c + r) + k
+                else:
+                    target[count] = beside_start[s] + k * r + row - c
+                count += 1
+    return source[:count].copy(), target[:count].copy()
