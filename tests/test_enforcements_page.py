@@ -186,7 +186,7 @@ def test_cells_of_the_pile_have_three_to_six_contacts_each(n_blocks):
     from nmm.stepping.simulation import prepare
 
     simulation = prepare(pile(n_blocks, 1.0), Formulation())
-    found = simulation.stepper._candidates(simulation.start, 1e-6, 1e-3)
+    found = simulation.stepper.candidates(simulation.start, 1e-6, 1e-3)
     # an edge between two cells has two contacts; by Euler a cell has six edges in the mean, less
     # those of the open top
     assert 3 <= len(found.gap) / n_blocks <= 6

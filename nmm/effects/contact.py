@@ -6,6 +6,7 @@ other contacts are found by search as bodies move. Both are contact points of on
 Which bodies meet, and by which law, stands in `nmm.effects.contact_pairs`.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Any, Self
@@ -167,6 +168,7 @@ class Contact(Effect):
         weight: float = 1.0,
         halfway: State | None = None,
         held: Held | None = None,
+        near: Callable[[Floats], bool] | None = None,
     ) -> Solved:
         """Solve one step; bonds that cannot hold break and the step is solved again.
 
@@ -174,7 +176,8 @@ class Contact(Effect):
         ends there and is no equilibrium. ``step`` is its length (s), None in statics; ``weight``
         the share of its end in the stretch of springs (`nmm.contact.mean_springs`). ``halfway`` is
         where forces act; at the start of the step when None. ``held`` are conditions on the
-        unknowns besides.
+        unknowns besides. ``near`` says whether an increment (n,) moves no further than contacts
+        were sought: no bond is judged by one that does.
         """
         enforcement = self._enforcement if held is None else Conditioned(self._enforcement, held)
         self._memory.moving = step is not None
@@ -243,6 +246,8 @@ class Contact(Effect):
                     ),
                 )
                 return Solved(turns.contacts, answer, passes, loss, False, sliding, through)
+            if near is not None and not near(answer.increment):
+                return Solved(turns.contacts, answer, passes, loss)
             if breaking == "stop":
                 return Solved(turns.contacts, answer, passes, loss, stopped=True)
             elastic = answer.normal_force**2 / normal + answer.shear_force**2 / shear

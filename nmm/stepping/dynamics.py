@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.stepping.attempt import Attempt
 from nmm.stepping.recorder import Recorder
-from nmm.stepping.step import Attempt, Stepper
+from nmm.stepping.step import Stepper
 from nmm.stepping.verdict import CONVERGED, FAILED, RunVerdict
 
 # A step is halved down to this power of two of the chosen step before the run is given up: 1/1024.

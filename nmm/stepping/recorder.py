@@ -12,7 +12,8 @@ from nmm.effects.base import Setup
 from nmm.errors import GeometryError
 from nmm.results.frame import Frame
 from nmm.results.sink import Sink
-from nmm.stepping.step import Attempt, Stepper
+from nmm.stepping.attempt import Attempt
+from nmm.stepping.step import Stepper
 
 if TYPE_CHECKING:
     from nmm.contact.points import ContactPoints

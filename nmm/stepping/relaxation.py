@@ -14,9 +14,10 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.stepping.attempt import Attempt
 from nmm.stepping.integrators import Shi
 from nmm.stepping.loose import block_name, largest_mover
-from nmm.stepping.step import Attempt, Stepper
+from nmm.stepping.step import Stepper
 
 # Motions in sizes of the domain: of the first step, up to which the next step is lengthened, and
 # at which a solution without mass is tried.

@@ -6,7 +6,7 @@ and the growth be seen; bodies' axes stay parallel to the global ones, and stres
 """
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,6 +20,14 @@ from nmm.errors import FormulationError
 from nmm.stepping.plan import Plan
 
 Lay = Callable[[Polygons], Manifold]
+
+
+@dataclass
+class Laid:
+    """The model, and the plan of effects on it, as the blocks lie now."""
+
+    model: Model
+    plan: Plan
 
 
 def relay(

@@ -13,10 +13,11 @@ import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.stepping.attempt import Attempt
 from nmm.stepping.loose import ANCHOR, block_name, largest_mover, neutral
 from nmm.stepping.recorder import Recorder
 from nmm.stepping.relaxation import Relaxed, relax
-from nmm.stepping.step import Attempt, Stepper
+from nmm.stepping.step import Stepper
 from nmm.stepping.verdict import CONVERGED, FAILED, FAILURE, RunVerdict
 
 if TYPE_CHECKING:

@@ -1,0 +1,105 @@
+"""A step in which nothing touches: one linear system, with conditions if supports make them."""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array
+
+from integration.arrays import Floats
+from nmm.assembly.motion import strain_only
+from nmm.solvers.bordered import bordered
+from nmm.solvers.linear import Factor, LinearSolver
+from nmm.solvers.rigid_apart import ROUNDED, Apart, rounding, solve_apart
+from nmm.stepping.attempt import Attempt
+from nmm.stepping.bodies import rigid_bodies
+from nmm.stepping.clock import Clock
+from nmm.stepping.equations import Equations
+from nmm.stepping.mover import Mover
+from nmm.stepping.relay import Laid
+
+
+class Alone:
+    """Solves steps without contact.
+
+    Parameters
+    ----------
+    small
+        Whether displacements are small: rigid motions may then be kept apart from the strain.
+
+    Attributes
+    ----------
+    factor
+        Of the last system; it stands as long as the matrix has the same entries.
+    """
+
+    def __init__(
+        self, laid: Laid, mover: Mover, solver: LinearSolver, small: bool, clock: Clock
+    ) -> None:
+        self._laid, self._mover, self._solver = laid, mover, solver
+        self._small, self._clock = small, clock
+        self.factor: Factor | None = None
+
+    def attempt(self, equations: Equations) -> Attempt:
+        """Solve a step.
+
+        Raises
+        ------
+        SolveError
+            Where the load moves a part that nothing holds.
+        """
+        with self._clock.phase("solve"):
+            increment, residual, apart = self._solve(equations)
+        result = self._mover.after(equations, increment)
+        if apart is None:
+            return replace(result, residual=residual)
+        end = equations.end
+        moved = strain_only(self._laid.model, equations.state, apart.strain, apart.rigid)
+        moved = replace(moved, time=end.time, load_factor=end.load_factor)
+        return replace(result, state=moved, residual=apart.residual)
+
+    def _solve(self, equations: Equations) -> tuple[Floats, float, Apart | None]:
+        """Return the increment (n,), its residual and, where that is better, rigid parts apart."""
+        plan, matrix, force = self._laid.plan, equations.matrix, equations.force
+        border = plan.border(equations.state, equations.end)
+        n, solver = len(force), self._solver
+        if border is not None:
+            matrix = bordered(matrix, border[0])
+            force, solver = np.concatenate([force, border[1]]), solver.indefinite()
+        if self.factor is None or not _same(self.factor.matrix, matrix):
+            self.factor = solver.factorise(matrix)
+        factor = self.factor
+        increment = factor.solve(force)
+        residual = factor.relative_residual(increment, force)
+        apart = None
+        if equations.step is None:
+            apart = self._apart(equations, factor, increment, force, border, residual)
+        if border is not None:
+            plan.keep(increment[n:] if apart is None else apart.multipliers)
+        return increment[:n], residual, apart
+
+    def _apart(
+        self,
+        equations: Equations,
+        factor: Factor,
+        increment: Floats,
+        force: Floats,
+        border: tuple[csr_array, Floats] | None,
+        residual: float,
+    ) -> Apart | None:
+        """Solution with rigid motions apart where rounding would spoil the stress; else None."""
+        model = self._laid.model
+        if not self._small or model.manifold.n_bodies == 1:
+            return None
+        bodies = rigid_bodies(model)
+        if rounding(factor, bodies, increment, force) <= ROUNDED:
+            return None
+        held = self._laid.plan.matrix(equations.state, csc_array(model.stiffness.shape))
+        rows = None if border is None else border[0]
+        found = solve_apart(factor, bodies, held, force, rows)
+        return found if found.residual < residual else None
+
+
+def _same(a: csc_array, b: csc_array) -> bool:
+    return a is b or (
+        a.nnz == b.nnz and np.array_equal(a.data, b.data) and np.array_equal(a.indices, b.indices)
+    )

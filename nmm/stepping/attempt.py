@@ -1,0 +1,42 @@
+"""What came of a step."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+
+if TYPE_CHECKING:
+    from nmm.contact.record import Solved
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """What came of a step; to be accepted or thrown away.
+
+    Attributes
+    ----------
+    converged, sentence
+        The verdict.
+    state
+        The state at the end; that of the start when the step failed.
+    increment
+        (n,) unknowns of the step.
+    motion
+        Largest motion of a point (m).
+    residual
+        Relative out-of-balance force.
+    passes
+        Linear systems solved.
+    solved
+        Contact points with their forces; None without contact.
+    """
+
+    converged: bool
+    sentence: str
+    state: State
+    increment: Floats
+    motion: float
+    residual: float
+    passes: int
+    solved: "Solved | None" = None
