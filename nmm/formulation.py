@@ -1,193 +1,26 @@
-"""The formulation: how a scene is approximated; no physics here."""
+"""The formulation: how a scene is approximated; no physics here.
+
+The tables of `[cover]` stand in `nmm.scene.cover_tables`.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
-from pydantic import Field, PrivateAttr, model_validator
+from pydantic import Field, PrivateAttr
 
 from nmm.errors import FormulationError
+from nmm.scene.cover_tables import OWN, Part
+from nmm.scene.cover_tables import Cover as Cover
+from nmm.scene.cover_tables import CoverNet as CoverNet
+from nmm.scene.cover_tables import CoverRegion as CoverRegion
+from nmm.scene.cover_tables import Enrichment as Enrichment
 from nmm.scene.document import parse, read_text
 from nmm.scene.faults import Source
-from nmm.scene.fields import (
-    Angle,
-    BlockName,
-    Count,
-    Flag,
-    Frozen,
-    Length,
-    Number,
-    PartName,
-    Point,
-    Ring,
-    Time,
-    fault,
-)
-
-_OWN = 'or "module:Name"'
-_OF_BLOCKS = ("block", "sub_blocks")
-
-
-class _Part(Frozen):
-    """A part that can be exchanged; `options` is checked by the part itself."""
-
-    options: dict[str, Any] = Field(default={}, description="a table of options of the part")
-
-
-class Enrichment(Frozen):
-    """Singular functions on the covers about all crack tips, and about corners that are named.
-
-    Without the table the covers about a tip carry its functions where the crack is straight and
-    alone in them.
-    """
-
-    radius: Length = Field(
-        default=0.0,
-        ge=0,
-        description="a radius in m, >= 0: covers that are nearer to the point carry the functions; "
-        "those that touch it always do",
-        examples=[0.2],
-    )
-    tips: Flag = Field(
-        default=True,
-        description="true or false: whether covers about crack tips carry the functions",
-        examples=[False],
-    )
-    corners: tuple[Point, ...] = Field(
-        default=(), description="a list of re-entrant corners [x, y] in m", examples=[[[0, 0]]]
-    )
-
-
-class CoverRegion(Frozen):
-    """Covers of another degree: those in a polygon, of a block, or near a point.
-
-    A cover belongs to the place where the centroid of its material lies; of several regions that
-    hold it the last one counts.
-    """
-
-    degree: Count = Field(ge=0, le=3, description="a degree, 0 to 3", examples=[2])
-    polygon: Ring | None = Field(
-        default=None,
-        description="a list of three corners [x, y] in m or more",
-        examples=[[[0, 0], [1, 0], [1, 1]]],
-    )
-    block: BlockName | None = Field(
-        default=None, description='the name of a block, or of a piece "beam.12"', examples=["beam"]
-    )
-    point: Point | None = Field(
-        default=None, description="a point [x, y] in m, with a radius", examples=[[0.5, 0]]
-    )
-    radius: Length | None = Field(
-        default=None, gt=0, description="a distance to the point in m, > 0", examples=[0.2]
-    )
-
-    @model_validator(mode="after")
-    def _one_place(self) -> CoverRegion:
-        given = [name for name in ("polygon", "block", "point") if getattr(self, name) is not None]
-        if len(given) != 1:
-            raise fault(
-                ", ".join(given) or "none",
-                "one of polygon, block, point",
-                "name one place a region; write a region for each further place",
-            )
-        if (self.point is None) != (self.radius is None):
-            raise fault(
-                f"point {self.point}, radius {self.radius}",
-                "a point with a radius",
-                "write both, or neither",
-            )
-        return self
-
-
-class CoverNet(Frozen):
-    """A net of its own for a block; what is not given is that of the common net."""
-
-    block: BlockName = Field(description="the name of a block", examples=["beam"])
-    size: Length | None = Field(
-        default=None, gt=0, description="a cover size in m, > 0", examples=[0.02]
-    )
-    angle: Angle | None = Field(
-        default=None, description="a turn of the mesh in rad", examples=["17 deg"]
-    )
-    shift: tuple[Number, Number] | None = Field(
-        default=None,
-        description="a displacement of the mesh in fractions of a cell",
-        examples=[[0.3, 0.2]],
-    )
-
-
-class Cover(_Part):
-    """Physical covers and their local functions: block = DDA, meshes = manifold.
-
-    The type "sub_blocks" divides blocks and glues the parts.
-
-    A mesh has local functions "monomials" of degree 1 unless others are named.
-    """
-
-    type: PartName = Field(
-        default="block",
-        description='"block", "sub_blocks", "triangles", "quads", "graded", "bspline", "mls" '
-        f"{_OWN} of a cover",
-        examples=["triangles"],
-    )
-    functions: PartName = Field(
-        default="rigid_strain",
-        description='"rigid_strain", "rigid" or "monomials"; meshes take monomials',
-        examples=["monomials"],
-    )
-    degree: Count | None = Field(
-        default=None, ge=0, description="a degree, an integer >= 0", examples=[1]
-    )
-    size: Length | None = Field(
-        default=None, gt=0, description="a cover size in m, > 0", examples=[0.1]
-    )
-    angle: Angle = Field(default=0.0, description="a turn of the mesh in rad", examples=["17 deg"])
-    shift: tuple[Number, Number] = Field(
-        default=(0.0, 0.0),
-        description="a displacement of the mesh in fractions of a cell",
-        examples=[[0.3, 0.2]],
-    )
-    enrichment: Enrichment | None = Field(default=None, description="a table [cover.enrichment]")
-    regions: tuple[CoverRegion, ...] | None = Field(
-        default=None, description="tables [[cover.regions]]"
-    )
-    nets: tuple[CoverNet, ...] | None = Field(default=None, description="tables [[cover.nets]]")
-
-    @property
-    def finest(self) -> float | None:
-        """Smallest size of a net (m)."""
-        sizes = [self.size, *(item.size for item in self.nets or ())]
-        return min((size for size in sizes if size is not None), default=None)
-
-    @property
-    def highest_degree(self) -> int:
-        """Highest degree of the polynomials, over all regions."""
-        return max([self.degree or 0, *(item.degree for item in self.regions or ())])
-
-    @property
-    def of_blocks(self) -> bool:
-        """Whether each block, or sub-block, has one cover of its own."""
-        return self.type in _OF_BLOCKS
-
-    @property
-    def glued(self) -> bool:
-        """Whether blocks are divided into sub-blocks that never part."""
-        return self.type == "sub_blocks" and self.options.get("bond", "elastic") == "elastic"
-
-    @model_validator(mode="before")
-    @classmethod
-    def _mesh(cls, data: Any) -> Any:
-        """Meshes carry polynomials unless something else is asked for."""
-        if not isinstance(data, Mapping) or data.get("type", "block") in _OF_BLOCKS:
-            return data
-        plain = {"functions": "monomials"} if "functions" not in data else {}
-        monomials = data.get("functions", "monomials") == "monomials"
-        degree = {"degree": 1} if monomials and data.get("degree") is None else {}
-        return {**data, **plain, **degree}
+from nmm.scene.fields import Count, Frozen, Number, PartName, Time
 
 
 class SupportMethod(Frozen):
@@ -233,12 +66,12 @@ class Glue(Frozen):
     )
 
 
-class ContactMethod(_Part):
+class ContactMethod(Part):
     """Enforcement of contact and joint conditions."""
 
     enforcement: PartName = Field(
         default="penalty",
-        description=f'"penalty", "augmented", "lagrange", "cone", "barrier" {_OWN}',
+        description=f'"penalty", "augmented", "lagrange", "cone", "barrier" {OWN}',
         examples=["cone"],
     )
     normal_penalty: Number = Field(
@@ -272,12 +105,12 @@ class ContactMethod(_Part):
     )
 
 
-class Integrator(_Part):
+class Integrator(Part):
     """Time integration of dynamic scenes."""
 
     type: PartName = Field(
         default="shi",
-        description=f'"shi", "newmark", "generalized_alpha" {_OWN}',
+        description=f'"shi", "newmark", "generalized_alpha" {OWN}',
         examples=["newmark"],
     )
     step: Time = Field(default=1e-3, gt=0, description="a step in s, > 0", examples=["1 ms"])
@@ -315,12 +148,12 @@ class LoadSteps(Frozen):
     )
 
 
-class Solver(_Part):
+class Solver(Part):
     """Linear solver."""
 
     type: PartName = Field(
         default="auto",
-        description=f'"auto", "cholesky", "lu", "superlu", "qdldl" {_OWN}',
+        description=f'"auto", "cholesky", "lu", "superlu", "qdldl" {OWN}',
         examples=["cholesky"],
     )
 
