@@ -232,7 +232,7 @@ def main() -> None:
     """Measure and print, or write."""
     chosen = _options()
     if chosen.solvers:
-        print(solvers(chosen.blocks or [100, 1000, 10000], ["cholesky", "superlu", "qdldl"]))
+        print(solvers(chosen.blocks or [100, 1000, 10000], ["cholesky", "lu", "superlu", "qdldl"]))
         return
     usual = SIZES if chosen.page else SMALL
     sizes = [
