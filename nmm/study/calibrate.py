@@ -9,7 +9,8 @@ import numpy as np
 from nmm.formulation import Formulation
 from nmm.scene import Scene, parse_scene
 from nmm.study.cost_model import CostModel, Measured, fit, size_of
-from nmm.study.measure import Progress, added_memory, machine
+from nmm.study.measure import Progress, machine
+from nmm.study.memory import added_memory
 from nmm.study.variants import Case
 
 ROCK = "[materials.rock]\nyoung_modulus = 1e9\npoisson_ratio = 0.2\ndensity = 2000\n"

@@ -13,7 +13,8 @@ from nmm.formulation import Formulation
 from nmm.results.frame import Frame
 from nmm.scene import Scene
 from nmm.stepping.run import Run, run
-from nmm.study.measure import Progress, added_memory, machine, method_of
+from nmm.study.measure import Progress, machine, method_of
+from nmm.study.memory import added_memory
 from nmm.study.samples import Fields, Raster, fields, raster
 from nmm.study.variants import Case
 
