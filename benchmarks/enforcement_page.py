@@ -156,7 +156,7 @@ def page(records: Path) -> str:
         advice=ADVICE,
         choice=choice(rows, steps),
         aims=aims(steps),
-        short=short(steps),
+        short=short(rows, steps),
         load=crowd([*rows, *steps]),
         warm=max((row.left_out for row in steps), default=0),
         wall=_scene(steps, "wall"),

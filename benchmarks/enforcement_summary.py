@@ -88,9 +88,10 @@ def _against(row: StepRow | None) -> str:
     return _short(row.ratio) if row.ratio <= 1 else f"**{_short(row.ratio)}**"
 
 
-def short(steps: list[StepRow]) -> str:
+def short(rows: list[Row], steps: list[StepRow]) -> str:
     """Points in words: aims, growth, convergence and cost, met or missed by how much."""
-    points = (_quickest(steps), _default(steps), _growing(steps), _converging(steps), _exact(steps))
+    points = [_quickest(steps), _default(steps), _growing(steps)]
+    points += [_converging(rows, steps), _exact(steps)]
     return "\n".join(f"- {point}" for point in points)
 
 
@@ -142,20 +143,29 @@ def _growing(steps: list[StepRow]) -> str:
     return f"**Aim of growth** (walls, N^{GROWTH:g} from one size to the next): {text}."
 
 
-def _converging(steps: list[StepRow]) -> str:
-    """Which enforcements converge in every step of what was run."""
-    ran = [row for row in steps if row.status != "not run"]
+def _converging(rows: list[Row], steps: list[StepRow]) -> str:
+    """Which enforcements converged in every step that was run, whole or of contact alone."""
     broken: dict[str, list[str]] = {}
-    for row in ran:
-        if not row.sound:
-            where = f"{row.scene} of {row.size} ({row.status})"
-            broken.setdefault(row.enforcement, []).append(where)
-    good = [
-        kind for kind in KINDS if kind not in broken and any(r.enforcement == kind for r in ran)
-    ]
-    text = f"every step that was run converged with {', '.join(good) or 'none'}"
-    bad = "; ".join(f"{kind}: {', '.join(where)}" for kind, where in broken.items())
-    return f"**Convergence**: {text}" + (f". Not so {bad}." if bad else ".")
+    unknown: dict[str, list[str]] = {}
+    for row in steps:
+        where = f"{row.scene} of {row.size}"
+        if row.status == "stopped" and not row.sound and not row.cut:
+            unknown.setdefault(row.enforcement, []).append(where)
+        elif not row.sound and row.status != "not run":
+            broken.setdefault(row.enforcement, []).append(f"{where} ({row.status})")
+    for one in rows:
+        if one.converged < one.steps:
+            where = f"{one.scene} of {one.size}, contact alone ({one.converged} of {one.steps})"
+            broken.setdefault(one.enforcement, []).append(where)
+    ran = {row.enforcement for row in steps if row.status != "not run"}
+    good = [kind for kind in KINDS if kind in ran and kind not in broken]
+    text = f"**Convergence**: every step that was done converged with {', '.join(good) or 'none'}."
+    text += f" Not so {_listed(broken)}." if broken else ""
+    return text + (f" Stopped in doubt: {_listed(unknown)}." if unknown else "")
+
+
+def _listed(places: dict[str, list[str]]) -> str:
+    return "; ".join(f"{kind}: {', '.join(where)}" for kind, where in places.items())
 
 
 def _exact(steps: list[StepRow]) -> str:

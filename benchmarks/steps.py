@@ -19,6 +19,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import resource
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from time import perf_counter, process_time
 from typing import Any
@@ -89,25 +90,37 @@ class _Clock:
 
 def measure(scene: str, size: int, enforcement: str, steps: int, budget: float) -> StepRow:
     """Run one scene with one enforcement for a number of steps, or until the budget is spent."""
-    busy = load()
-    small = _simulation("wall", 12, enforcement)
-    _advanced(small, _Clock(small, 2))  # compiled code is loaded
+    busy, clock = load(), None
+    _warm(enforcement)
     began = process_time()
     row = StepRow(scene=scene, enforcement=enforcement, size=size, status="stopped", asked=steps)
-    row = replace(row, budget=budget)
     try:
         with limit(budget):
             simulation = _simulation(scene, size, enforcement)
-            row = replace(row, prepared=process_time() - began)
             clock = _Clock(simulation, steps)
-            row = replace(row, **_advanced(simulation, clock), **clock.figures())
+            row = replace(row, **_prepared(simulation), prepared=clock.own[0] - began)
+            simulation.run([clock.memory], clock)
+        # neither the last step asked for was reached nor the budget spent: it gave up
+        row = replace(row, status=FAILED, sentence=clock.memory.summary.sentence)
+    except _Enough:
+        row = replace(row, status="converged")
     except Overtime:
-        row = replace(row, sentence=f"{budget:g} s were spent before the first step")
+        row = replace(row, **_stopped(clock, budget))
+    if clock:
+        row = replace(row, **clock.figures())
     if row.status == "converged" and row.cut:
         row = replace(row, status="cut")
     used = process_time() - began
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
-    return replace(row, used=used, memory=memory, **stamp(busy))
+    return replace(row, budget=budget, used=used, memory=memory, **stamp(busy))
+
+
+def _warm(enforcement: str) -> None:
+    """Have compiled code loaded before anything is timed."""
+    simulation = _simulation("wall", 12, enforcement)
+    clock = _Clock(simulation, 2)
+    with suppress(_Enough):
+        simulation.run([clock.memory], clock)
 
 
 def _simulation(scene: str, size: int, enforcement: str) -> Simulation:
@@ -117,21 +130,18 @@ def _simulation(scene: str, size: int, enforcement: str) -> Simulation:
     return prepare(SCENES[scene](size, DURATION), formulation)
 
 
-def _advanced(simulation: Simulation, clock: _Clock) -> dict[str, Any]:
-    """Run; how it ended, as fields of a row."""
+def _prepared(simulation: Simulation) -> dict[str, Any]:
     parts = {name: simulation.stepper.seconds[name] for name in ("covers", "effects")}
-    fields = {"status": "converged", "blocks": len(simulation.regions), "prepare": parts}
-    try:
-        simulation.run([clock.memory], clock)
-    except _Enough:
-        return fields
-    except Overtime:
-        since = process_time() - clock.own[-1]
-        done = f"{len(clock.time) - 1} of {clock.steps} steps"
-        sentence = f"stopped after {done}, {since:.3g} s into the next: the budget was spent"
-        return fields | {"status": "stopped", "sentence": sentence, "unfinished": since}
-    # it ran neither to the last step asked for nor out of time: it gave up
-    return fields | {"status": FAILED, "sentence": clock.memory.summary.sentence}
+    return {"blocks": len(simulation.regions), "prepare": parts}
+
+
+def _stopped(clock: _Clock | None, budget: float) -> dict[str, Any]:
+    if clock is None:
+        return {"sentence": f"{budget:g} s were spent before the first step"}
+    since = process_time() - clock.own[-1]
+    done = f"{len(clock.time) - 1} of {clock.steps} steps"
+    sentence = f"stopped after {done}, {since:.3g} s into the next: the budget was spent"
+    return {"sentence": sentence, "unfinished": since}
 
 
 def row_of(
