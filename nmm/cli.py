@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from nmm import scene_verbs, study_verbs, verification_verbs
-from nmm.scene_verbs import FormulationFile, SceneFile, import_beside, read_formulation
+from nmm.scene_verbs import FormulationFile, SceneFile, read_beside, read_formulation
 from nmm.terminal import (
     FAILED,
     console,
@@ -117,8 +117,7 @@ def _run(
     import nmm
     from nmm.results.summary import render
 
-    import_beside(place)
-    scene = nmm.read_scene(place)
+    scene = read_beside(place)
     chosen = read_formulation(formulation)
     try:
         with progress_bar(quiet, steps) as progress:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
-from nmm.study_verbs import tell_cost
 from nmm.terminal import console, faults_told, tell_faults, tell_next
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
     from nmm.scene import Scene
+    from nmm.stepping.simulation import Simulation
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene file, TOML.", metavar="SCENE")]
 FormulationFile = Annotated[
@@ -95,17 +95,23 @@ def import_beside(scene: Path) -> None:
     sys.path.append(str(scene.resolve().parent))
 
 
+def read_beside(scene: Path) -> "Scene":
+    """Read a scene, which may name parts of modules in its own folder."""
+    import nmm
+
+    import_beside(scene)
+    return nmm.read_scene(scene)
+
+
 def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
     from rich.markup import escape
     from rich.table import Table
 
-    import nmm
     from nmm.formulation import Formulation
     from nmm.stepping.plan import called_for
     from nmm.stepping.simulation import prepare
 
-    import_beside(place)
-    scene = nmm.read_scene(place)
+    scene = read_beside(place)
     chosen = read_formulation(formulation) or scene.formulation or Formulation()
     prepared = prepare(scene, chosen)
     manifold = prepared.stepper.model.manifold
@@ -126,7 +132,7 @@ def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
             out.print(f"{effect.name}: {effect.about}", highlight=False)
     out.print(f"unknowns: {manifold.n_unknowns:,}", highlight=False)
     if cost:
-        tell_cost(prepared)
+        _tell_cost(prepared)
     tell_next(f"nmm run {place}")
 
 
@@ -148,7 +154,6 @@ def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) ->
 
 def _faults(place: Path, formulation: Path | None) -> list[str]:
     """Lines about keys and values of both files, then about blocks and parts that they name."""
-    import nmm
     from nmm.errors import NmmError
     from nmm.formulation import Formulation
     from nmm.geometry import regions
@@ -163,11 +168,30 @@ def _faults(place: Path, formulation: Path | None) -> list[str]:
             faults.extend(str(fault) for fault in error.faults)
             return None
 
-    import_beside(place)
-    scene = tried(nmm.read_scene, place)
+    scene = tried(read_beside, place)
     chosen = tried(read_formulation, formulation)
     if scene is not None:
         tried(regions, scene)
     if scene is not None and not (formulation and chosen is None):
         tried(check_parts, scene, chosen or scene.formulation or Formulation())
     return faults
+
+
+def _tell_cost(simulation: "Simulation") -> None:
+    """Print what a compiled scene will cost on this machine."""
+    from nmm.study.cost_model import load_model, size_of, steps_of
+
+    model = load_model()
+    if model is None:
+        typer.echo("cost: not known on this machine; measure it once: nmm calibrate")
+        return
+    steps = steps_of(simulation)
+    one, two = (model.seconds(size_of(simulation, n)) for n in (1.0, 2.0))
+    size = size_of(simulation, steps or 1.0)
+    if steps is None:
+        text = f"{one:.2g} s and {two - one:.2g} s for each further step, failure decides how many"
+    else:
+        text = f"{model.seconds(size):.2g} s of {steps:,.0f} steps"
+    typer.echo(f"cost: about {text}; {model.bytes(size) / 2**20:.0f} MiB more memory")
+    if size.unknowns > 5 * model.largest[size.kind]:
+        typer.echo(f"cost: fitted up to {model.largest[size.kind]:,} unknowns: read it as a guess")

@@ -5,12 +5,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from nmm.scene_verbs import read_beside
 from nmm.terminal import console, faults_told, progress_bar, tell_files
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
-    from nmm.scene import Scene
-    from nmm.stepping.simulation import Simulation
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene file, TOML.", metavar="SCENE")]
 Formulations = Annotated[
@@ -64,7 +63,7 @@ def cost(
         said = ([f"{SIZE}={sizes}"] if sizes else []) + (vary or [])
         with progress_bar(quiet) as progress:
             study = cost_study(
-                _scene(scene),
+                read_beside(scene),
                 _formulations(scene, [*(formulations or []), *(more or [])])
                 | yardsticks(_listed(yardstick)),
                 dict(_varied(text) for text in said),
@@ -100,7 +99,7 @@ def compare(
 
         with progress_bar(quiet) as progress:
             study = compare_formulations(
-                _scene(scene), _formulations(scene, formulations or []), memory, progress
+                read_beside(scene), _formulations(scene, formulations or []), memory, progress
             )
         files = write_comparison(study, out or Path("runs") / f"{scene.stem}-compare")
         if not quiet:
@@ -196,26 +195,6 @@ def calibrate(
 VERBS = (cost, compare, study, calibrate)
 
 
-def tell_cost(simulation: "Simulation") -> None:
-    """Print what a compiled scene will cost on this machine."""
-    from nmm.study.cost_model import load_model, size_of, steps_of
-
-    model = load_model()
-    if model is None:
-        typer.echo("cost: not known on this machine; measure it once: nmm calibrate")
-        return
-    steps = steps_of(simulation)
-    one, two = (model.seconds(size_of(simulation, n)) for n in (1.0, 2.0))
-    size = size_of(simulation, steps or 1.0)
-    if steps is None:
-        text = f"{one:.2g} s and {two - one:.2g} s for each further step, failure decides how many"
-    else:
-        text = f"{model.seconds(size):.2g} s of {steps:,.0f} steps"
-    typer.echo(f"cost: about {text}; {model.bytes(size) / 2**20:.0f} MiB more memory")
-    if size.unknowns > 5 * model.largest[size.kind]:
-        typer.echo(f"cost: fitted up to {model.largest[size.kind]:,} unknowns: read it as a guess")
-
-
 def register(app: typer.Typer) -> None:
     """Add the verbs to the command line."""
     for verb in VERBS:
@@ -228,23 +207,13 @@ def _one_thread() -> None:
     one_thread()
 
 
-def _scene(place: Path) -> "Scene":
-    import sys
-
-    import nmm
-
-    # A scene may name parts of modules in its own folder.
-    sys.path.append(str(place.resolve().parent))
-    return nmm.read_scene(place)
-
-
 def _formulations(scene: Path, paths: list[Path]) -> "dict[str, Formulation]":
     from nmm.formulation import Formulation
     from nmm.study.variants import read_formulations
 
     if paths:
         return read_formulations(paths)
-    own = _scene(scene).formulation or Formulation()
+    own = read_beside(scene).formulation or Formulation()
     return {own.title or "the scene's own": own}
 
 

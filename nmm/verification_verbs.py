@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from nmm.scene_verbs import read_beside
 from nmm.terminal import console, faults_told, progress_bar, tell_files
 
 if TYPE_CHECKING:
@@ -76,11 +77,10 @@ def publish(
 ) -> None:
     """Write a case folder that others reproduce by `nmm verify FOLDER`."""
     with faults_told():
-        import nmm
         from nmm.verification.published import publish as write
 
-        sys.path.append(str(scene.resolve().parent))
-        names = quantity or [item.quantity for item in nmm.read_scene(scene).references]
+        read = read_beside(scene)
+        names = quantity or [item.quantity for item in read.references]
         typer.echo(write(scene, formulation, names or ["energy"], tolerance, out, source))
 
 
