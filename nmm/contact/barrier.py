@@ -19,6 +19,9 @@ from nmm.contact.springs import Settled
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
 
+TOO_THIN = 1e-2
+"""A kept width below this part of the one that fits a step is given up for it."""
+
 
 @dataclass(frozen=True)
 class Barrier(Enforcement):
@@ -37,7 +40,8 @@ class Barrier(Enforcement):
     ----------
     width
         ``w`` (m); None takes a thousandth of what the largest contact force of the first step
-        with contact would press in (compliance times force); before, of the largest motion.
+        with contact would press in (compliance times force); before, of the largest motion; and
+        anew where that turns out a hundred times as large.
     max_passes
         Most Newton steps of each method; in the descent, for one friction bound and of bounds.
     tolerance
@@ -63,7 +67,10 @@ class Barrier(Enforcement):
         force = max(float(np.abs(f).max(initial=0.0)) for f in springs.forces(rough.increment))
         ease = float(np.mean(compliances(problem)[0])) if problem.n_contacts else 1.0
         moved = float(np.abs(problem.normal_rows @ rough.increment).max(initial=0.0))
-        width = self.width or memory.barrier_width or 1e-3 * (force * ease or moved or ease)
+        fit = 1e-3 * (force * ease or moved or ease)
+        # A first touch that hardly presses says little of what is to come.
+        kept = memory.barrier_width if (memory.barrier_width or 0.0) > TOO_THIN * fit else None
+        width = self.width or kept or fit
         if force > 0:  # blocks that fly do not yet say how hard they will meet
             memory.barrier_width = width
         well = Potential(problem, width, max(force, width / ease) / width)
