@@ -140,23 +140,26 @@ def _error(
     problem: StepProblem, answer: StepAnswer, reference: Reference, budget: float
 ) -> tuple[float, list[str]]:
     """Force error, -1 where it is not known, and what is to be said of that."""
-    for number, (name, options) in enumerate(reference):
-        try:
-            with limit(budget):
+    said: list[str] = []
+    try:
+        with limit(budget):
+            for name, options in reference:
                 tight = make_enforcement(name, options).solve(problem, make_solver())
-        except Overtime:
-            return -1.0, ["no force error: the tight solution spent the budget too"]
-        if tight.verdict.converged:
-            weight = CutSprings.of(problem).weight
-            expected = weight * _resultants(problem, tight)
-            found = weight * _resultants(problem, answer)
-            tight_to = ", ".join(f"{key} = {value:g}" for key, value in options.items())
-            other = (
-                f"force error against {name} with {tight_to}: {reference[0][0]} did not converge"
-            )
-            said = [other] if number else []
-            return float(np.linalg.norm(found - expected) / np.linalg.norm(expected)), said
+                if tight.verdict.converged:
+                    return _distance(problem, answer, tight), said
+                told = ", ".join(f"{key} = {value}" for key, value in options.items())
+                other = f"force error against {reference[-1][0]}"
+                said = [f"{other}, as {name} did not converge with {told}"]
+    except Overtime:
+        return -1.0, ["no force error: the tight solution spent the budget too"]
     return -1.0, [f"no force error: the tight solution: {tight.verdict.sentence}"]
+
+
+def _distance(problem: StepProblem, answer: StepAnswer, tight: StepAnswer) -> float:
+    """Distance of the resultants of two answers over the size of the second's."""
+    weight = CutSprings.of(problem).weight
+    expected, found = (weight * _resultants(problem, one) for one in (tight, answer))
+    return float(np.linalg.norm(found - expected) / np.linalg.norm(expected))
 
 
 def _resultants(problem: StepProblem, answer: StepAnswer) -> Floats:
@@ -276,7 +279,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--scenes", nargs="+", choices=SCENES)
     parser.add_argument("--enforcement", nargs="+", choices=KINDS, default=list(KINDS))
     parser.add_argument("--steps", type=int, default=6)
-    parser.add_argument("--budget", type=float, default=300.0, help="processor seconds a row")
+    parser.add_argument("--budget", type=float, default=120.0, help="processor seconds a row")
     parser.add_argument("--page", action="store_true", help="keep rows, write docs/enforcements.md")
     parser.add_argument(
         "--resume",

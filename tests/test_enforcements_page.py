@@ -219,3 +219,22 @@ def test_a_row_that_spends_its_budget_says_how_far_it_came():
     row = measure("pile", 60, "penalty 100 E", 1000, 0.8)
     assert row.status == "stopped"
     assert f"stopped after {row.done} of 1000 steps" in row.sentence
+
+
+def test_forces_are_held_to_nothing_that_did_not_converge():
+    from block_scenes import Motion, pile
+    from enforcement import _error
+
+    from nmm.contact.enforcement import make_enforcement
+    from nmm.solvers.linear import make_solver
+
+    problem = Motion(pile(20, 1.0)).problem
+    answer = make_enforcement("penalty").solve(problem, make_solver())
+    hasty = ("penalty", {"iteration": "open_close", "max_passes": 1})
+    error, said = _error(problem, answer, (hasty,), 10.0)
+    assert error == -1.0
+    assert "no force error" in said[0]
+    error, said = _error(problem, answer, (hasty, ("penalty", {"tolerance": 1e-12})), 10.0)
+    # settled to 1e-8 of the load, so is its error
+    assert 0 <= error < 1e-6
+    assert "did not converge with iteration" in said[0]
