@@ -81,10 +81,12 @@ def _interface(part: Any) -> None:
 def _cover(part: Any) -> None:
     from covers.local_functions import FUNCTIONS
     from covers.registry import COVERS, cover_class
-    from nmm.stepping.covering import local_functions
 
     _known("functions", part.functions, [*FUNCTIONS])
-    local_functions(part)
+    if part.degree is not None or part.functions == "monomials":
+        from nmm.stepping.covering import local_functions
+
+        local_functions(part)
     if part.of_blocks:
         return
     if ":" not in part.type:
