@@ -10,6 +10,7 @@ from nmm.contact.barrier_newton import Newton, Start
 from nmm.contact.barrier_path import Path, Point
 from nmm.contact.barrier_potential import Potential
 from nmm.contact.pattern import SpringPattern
+from nmm.contact.problem import StepAnswer, StepProblem
 from nmm.contact.springs import CutSprings, Settled
 from nmm.solvers.linear import LinearSolver
 
@@ -17,6 +18,8 @@ QUICK, PATIENT, LONG = 20, 40, 40
 """Most steps of the first attempt, of the second, and of the path before it."""
 GOALS = 3e-3, 1e-4
 """Products of force and distance at which the path is left, over largest force and width."""
+
+Solved = tuple[StepProblem, StepAnswer]
 
 
 @dataclass(frozen=True)
@@ -33,14 +36,19 @@ class Search:
     linear: LinearSolver
     tolerance: float
 
-    def run(self, rough: Settled, passes: int) -> Settled:
-        """Unknowns in balance, or the last of the descent, always before the walls."""
+    def run(self, rough: Settled, passes: int, solved: Solved | None = None) -> Settled:
+        """Unknowns in balance, or the last of the descent, always before the walls.
+
+        ``solved`` is the last problem with its answer, where it was of the same step.
+        """
         well = self.well
         springs = CutSprings.of(well.problem)
         newton = Newton(well, self.pattern, self.linear, springs.weight)
-        increment = newton.run(
-            _cut(newton, rough), self.tolerance, min(QUICK, passes), patient=False
-        )
+        starts = [] if solved is None else [_end(newton, *solved)]
+        increment = None
+        for start in [*starts, _cut(newton, rough)]:
+            if increment is None:
+                increment = newton.run(start, self.tolerance, min(QUICK, passes), patient=False)
         path = Path(well.problem, well.offset - well.width / 2, self.pattern, self.linear)
         if increment is None and well.problem.n_contacts and not well.spring.any():
             increment = self._inside(newton, path, rough, passes)
@@ -81,6 +89,13 @@ def _free(newton: Newton, path: Path, point: Point) -> Start:
     gap, slip = point.distance - path.behind, point.ahead - point.back
     trials = newton.curves.trials(gap, slip, -point.pressure, point.shear)
     return Start(point.increment, trials)
+
+
+def _end(newton: Newton, problem: StepProblem, answer: StepAnswer) -> Start:
+    """Start where the same step was solved with rows that have turned since."""
+    gap, slip = problem.gaps(answer.increment), problem.slips(answer.increment)
+    forces = answer.normal_force, answer.shear_force
+    return Start(answer.increment, newton.curves.trials(gap, slip, *forces))
 
 
 def _cut(newton: Newton, rough: Settled) -> Start:
