@@ -30,14 +30,15 @@ def settled_answer(
 def answer(found: Settled, linear: LinearSolver, verdict: Verdict) -> StepAnswer:
     """Answer with the forces of the springs at what was found."""
     springs, problem = found.springs, found.springs.problem
-    trial = springs.trial(found.increment)
+    gap, slip = problem.gaps(found.increment), problem.slips(found.increment)
+    trial = springs.stretched(gap, slip)
     normal, shear = springs.cut(*trial)
     is_open, sliding = springs.states_of(*trial)
     return StepAnswer(
         increment=found.increment,
         normal_force=normal,
         shear_force=shear,
-        gap=problem.gaps(found.increment),
+        gap=gap,
         slip=kept_slip(found, shear),
         state=label(problem, is_open, sliding),
         passes=found.solves,

@@ -73,7 +73,7 @@ def find_crossings(
     # Compiled code is loaded by the first search, not by whoever names this module.
     from nmm.contact.crossing_kernel import can_meet
 
-    edges = before.start, before.end, after.start, before.next, before.thickness
+    edges = before.start, before.end, after.start, before.next, before.body
     near = can_meet(*edges, *pairs, DEPTH)
     v, e = pairs[0][near], pairs[1][near]
     if not len(v):

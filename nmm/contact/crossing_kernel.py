@@ -9,12 +9,32 @@ from integration.arrays import Floats, Ints
 
 
 @nb.njit(cache=True)
+def _thickness(start: Floats, end: Floats, body: Ints) -> Floats:
+    """Twice the area over the perimeter (B,) of bodies, as `Surface.thickness`."""
+    count = 0
+    for e in range(len(body)):
+        count = max(count, body[e] + 1)
+    first = np.full(count, -1)
+    twice, around = np.zeros(count), np.zeros(count)
+    for e in range(len(body)):
+        b = body[e]
+        if first[b] < 0:
+            first[b] = e
+        x, y = start[first[b], 0], start[first[b], 1]
+        twice[b] += (start[e, 0] - x) * (end[e, 1] - y) - (start[e, 1] - y) * (end[e, 0] - x)
+        around[b] += math.hypot(end[e, 0] - start[e, 0], end[e, 1] - start[e, 1])
+    for b in range(count):
+        twice[b] = abs(twice[b]) / around[b] if around[b] > 0.0 else 0.0
+    return twice
+
+
+@nb.njit(cache=True)
 def can_meet(
     start: Floats,
     end: Floats,
     after: Floats,
     following: Ints,
-    thickness: Floats,
+    body: Ints,
     vertex: Ints,
     edge: Ints,
     depth: float,
@@ -28,13 +48,14 @@ def can_meet(
     ----------
     start, end, after
         (n, 2) ends of the edges at the start of the step, and their starts after it.
-    following, thickness
-        (n,) next edges, and thickness of their bodies (m).
+    following, body
+        (n,) next edges, and their bodies.
     vertex, edge
         (m,) the pairs.
     depth
         Share of the thickness of the thinner body that is too deep.
     """
+    thickness = _thickness(start, end, body)
     moved = np.empty(len(start))
     for v in range(len(start)):
         moved[v] = math.hypot(after[v, 0] - start[v, 0], after[v, 1] - start[v, 1])
@@ -50,7 +71,7 @@ def can_meet(
         deepest = inside + relative
         if deepest < 0.0:
             continue
-        allowed = depth * min(thickness[v], thickness[e])
+        allowed = depth * min(thickness[body[v]], thickness[body[e]])
         if relative > 0.125 * length or deepest >= 0.5 * allowed:
             found[count] = k
             count += 1

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from nmm.contact.surface import Surface
 
 # From points to where their sides a are from their sides b (m, 2).
 Apart = Callable[[ContactPoints], Floats]
+
+# What a contact that goes on keeps.
+CARRIED = ("slip", "state", "normal_force", "shear_force", "worn")
 
 # A broken joint whose faces have slid by this share of its length is left to the search.
 SLID = 0.05
@@ -192,21 +196,16 @@ def searched_points(
 
 def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> ContactPoints:
     """Return the new points with state, forces and slip of the old points they continue."""
+    if len(old) == len(new) and np.array_equal(predecessor, np.arange(len(new))):
+        return replace(new, **{name: getattr(old, name) for name in CARRIED})
     known = predecessor >= 0
     source = np.where(known, predecessor, 0)
 
-    def kept(name: str) -> Floats:
-        first: Floats = getattr(new, name)
+    def kept(name: str) -> Any:
+        first = getattr(new, name)
         return np.where(known, getattr(old, name)[source], first) if len(old) else first
 
-    return replace(
-        new,
-        slip=kept("slip"),
-        state=kept("state").astype(np.int64),
-        normal_force=kept("normal_force"),
-        shear_force=kept("shear_force"),
-        worn=kept("worn"),
-    )
+    return replace(new, **{name: kept(name) for name in CARRIED})
 
 
 def answered(

@@ -53,8 +53,12 @@ class CutSprings:
 
     def trial(self, increment: Floats) -> tuple[Floats, Floats]:
         """Normal and shear force of uncut springs."""
-        normal = self.normal_stiffness * self.problem.gaps(increment) + self.normal_shift
-        return normal, self.shear_stiffness * self.problem.slips(increment) + self.shear_shift
+        return self.stretched(self.problem.gaps(increment), self.problem.slips(increment))
+
+    def stretched(self, gap: Floats, slip: Floats) -> tuple[Floats, Floats]:
+        """The same at gaps and slips (m,) in m."""
+        normal = self.normal_stiffness * gap + self.normal_shift
+        return normal, self.shear_stiffness * slip + self.shear_shift
 
     def forces(self, increment: Floats) -> tuple[Floats, Floats]:
         """Admissible forces."""

@@ -45,8 +45,10 @@ class Momentum:
             return None
         half = middle(before, after)
         was = before if used is None else used
-        edges = self._model.manifold.boundary.body
-        body = np.unique(edges[[solved.contacts.edge_a[acts], solved.contacts.edge_b[acts]]])
+        edges, touched = self._model.manifold.boundary.body, np.zeros(len(self._held), dtype=bool)
+        for edge in (solved.contacts.edge_a, solved.contacts.edge_b):
+            touched[edges[edge[acts]]] = True
+        body = np.flatnonzero(touched)
         turn, turned = (_largest_turn(one, half, body) for one in (before, was))
         way, moved = (_largest_way(one, half, body) for one in (before, was))
         way += turn * float(np.sqrt(self._model.manifold.body_area[body].max()))

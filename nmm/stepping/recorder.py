@@ -150,9 +150,7 @@ class Recorder:
         stress = model.mean_stress(state.deformation)
         if initial is not None:
             stress = stress + initial.stress
-        turn = state.frames.rotation[model.manifold.element_body]
-        tensor = turn @ stress[:, [[0, 2], [2, 1]]] @ np.swapaxes(turn, 1, 2)
-        return np.stack([tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 0, 1]], axis=1)
+        return turned_stress(stress, state.frames.angle[model.manifold.element_body])
 
     @property
     def energy_balance(self) -> float:
@@ -206,6 +204,14 @@ class Recorder:
             "contact_gap": contacts.gap,
             "contact_state": contacts.state,
         }
+
+
+def turned_stress(stress: Floats, angle: Floats) -> Floats:
+    """Return stresses (E, 3) of bodies turned by ``angle`` (E,) in global axes: Mohr's circle."""
+    mean, half = (stress[:, 0] + stress[:, 1]) / 2, (stress[:, 0] - stress[:, 1]) / 2
+    c, s = np.cos(2 * angle), np.sin(2 * angle)
+    off = half * c - stress[:, 2] * s
+    return np.stack([mean + off, mean - off, half * s + stress[:, 2] * c], axis=1)
 
 
 def no_contacts() -> dict[str, Any]:
