@@ -50,8 +50,8 @@ converged, the table says so. An aim is met by any enforcement that converges.
 Search, assembly, contact, update and output of a run of 1 s with steps of 1 ms, its first steps
 from rest under gravity (friction 0.6); the first {warm} are left out. *ms a step*: processor
 milliseconds of one thread; in brackets where not every step converged, and then for a step's
-length of motion. *Grows as*: since the next smaller size. Phases are parts of the wall-clock time.
-Steps beyond the budget of a row are left out, and it says so.
+length of motion. *Grows as*: since the next smaller size, at one state of the code. Phases are
+parts of the wall-clock time. Steps beyond the budget of a row are left out, and it says so.
 
 ### Wall
 

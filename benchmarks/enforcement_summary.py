@@ -138,7 +138,7 @@ def _growing(steps: list[StepRow]) -> str:
         for power, last, row in sorted(known, key=lambda one: -one[0])
         if power > GROWTH
     ]
-    text = f"{len(known) - len(over)} of {len(known)} pairs of sizes within it"
+    text = f"{len(known) - len(over)} of {len(known)} pairs of sizes measured are within it"
     text += f"; missed by {'; '.join(over)}" if over else ""
     return f"**Aim of growth** (walls, N^{GROWTH:g} from one size to the next): {text}."
 
@@ -183,13 +183,15 @@ def _exact(steps: list[StepRow]) -> str:
 
 
 def crowd(rows: Iterable[Measurement]) -> str:
-    """Warn of rows that were measured on a machine with other work."""
+    """Warn of rows measured on a machine with other work, or at different states of the code."""
     rows = list(rows)
     busy = sum(row.load > CROWDED for row in rows)
-    unknown = sum(row.load == 0 for row in rows)
     text = f"Of {len(rows)} rows {busy} were measured while other work ran on the machine"
-    text += f", of {unknown} that is not known" if unknown else ""
-    return text + (": their seconds are too long, read ratios." if busy else ".")
+    text += ": their seconds are too long, read ratios." if busy else "."
+    commits = len({row.commit for row in rows})
+    if commits > 1:
+        text += f" They stem from {commits} states of the code; growth is told within one only."
+    return text
 
 
 def origins(rows: Iterable[Measurement]) -> str:
@@ -208,5 +210,7 @@ def origins(rows: Iterable[Measurement]) -> str:
 
 
 def _short(value: float) -> str:
-    """Two digits, without an exponent."""
+    """Two digits, without an exponent; hundredths where a few per cent decide."""
+    if 0.1 <= value < 10:
+        return f"{round(value, 2):g}"
     return f"{float(f'{value:.2g}'):g}"

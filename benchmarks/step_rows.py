@@ -117,10 +117,14 @@ def smaller(row: StepRow, rows: Iterable[StepRow]) -> StepRow | None:
     return max((one for one in found if one.size < row.size), key=lambda r: r.size, default=None)
 
 
-def growth(row: StepRow, rows: Iterable[StepRow]) -> float:
-    """Exponent of seconds over blocks since the next smaller size; nan where one is not sound."""
+def growth(row: StepRow, rows: Iterable[StepRow], anyhow: bool = False) -> float:
+    """Exponent of seconds over blocks since the next smaller size.
+
+    It is nan where one of the two is not sound, and, but for ``anyhow``, where they were measured
+    at different commits: what was made faster in between is no growth.
+    """
     last = smaller(row, rows)
-    if last is None or not row.sound:
+    if last is None or not row.sound or not (anyhow or last.commit == row.commit):
         return float("nan")
     return float(np.log(row.seconds / last.seconds) / np.log(row.blocks / last.blocks))
 
@@ -140,7 +144,7 @@ def expected(wanted: StepRow, rows: list[StepRow], steps: int) -> tuple[float, s
     if not (last.sound or last.status == "cut"):
         took = f"{last.status} at {last.size} blocks after {last.used:.3g} s"
         return last.used * times**GUESS, took
-    power = growth(last, rows)
+    power = growth(last, rows, anyhow=True)
     power = GUESS if np.isnan(power) else max(power, 1.0)
     seconds = last.seconds * times**power
     whole = seconds * steps + last.prepared * times
@@ -199,11 +203,12 @@ def phase_growth(rows: list[StepRow], kinds: tuple[str, ...]) -> str:
     lines = [head, "|" + "---|" * (4 + len(PHASES))]
     for row in rows:
         last = smaller(row, rows)
-        if row.enforcement not in kinds or last is None or not row.sound:
+        whole = growth(row, rows)
+        if row.enforcement not in kinds or last is None or np.isnan(whole):
             continue
         times = np.log(row.blocks / last.blocks)
         powers = [np.log(_spent(row, name) / _spent(last, name)) / times for name in PHASES]
-        cells = " | ".join(f"{power:.2f}" for power in (*powers, growth(row, rows)))
+        cells = " | ".join(f"{power:.2f}" for power in (*powers, whole))
         sizes = f"{last.size} to {row.size}"
         lines.append(f"| {row.scene} | {row.enforcement} | {sizes} | {cells} |")
     return "\n".join(lines)

@@ -63,6 +63,13 @@ def test_growth_is_the_exponent_between_sizes():
     assert np.isnan(growth(rows[0], rows))
 
 
+def test_rows_of_different_commits_do_not_grow():
+    from step_rows import growth
+
+    rows = [step_row(100, 0.1, commit="a"), step_row(1000, 0.5, commit="b")]
+    assert np.isnan(growth(rows[1], rows))
+
+
 def test_rows_that_did_not_converge_take_no_part_in_growth():
     from step_rows import growth
 
