@@ -33,7 +33,7 @@ LOBATTO = {
     ),
 }
 # Edges that faces are followed beyond what the search found.
-ROUNDS = 50
+ROUNDS = 8
 # Ends of edges within this part of the mean edge are one point.
 SAME = 1e-9
 

@@ -92,3 +92,15 @@ def test_points_inside_faces_are_followed_from_step_to_step():
     assert (found >= 0).all()
     assert (first.kind[found] == second.kind).all()
     assert (second.kind == FACE).sum() == 2
+
+
+def test_whole_faces_count_beyond_the_reach_of_the_search():
+    # The face leaves the search's reach of 0.01 after a third, and never turns by three degrees.
+    tilt = 0.03
+    edges = [(x, tilt * x) for x in np.linspace(0, 1, 9)]
+    surface = scene([(-1, -1), (2, -1), (2, 0), (-1, 0)], [*edges, (1, 1), (0, 1)])
+    found = find_contacts(surface, *NeighbourList(0.02).update(surface), 0.01)
+    near, whole = (faced(surface, found, 2, whole=beyond) for beyond in (False, True))
+    assert near.length.sum() < 0.6
+    assert whole.length.sum() == pytest.approx(np.hypot(1, tilt), rel=2e-3)
+    assert whole.gap.max() == pytest.approx(tilt, rel=1e-3)
