@@ -131,3 +131,16 @@ CHANGES = {
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
 def test_a_uniform_pressure_passes_wherever_the_blocks_stand(change):
     assert pressed("finite elements", **change) < 1e-6
+
+
+@pytest.mark.parametrize("mesh", MESHES)
+@pytest.mark.parametrize("enforcement", ["lagrange", slow("augmented"), slow("cone")])
+def test_exact_contact_with_friction_passes_a_uniform_pressure(mesh, enforcement):
+    # Rounds end at residuals of 1e-8 of the load.
+    assert pressed(mesh, enforcement=enforcement) < (1e-10 if enforcement == "lagrange" else 1e-7)
+
+
+@pytest.mark.parametrize("mesh", MESHES)
+def test_under_exact_contact_a_square_falls_by_a_tilt_on_its_face(mesh):
+    found = resting(0.0, 1e-4, mesh, enforcement="lagrange")
+    assert -found.contact_forces[:, 0].sum() == pytest.approx(WEIGHT, rel=1e-7)
