@@ -41,7 +41,7 @@ class Cholesky(LinearSolver):
     """``A = L L^T`` by dense fronts (Duff, Reid 1983; LAPACK within a front).
 
     A matrix that is not positive definite is left to `FrontalLU`, one that is not symmetric to
-    rounding to SuperLU. On walls of bricks a factorisation takes a quarter of SuperLU's time once
+    rounding to SuperLU. On walls of bricks a factorisation takes a fifth of SuperLU's time once
     the pattern is known (benchmark `benchmarks/enforcement.py`).
     """
 

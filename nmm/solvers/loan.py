@@ -10,8 +10,8 @@ import numpy as np
 
 from integration.arrays import Floats
 
-KEPT = 2**24
-"""Most numbers that are kept without a user, 128 MB."""
+KEPT = 2**25
+"""Most numbers that are kept without a user, 256 MB."""
 SPARE: deque[Floats] = deque()
 
 

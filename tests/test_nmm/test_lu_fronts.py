@@ -7,9 +7,10 @@ import pytest
 from scipy.sparse import csc_array, csr_array, eye_array, kron, random_array
 
 from integration.arrays import Floats
-from nmm.solvers import plans
+from nmm.solvers import loan, plans
 from nmm.solvers.cholesky import Cholesky, Factorised
 from nmm.solvers.linear import LinearSolver, jacobi_scale, make_solver
+from nmm.solvers.loan import Loan
 from nmm.solvers.lu import FactorisedLU, FrontalLU
 from nmm.solvers.superlu import SuperLU
 
@@ -170,6 +171,14 @@ def test_room_of_a_factor_that_is_gone_is_used_again() -> None:
     del found
     again = [FrontalLU().decompose(matrix) for _ in range(2)]
     assert place in [one.panels.numbers.ctypes.data for one in again]
+
+
+def test_room_without_a_user_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(loan, "KEPT", 1000)
+    for size in (300, 500, 800, 2000):
+        one, other = Loan(size), Loan(size)
+        del one, other
+        assert sum(map(len, loan.SPARE)) <= 1000
 
 
 def test_one_plan_serves_both_factorisations_and_cholesky_still_looks_at_the_numbers() -> None:

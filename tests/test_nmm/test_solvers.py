@@ -6,7 +6,7 @@ from scipy.sparse import csc_array, eye_array, kron, random_array
 
 from integration.arrays import Floats
 from nmm.errors import FormulationError, SolveError
-from nmm.solvers.linear import SOLVERS, make_solver
+from nmm.solvers.linear import SOLVERS, Factor, make_solver
 
 NAMES = SOLVERS.names()
 
@@ -138,6 +138,30 @@ def test_matrix_that_is_not_positive_definite_is_still_solved(solver_name: str) 
     rhs: Floats = np.ones(len(dense))
     x = make_solver(solver_name).factorise(csc_array(dense)).solve(rhs)
     np.testing.assert_allclose(x, np.linalg.solve(dense, rhs), rtol=1e-9, atol=1e-12)
+
+
+class Counted:
+    """Inverse of a matrix times ``size``, which counts how often it is asked."""
+
+    def __init__(self, matrix: csc_array, size: float) -> None:
+        self.matrix, self.size, self.count = matrix.toarray(), size, 0
+
+    def solve(self, rhs: Floats) -> Floats:
+        self.count += 1
+        return np.asarray(self.size * np.linalg.solve(self.matrix, rhs))
+
+
+@pytest.mark.parametrize(("size", "solves"), [(0.9, 4), (1.0, 2)])
+def test_refinement_goes_on_while_turns_take_off_half_of_the_residual(
+    size: float, solves: int
+) -> None:
+    # Factors off by a tenth leave a tenth after every turn; exact ones leave rounding at once.
+    n = 40
+    matrix = csc_array(path(n) + 1e-9 * eye_array(n))  # condition 1e12
+    inverse = Counted(matrix, size)
+    factor = Factor(make_solver("superlu", {"refinements": 3}), matrix, np.ones(n), inverse)
+    factor.refined(np.ones(n))
+    assert inverse.count == solves
 
 
 def test_unknown_solver_and_option_are_refused() -> None:
