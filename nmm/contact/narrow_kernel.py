@@ -1,89 +1,42 @@
 """Narrow phase, compiled: the rules of `narrow_arrays`, one vertex after the other.
 
 Numba's functions are written for the machine: no row leaves the cache between its tests, and the
-names are those of the array form, which the tests hold equal to this one. One file holds them all
-because numba's cache does not see changes to what a file imports.
+names are those of the array form, which the tests hold equal to this one. One file holds all that
+call one another because numba's cache does not see changes to what a file imports: after a change
+of the columns in `narrow_tables` this file has to be touched.
 """
 
 import math
-from typing import NamedTuple
 
 import numba
 import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.contact.flush import WALK
+from nmm.contact.narrow_tables import (
+    BEFORE,
+    BODY,
+    CONVEX,
+    EX,
+    EY,
+    LENGTH,
+    NEXT,
+    OWN,
+    PREVIOUS,
+    SX,
+    SY,
+    THICK,
+    TX,
+    TY,
+    describe,
+    offsets,
+    shape_of,
+)
 from nmm.contact.rules import Rules
 
 _compiled = numba.njit(cache=True, nogil=True)
 
 _INTERIOR, _USABLE = 1, 2
-
-
-# Columns of Shape.real: start, end and unit direction, length of the edge, thickness of its body.
-SX, SY, EX, EY, TX, TY, LENGTH, THICK = range(8)
-# Columns of Shape.link: body, neighbours in the ring, whether the vertex is convex, and the flush
-# covers of its two edges (flush.Covers).
-BODY, NEXT, PREVIOUS, CONVEX, OWN, BEFORE = range(6)
-
-
-class Shape(NamedTuple):
-    """All that is known of an edge and its first vertex, side by side in memory."""
-
-    real: Floats  # (n, 8)
-    link: Ints  # (n, 6)
-
-
-@_compiled
-def shape_of(start, end, body, following, previous, sine):  # type: ignore[no-untyped-def]
-    """Directions, lengths, convexity of vertices and thickness of bodies."""
-    n = len(start)
-    real, link = np.zeros((n, 8)), np.full((n, 6), -1)
-    top = -1
-    for e in range(n):
-        real[e, SX], real[e, SY], real[e, EX], real[e, EY] = (
-            start[e, 0],
-            start[e, 1],
-            end[e, 0],
-            end[e, 1],
-        )
-        dx, dy = end[e, 0] - start[e, 0], end[e, 1] - start[e, 1]
-        size = math.sqrt(dx * dx + dy * dy)
-        real[e, LENGTH] = size
-        if size > 0.0:
-            real[e, TX], real[e, TY] = dx / size, dy / size
-        link[e, BODY], link[e, NEXT], link[e, PREVIOUS] = body[e], following[e], previous[e]
-        top = max(top, body[e])
-    first, area, around = np.full(top + 1, -1), np.zeros(top + 1), np.zeros(top + 1)
-    for e in range(n):
-        b, p = body[e], previous[e]
-        turn = real[p, TX] * real[e, TY] - real[p, TY] * real[e, TX]
-        link[e, CONVEX] = 1 if turn >= -sine else 0
-        if first[b] < 0:
-            first[b] = e
-        ox, oy = real[first[b], SX], real[first[b], SY]
-        area[b] += (real[e, SX] - ox) * (real[e, EY] - oy)
-        area[b] -= (real[e, SY] - oy) * (real[e, EX] - ox)
-        around[b] += real[e, LENGTH]
-    for e in range(n):
-        if around[body[e]] > 0.0:
-            real[e, THICK] = abs(area[body[e]]) / around[body[e]]
-    return Shape(real, link)
-
-
-@_compiled
-def offsets(vertex, edge, count):  # type: ignore[no-untyped-def]
-    """First row of each vertex, and whether the rows rise by vertex, then edge."""
-    offset = np.zeros(count + 1, np.int64)
-    rising = True
-    for k in range(len(vertex)):
-        offset[vertex[k] + 1] += 1
-        if k > 0:
-            same = vertex[k] == vertex[k - 1]
-            rising &= vertex[k] > vertex[k - 1] or (same and edge[k] > edge[k - 1])
-    for v in range(count):
-        offset[v + 1] += offset[v]
-    return offset, rising
 
 
 @_compiled
@@ -460,28 +413,6 @@ def select(shape, vertex, edge, offset, last, motion, rules):  # type: ignore[no
             _pair(shape, v, w, edge, offset, state, rank, kept, final, rules)
     rows = np.flatnonzero(final > 0)
     return rows, final, s, gap
-
-
-@_compiled
-def describe(shape, vertex, edge, rows, final, s, gap, rules):  # type: ignore[no-untyped-def]
-    """Columns of `narrow.Contacts` for the kept rows."""
-    m, n = len(rows), len(shape.link)
-    v, e, key = np.empty(m, np.int64), np.empty(m, np.int64), np.empty(m, np.int64)
-    body, corner = np.empty(m, np.int64), np.empty(m, np.int64)
-    kind = np.empty(m, np.int64)
-    parameter, normal, distance = np.empty(m), np.empty((m, 2)), np.empty(m)
-    for i in range(m):
-        k = rows[i]
-        v[i], e[i], distance[i] = vertex[k], edge[k], gap[k]
-        x = e[i]
-        key[i], body[i] = v[i] * n + x, shape.link[x, BODY]
-        parameter[i] = min(max(s[k] / shape.real[x, LENGTH], 0.0), 1.0)
-        normal[i, 0], normal[i, 1] = shape.real[x, TY], -shape.real[x, TX]
-        corner[i] = shape.link[x, NEXT] if parameter[i] > 0.5 else x
-        beside = min(abs(s[k]), abs(shape.real[x, LENGTH] - s[k]))
-        near = beside <= rules.flush * _thinner(shape, v[i], x) + rules.rounding
-        kind[i] = 1 if near or final[k] == 2 else 0
-    return v, e, parameter, normal, distance, kind, key, body, corner
 
 
 def find(
