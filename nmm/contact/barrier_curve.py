@@ -56,15 +56,25 @@ class Curves:
         """Trials (m,) of gaps and slips (m) with forces (N), gaps counted from the wall."""
         return normal + self.normal * (gap + self.well.offset), shear + self.shear * slip
 
-    def at(self, trials: tuple[Floats, Floats], gap: Floats, slip: Floats) -> Spot:
-        """Point of every law with the given trials; springs take ``gap`` and ``slip`` (m,)."""
+    def at(
+        self,
+        trials: tuple[Floats, Floats],
+        gap: Floats,
+        slip: Floats,
+        bound: Floats | None = None,
+    ) -> Spot:
+        """Point of every law with the given trials; springs take ``gap`` and ``slip`` (m,).
+
+        The ``bound`` of friction (m,) is that of the normal force found unless given.
+        """
         well, spring = self.well, self.well.spring
         x = self._distance(trials[0])
         normal, stiff = well.normal_at(np.where(spring, well.distance(gap), x), gap)
-        bound = well.bound(normal)
-        found = np.where(spring, slip, self._slip(trials[1], np.where(spring, 0.0, bound)))
+        limit = well.bound(normal) if bound is None else bound
+        found = np.where(spring, slip, self._slip(trials[1], np.where(spring, 0.0, limit)))
         place = np.where(spring, gap, x * well.width - well.offset)
-        return Spot(place, found, well.pulled(normal, stiff, found, bound, follows=True))
+        pull = well.pulled(normal, stiff, found, limit, follows=bound is None)
+        return Spot(place, found, pull)
 
     def _distance(self, trial: Floats) -> Floats:
         """(m,) distance ``x`` to the wall over the width, from ``c w x - f(x) = trial``."""

@@ -72,6 +72,7 @@ class Newton:
         self.soft = tuple(1 / c for c in compliances(well.problem))
         self.curves = Curves(well, STIFF * self.soft[0], STIFF * self.soft[1])
         self.size = length(self.weight * well.problem.force) or 1.0
+        self.bound: Floats | None = None
         self.factorisations = self.solves = 0
 
     def run(self, start: Start, tolerance: float, budget: int, patient: bool) -> Floats | None:
@@ -100,9 +101,31 @@ class Newton:
                 return None
         return at.increment if self._balanced(at, tolerance) else None
 
+    def held(self, start: Start, bound: Floats, budget: int) -> tuple[Start, Floats]:
+        """Start near the balance under a given ``bound`` (m,) of friction, and normal forces (m,).
+
+        Such a step is a convex problem: it ends where friction that follows stands still.
+        """
+        self.bound = bound
+        at = self._state(start.increment, start.trials)
+        for _ in range(budget):
+            if at.miss <= NEAR * self.size:
+                break
+            try:
+                factor = self._factor(at)
+            except SolveError:
+                break
+            new, _ = self._along(at, self._step(at, factor), 0.0)
+            if new is None:
+                break
+            at = self._chords(new, factor, 0.0)
+        self.bound = None
+        return Start(at.increment, at.trials), at.spot.pull.normal
+
     def _state(self, increment: Floats, trials: Trials) -> _State:
         problem = self.well.problem
-        spot = self.curves.at(trials, problem.gaps(increment), problem.slips(increment))
+        places = problem.gaps(increment), problem.slips(increment)
+        spot = self.curves.at(trials, *places, self.bound)
         rest, gap, slip = with_forces(problem, increment, spot)
         parts = float(self.soft[0] @ gap**2 + self.soft[1] @ slip**2)
         miss = float(np.sqrt(length(self.weight * rest) ** 2 + parts))

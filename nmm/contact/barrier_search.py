@@ -16,8 +16,10 @@ from nmm.solvers.linear import LinearSolver
 
 QUICK, PATIENT, LONG = 20, 40, 40
 """Most steps of the first attempt, of the second, and of the path before it."""
-GOALS = 3e-3, 1e-4
-"""Products of force and distance at which the path is left, over largest force and width."""
+GOAL = 3e-3
+"""Product of force and distance at which the path is left, over largest force and width."""
+BOUNDS = 6
+"""Most friction bounds that are held before the descent."""
 
 Solved = tuple[StepProblem, StepAnswer]
 
@@ -71,17 +73,21 @@ class Search:
 
     def _inside(self, newton: Newton, path: Path, rough: Settled, passes: int) -> Floats | None:
         """Unknowns (n,) by way of the interior point."""
-        point = path.start(rough.springs, rough.increment)
-        for goal in GOALS:
-            size = goal * self.well.scale * self.well.width**2
-            reached = path.followed(point, size, min(LONG, passes))
-            if reached is None:
-                break
-            point, start = reached, _free(newton, path, reached)
-            found = newton.run(start, self.tolerance, min(PATIENT, passes), patient=True)
+        size = GOAL * self.well.scale * self.well.width**2
+        begun = path.start(rough.springs, rough.increment)
+        point = path.followed(begun, size, min(LONG, passes))
+        if point is None:
+            return None
+        start = _free(newton, path, point)
+        found = newton.run(start, self.tolerance, min(PATIENT, passes), patient=True)
+        bound = self.well.bound(-point.pressure)
+        for _ in range(BOUNDS):
             if found is not None:
-                return found
-        return None
+                break
+            start, normal = newton.held(start, bound, min(LONG, passes))
+            bound = self.well.bound(normal)
+            found = newton.run(start, self.tolerance, min(QUICK, passes), patient=False)
+        return found
 
 
 def _free(newton: Newton, path: Path, point: Point) -> Start:
