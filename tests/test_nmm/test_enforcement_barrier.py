@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from nmm.contact.barrier_curve import Curves
 from nmm.contact.barrier_potential import Potential
 from nmm.contact.enforcement import make_enforcement
 from nmm.contact.memory import Memory
@@ -131,3 +132,68 @@ def test_width_is_not_kept_from_a_step_without_contact() -> None:
     answer = make_enforcement("barrier").solve(problem, make_solver(), memory)
     assert answer.verdict.converged
     assert memory.barrier_width is None
+
+
+def test_width_of_a_touch_that_hardly_pressed_is_given_up() -> None:
+    problem = make_problem(np.eye(2), [0.0, -1.0], [[0.0, 1.0]], [[1.0, 0.0]], penalty=1.0)
+    memory = Memory(barrier_width=1e-30)  # far below the rounding of any gap
+    answer = make_enforcement("barrier").solve(problem, make_solver(), memory)
+    assert answer.verdict.converged, answer.verdict.sentence
+    assert memory.barrier_width == pytest.approx(0.5e-3, rel=1e-6)
+
+
+def frictional(seed: int) -> StepProblem:
+    problem = random_problem(seed)
+    limits = replace(problem.limits, friction=np.full(problem.n_contacts, 0.6))
+    return replace(problem, limits=limits, gap=np.zeros(problem.n_contacts))
+
+
+@pytest.mark.parametrize("stiffness", [1e-6, 1.0, 1e6])
+def test_points_on_the_curves_give_their_trials_back(stiffness: float) -> None:
+    problem = frictional(3)
+    well = Potential(problem, 1e-2, 50.0)
+    springs = np.full(problem.n_contacts, stiffness)
+    curves = Curves(well, springs, 2 * springs)
+    # open, touching and deep in the barrier; sticking and sliding
+    for x in (1e-6, 0.3, 0.999, 5.0):
+        gap = np.full(problem.n_contacts, x * well.width) - well.offset
+        slip = np.linspace(-1.2, 0.9, problem.n_contacts) * well.width
+        pull = well.pull(gap, slip)
+        spot = curves.at(curves.trials(gap, slip, pull.normal, pull.shear), gap, slip)
+        # 1e-9: the trial loses the gap's digits where the force is that much larger, not more
+        size = np.abs(pull.normal) + springs * well.width
+        np.testing.assert_allclose(spot.pull.normal / size, pull.normal / size, atol=1e-9)
+        np.testing.assert_allclose(spot.pull.shear / size, pull.shear / size, atol=1e-9)
+        slack = (spot.slip - slip) * 2 * springs / size
+        np.testing.assert_allclose(slack, 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("scene", "most"), [("wall", 10), ("pile", 30)])
+def test_a_step_takes_few_factorisations(
+    scene: str, most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    import block_scenes
+
+    motion = block_scenes.Motion(getattr(block_scenes, scene)(100, 10.0))
+    memory, solver, problem, counts = Memory(), make_solver(), motion.problem, []
+    for _ in range(6):
+        answer = make_enforcement("barrier").solve(problem, solver, memory)
+        assert answer.verdict.converged, answer.verdict.sentence
+        counts.append(answer.factorisations)
+        problem = motion.next_problem(answer)
+    # published barrier contact takes 10 to 30 Newton steps; here 7 and 19 in the median
+    assert np.median(counts[1:]) <= most
+
+
+def test_a_step_solved_again_costs_next_to_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    from block_scenes import Motion, pile
+
+    problem, memory = Motion(pile(40, 10.0)).problem, Memory()
+    first = make_enforcement("barrier").solve(problem, make_solver(), memory)
+    memory.answered = (problem, first)
+    turned = replace(problem, normal_rows=problem.normal_rows * (1 + 1e-7))
+    again = make_enforcement("barrier").solve(turned, make_solver(), memory)
+    assert again.verdict.converged
+    assert again.factorisations <= 5 < first.factorisations
