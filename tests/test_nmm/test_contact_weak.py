@@ -137,3 +137,5 @@ def test_a_square_on_a_slope_slides_by_coulombs_law(kind, degree):
     way = found.history["monitor:middle:ux"][-1]
     # Shi's rule moves uniformly accelerated bodies exactly; waves of the start shear the block.
     assert way == pytest.approx(-fall * 0.1**2 / 2, rel=2e-3)
+    rubbed = np.tan(np.radians(20.0)) * 0.5 * WEIGHT * np.cos(lean) * -way
+    assert found.history["friction_loss"][-1] == pytest.approx(rubbed, rel=1e-3)
