@@ -322,7 +322,8 @@ class Contact(Effect):
         record = self.record
         known = [] if record.known is None else [record.known]
         points = concatenate([record.book.points, *known])
-        return self._laws.energy(points)
+        # Exact contacts are no springs: what they overlap by, within a tolerance, stores nothing.
+        return self._laws.energy(points.take(points.is_joint) if self._exact else points)
 
     def _dashpots(
         self, contacts: ContactPoints, normal: Floats, rows: csr_array, step: float | None
