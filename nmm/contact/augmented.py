@@ -5,14 +5,14 @@ from typing import ClassVar
 
 from nmm.contact.alternation import Budget
 from nmm.contact.answer import answer, singular_answer
-from nmm.contact.cone import exact_round
 from nmm.contact.enforcement import Enforcement
+from nmm.contact.exact import exact_round
 from nmm.contact.memory import Memory
 from nmm.contact.problem import StepAnswer, StepProblem
 from nmm.contact.rounds import (
     converged_rounds,
+    exact_goal,
     first_round,
-    gap_goal,
     rounds_verdict,
     stiff_springs,
 )
@@ -65,27 +65,17 @@ class Augmented(Enforcement):
         problem.check()
         memory = memory or Memory()
         at = first_round(stiff_springs(problem, self.scale))
-        goal = gap_goal(problem, self.tolerance, self.gap_tolerance)
+        goal = exact_goal(problem, self.tolerance, self.gap_tolerance)
         budget = Budget(400, 20, 0) if self.rescue else Budget()
         try:
             at = converged_rounds(
-                at,
-                linear_solver,
-                memory,
-                self.tolerance,
-                goal,
-                self.max_rounds,
-                self.growth,
-                budget,
+                at, linear_solver, memory, goal, self.max_rounds, self.growth, budget
             )
+            how = f"{at.count} rounds"
+            if self.rescue and not at.meets(goal):
+                at, rest = exact_round(problem, linear_solver, memory, goal, self.rescue)
+                how = f"{how}, then {rest}"
         except SolveError as fault:
             return singular_answer(at.settled.springs, linear_solver, fault)
-        how = f"{at.count} rounds"
-        if self.rescue and not at.meets(self.tolerance, goal):
-            soft = stiff_springs(problem, 10.0)
-            at, rest = exact_round(
-                soft, linear_solver, memory, self.tolerance, goal, factorisations=self.rescue
-            )
-            how = f"{how}, then {rest}"
-        verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, goal, how)
+        verdict = rounds_verdict(at, linear_solver, memory, goal, how)
         return answer(at.settled, linear_solver, verdict)

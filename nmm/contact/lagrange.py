@@ -8,8 +8,8 @@ from scipy.sparse import block_array, csc_array, diags_array
 
 from integration.arrays import Bools, Floats
 from nmm.contact.answer import answer, singular_answer
-from nmm.contact.cone import exact_round
 from nmm.contact.enforcement import Enforcement
+from nmm.contact.exact import START, exact_round
 from nmm.contact.law import shear_bound
 from nmm.contact.memory import Memory
 from nmm.contact.passes import Springs, changes, first_springs
@@ -17,7 +17,7 @@ from nmm.contact.problem import StepAnswer, StepProblem
 from nmm.contact.rounds import (
     Round,
     compliances,
-    gap_goal,
+    exact_goal,
     measured,
     rounds_verdict,
     stiff_springs,
@@ -72,24 +72,15 @@ class Lagrange(Enforcement):
         """Correct the active set until it stands."""
         problem.check()
         memory = memory or Memory()
-        springs = stiff_springs(problem, 1.0)
-        goal = gap_goal(problem, self.tolerance, self.gap_tolerance)
-        at, how = self._active_set(springs, linear_solver)
-        if at is None or not at.meets(self.tolerance, goal):
-            springs = stiff_springs(problem, 10.0)
+        goal = exact_goal(problem, self.tolerance, self.gap_tolerance)
+        at, how = self._active_set(stiff_springs(problem, 1.0), linear_solver)
+        if at is None or not at.meets(goal):
             try:
-                at, rest = exact_round(
-                    springs,
-                    linear_solver,
-                    memory,
-                    self.tolerance,
-                    goal,
-                    factorisations=self.rescue,
-                )
+                at, rest = exact_round(problem, linear_solver, memory, goal, self.rescue)
             except SolveError as fault:
-                return singular_answer(springs, linear_solver, fault)
+                return singular_answer(stiff_springs(problem, START), linear_solver, fault)
             how = f"{how}, then {rest}"
-        verdict = rounds_verdict(at, linear_solver, memory, self.tolerance, goal, how)
+        verdict = rounds_verdict(at, linear_solver, memory, goal, how)
         return answer(at.settled, linear_solver, verdict)
 
     def _active_set(self, springs: CutSprings, linear: LinearSolver) -> tuple[Round | None, str]:

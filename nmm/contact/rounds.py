@@ -8,6 +8,7 @@ from scipy.sparse import csr_array
 from integration.arrays import Floats
 from nmm.contact.alternation import Budget
 from nmm.contact.answer import judge
+from nmm.contact.interior import Goal
 from nmm.contact.memory import Memory
 from nmm.contact.problem import StepProblem, Verdict
 from nmm.contact.settle import SMALL, settle
@@ -51,9 +52,9 @@ class Round:
     gap: float = np.inf
     error: float = np.inf
 
-    def meets(self, tolerance: float, gap_tolerance: float) -> bool:
+    def meets(self, goal: Goal) -> bool:
         """Whether balance and error are within their tolerances."""
-        return self.settled.size <= tolerance and self.error <= gap_tolerance
+        return self.settled.size <= goal.balance and self.error <= goal.error
 
 
 def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
@@ -112,9 +113,10 @@ def stiffened(springs: CutSprings, factor: float) -> CutSprings:
     )
 
 
-def gap_goal(problem: StepProblem, tolerance: float, gap_tolerance: float) -> float:
-    """Tolerance of gaps: that of balance where a problem is small enough for it to cost nothing."""
-    return min(tolerance, gap_tolerance) if len(problem.force) <= SMALL else gap_tolerance
+def exact_goal(problem: StepProblem, tolerance: float, gap_tolerance: float) -> Goal:
+    """Goal with the tolerance of balance for gaps where a small problem makes it cost nothing."""
+    small = len(problem.force) <= SMALL
+    return Goal(tolerance, min(tolerance, gap_tolerance) if small else gap_tolerance)
 
 
 def first_round(springs: CutSprings) -> Round:
@@ -172,8 +174,7 @@ def converged_rounds(
     at: Round,
     linear: LinearSolver,
     memory: Memory,
-    tolerance: float,
-    gap_tolerance: float,
+    goal: Goal,
     max_rounds: int,
     growth: float,
     budget: Budget | None = None,
@@ -187,15 +188,15 @@ def converged_rounds(
     SolveError
         When even with all springs acting the load moves a free part.
     """
-    inner, stiffness, failures = max(1e-4, tolerance), 1.0, 0
+    inner, stiffness, failures = max(1e-4, goal.balance), 1.0, 0
     while at.count < max_rounds:
         last, at = at, multiplier_round(at, linear, memory, inner, budget)
         failures += at.settled.size > inner
-        if at.meets(tolerance, gap_tolerance) or failures > FAILURES or at.count == max_rounds:
+        if at.meets(goal) or failures > FAILURES or at.count == max_rounds:
             break
-        fine = at.error <= NEAR * gap_tolerance
-        inner = tolerance if fine else float(np.clip(0.1 * at.error, tolerance, inner))
-        if at.error <= gap_tolerance:
+        fine = at.error <= NEAR * goal.error
+        inner = goal.balance if fine else float(np.clip(0.1 * at.error, goal.balance, inner))
+        if at.error <= goal.error:
             continue
         times = min(growth, STIFFEST / stiffness) if at.error > GAIN * last.error else 1.0
         at = updated(at, times)
@@ -207,16 +208,15 @@ def rounds_verdict(
     at: Round,
     linear: LinearSolver,
     memory: Memory,
-    tolerance: float,
-    gap_tolerance: float,
+    goal: Goal,
     how: str,
 ) -> Verdict:
     """Verdict on balance and on what the multipliers still lack; ``how`` they were found."""
     found = replace(at.settled, story=f"{how}, {at.settled.solves} solves")
-    verdict = judge(found, linear, memory, tolerance)
+    verdict = judge(found, linear, memory, goal.balance)
     if not verdict.converged:
         return verdict
-    if at.error > gap_tolerance:
+    if at.error > goal.error:
         sentence = (
             f"gaps of {at.gap:.1e} m left after {how}, {at.error:.1e} of what the largest force "
             "would press in: allow more rounds, raise the scale or shorten the step"

@@ -6,9 +6,12 @@ more over the last few; chord steps are quick where most states are right, and l
 
 from dataclasses import replace
 
+import numpy as np
+
 from integration.arrays import Floats
 from nmm.contact.alternation import Alternation, Budget
-from nmm.contact.interior import InteriorPoint
+from nmm.contact.interior import Goal, InteriorPoint
+from nmm.contact.interior_sides import Point, Sides
 from nmm.contact.memory import Memory
 from nmm.contact.newton import polish
 from nmm.contact.springs import CutSprings, Settled
@@ -24,6 +27,7 @@ FINE = 1e-13
 
 FIRST = 6
 """Factors of acting springs after which the interior point is asked where they are."""
+
 LOOSE = 1e-4
 """Out-of-balance force at which the interior point has found most states."""
 
@@ -66,20 +70,41 @@ def _inside(
     found: Settled, linear: LinearSolver, memory: Memory, tolerance: float, budget: Budget
 ) -> Settled:
     """Best of the interior point, broken off near the end for chord steps, and gone on with."""
-    springs, best = found.springs, found
-    method = InteriorPoint(springs, memory.pattern_of(springs.problem), linear)
-    for goal in (LOOSE, tolerance):
-        inner = method.run(found, budget.interior, max(goal, tolerance))
-        best = _joined(best, inner)
+    springs, problem, best = found.springs, found.springs.problem, found
+    stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
+    sides = Sides.of(springs, np.zeros(problem.n_contacts, dtype=bool), 1 / stiffness)
+    start = inside_start(sides, linear, memory)
+    for balance in (LOOSE, tolerance):
+        method = InteriorPoint(sides, memory.pattern_of(problem), linear)
+        if best.size > balance:
+            best = _joined(best, method.run(start, budget.interior, Goal(max(balance, tolerance))))
         if best.size <= tolerance:
             break
         rest = replace(budget, factors=FIRST)
         best = _joined(
-            best, Alternation(springs, linear, memory, tolerance, inner.increment).run(rest)
+            best, Alternation(springs, linear, memory, tolerance, best.increment).run(rest)
         )
         if best.size <= tolerance:
             break
     return best
+
+
+def inside_start(sides: Sides, linear: LinearSolver, memory: Memory) -> Point:
+    """Start of the interior point: as if all contacts were springs that pull and push.
+
+    Exact ones are as stiff there as what they join. Raises `SolveError` when the load moves a
+    free part even so.
+    """
+    springs, exact = sides.springs, sides.exact
+    stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
+    normal, shear = np.where(exact, 1 / sides.ease, stiffness)
+    shifts = np.stack([springs.normal_shift, springs.shear_shift])
+    alike = replace(springs, normal_stiffness=normal, shear_stiffness=shear).shifted(
+        *np.where(exact, 0.0, shifts)
+    )
+    kept, _ = memory.factor_of(alike, linear)
+    increment = kept.factor.solve(springs.problem.force)
+    return sides.start(increment, np.stack(alike.forces(increment)))
 
 
 def _joined(before: Settled, then: Settled) -> Settled:

@@ -125,6 +125,9 @@ class Settled:
         Matrices factorised.
     story
         How, in words.
+    error
+        What exact contacts lack, where they were sought: the largest gap, slip or force that
+        should not be, over the largest force and what it would press into the contact alone.
     """
 
     springs: CutSprings
@@ -133,3 +136,4 @@ class Settled:
     solves: int
     factorisations: int
     story: str
+    error: float = 0.0
