@@ -135,8 +135,9 @@ ADVICE = """**Of the classical three, none is best everywhere.**
   stiffer rounds. It is not the default: it costs many times the penalty's seconds, and exact forces
   of walls with friction are hardly determined ([Limits](limits.md)): answers that obey every
   condition differ in their resultants, and so much force error an exact enforcement can show.
-- **Barrier** is smooth, and no gap passes its wall, half a width behind touching. It takes a
-  factorisation every Newton step, and its errors are those of its width."""
+- **Barrier** is smooth, and no gap passes its wall, half a width behind touching. Newton's method
+  on unknowns and forces together takes a factorisation a step, few while a step is like the last;
+  else an interior point finds most states first. Its errors are those of its width."""
 
 
 ORDER = {name: at for at, name in enumerate((*enforcement.SCENES, *KINDS))}

@@ -66,7 +66,8 @@ class Descent:
                 break
             share = next(part for until, part in SHARES if count <= until)
             now = well.bound(well.normal(well.problem.gaps(increment))[0])
-            bound = share * now + (1 - share) * bound
+            before = np.where(np.isfinite(bound), bound, 0.0)  # springs may have no limit
+            bound = share * now + (1 - share) * before
         return increment, size, count
 
     def size(self, well: Potential, increment: Floats) -> float:
