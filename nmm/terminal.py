@@ -51,11 +51,13 @@ def tell_run(scene: "Scene", done: "Run") -> None:
 
     out = console()
     failed = done.summary.status == FAILED
-    out.print(done.summary.sentence, style="red" if failed else "green", highlight=False)
+    style = "red" if failed else "green"
+    # Sentences name tables such as [contact], which are no markup.
+    out.print(done.summary.sentence, style=style, highlight=False, markup=False)
     if (line := failure_line(done.summary)) is not None:
-        out.print(line, style="bold", highlight=False)
+        out.print(line, style="bold", highlight=False, markup=False)
     for warning in done.summary.warnings:
-        out.print(f"warning: {warning}", style="yellow", highlight=False)
+        out.print(f"warning: {warning}", style="yellow", highlight=False, markup=False)
     for one in compare(done.summary, done.history, scene.references):
         found = "not found" if one.found is None else f"{one.found:.6g}"
         verdict = "within" if one.holds else "outside"
@@ -64,6 +66,7 @@ def tell_run(scene: "Scene", done: "Run") -> None:
             f"{verdict} the tolerance of {100 * one.tolerance:g} %): {one.source}",
             style=None if one.holds else "yellow",
             highlight=False,
+            markup=False,
         )
 
 

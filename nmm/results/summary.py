@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 RUNNING = "running"
+FAILED = "failed"
 PACKAGES = ("nmm-framework", "numpy", "scipy", "scikit-fem", "shapely", "numba")
 
 
@@ -139,15 +140,19 @@ def _finite(value: Any) -> Any:
 
 
 def failure_line(summary: Summary) -> str | None:
-    """Return the failure load with its tolerance in words, None when the run has none."""
-    if summary.failure_factor is None and summary.failure_load is None:
+    """Return the failure load with its tolerance in words, None when the run has none.
+
+    A run that failed did not look for one: the factor it reached is no failure load.
+    """
+    none = summary.failure_factor is None and summary.failure_load is None
+    if none or summary.status == FAILED:
         return None
     parts = []
     if summary.failure_load is not None:
-        parts.append(_newton(summary.failure_load))
+        parts.append(f"load {_newton(summary.failure_load)}")
     if summary.failure_factor is not None:
         parts.append(f"load factor {summary.failure_factor:.5g}")
-    text = "failure load " + ", ".join(parts)
+    text = "failure " + ", ".join(parts)
     if summary.failure_tolerance is not None:
         text += f"; none {100 * summary.failure_tolerance:.2g} % above it is in equilibrium"
     return text
@@ -163,7 +168,10 @@ def rows(summary: Summary) -> list[tuple[str, str]]:
         ("steps", f"{summary.steps:,}"),
         ("contact passes", f"{summary.passes:,}"),
         ("failure load", _or_none(summary.failure_load, _newton)),
-        ("failure load factor", _or_none(summary.failure_factor, _number)),
+        (
+            "load factor reached" if summary.status == FAILED else "failure load factor",
+            _or_none(summary.failure_factor, _number),
+        ),
         ("equilibrium residual", _or_none(summary.equilibrium_residual, _number)),
         ("largest penetration", _or_none(summary.largest_penetration, _metre)),
         ("energy balance", _or_none(summary.energy_balance, _number)),

@@ -51,15 +51,18 @@ def run_in_time(
     The last accepted state and the verdict.
     """
     begin, end = state.time, state.time + schedule.duration
-    step, contacts, outputs = schedule.step, None, 0
+    step, contacts, outputs, cuts, last = schedule.step, None, 0, 0, ""
     while state.time < end - 1e-9 * schedule.step:
-        attempt = _step_or_cut(stepper, state, min(step, end - state.time), schedule)
+        attempt, why = _step_or_cut(stepper, state, min(step, end - state.time), schedule)
         if not attempt.converged:
             recorder.frame(state, schedule.stage, contacts)
             return state, RunVerdict(FAILED, _failure(attempt, state, schedule))
         taken = attempt.state.time - state.time
         after, contacts = stepper.accept(attempt)
         said = recorder.step(state, attempt, contacts)
+        if why:
+            cuts, last = cuts + 1, f"at {state.time:.6g} s: {why}"
+            said = f"{said}  cut to {taken:.3g} s: {why}"
         state = after
         # After a cut the step grows back slowly: what made it fail is rarely over at once.
         step = min(schedule.step, 2 * taken) if taken < schedule.step else schedule.step
@@ -68,16 +71,24 @@ def run_in_time(
             outputs = int(share * schedule.frames + 1e-9)
             recorder.frame(state, schedule.stage, contacts)
         progress(share, "  ".join([f"time {state.time:.4g} s of {end:.4g} s", said]).rstrip())
-    return state, RunVerdict(CONVERGED, f"every step to {state.time:.6g} s converged")
+    sentence = f"every step to {state.time:.6g} s converged"
+    if cuts:
+        sentence += f", {cuts} of them cut; the last {last}"
+    return state, RunVerdict(CONVERGED, sentence)
 
 
-def _step_or_cut(stepper: Stepper, state: State, step: float, schedule: Schedule) -> Attempt:
+def _step_or_cut(
+    stepper: Stepper, state: State, step: float, schedule: Schedule
+) -> tuple[Attempt, str]:
+    """Solve a step, shorter where it must be; and why, if it must."""
+    why = ""
     for length in _halves(step, schedule.step / 2**CUTS):
         end = Instant(state.time + length, schedule.load_factor)
         attempt = stepper.attempt(state, end, length)
         if attempt.converged:
-            return attempt
-    return attempt
+            break
+        why = why or attempt.sentence
+    return attempt, why
 
 
 def _halves(step: float, smallest: float) -> Iterator[float]:

@@ -58,3 +58,9 @@ def test_the_table_lists_what_was_measured_only(memory_run):
     assert "broken" in text
     assert "0 open" not in text
     assert "condition" not in text
+
+
+def test_a_run_that_failed_names_no_failure_load():
+    assert failure_line(Summary(status="failed", failure_factor=0.0)) is None
+    found = failure_line(Summary(status="failure_load", failure_factor=1.5))
+    assert found == "failure load factor 1.5"
