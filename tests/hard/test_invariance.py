@@ -7,6 +7,7 @@ from nmm.errors import SceneError
 from nmm.scene import parse_scene
 from nmm.stepping.run import run
 from nmm.verification import text
+from nmm.verification.formulations import chosen
 from nmm.verification.reading import last_way
 
 SLOPE = np.radians(30)
@@ -14,7 +15,9 @@ SLOPE = np.radians(30)
 SLID = 1.81281473 * 0.125
 
 
-def on_slope(friction, dynamic, turn=0.0, shift=(0.0, 0.0), scale=1.0, order=(0, 1)):
+def on_slope(
+    friction, dynamic, turn=0.0, shift=(0.0, 0.0), scale=1.0, order=(0, 1), roll=0, form="dda"
+):
     """A block of 1 m on a slope; way down the slope and away from it, and forces, in metres."""
     stretch = np.sqrt(scale)
 
@@ -24,7 +27,8 @@ def on_slope(friction, dynamic, turn=0.0, shift=(0.0, 0.0), scale=1.0, order=(0,
     base, block = place((0, -1), (6, 0)), place((4, 0), (5, 1))
     down = text.turned(np.array([[0.0, -text.G]]), turn)[0].tolist()
     time = f"duration = {float(0.5 * stretch)!r}\n[inertia]\n" if dynamic else ""
-    blocks = [text.block("base", "rock", base), text.block("block", "rock", block)]
+    corners = {"base": base, "block": block}
+    blocks = [text.block(name, "rock", np.roll(each, roll, 0)) for name, each in corners.items()]
     scene = text.scene(
         f'plane = "strain"\n{time}[contact]\n[gravity]\nacceleration = {down}\n'
         "[formulation.contact]\nnormal_penalty = 100.0\n"
@@ -37,7 +41,8 @@ def on_slope(friction, dynamic, turn=0.0, shift=(0.0, 0.0), scale=1.0, order=(0,
             text.monitor("toe", block[0], "block"),
         ],
     )
-    found = run(parse_scene(scene))
+    scene = parse_scene(scene)
+    found = run(scene, chosen(form, scene.formulation))
     assert found.summary.status == "converged", found.summary.sentence
     way = text.turned(last_way(found, "toe")[None], -SLOPE - turn)[0] / scale
     return way, found.contact_forces.sum(axis=0) / scale**2
@@ -68,6 +73,7 @@ CHANGES = {
     "turned by 0.7": {"turn": 0.7},
     "turned by 90 degrees": {"turn": np.pi / 2},
     "numbered backwards": {"order": (1, 0)},
+    "corners listed from the third": {"roll": 2},
     "a thousand times as large": {"scale": 1e3},
     "a thousandth as large": {"scale": 1e-3},
 }
@@ -95,6 +101,28 @@ def test_a_resting_block_gives_way_the_same(change, plain):
     # The same 1e-16, a few of them, of ways of 1e-8.
     assert way == pytest.approx(plain[40.0, False][0], abs=1e-14)
     assert force == pytest.approx(plain[40.0, False][1], rel=1e-8)
+
+
+OTHERS = ("augmented", "lagrange", "cone", "barrier")
+AWAY = {"a thousand kilometres away": {"turn": 0.7, "shift": (1e6, -1e6)}}
+
+
+@pytest.mark.parametrize("form", OTHERS)
+@pytest.mark.parametrize("change", (CHANGES | AWAY).values(), ids=CHANGES | AWAY)
+def test_a_resting_block_is_held_the_same_by_every_enforcement(change, form):
+    _, force = on_slope(40.0, False, form=form, **change)
+    # Statics: weight along and across the slope; coordinates far away are rounded to 1e-10 m.
+    weight = 2600 * text.G
+    expected = [weight * np.cos(SLOPE), weight * np.sin(SLOPE)]
+    assert -force == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("form", OTHERS)
+def test_a_sliding_block_goes_the_way_of_its_friction_under_every_enforcement(form):
+    way, force = on_slope(20.0, True, form=form)
+    # Benchmark B2: position to 0.2 %; rate of the load put on at once besides, 1 %.
+    assert way[0] == pytest.approx(-SLID, rel=2e-3)
+    assert force[1] / force[0] == pytest.approx(np.tan(np.radians(20)), rel=1e-3)
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.7])

@@ -161,6 +161,28 @@ def test_cyclic_shear_saturates_at_the_cone_and_unloads_along_the_spring(iterati
     assert work == pytest.approx(84.0, abs=6.0)
 
 
+@pytest.mark.parametrize("name", EXACT)
+def test_exact_cyclic_shear_turns_from_bound_to_bound_at_once(name: str) -> None:
+    # benchmark B10 without a spring: N = 1e5, mu = .3, +-1e-3 m
+    solver, enforcement = make_solver(), make_enforcement(name)
+    problem = make_problem(
+        np.diag([1e14, 1e6]), [0.0, -1e5], [[0.0, 1.0]], [[1.0, 0.0]], friction=0.3
+    )
+    force, work = 0.0, 0.0
+    path = np.concatenate([np.linspace(0, 1, 3), np.linspace(0.5, -1, 4), np.linspace(-0.5, 1, 4)])
+    for last, now in pairwise(path * 1e-3):
+        # the matrix 1e14 N/m prescribes the motion to 3e-10 m
+        load = np.array([1e14 * (now - last) + force, -1e5])
+        step = replace(problem, force=load, shear_force=np.array([force]))
+        answer = enforcement.solve(step, solver)
+        assert answer.verdict.converged, answer.verdict.sentence
+        force = answer.shear_force[0]
+        assert force == pytest.approx(np.sign(now - last) * 3e4, rel=1e-6)
+        work += force * (now - last)
+    # the way to the first end and a whole loop of height 2 mu N and width 2e-3 m
+    assert work == pytest.approx(30.0 + 120.0, rel=1e-6)
+
+
 @pytest.mark.parametrize("name", ALL)
 def test_contact_in_the_air_carries_nothing(name: str) -> None:
     problem = make_problem(np.eye(2), [0.0, 5.0], [[0.0, 1.0]], [[1.0, 0.0]], state=[OPEN])
