@@ -3,7 +3,7 @@
 The factor of all springs acting is kept over steps and is safe wherever the search stands. That of
 the springs that act there makes the end quick, once most states are right: what is wrong with few
 contacts acceleration mends in as many solves. On a wall of 1 000 bricks at ten times Young's
-modulus 10 solves with the first, one factorisation and 5 solves with the second do what the first
+modulus 10 solves with the first, one factorisation and 6 solves with the second do what the first
 alone does in 30 to 100, and at a hundred times what it does not do in 300
 (`benchmarks/enforcement.py`).
 """
@@ -23,7 +23,7 @@ WIDE, NARROW = 20, 20
 """Solves in a row with the factor of all springs, and with that of those that act."""
 SLOW = Patience(ahead=10, below=1e-3)
 """When the first is left before its turn is over: where most states are right and it is slow."""
-LOST = Patience(ahead=80)
+LOST = Patience(ahead=40)
 """When the second is: it would take long, because states are wrong."""
 QUICK = 0.1
 """Reduction after which the second is renewed at once, without the first in between."""
