@@ -11,7 +11,7 @@ from nmm.contact.barrier_potential import Potential
 from nmm.contact.barrier_search import Search
 from nmm.contact.enforcement import Enforcement
 from nmm.contact.law import label
-from nmm.contact.memory import STEP, Memory
+from nmm.contact.memory import Memory
 from nmm.contact.problem import StepAnswer, StepProblem, Verdict
 from nmm.contact.rounds import compliances, stiff_springs
 from nmm.contact.settle import settle
@@ -75,19 +75,8 @@ class Barrier(Enforcement):
             memory.barrier_width = width
         well = Potential(problem, width, max(force, width / ease) / width)
         search = Search(well, memory.pattern_of(problem), linear_solver, self.tolerance)
-        found = search.run(rough, self.max_passes, _solved(problem, memory))
+        found = search.run(rough, self.max_passes, memory.again(problem))
         return _Outcome(self, well, linear_solver, found).answer(memory)
-
-
-def _solved(problem: StepProblem, memory: Memory) -> tuple[StepProblem, StepAnswer] | None:
-    """The last problem and its answer, where that was of the same step and contacts."""
-    if memory.answered is None:
-        return None
-    last, answer = memory.answered
-    same = answer.verdict.converged and all(
-        np.array_equal(getattr(last, name), getattr(problem, name)) for name in STEP
-    )
-    return (last, answer) if same else None
 
 
 @dataclass(frozen=True)

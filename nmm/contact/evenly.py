@@ -34,7 +34,10 @@ def solved_evenly(
         return answer
     if not getattr(enforcement, "tolerance", 0.0) > FINE:
         return answer
-    finer = replace(enforcement, **{"tolerance": FINE}).solve(problem, linear, memory)
+    memory.answered = (problem, answer)
+    finer = replace(enforcement, **{"tolerance": FINE}).solve(
+        memory.started(problem), linear, memory
+    )
     passes = answer.passes + finer.passes
     return replace(finer if finer.verdict.converged else answer, passes=passes)
 

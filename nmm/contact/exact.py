@@ -1,6 +1,7 @@
 """Exact contact forces: by rounds of multipliers in small problems, by the interior point else.
 
-Rounds are exact to rounding in a few factors of a small matrix. Where contacts outnumber unknowns
+Rounds are exact to rounding in a few factors of a small matrix, and quick where a step is solved
+again because its rows have turned. Where contacts outnumber unknowns
 errors that hardly stretch a contact outlive many rounds, and forces of the step before are no help
 to the interior point: it takes fifteen to thirty factorisations from nowhere.
 """
@@ -25,14 +26,14 @@ from nmm.contact.rounds import (
 from nmm.contact.settle import FINE, SMALL, inside_start
 from nmm.solvers.linear import LinearSolver
 
-START = 10.0
-"""Stiffness over compliance of the springs of the first round."""
+START, AGAIN = 10.0, 100.0
+"""Stiffness over compliance of the springs of the first round; and where a step is solved again."""
 STIFF = 100.0
 """The same of rounds that finish what the interior point leaves."""
-SLIGHT = 1e-3
+SLIGHT = 1e-5
 """The same of springs that only carry the forces of the interior point."""
-ROUNDS = 12
-"""Most rounds."""
+ROUNDS, FEW = 12, 3
+"""Most rounds in small problems and at the end, and where the step is solved again."""
 
 
 def exact_round(
@@ -54,9 +55,12 @@ def exact_round(
     SolveError
         When even with all contacts acting the load moves a free part.
     """
-    at, how = first_round(stiff_springs(problem, START)), ""
-    if len(problem.force) <= SMALL:
-        at = _rounds(at, linear, memory, goal)
+    small, again = len(problem.force) <= SMALL, memory.again(problem)
+    at, how = first_round(stiff_springs(problem, AGAIN if again else START)), ""
+    if again:
+        memory.start = again[1].increment
+    if small or again:
+        at = _rounds(at, linear, memory, goal, ROUNDS if small else FEW)
         if at.meets(goal):
             return at, f"{at.count} rounds"
         how = f"{at.count} rounds, then "
@@ -70,9 +74,11 @@ def exact_round(
     return at, f"{how}; {more.count - at.count} rounds from there did not help"
 
 
-def _rounds(at: Round, linear: LinearSolver, memory: Memory, goal: Goal) -> Round:
+def _rounds(
+    at: Round, linear: LinearSolver, memory: Memory, goal: Goal, count: int = ROUNDS
+) -> Round:
     budget = Budget(300, 12, 0)
-    most = at.count + ROUNDS
+    most = at.count + count
     return converged_rounds(at, linear, memory, goal, most, 10.0, budget)
 
 

@@ -63,7 +63,7 @@ class Linearised:
         normal = self.spring_n * known_n
         shear = self.spring_t * known_t + self.mixed * normal
         load = self.rest + resultant(problem, np.stack([normal, shear]))
-        increment, self.solves = -self.factor.refined(load), self.solves + 1
+        increment, self.solves = -self.factor.apply(load), self.solves + 1
         opened, slipped = stretches(problem, increment)
         normal = self.spring_n * (opened + known_n)
         shear = self.spring_t * (slipped + known_t) + self.mixed * normal

@@ -132,15 +132,21 @@ class Memory:
         self.found = [increment, *before[: STEPS - 1]]
         self._load = load
 
-    def started(self, problem: StepProblem) -> StepProblem:
-        """The problem with the forces of its last solution, where only its rows have turned."""
+    def again(self, problem: StepProblem) -> tuple[StepProblem, StepAnswer] | None:
+        """The last problem and its answer, if only the rows have turned since."""
         if self.answered is None:
-            return problem
+            return None
         last, answer = self.answered
         same = all(_equal(getattr(last, name), getattr(problem, name)) for name in STEP)
-        if not (same and answer.verdict.converged):
+        return self.answered if same and answer.verdict.converged else None
+
+    def started(self, problem: StepProblem) -> StepProblem:
+        """The problem with the forces of its last solution, where only its rows have turned."""
+        found = self.again(problem)
+        if found is None:
             return problem
-        return replace(problem, normal_force=answer.normal_force, shear_force=answer.shear_force)
+        _, last = found
+        return replace(problem, normal_force=last.normal_force, shear_force=last.shear_force)
 
 
 def _same(a: StepProblem, b: StepProblem) -> bool:
