@@ -43,11 +43,13 @@ def solved_evenly(
 
 
 def unevenness(problem: StepProblem, answer: StepAnswer) -> float:
-    """Largest out-of-balance force of an unknown over the forces that meet in it.
+    """Largest out-of-balance force of an unknown over the forces that meet in its part.
 
     These are ``|F| + |K| |d| + (|N| + |T|)`` through both rows of each contact, so that a block
     pressed from above alone is not asked for rest aside to the last digit (componentwise backward
-    error: Oettli, Prager 1964). What is in balance beside the whole scene to `FINE` does not count.
+    error: Oettli, Prager 1964), weighted so that unknowns compare, the largest of those that the
+    matrix joins: a block's strain is not asked for more than its fall. What is in balance beside
+    the whole scene to `FINE` does not count.
     """
     n, increment = len(problem.force), np.abs(answer.increment)
     column = np.repeat(np.arange(n), np.diff(problem.matrix.indptr))
@@ -59,5 +61,8 @@ def unevenness(problem: StepProblem, answer: StepAnswer) -> float:
         whole += np.bincount(rows.indices, np.abs(rows.data) * push, n)
     rest = np.abs(problem.out_of_balance(answer.increment, answer.normal_force, answer.shear_force))
     weight = weights(problem)
-    counts = weight * rest > FINE * length(weight * whole)
-    return float((rest[counts] / whole[counts]).max(initial=0.0))
+    whole, rest = weight * whole, weight * rest
+    part = whole.copy()
+    np.maximum.at(part, column, whole[problem.matrix.indices])
+    counts = rest > FINE * length(whole)
+    return float((rest[counts] / part[counts]).max(initial=0.0))
