@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.contact.balance import length, weights
 from nmm.contact.enforcement import Enforcement
 from nmm.contact.memory import Memory
@@ -21,7 +21,11 @@ FINE = 1e-11
 
 
 def solved_evenly(
-    enforcement: Enforcement, problem: StepProblem, linear: LinearSolver, memory: Memory
+    enforcement: Enforcement,
+    problem: StepProblem,
+    linear: LinearSolver,
+    memory: Memory,
+    body: Ints,
 ) -> StepAnswer:
     """Solve a step, and again with a tolerance of `FINE` where the first answer is uneven.
 
@@ -30,7 +34,7 @@ def solved_evenly(
     """
     answer = enforcement.solve(problem, linear, memory)
     allowed = UNEVEN_SMALL if len(problem.force) <= SMALL else UNEVEN
-    if not answer.verdict.converged or unevenness(problem, answer) <= allowed:
+    if not answer.verdict.converged or unevenness(problem, answer, body) <= allowed:
         return answer
     if not getattr(enforcement, "tolerance", 0.0) > FINE:
         return answer
@@ -42,14 +46,14 @@ def solved_evenly(
     return replace(finer if finer.verdict.converged else answer, passes=passes)
 
 
-def unevenness(problem: StepProblem, answer: StepAnswer) -> float:
-    """Largest out-of-balance force of an unknown over the forces that meet in its part.
+def unevenness(problem: StepProblem, answer: StepAnswer, body: Ints) -> float:
+    """Largest out-of-balance force of an unknown over the forces that meet in its ``body`` (n,).
 
     These are ``|F| + |K| |d| + (|N| + |T|)`` through both rows of each contact, so that a block
     pressed from above alone is not asked for rest aside to the last digit (componentwise backward
-    error: Oettli, Prager 1964), weighted so that unknowns compare, the largest of those that the
-    matrix joins: a block's strain is not asked for more than its fall. What is in balance beside
-    the whole scene to `FINE` does not count.
+    error: Oettli, Prager 1964), weighted so that unknowns compare, the largest of its body: a
+    brick that falls upright is not asked for rest aside. What is in balance beside the whole
+    scene to `FINE` does not count.
     """
     n, increment = len(problem.force), np.abs(answer.increment)
     column = np.repeat(np.arange(n), np.diff(problem.matrix.indptr))
@@ -62,7 +66,7 @@ def unevenness(problem: StepProblem, answer: StepAnswer) -> float:
     rest = np.abs(problem.out_of_balance(answer.increment, answer.normal_force, answer.shear_force))
     weight = weights(problem)
     whole, rest = weight * whole, weight * rest
-    part = whole.copy()
-    np.maximum.at(part, column, whole[problem.matrix.indices])
+    largest = np.zeros(body.max() + 1)
+    np.maximum.at(largest, body, whole)
     counts = rest > FINE * length(whole)
-    return float((rest[counts] / part[counts]).max(initial=0.0))
+    return float((rest[counts] / largest[body[counts]]).max(initial=0.0))

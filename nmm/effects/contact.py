@@ -87,6 +87,8 @@ class Contact(Effect):
         self._softness = Softness.of(model)
         self._bends = bends
         self._traces = Traces.of(self._sides, model.modulus) if in_the_mean else None
+        cover = np.diff(model.manifold.cover_offset)
+        self._bodies = np.repeat(model.manifold.cover_body, cover)
         self._memory = Memory()
         self._solved: tuple[StepProblem, StepAnswer] | None = None
         self._last: Contacts | None = None
@@ -217,8 +219,10 @@ class Contact(Effect):
             found = self._memory.known(joined) if held is None else None
             if found is None:
                 started = self._memory.started(joined)
-                solve = solved_evenly if held is None else type(enforcement).solve
-                found = solve(enforcement, started, solver, self._memory)
+                if held is None:
+                    found = solved_evenly(enforcement, started, solver, self._memory, self._bodies)
+                else:
+                    found = enforcement.solve(started, solver, self._memory)
             self._memory.answered = None if held is not None else (joined, found)
             whole = found if wide is None else wide.merged(found, joined, doubled)
             answer = turns.twins.merged(whole)
