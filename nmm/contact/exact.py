@@ -113,9 +113,8 @@ def interior_round(
         solves=at.settled.solves + found.solves,
         factorisations=at.settled.factorisations + found.factorisations,
     )
-    largest = max(
-        float(np.abs(force).max(initial=0.0)) for force in springs.forces(found.increment)
-    )
+    forces = found.springs.forces(found.increment)
+    largest = max(float(np.abs(force).max(initial=0.0)) for force in forces)
     gap = found.error * largest * float(ease.max(initial=0.0))
     best = Round(found, at.count, found.error, gap, found.error)
     if len(problem.force) > SMALL:
