@@ -218,4 +218,6 @@ def main(out: str = "runs/accuracy_cost", *names: str) -> list[Path]:
 
 
 if __name__ == "__main__":
+    if {"-h", "--help"} & set(sys.argv):
+        sys.exit(__doc__)
     print(*main(*sys.argv[1:]), sep="\n")

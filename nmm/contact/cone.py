@@ -21,9 +21,8 @@ class Cone(Enforcement):
     contacts do (`nmm.contact.exact`). Friction is not associated: the bound moves with the normal
     force, no dilatancy. Contacts whose stiffness is the joint's own are springs.
 
-    Where blocks have more contacts than unknowns single forces are not unique, and with friction
-    resultants hardly are: on a wall of 100 bricks answers that obey every condition to 1e-7 differ
-    by up to 4e-3 in them, without friction by 4e-6 (docs/enforcements.md).
+    Where blocks have more contacts than unknowns forces are not unique; those found lie in the
+    middle of what is admissible, and do not depend on the step before.
 
     Attributes
     ----------
