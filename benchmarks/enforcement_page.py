@@ -134,8 +134,9 @@ ADVICE = """**Of the classical three, none is best everywhere.**
 - **Cone** takes an interior point that starts afresh in every step and needs 12 to 35
   factorisations on walls and piles, whatever the contacts do; a step that is solved again because
   its rows have turned takes none to six on walls. It is not the default: it costs five to thirty
-  times the penalty's seconds. Friction can turn the way to a solution back on itself; it then starts from
-  elsewhere, and with steep friction may not arrive, which the verdict says ([Limits](limits.md)).
+  times the penalty's seconds. Friction can turn the way to a solution back on itself; it then
+  starts from elsewhere, and with steep friction may not arrive, which the verdict says
+  ([Limits](limits.md)).
 - **Barrier** is smooth, and no gap passes its wall, half a width behind touching. Newton's method
   on unknowns and forces together takes a factorisation a step, few while a step is like the last;
   else an interior point finds most states first. Its errors are those of its width."""
