@@ -56,11 +56,12 @@ def exact_round(
         When even with all contacts acting the load moves a free part.
     """
     small, again = len(problem.force) <= SMALL, memory.again(problem)
-    at, how = first_round(stiff_springs(problem, AGAIN if again else START)), ""
     if again:
         memory.start = again[1].increment
+    at, how = None, ""
     if small or again:
-        at = _rounds(at, linear, memory, goal, ROUNDS if small else FEW)
+        first = first_round(stiff_springs(problem, AGAIN if again else START))
+        at = _rounds(first, linear, memory, goal, ROUNDS if small else FEW)
         if at.meets(goal):
             return at, f"{at.count} rounds"
         how = f"{at.count} rounds, then "
@@ -93,30 +94,30 @@ def _stiffer(at: Round) -> Round:
 
 
 def interior_round(
-    at: Round,
+    at: Round | None,
     problem: StepProblem,
     linear: LinearSolver,
     memory: Memory,
     goal: Goal,
     budget: int,
 ) -> Round:
-    """Exact forces by the interior point, at the cost of ``at`` and its own.
+    """Exact forces by the interior point, at the cost of the rounds before it and its own.
 
     Small problems are finished to rounding by rounds of Newton's method.
     """
     springs, ease = stiff_springs(problem, SLIGHT), np.stack(compliances(problem))
     sides = Sides.of(springs, ~problem.own_stiffness, ease)
-    start = inside_start(sides, linear, memory)
+    start, before = inside_start(sides, linear, memory), at or first_round(springs)
     found = InteriorPoint(sides, memory.pattern_of(problem), linear).run(start, budget, goal)
     found = replace(
         found,
-        solves=at.settled.solves + found.solves,
-        factorisations=at.settled.factorisations + found.factorisations,
+        solves=before.settled.solves + found.solves,
+        factorisations=before.settled.factorisations + found.factorisations,
     )
     forces = found.springs.forces(found.increment)
     largest = max(float(np.abs(force).max(initial=0.0)) for force in forces)
     gap = found.error * largest * float(ease.max(initial=0.0))
-    best = Round(found, at.count, found.error, gap, found.error)
+    best = Round(found, before.count, found.error, gap, found.error)
     if len(problem.force) > SMALL:
         return best
     for _ in range(2):

@@ -18,8 +18,9 @@ from scipy.sparse import csr_array, diags_array
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames, State
-from nmm.contact.moment_kernel import moments, pushed
+from nmm.contact.moment_kernel import moments
 from nmm.contact.points import ContactPoints, rows
+from nmm.contact.row_kernel import pushed
 from nmm.contact.sides import Sides, tangents
 
 
@@ -41,11 +42,7 @@ class Rows:
 
     def push(self, normal: Floats, shear: Floats) -> Floats:
         """Return what forces (m,) of the contacts are on the unknowns (n,)."""
-        n, t = self.normal, self.tangent
-        found = pushed(
-            n.indptr, n.indices, n.data, t.indptr, t.indices, t.data, normal, shear, n.shape[1]
-        )
-        return np.asarray(found)
+        return pushed(self.normal, self.tangent, normal, shear)
 
 
 def middle(before: State, after: State) -> State:

@@ -5,7 +5,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.contact.interior_sides import SOFT, Point, Sides
 from nmm.contact.pattern import SpringPattern
-from nmm.contact.row_kernel import resultant, stretches
+from nmm.contact.row_kernel import pushed, stretched
 from nmm.solvers.linear import LinearSolver
 
 
@@ -47,9 +47,10 @@ class Linearised:
         flow = np.where(sides.active, at.flow, 0.0)
         bound = sides.bound(at.normal, at.slack[0], at.flow[0])
         held = np.stack([problem.limits.tension - at.normal, bound - at.shear, bound + at.shear])
-        carried = resultant(problem, np.stack([at.normal, at.shear]))
+        rows = problem.normal_rows, problem.tangent_rows
+        carried = pushed(*rows, at.normal, at.shear)
         self.rest = problem.matrix @ at.increment - problem.force + carried
-        gap, slip = np.stack([problem.gap, problem.slip]) + stretches(problem, at.increment)
+        gap, slip = np.stack([problem.gap, problem.slip]) + stretched(*rows, at.increment)
         self.rest_gap = gap - flow[0] - (at.normal - springs.normal_shift) * give[0]
         self.rest_slip = slip - flow[1] + flow[2] - (at.shear - springs.shear_shift) * give[1]
         self.rest_slack = np.where(sides.active, at.slack - np.where(sides.active, held, 0), 0.0)
@@ -62,9 +63,10 @@ class Linearised:
         known_t = self.rest_slip - flow[1] + flow[2] - ratio[1] * rest[1] + ratio[2] * rest[2]
         normal = self.spring_n * known_n
         shear = self.spring_t * known_t + self.mixed * normal
-        load = self.rest + resultant(problem, np.stack([normal, shear]))
+        rows = problem.normal_rows, problem.tangent_rows
+        load = self.rest + pushed(*rows, normal, shear)
         increment, self.solves = -self.factor.apply(load), self.solves + 1
-        opened, slipped = stretches(problem, increment)
+        opened, slipped = stretched(*rows, increment)
         normal = self.spring_n * (opened + known_n)
         shear = self.spring_t * (slipped + known_t) + self.mixed * normal
         bound = -self.slope * normal

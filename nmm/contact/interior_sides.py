@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.contact.row_kernel import stretches
+from nmm.contact.row_kernel import stretched
 from nmm.contact.springs import CutSprings, Settled
 
 SOFT = 1e-7
@@ -58,7 +58,8 @@ class Sides:
     exact
         (m,) contacts without compliance.
     ease
-        (2, m) normal and tangential compliance ``c`` (m/N) of what each contact joins.
+        (2, m) normal and tangential compliance ``c`` (m/N) of what each exact contact joins, and
+        of the other springs: by it forces and lengths compare.
     active
         (3, m) sides that exist: what has no tension limit cannot open, what has no bound or no
         shear force at all does not slide.
@@ -84,8 +85,7 @@ class Sides:
     @property
     def compliance(self) -> Floats:
         """(2, m) compliance (m/N) of springs; 0 of exact contacts."""
-        stiffness = np.stack([self.springs.normal_stiffness, self.springs.shear_stiffness])
-        return np.where(self.exact, 0.0, 1 / stiffness)
+        return np.where(self.exact, 0.0, self.ease)
 
     def mean(self, point: Point) -> float:
         """Mean product of slack and flow (J)."""
@@ -107,7 +107,7 @@ class Sides:
         ``slack`` and ``flow`` are those of the normal force.
         """
         limits = self.springs.problem.limits
-        closes = (limits.tension > 0) | (slack * self._scale[0] > flow)
+        closes = (limits.tension > 0) | (slack * self.ease[0] > flow)
         bound = np.where(closes, limits.cohesion, 0.0) + limits.friction * np.maximum(-normal, 0.0)
         return np.where(self.active[1], bound, 0.0)
 
@@ -122,7 +122,7 @@ class Sides:
             (2, m) forces of these springs (N). Their root mean square tells how large forces
             are; all slack and flow is at least of that order.
         """
-        springs, scale, limits = self.springs, self._scale, self.springs.problem.limits
+        springs, scale, limits = self.springs, self.ease, self.springs.problem.limits
         normal, shear = trial
         typical = float(np.sqrt(np.mean(normal**2))) or 1.0
         pull = np.where(self.active[0], limits.tension, 0.0)
@@ -147,7 +147,8 @@ class Sides:
             return Settled(springs, increment, springs.defect(increment).size, 0, 0, "")
         forces = np.stack(springs.cut(point.normal, point.shear))
         problem = springs.problem
-        moved = np.stack([problem.gap, problem.slip]) + stretches(problem, increment)
+        rows = problem.normal_rows, problem.tangent_rows
+        moved = np.stack([problem.gap, problem.slip]) + stretched(*rows, increment)
         meant = np.stack(springs.cut(*(forces + moved / self.ease)))
         largest = float(np.abs(forces).max(initial=0.0))
         lacks = float(np.abs(np.where(self.exact, meant - forces, 0.0)).max(initial=0.0))
@@ -155,12 +156,6 @@ class Sides:
         carried = springs.shifted(*np.where(self.exact, forces, shifts))
         error = lacks / largest if largest > 0 else 0.0
         return Settled(carried, increment, carried.defect(increment).size, 0, 0, "", error)
-
-    @property
-    def _scale(self) -> Floats:
-        """(2, m) compliance (m/N) by which forces and lengths compare."""
-        stiffness = np.stack([self.springs.normal_stiffness, self.springs.shear_stiffness])
-        return np.where(self.exact, self.ease, 1 / stiffness)
 
 
 def _smooth(springs: CutSprings) -> Bools:

@@ -1,36 +1,9 @@
-"""What contact forces do to unknowns and bodies, compiled: one pass over the contacts."""
-
-from typing import Any
+"""Moments of contact forces about bodies, compiled: one pass over the contacts."""
 
 import numba as nb
 import numpy as np
-import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
-
-Index = npt.NDArray[Any]
-
-
-@nb.njit(cache=True)
-def pushed(
-    normal_pointers: Index,
-    normal_columns: Index,
-    normal_entries: Floats,
-    tangent_pointers: Index,
-    tangent_columns: Index,
-    tangent_entries: Floats,
-    normal: Floats,
-    shear: Floats,
-    n: int,
-) -> Floats:
-    """Forces (n,) on the unknowns: ``normal_rows.T @ normal + tangent_rows.T @ shear``."""
-    found = np.zeros(n)
-    for c in range(len(normal)):
-        for k in range(normal_pointers[c], normal_pointers[c + 1]):
-            found[normal_columns[k]] += normal_entries[k] * normal[c]
-        for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
-            found[tangent_columns[k]] += tangent_entries[k] * shear[c]
-    return found
 
 
 @nb.njit(cache=True)

@@ -1,33 +1,32 @@
-"""Products with the rows of a problem, normal and tangential in one compiled pass."""
+"""Products with normal and tangential rows (m, n) of contacts, compiled: one pass over both."""
 
 from typing import Any
 
 import numba as nb
 import numpy as np
 import numpy.typing as npt
+from scipy.sparse import csr_array
 
 from integration.arrays import Floats
-from nmm.contact.moment_kernel import pushed
-from nmm.contact.problem import StepProblem
 
 Index = npt.NDArray[Any]
 
 
-def stretches(problem: StepProblem, increment: Floats) -> Floats:
+def stretched(normal_rows: csr_array, tangent_rows: csr_array, increment: Floats) -> Floats:
     """(2, m) how far each contact opens and slips (m) under unknowns (n,)."""
-    normal, tangent = problem.normal_rows, problem.tangent_rows
-    moved = np.empty((2, problem.n_contacts))
-    _along(normal.indptr, normal.indices, normal.data, increment, moved[0])
-    _along(tangent.indptr, tangent.indices, tangent.data, increment, moved[1])
+    moved = np.empty((2, normal_rows.shape[0]))
+    for rows, found in zip((normal_rows, tangent_rows), moved, strict=True):
+        _along(rows.indptr, rows.indices, rows.data, increment, found)
     return moved
 
 
-def resultant(problem: StepProblem, forces: Floats) -> Floats:
-    """(n,) what normal and shear forces (2, m) (N) do on the unknowns."""
-    rows = (problem.normal_rows, problem.tangent_rows)
-    parts: list[Any] = [part for one in rows for part in (one.indptr, one.indices, one.data)]
-    parts += [forces[0], forces[1], len(problem.force)]
-    return np.asarray(pushed(*parts))
+def pushed(
+    normal_rows: csr_array, tangent_rows: csr_array, normal: Floats, shear: Floats
+) -> Floats:
+    """(n,) ``normal_rows.T @ normal + tangent_rows.T @ shear``: what forces (N) do on unknowns."""
+    n, t = normal_rows, tangent_rows
+    pointed = (n.indptr, n.indices, n.data, t.indptr, t.indices, t.data)
+    return np.asarray(_pushed(*pointed, normal, shear, n.shape[1]))
 
 
 @nb.njit(cache=True)
@@ -37,3 +36,24 @@ def _along(pointers: Index, columns: Index, entries: Floats, x: Floats, found: F
         for k in range(pointers[c], pointers[c + 1]):
             total += entries[k] * x[columns[k]]
         found[c] = total
+
+
+@nb.njit(cache=True)
+def _pushed(
+    normal_pointers: Index,
+    normal_columns: Index,
+    normal_entries: Floats,
+    tangent_pointers: Index,
+    tangent_columns: Index,
+    tangent_entries: Floats,
+    normal: Floats,
+    shear: Floats,
+    n: int,
+) -> Floats:
+    found = np.zeros(n)
+    for c in range(len(normal)):
+        for k in range(normal_pointers[c], normal_pointers[c + 1]):
+            found[normal_columns[k]] += normal_entries[k] * normal[c]
+        for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
+            found[tangent_columns[k]] += tangent_entries[k] * shear[c]
+    return found

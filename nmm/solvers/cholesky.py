@@ -3,37 +3,28 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.solvers import fronts
 from nmm.solvers.blas import addresses, one_thread, words
-from nmm.solvers.elimination import Fronts
 from nmm.solvers.linear import Decomposition, LinearSolver, sorted_rows
 from nmm.solvers.loan import Loan
 from nmm.solvers.lu import FrontalLU
+from nmm.solvers.panels import Borrowed, Panels
 from nmm.solvers.plans import symmetric_plan
 from nmm.solvers.superlu import SuperLU
 
 
 @dataclass(frozen=True)
-class Factorised:
+class Factorised(Panels):
     """Panels of a factor and the plan they belong to."""
 
-    plan: Fronts
-    panels: Loan
+    kernels: ClassVar[tuple[str, ...]] = fronts.KERNELS
 
-    def solve(self, rhs: Floats) -> Floats:
-        """Return the solution of one right-hand side (n,) or of several (n, k)."""
-        if rhs.ndim == 2:
-            return np.stack([self.solve(column) for column in rhs.T], axis=1)
-        p, x = self.plan, np.empty(len(rhs))
-        one = np.ascontiguousarray(rhs, dtype=np.float64)
-        outside = addresses(*fronts.KERNELS), *words()
-        with one_thread():
-            fronts.solve(*outside, one, p.order, *p.shape, self.panels.numbers, x)
-        return x
+    def _fill(self, outside: Borrowed, rhs: Floats, solution: Floats) -> None:
+        p = self.plan
+        fronts.solve(*outside, rhs, p.order, *p.shape, self.panels.numbers, solution)
 
 
 @dataclass(frozen=True)

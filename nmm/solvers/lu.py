@@ -10,9 +10,9 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats
 from nmm.solvers import lu_fronts
 from nmm.solvers.blas import Index, addresses, one_thread, words
-from nmm.solvers.elimination import Fronts
 from nmm.solvers.linear import Decomposition, LinearSolver, sorted_rows
 from nmm.solvers.loan import Loan
+from nmm.solvers.panels import Borrowed, Panels
 from nmm.solvers.plans import any_plan
 from nmm.solvers.superlu import SuperLU
 
@@ -22,24 +22,16 @@ as the fronts do, 1e-11 to 4e-7; each turn of refinement takes off that part of 
 
 
 @dataclass(frozen=True)
-class FactorisedLU:
+class FactorisedLU(Panels):
     """Panels of both factors, exchanged rows, and the plan they belong to."""
 
-    plan: Fronts
-    panels: Loan
+    kernels: ClassVar[tuple[str, ...]] = lu_fronts.KERNELS
     swaps: Index
 
-    def solve(self, rhs: Floats) -> Floats:
-        """Return the solution of one right-hand side (n,) or of several (n, k)."""
-        if rhs.ndim == 2:
-            return np.stack([self.solve(column) for column in rhs.T], axis=1)
-        p, x = self.plan, np.empty(len(rhs))
-        one = np.ascontiguousarray(rhs, dtype=np.float64)
-        outside = addresses(*lu_fronts.KERNELS), *words()
+    def _fill(self, outside: Borrowed, rhs: Floats, solution: Floats) -> None:
+        p = self.plan
         numbers = p.beside_start, self.panels.numbers, self.swaps
-        with one_thread():
-            lu_fronts.solve(*outside, one, p.order, *p.shape, *numbers, x)
-        return x
+        lu_fronts.solve(*outside, rhs, p.order, *p.shape, *numbers, solution)
 
 
 @dataclass(frozen=True)
