@@ -30,7 +30,7 @@ import numpy as np
 from block_scenes import Motion, Scene, incline, pile, supports, wall
 from budget import Overtime, apart, limit
 from kinds import KINDS, Reference
-from records import RECORDS, keep, load, read, stamp, standing
+from records import RECORDS, add_options, keep, load, read, stamp, standing, write_page
 from records import Row as Measurement
 from scipy.sparse import csc_array
 
@@ -259,17 +259,11 @@ def main() -> None:
         print(f"{line(row)} {row.sentence}", flush=True)
         if chosen.page:
             keep(PATH, row)
-            _page()
+            write_page()
     if chosen.page:
-        _page()
+        write_page()
     else:
         print("\n" + table(rows))
-
-
-def _page() -> None:
-    from enforcement_page import write
-
-    write(RECORDS)
 
 
 def _options() -> argparse.Namespace:
@@ -280,14 +274,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--enforcement", nargs="+", choices=KINDS, default=list(KINDS))
     parser.add_argument("--steps", type=int, default=6)
     parser.add_argument("--budget", type=float, default=120.0, help="processor seconds a row")
-    parser.add_argument("--page", action="store_true", help="keep rows, write docs/enforcements.md")
-    parser.add_argument(
-        "--resume",
-        nargs="?",
-        const="same",
-        choices=("same", "any"),
-        help="with --page: pass over rows measured at the same commit of the code, or at any",
-    )
+    add_options(parser)
     parser.add_argument("--solvers", action="store_true", help="linear solvers instead")
     return parser.parse_args()
 

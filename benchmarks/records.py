@@ -1,5 +1,6 @@
 """Records of benchmarks: a row each line, with where and when it was measured."""
 
+import argparse
 import fcntl
 import json
 import os
@@ -106,6 +107,25 @@ def keep(path: Path, row: Row) -> None:
         fresh.replace(path)
     finally:
         os.close(gate)
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add what says whether rows are kept, and which need not be measured again."""
+    parser.add_argument("--page", action="store_true", help="keep rows, write docs/enforcements.md")
+    parser.add_argument(
+        "--resume",
+        nargs="?",
+        const="same",
+        choices=("same", "any"),
+        help="with --page: pass over rows measured at the same commit of the code, or at any",
+    )
+
+
+def write_page() -> None:
+    """Write docs/enforcements.md from all records."""
+    from enforcement_page import write  # it reads the rows of those that import this
+
+    write(RECORDS)
 
 
 def standing(row: Row, mode: str | None, budget: float, ran: bool) -> bool:

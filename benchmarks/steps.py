@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 from budget import Overtime, apart, limit
 from kinds import KINDS, USUAL
-from records import RECORDS, keep, load, read, stamp, standing
+from records import RECORDS, add_options, keep, load, read, stamp, standing, write_page
 from step_rows import DT, PHASES, StepRow, expected, line, table
 from whole_scenes import SCENES
 
@@ -174,9 +174,9 @@ def main() -> None:
         done.append(row)
         if options.page:
             keep(PATH, row)
-            _page()
+            write_page()
     if options.page:
-        _page()
+        write_page()
     else:
         print("\n" + table(done))
 
@@ -197,12 +197,6 @@ def _stands(old: StepRow, options: argparse.Namespace) -> bool:
     return standing(old, options.resume, options.budget, old.ended)
 
 
-def _page() -> None:
-    from enforcement_page import write
-
-    write(RECORDS)
-
-
 def _options() -> argparse.Namespace:
     form: Callable[..., Any] = argparse.RawDescriptionHelpFormatter
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=form)
@@ -211,14 +205,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--enforcement", nargs="+", choices=KINDS)
     parser.add_argument("--steps", type=int, default=12)
     parser.add_argument("--budget", type=float, default=300.0, help="processor seconds a row")
-    parser.add_argument("--page", action="store_true", help="keep rows, write docs/enforcements.md")
-    parser.add_argument(
-        "--resume",
-        nargs="?",
-        const="same",
-        choices=("same", "any"),
-        help="with --page: pass over rows measured at the same commit of the code, or at any",
-    )
+    add_options(parser)
     options = parser.parse_args()
     options.blocks = options.blocks or (SIZES if options.page else SIZES[:2])
     options.enforcement = options.enforcement or (list(KINDS) if options.page else USUAL)
