@@ -31,6 +31,15 @@ def verify(
         Path | None, typer.Option("--out", "-o", help="Folder to write the manual's pages to.")
     ] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print what misses only.")] = False,
+    hard: Annotated[
+        bool, typer.Option("--hard", help="Run the hard matrix: NAME is a class of hard cases.")
+    ] = False,
+    seeds: Annotated[int, typer.Option(min=1, help="With --hard: how many seeds a class.")] = 1,
+    first: Annotated[int, typer.Option(min=0, help="With --hard: the first seed.")] = 0,
+    part: Annotated[
+        list[str] | None,
+        typer.Option(help="With --hard: a part that cases must have, such as cone; repeatable."),
+    ] = None,
 ) -> None:
     """Run problems whose answers are known from elsewhere; exit code 1 when one is missed.
 
@@ -38,10 +47,17 @@ def verify(
 
     Runs of more than a few seconds need --slow, or the benchmark's full name.
 
+    With --hard, generated scenes with oracles that need no answer; --out takes those that miss.
+
     Your own: derive a class from nmm.verification.Case, and name it module:Class.
     """
     with faults_told():
         sys.path.append(str(Path.cwd()))
+        if hard:
+            from nmm.hard_verbs import verify_hard
+
+            verify_hard(names or [], range(first, first + seeds), part or [], slow, listed, out)
+            return
         if listed:
             _list(names or [])
             return

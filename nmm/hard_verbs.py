@@ -1,0 +1,80 @@
+"""`nmm verify --hard`: the hard matrix on the terminal. What it needs is imported when it runs."""
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from nmm.terminal import console
+
+if TYPE_CHECKING:
+    from nmm.verification.hard.running import Finding
+
+
+def verify_hard(
+    names: list[str],
+    seeds: Iterable[int],
+    parts: list[str],
+    slow: bool,
+    listed: bool,
+    out: Path | None,
+) -> None:
+    """Run classes of hard cases, or list them; write the scenes that miss to a folder.
+
+    Raises
+    ------
+    typer.Exit
+        With code 1 when a case misses.
+    """
+    from nmm.verification.hard.running import chosen_cases, judged
+
+    if listed:
+        _list()
+        return
+    found = []
+    for group, case in chosen_cases(names, seeds, slow, parts):
+        finding = judged(group, case)
+        found.append(finding)
+        _tell(finding)
+        if out is not None and not finding.passed:
+            _keep(finding, out)
+    missed = [finding for finding in found if not finding.passed]
+    seconds = sum(finding.seconds for finding in found)
+    console().print(
+        f"{len(found)} cases, {len(missed)} missed, {seconds:.3g} s",
+        style="red" if missed else "green",
+        highlight=False,
+    )
+    if missed:
+        raise typer.Exit(1)
+
+
+def _list() -> None:
+    from nmm.verification.hard.registry import HARD
+
+    for name in HARD.table:
+        kind = HARD.load(name)
+        typer.echo(f"{name:12} {kind.title}")
+        typer.echo(f"{'':12} {kind.oracle}")
+
+
+def _tell(finding: "Finding") -> None:
+    verdict = "passed" if finding.passed else "MISSED"
+    console().print(
+        f"{verdict} {finding.seconds:6.2f} s  {finding.group}: {finding.case.label}: "
+        f"{finding.words}",
+        style=None if finding.passed else "red",
+        highlight=False,
+        markup=False,
+        soft_wrap=True,
+    )
+
+
+def _keep(finding: "Finding", out: Path) -> None:
+    from nmm.verification.hard.files import write_scene
+
+    path = write_scene(
+        out, f"{finding.group} {finding.case.label}", finding.case.scene, finding.words
+    )
+    console().print(f"  {path}", highlight=False, markup=False, soft_wrap=True)

@@ -1,0 +1,97 @@
+"""Every exchangeable part there is, read from the registries: a new one joins by itself."""
+
+from collections.abc import Iterator, Mapping
+from copy import deepcopy
+from typing import Any, get_args
+
+from covers.registry import COVERS
+from nmm.contact.enforcement import ENFORCEMENTS
+from nmm.formulation import Formulation
+from nmm.solvers.linear import SOLVERS
+from nmm.stepping.integrators import INTEGRATORS
+from nmm.verification.hard.base import Document
+
+BLOCKS: dict[str, Document] = {
+    "block": {"type": "block"},
+    "rigid": {"type": "block", "functions": "rigid"},
+    "block degree 2": {"type": "block", "functions": "monomials", "degree": 2},
+}
+"""Covers of one patch a block."""
+
+
+def enforcements() -> list[str]:
+    """Names of the contact enforcements."""
+    return list(ENFORCEMENTS.table)
+
+
+def integrators() -> list[str]:
+    """Names of the time integrators."""
+    return list(INTEGRATORS.table)
+
+
+def solvers() -> list[str]:
+    """Names of the linear solvers."""
+    return list(SOLVERS.table)
+
+
+def support_methods() -> list[str]:
+    """Names of the ways to hold an edge; "auto" is one of the others."""
+    return _listed("supports")
+
+
+def glue_methods() -> list[str]:
+    """Names of the ways to glue blocks; "auto" is one of the others."""
+    return _listed("glue")
+
+
+def meshes(size: float, degrees: tuple[int, ...] = (0, 1, 2)) -> dict[str, Document]:
+    """Tables of every cover of more patches than one, of cells of ``size`` (m), by their names."""
+    return {
+        f"{kind} degree {degree}": {
+            "type": kind,
+            "size": size,
+            "functions": "monomials",
+            "degree": degree,
+        }
+        for kind in COVERS
+        for degree in degrees
+    }
+
+
+def with_parts(scene: Document, parts: Mapping[str, Any]) -> Document:
+    """Return a scene whose formulation has other parts.
+
+    Parameters
+    ----------
+    scene
+        Tables; they are not changed.
+    parts
+        Values by the path of their key, such as ``{"contact.enforcement": "cone"}``.
+    """
+    made = deepcopy(scene)
+    for path, value in parts.items():
+        table = made.setdefault("formulation", {})
+        *way, key = path.split(".")
+        for name in way:
+            table = table.setdefault(name, {})
+        table[key] = deepcopy(value)
+    return made
+
+
+def moving_parts() -> Iterator[dict[str, str]]:
+    """Yield every enforcement and every integrator: each of both with the first of the other.
+
+    The whole product follows with the seeds of a class, which draw the rest.
+    """
+    forces, times = enforcements(), integrators()
+    for name in forces:
+        yield {"enforcement": name, "integrator": times[0]}
+    for name in times[1:]:
+        for force in forces[:1] + forces[3:4]:
+            yield {"enforcement": force, "integrator": name}
+
+
+def _listed(table: str) -> list[str]:
+    model: Any = type(getattr(Formulation(), table))
+    names = [name for name in get_args(model.model_fields["method"].annotation) if name != "auto"]
+    return [str(name) for name in names]

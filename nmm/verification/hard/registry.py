@@ -1,0 +1,15 @@
+"""Classes of hard cases by name."""
+
+from nmm.registry import Registry
+from nmm.verification.hard.base import HardClass
+
+_HOME = "nmm.verification.hard"
+
+HARD = Registry[type[HardClass]](
+    "hard class",
+    {
+        "crossings": f"{_HOME}.crossings:Crossings",
+        "corners": f"{_HOME}.corners:Corners",
+        "fans": f"{_HOME}.corners:Fans",
+    },
+)

@@ -1,0 +1,98 @@
+"""Run hard cases and keep what came out."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from time import process_time
+
+from nmm.errors import NmmError
+from nmm.verification.base import Checks
+from nmm.verification.hard.base import HardCase
+from nmm.verification.hard.registry import HARD
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What came out of one case.
+
+    Attributes
+    ----------
+    group
+        Name of its class.
+    case
+        The case.
+    checks
+        Quantities by name; empty where nothing could be run.
+    fault
+        Why nothing could be run: an error of the program's own, or a traceback's last line.
+    crashed
+        Whether that was no error raised on purpose.
+    seconds
+        Processor time.
+    """
+
+    group: str
+    case: HardCase
+    checks: Checks
+    fault: str
+    crashed: bool
+    seconds: float
+
+    @property
+    def missed(self) -> list[str]:
+        """Names of the quantities that miss."""
+        return [name for name, check in self.checks.items() if not check.passed]
+
+    @property
+    def passed(self) -> bool:
+        """Whether it ran and nothing misses."""
+        return not self.fault and not self.missed
+
+    @property
+    def words(self) -> str:
+        """What misses, with figures; what was found where nothing does."""
+        if self.fault:
+            return " ".join(self.fault.split())[:200]
+        told = self.missed or list(self.checks)
+        return "; ".join(f"{name} {self.checks[name].shown}" for name in told)
+
+
+def judged(group: str, case: HardCase) -> Finding:
+    """Run one case; whatever ends it is what is found."""
+    started = process_time()
+    checks: Checks = {}
+    fault, crashed = "", False
+    try:
+        checks = case.judge(case.scene)
+    except NmmError as error:
+        fault = str(error)
+    except Exception as error:  # a traceback is a finding
+        fault, crashed = f"{type(error).__name__}: {error}", True
+    return Finding(group, case, checks, fault, crashed, process_time() - started)
+
+
+def chosen_cases(
+    classes: Iterable[str],
+    seeds: Iterable[int],
+    slow: bool = False,
+    parts: Iterable[str] = (),
+) -> Iterator[tuple[str, HardCase]]:
+    """Yield the cases of classes with their class's name.
+
+    Parameters
+    ----------
+    classes
+        Names in `HARD` or ``module:Class``; all when empty.
+    seeds
+        What the generators draw from.
+    slow
+        Whether cases of more than a second or two are among them.
+    parts
+        Parts that a case must have, all of them; those of any when empty.
+    """
+    wanted = set(parts)
+    for name in list(classes) or HARD.table:
+        made = HARD.load(name)()
+        for seed in seeds:
+            for case in made.cases(seed):
+                if wanted <= set(case.parts.values()) and (slow or not case.slow):
+                    yield name, case
