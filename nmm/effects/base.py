@@ -84,6 +84,11 @@ class Effect(ABC):
         """How the formulation imposes the effect, in words; empty where it has no choice."""
         return ""
 
+    @property
+    def steady(self) -> bool:
+        """Whether the force depends on the state alone and not on the instant, in dynamics."""
+        return True
+
     def force(self, state: State, end: Instant) -> Floats:
         """Force (n,) that acts through the step."""
         raise NotImplementedError

@@ -10,15 +10,17 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.dead_loads import DeadLoad
 from nmm.effects.load_factor import load_factor
 
 
 @dataclass(frozen=True)
 class BodyLoad:
-    """One load: its density (E, 2) on each element at factor 1 (N/m3), and its factor."""
+    """One load: its density (E, 2) on each element at factor 1 (N/m3), its factor, any history."""
 
     density: Floats
     factor: Callable[[Instant], float]
+    steady: bool = True
 
 
 class BodyLoads(Effect):
@@ -41,7 +43,8 @@ class BodyLoads(Effect):
                 regions = setup.regions(load.block)
                 inside = np.ones(len(region)) if regions is None else regions[region] * 1.0
                 density = inside[:, None] * np.array(load.density)
-                found.append(BodyLoad(density, load_factor(setup, load)))
+                factor = load_factor(setup, load)
+                found.append(BodyLoad(density, factor, load.history is None))
         return cls(setup.model, found)
 
     def relaid(self, model: Model) -> Effect:
@@ -50,17 +53,24 @@ class BodyLoads(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the loads in the bodies' axes."""
-        density = self._density(end)
-        body = self._model.manifold.element_body
-        return self._model.body_load(state.frames.to_body(body, density))
+        return self._push(state, self._density(end))
 
     def work(self, before: State, after: State) -> float:
-        """Mean load times the motion of the centres."""
+        """Mean load of both ends of the step times the motion of the volume."""
         ends = (Instant(s.time, s.load_factor) for s in (before, after))
-        mean = sum(self._density(end) for end in ends) / 2
-        volume = self._model.element_area * self._model.thickness
-        way = (after.frames.centre - before.frames.centre)[self._model.manifold.element_body]
-        return float(np.sum(volume[:, None] * mean * way))
+        mean = np.asarray(sum(self._density(end) for end in ends) / 2)
+        pushed = self._push(before, mean), self._push(after, mean)
+        return DeadLoad(self._model, mean).work(before, after, pushed)
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`."""
+        return all(load.steady for load in self._loads)
+
+    def _push(self, state: State, density: Floats) -> Floats:
+        """Return the load vector (n,) in the bodies' axes."""
+        body = self._model.manifold.element_body
+        return self._model.body_load(state.frames.to_body(body, density))
 
     def _density(self, end: Instant) -> Floats:
         return np.asarray(np.sum([load.factor(end) * load.density for load in self._loads], axis=0))

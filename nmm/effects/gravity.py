@@ -9,6 +9,7 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.dead_loads import DeadLoad
 
 
 class Gravity(Effect):
@@ -19,12 +20,7 @@ class Gravity(Effect):
     def __init__(self, model: Model, acceleration: Floats) -> None:
         self._model = model
         self._acceleration = acceleration
-        body = model.manifold.element_body
-        weight = model.density[:, None] * acceleration
-        total = weight * (model.element_area * model.thickness)[:, None]
-        self._weight = np.stack(
-            [np.bincount(body, total[:, i], minlength=model.manifold.n_bodies) for i in (0, 1)], 1
-        )
+        self._volume = DeadLoad(model, model.density[:, None] * acceleration)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -52,5 +48,6 @@ class Gravity(Effect):
         return body, along_x, along_y
 
     def work(self, before: State, after: State) -> float:
-        """Weight times the motion of the centres of mass."""
-        return float(np.sum(self._weight * (after.frames.centre - before.frames.centre)))
+        """Weight times the motion of the mass, be it in frames or in the unknowns."""
+        here = Instant(after.time, after.load_factor)
+        return self._volume.work(before, after, (self.force(before, here), self.force(after, here)))

@@ -1,5 +1,6 @@
 """Stress in blocks at the start of a run, constant in each, turning with the material."""
 
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -11,13 +12,26 @@ from nmm.effects.base import Effect, Instant, Setup
 
 
 class InitialStress(Effect):
-    """Internal force ``- int B^T sigma0``; ``stress`` (E, 3) in body axes (Pa)."""
+    """Internal force ``- int B^T sigma0``; ``stress`` (E, 3) in body axes (Pa).
+
+    With the elasticity ``D`` it stores ``1/2 sigma0 : D^-1 sigma0`` before anything moves, and
+    ``sigma0 : eps`` more under a strain, so that strain energy is that of the whole stress.
+    """
 
     name = "initial stress"
 
     def __init__(self, model: Model, stress: Floats) -> None:
         self.stress = stress
         self._force = -model.stress_load(stress)
+        self._model = model
+
+    @cached_property
+    def _stored(self) -> float:
+        """Energy (J) of the stress before anything moves."""
+        model, stress = self._model, self.stress
+        strain = np.linalg.solve(model.elasticity, stress[:, :, None])[:, :, 0]
+        density = np.einsum("ei,ei->e", stress, strain) / 2
+        return float(density @ (model.element_area * model.thickness))
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -36,3 +50,7 @@ class InitialStress(Effect):
     def force(self, state: State, end: Instant) -> Floats:
         """Return the constant internal force."""
         return self._force
+
+    def energy(self, state: State) -> float:
+        """Energy (J) that the stress adds to that of the strain, ``1/2 eps : D eps``."""
+        return self._stored - float(self._force @ state.deformation)

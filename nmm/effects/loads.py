@@ -31,12 +31,15 @@ class Load:
         (m, 2) on each point at factor 1 (N).
     factor
         From the instant to the factor.
+    steady
+        Whether it has no history.
     """
 
     name: str
     place: Place
     force: Floats
     factor: Callable[[Instant], float]
+    steady: bool = True
 
     def resultant(self, end: Instant) -> Floats:
         """Sum (2,) of the forces at an instant (N)."""
@@ -81,6 +84,11 @@ class Loads(Effect):
             total += mean * float(np.sum(load.force * way))
         return total
 
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`."""
+        return all(load.steady for load in self.loads)
+
     def scaled_resultant(self, factor: float) -> float:
         """Length of what the loads' sum gains from load factor 0 to ``factor`` (N)."""
         gain = np.zeros(2)
@@ -103,4 +111,5 @@ def _load(setup: Setup, load: "SceneLoad") -> Load:
             f"load {load.name}: {load.point or load.segment}: expected a place on the material: "
             "move it onto a block or onto the edge of one"
         )
-    return Load(load.name, place, place.weight[:, None] * total, load_factor(setup, load))
+    force, factor = place.weight[:, None] * total, load_factor(setup, load)
+    return Load(load.name, place, force, factor, load.history is None)

@@ -57,8 +57,8 @@ class Support(ABC):
     def reaction(self, state: State, lag: Floats) -> Floats:
         """Force (2,) in N on the bodies."""
 
-    def energy(self, lag: Floats) -> float:
-        """Energy stored (J)."""
+    def energy(self, state: State, lag: Floats) -> float:
+        """Energy stored (J): `pull` is what it loses with the motion, `reaction` with the lag."""
         return 0.0
 
     @property
@@ -98,7 +98,7 @@ class Springs(Support):
         """See `Support.reaction`."""
         return np.asarray(np.sum(self.spring[:, None] * self.held * lag, axis=0))
 
-    def energy(self, lag: Floats) -> float:
+    def energy(self, state: State, lag: Floats) -> float:
         """See `Support.energy`."""
         return 0.5 * float(np.sum(self.spring[:, None] * self.held * lag**2))
 
@@ -166,6 +166,16 @@ class Nitsche(Support):
             force[axis] = np.sum(self.weight * (now + self.penalty * lag[:, axis]))
         return force
 
+    def energy(self, state: State, lag: Floats) -> float:
+        """Tractions times lags, half the penalty's and the ghost's; it may be negative."""
+        unknowns, q = self.place.points.rows.unknowns, state.deformation
+        total = 0.5 * float(q @ (self.ghost @ q))
+        for axis in np.flatnonzero(self.held).tolist():
+            now = np.einsum("ml,ml->m", self._along(state, axis)[1], q[unknowns])
+            late = lag[:, axis]
+            total += float(np.sum(self.weight * late * (now + self.penalty * late / 2)))
+        return total
+
     @property
     def turns(self) -> bool:
         """See `Support.turns`."""
@@ -187,10 +197,13 @@ class Tractions:
         Number k of multipliers.
     values
         (k,) Pa.
+    before
+        (k,) Pa, as they were when the step began.
     """
 
     size: int
     values: Floats | None = None
+    before: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -222,9 +235,16 @@ class Multipliers(Support):
 
     def reaction(self, state: State, lag: Floats) -> Floats:
         """See `Support.reaction`."""
-        if self.shared.values is None:
+        return self._force(self.shared.values)
+
+    def earlier(self) -> Floats:
+        """Force (2,) in N on the bodies when the step began."""
+        return self._force(self.shared.before)
+
+    def _force(self, values: Floats | None) -> Floats:
+        if values is None:
             return np.zeros(2)
-        traction = (self.basis @ self.shared.values).reshape(-1, 2)
+        traction = (self.basis @ values).reshape(-1, 2)
         return np.asarray(-self.weight @ traction)
 
     def border(self, state: State, lag: Floats, n: int) -> tuple[csr_array, Floats]:

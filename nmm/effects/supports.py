@@ -21,6 +21,7 @@ from nmm.effects.support_methods import (
     Nitsche,
     Springs,
     Support,
+    Tractions,
     share_multipliers,
 )
 from nmm.errors import GeometryError
@@ -37,9 +38,17 @@ class Supports(Effect):
 
     name = "supports"
 
-    def __init__(self, supports: list[Support], n_unknowns: int, state: State) -> None:
+    def __init__(
+        self,
+        supports: list[Support],
+        n_unknowns: int,
+        state: State,
+        in_time: bool = False,
+        still: bool = True,
+    ) -> None:
         self._supports = supports
         self._n = n_unknowns
+        self._in_time, self._still = in_time, still
         self._stood: tuple[Floats, csc_array] | None = None
         self._known: list[tuple[State, list[Floats]]] = []
         self._anchors = [
@@ -53,7 +62,10 @@ class Supports(Effect):
         method = _method(setup)
         if method.size is not None:
             found = share_multipliers(found, method.size, method.degree, setup.model.thickness)
-        return cls(found, setup.model.manifold.n_unknowns, setup.start)
+        scene = setup.scene
+        still = all(one.history is None or not any(one.displacement) for one in scene.supports)
+        n_unknowns = setup.model.manifold.n_unknowns
+        return cls(found, n_unknowns, setup.start, scene.inertia is not None, still)
 
     @property
     def about(self) -> str:
@@ -103,20 +115,29 @@ class Supports(Effect):
     @property
     def multipliers(self) -> int:
         """Number of conditions that multipliers hold."""
-        spaces = {id(s.shared): s.shared for s in self._supports if isinstance(s, Multipliers)}
-        return sum(shared.size for shared in spaces.values())
+        return sum(shared.size for shared in self._spaces)
+
+    @property
+    def _spaces(self) -> list[Tractions]:
+        """Multipliers, those that supports share once."""
+        found = {id(s.shared): s.shared for s in self._supports if isinstance(s, Multipliers)}
+        return list(found.values())
 
     def keep(self, multipliers: Floats) -> Floats:
         """Remember the multipliers of the last solution, for reactions; return the others."""
-        spaces = {id(s.shared): s.shared for s in self._supports if isinstance(s, Multipliers)}
-        for shared in spaces.values():
+        for shared in self._spaces:
             shared.values, multipliers = multipliers[: shared.size], multipliers[shared.size :]
         return multipliers
 
     def energy(self, state: State) -> float:
         """Energy of the springs as they stand in ``state``, with places of its own instant."""
         now = Instant(state.time, state.load_factor)
-        return sum(s.energy(self._lag(i, state, now)) for i, s in enumerate(self._supports))
+        return sum(s.energy(state, self._lag(i, state, now)) for i, s in enumerate(self._supports))
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`."""
+        return self._still
 
     def work(self, before: State, after: State) -> float:
         """Mean reaction of each driven support times the way it is driven."""
@@ -125,10 +146,22 @@ class Supports(Effect):
         for i, support in enumerate(self._supports):
             way = np.asarray(support.displacement(end) - support.displacement(start))
             if way.any():
-                first = support.reaction(before, self._lag(i, before, start))
                 last = support.reaction(after, self._lag(i, after, end))
+                first = self._first(support, i, before, last)
                 total += float((first + last) / 2 @ np.atleast_2d(way).mean(axis=0))
+        for shared in self._spaces:
+            shared.before = shared.values
         return total
+
+    def _first(self, support: Support, number: int, before: State, last: Floats) -> Floats:
+        """Return the reaction (2,) in N as the step began.
+
+        In time a multiplier is the mean force of its step, in statics the force at its end.
+        """
+        if isinstance(support, Multipliers):
+            return last if self._in_time else support.earlier()
+        start = Instant(before.time, before.load_factor)
+        return support.reaction(before, self._lag(number, before, start))
 
     def reactions(self, state: State) -> dict[str, Floats]:
         """Return the force (2,) in N that each support exerts on the bodies."""

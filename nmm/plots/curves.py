@@ -22,6 +22,8 @@ ENERGIES = (
     "contact_energy",
     "support_energy",
     "friction_loss",
+    "integration_loss",
+    "contact_loss",
 )
 STATES = ("bonded", "stick", "slide", "open", "broken")
 

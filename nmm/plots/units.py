@@ -17,6 +17,8 @@ UNITS = {
     "support_energy": "J",
     "external_work": "J",
     "friction_loss": "J",
+    "integration_loss": "J",
+    "contact_loss": "J",
 }
 """Units of history columns; columns not named here are pure numbers."""
 

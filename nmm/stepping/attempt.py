@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
+from nmm.stepping.booking import Booked
 
 if TYPE_CHECKING:
     from nmm.contact.record import Solved
@@ -30,6 +31,8 @@ class Attempt:
         Linear systems solved.
     solved
         Contact points with their forces; None without contact.
+    booked
+        Work of inertia and contact; None in statics.
     """
 
     converged: bool
@@ -40,3 +43,4 @@ class Attempt:
     residual: float
     passes: int
     solved: "Solved | None" = None
+    booked: Booked | None = None

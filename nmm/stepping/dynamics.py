@@ -59,7 +59,7 @@ def run_in_time(
             return state, RunVerdict(FAILED, _failure(attempt, state, schedule))
         taken = attempt.state.time - state.time
         after, contacts = stepper.accept(attempt)
-        said = recorder.step(state, attempt, contacts)
+        said = recorder.step(state, attempt, contacts, after)
         if why:
             cuts, last = cuts + 1, f"at {state.time:.6g} s: {why}"
             said = f"{said}  cut to {taken:.3g} s: {why}"

@@ -1,8 +1,7 @@
 """The equations of one step but for contact: elasticity, inertia, supports and loads."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from operator import is_not
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -14,8 +13,29 @@ from nmm.effects.base import Instant
 from nmm.stepping.integrators import Integrator
 from nmm.stepping.relay import Laid
 
-if TYPE_CHECKING:
-    from nmm.effects.inertia import Inertia
+
+@dataclass(frozen=True)
+class InertiaTerms:
+    """What inertia adds to the equations of a step.
+
+    Attributes
+    ----------
+    mass, factor
+        The matrix (n, n) and its factor in the step's matrix.
+    momentum
+        (n,) that joins the forces.
+    weight, contact_factor
+        See `nmm.stepping.integrators`.
+    gain
+        (n,) by how much forces other than elasticity grow in the step; None where they do not.
+    """
+
+    mass: csc_array
+    factor: float
+    momentum: Floats
+    weight: float
+    contact_factor: float
+    gain: Floats | None
 
 
 @dataclass(frozen=True)
@@ -32,6 +52,8 @@ class Equations:
         How rates follow from the increment.
     matrix, force
         (n, n) and (n,).
+    inertia
+        Its terms; None in statics.
     """
 
     state: State
@@ -40,6 +62,7 @@ class Equations:
     rule: Integrator
     matrix: csc_array
     force: Floats
+    inertia: InertiaTerms | None = None
 
 
 class Assembly:
@@ -60,28 +83,31 @@ class Assembly:
         if step is None or plan.inertia is None:
             held = self._anchored() if anchored else model.stiffness
             return Equations(state, end, step, rule, plan.matrix(state, held), force)
-        matrix, force = self._in_time(state, step, rule, plan.inertia, force)
-        return Equations(state, end, step, rule, matrix, force)
+        return self._in_time(Equations(state, end, step, rule, model.stiffness, force))
 
     def _applied(self, state: State, end: Instant) -> Floats:
         """Return the forces (n,) of all effects less those of elasticity at the start."""
         model, plan = self._laid.model, self._laid.plan
         return np.asarray(plan.force(state, end) - model.stiffness @ state.deformation)
 
-    def _in_time(
-        self, state: State, step: float, rule: Integrator, inertia: "Inertia", force: Floats
-    ) -> tuple[csc_array, Floats]:
-        """Return matrix and force with inertia, over the factor of contact forces."""
-        plan, weight = self._laid.plan, rule.end_weight
-        if weight < 1:
+    def _in_time(self, static: Equations) -> Equations:
+        """Return the equations with inertia, over the factor of contact forces."""
+        plan, rule, state, step = self._laid.plan, static.rule, static.state, static.step
+        assert step is not None
+        assert plan.inertia is not None
+        weight, force, gain, mass = rule.end_weight, static.force, None, plan.inertia.mass
+        if weight < 1 or not plan.steady:
             earlier = self._applied(state, Instant(state.time, state.load_factor))
-            force = weight * force + (1 - weight) * earlier
+            gain = None if plan.steady else force - earlier
+            force = force if weight == 1 else weight * force + (1 - weight) * earlier
         velocity = rule.kinetic_factor * state.velocity
-        momentum = rule.momentum(velocity, state.acceleration, step)
-        base = self._base(rule.mass_factor(step) / weight, inertia.mass)
+        momentum = mass @ rule.momentum(velocity, state.acceleration, step)
+        factor = rule.mass_factor(step)
+        base = self._base(factor / weight, mass)
         share = 1.0 if plan.contact is None else rule.contact_factor
+        terms = InertiaTerms(mass, factor, momentum, weight, share, gain)
         matrix = self._times(weight / share, plan.matrix(state, base))
-        return matrix, (force + inertia.mass @ momentum) / share
+        return replace(static, matrix=matrix, force=(force + momentum) / share, inertia=terms)
 
     def _anchored(self) -> csc_array:
         """Return elasticity with anchors."""

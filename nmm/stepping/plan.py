@@ -5,7 +5,7 @@ What a scene does not name is not imported and has no arrays.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from importlib import import_module
 from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar, cast
@@ -103,6 +103,11 @@ class Plan:
         for effect in self._with("force"):
             total += self._timed(effect.name, partial(effect.force, state, end))
         return total
+
+    @cached_property
+    def steady(self) -> bool:
+        """Whether no force depends on the instant, in dynamics."""
+        return all(effect.steady for effect in self.effects.values())
 
     def matrix(self, state: State, base: csc_array) -> csc_array:
         """Return ``base`` with all effects' matrices added; the same sum of the same parts."""

@@ -13,14 +13,11 @@ from nmm.errors import GeometryError
 from nmm.results.frame import Frame
 from nmm.results.sink import Sink
 from nmm.stepping.attempt import Attempt
+from nmm.stepping.ledger import Ledger
 from nmm.stepping.step import Stepper
 
 if TYPE_CHECKING:
     from nmm.contact.points import ContactPoints
-
-
-# Effects whose springs count as supports: those of the scene, glue, and what holds sub-blocks.
-HOLDING = ("supports", "seams", "artificial joints")
 
 
 @dataclass(frozen=True)
@@ -62,54 +59,51 @@ class Recorder:
     ----------
     stepper, sink, monitors
         What is recorded, where to, and which points.
-    work, friction_loss
-        Accumulated over accepted steps (J).
-    stored_first
-        Energy at the start, before any contact (J).
-    throughput
-        Largest work, stored or lost energy so far (J).
+    ledger
+        Energies.
     """
 
     stepper: Stepper
     sink: Sink
     monitors: list[Monitor]
-    work: float = 0.0
-    friction_loss: float = 0.0
-    steps: int = 0
-    stored_first: float = 0.0
-    throughput: float = 0.0
+    ledger: Ledger = field(default_factory=Ledger)
     passes: int = 0
     frames: int = 0
     residual: float = 0.0
     penetration: float = 0.0
-    energies: dict[str, float] = field(default_factory=dict)
     largest: dict[str, int] = field(default_factory=dict)
     counts: dict[str, int] = field(default_factory=dict)
 
-    def step(self, before: State, attempt: Attempt, contacts: "ContactPoints | None") -> str:
-        """Record an accepted step in the history; say its passes and the states of contacts."""
+    @property
+    def steps(self) -> int:
+        """Number of accepted steps."""
+        return self.ledger.steps
+
+    def step(
+        self,
+        before: State,
+        attempt: Attempt,
+        contacts: "ContactPoints | None",
+        stands: State | None = None,
+    ) -> str:
+        """Record an accepted step in the history; say its passes and the states of contacts.
+
+        ``stands`` is its end where blocks are laid anew after each step.
+        """
         plan, after = self.stepper.plan, attempt.state
-        if not self.steps:
-            first = self._energies(before)
-            self.stored_first = sum(first.values()) - first["contact_energy"]
-        self.steps += 1
+        self.ledger.book(plan, self.stepper.model, before, attempt, stands or after)
         self.passes += attempt.passes
         self.residual = max(self.residual, attempt.residual)
-        self.work += plan.work(before, after)
-        self.energies = self._energies(after)
-        stored = sum(self.energies.values())
-        self.throughput = max(
-            self.throughput, abs(self.work), abs(stored), abs(self.stored_first), self.friction_loss
-        )
         row = {
             "time": after.time,
             "load_factor": after.load_factor,
             "step": float(self.steps),
             "passes": float(attempt.passes),
             "residual": attempt.residual,
-            **self.energies,
-            "external_work": self.work,
+            **self.ledger.row,
         }
+        if attempt.booked is not None:
+            row["integration_loss"] = self.ledger.integration_loss
         if contacts is not None:
             row |= self._contact_row(attempt, contacts)
         if plan.supports is not None:
@@ -152,32 +146,11 @@ class Recorder:
             stress = stress + initial.stress
         return turned_stress(stress, state.frames.angle[model.manifold.element_body])
 
-    @property
-    def energy_balance(self) -> float:
-        """Return (work - gain of stored energy - lost) over the largest of them in the run.
-
-        Lost is what friction, softening and damping took.
-        """
-        stored = sum(self.energies.values()) - self.stored_first
-        lack = self.work - stored - self.friction_loss
-        return lack / self.throughput if self.throughput else 0.0
-
-    def _energies(self, state: State) -> dict[str, float]:
-        plan, q = self.stepper.plan, state.deformation
-        return {
-            "kinetic_energy": plan.energy("inertia", state),
-            "strain_energy": float(q @ (self.stepper.model.stiffness @ q)) / 2,
-            "contact_energy": plan.energy("contact", state),
-            "support_energy": sum(plan.energy(name, state) for name in HOLDING),
-        }
-
     def _contact_row(self, attempt: Attempt, contacts: "ContactPoints") -> dict[str, float]:
         from nmm.contact.problem import State as ContactState
 
         contact = self.stepper.plan.contact
-        assert attempt.solved is not None
         assert contact is not None
-        self.friction_loss += attempt.solved.loss
         penetration = -float(contacts.gap.min(initial=0.0))
         self.penetration = max(self.penetration, penetration)
         tally = np.bincount(contacts.state, minlength=len(ContactState)).tolist()
@@ -186,9 +159,12 @@ class Recorder:
         self.counts = counts
         for name, count in counts.items():
             self.largest[name] = max(self.largest.get(name, 0), count)
+        lost = {"friction_loss": self.ledger.friction_loss}
+        if attempt.booked is not None:
+            lost["contact_loss"] = self.ledger.contact_loss
         return {
             "penetration": penetration,
-            "friction_loss": self.friction_loss,
+            **lost,
             **{name: float(count) for name, count in counts.items()},
         }
 

@@ -27,6 +27,7 @@ from nmm.stepping.build import block_functions, build_model
 from nmm.stepping.cures import cures, solver_for, warnings
 from nmm.stepping.dynamics import Schedule, run_in_time
 from nmm.stepping.integrators import make_integrator
+from nmm.stepping.ledger import Ledger
 from nmm.stepping.origin import MovedBack, own_origin, shifted, shifted_regions
 from nmm.stepping.parts import check_parts
 from nmm.stepping.plan import Plan, compile_plan
@@ -140,7 +141,8 @@ class Simulation:
         )
         factor = (verdict.load_factor or 0.0) * (1 + 2 * (verdict.tolerance or 0.0))
         times = Schedule(duration, self.formulation.integrator.step, FRAMES // 2, factor, "failure")
-        moving = replace(recorder, stepper=quiet, sink=Frames(recorder.sink))
+        shown = Frames(recorder.sink)
+        moving = replace(recorder, stepper=quiet, sink=shown, ledger=Ledger())
         run_in_time(quiet, moving, replace(state, load_factor=factor), times, progress)
 
     def _load_schedule(self) -> LoadSchedule:
@@ -182,7 +184,7 @@ class Simulation:
             peak_memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
             equilibrium_residual=recorder.residual,
             largest_penetration=recorder.penetration,
-            energy_balance=recorder.energy_balance if self.scene.inertia is not None else None,
+            energy_balance=recorder.ledger.balance,
             condition_estimate=stepper.condition(state),
             failure_load=load,
             failure_factor=verdict.load_factor,

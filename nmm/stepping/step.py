@@ -1,5 +1,6 @@
 """One step: assemble what is constant in it, solve, judge. Nothing is kept unless accepted."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +13,7 @@ from nmm.errors import SolveError
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.alone import Alone
 from nmm.stepping.attempt import Attempt
+from nmm.stepping.booking import booked
 from nmm.stepping.clock import Clock
 from nmm.stepping.equations import Assembly
 from nmm.stepping.integrators import Integrator, Shi
@@ -95,11 +97,15 @@ class Stepper:
             equations = self._assembly.of(state, end, step, self._rule, self.anchored)
         try:
             if self.plan.contact is None:
-                return self._alone.attempt(equations)
-            return self._touching.attempt(equations, breaking)
+                found = self._alone.attempt(equations)
+            else:
+                found = self._touching.attempt(equations, breaking)
         except SolveError as fault:
             rest = np.zeros_like(equations.force)
             return Attempt(False, str(fault), state, rest, 0.0, np.nan, 1)
+        if not found.converged or equations.inertia is None:
+            return found
+        return replace(found, booked=booked(equations, found.increment, found.solved))
 
     def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
         """Make an attempt the start of the next step; return it with its contacts as left."""

@@ -1,0 +1,79 @@
+"""Work of forces on volume that keep their direction while bodies turn and deform."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from integration.arrays import Floats
+from integration.polygons import centroids
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+
+# Arms of a body's weight below this share of its size are rounding.
+EVEN = 1e-12
+
+
+@dataclass(frozen=True)
+class DeadLoad:
+    """A force on volume, fixed in direction.
+
+    A point stands at ``c + R (A + tilt x A + T q)`` with its arm ``A`` from the body's centroid.
+    The way of all points, weighted by the load, is that of ``c``, of ``R A`` and of ``R T q``:
+    where axes stay all of the motion is in ``q``, where they follow it is in ``c``, and ``R A``
+    counts for bodies of uneven weight.
+
+    Attributes
+    ----------
+    model
+        Bodies.
+    density
+        (E, 2) force on the volume of each element in global axes (N/m3).
+    """
+
+    model: Model
+    density: Floats
+
+    def work(self, before: State, after: State, pushed: tuple[Floats, Floats]) -> float:
+        """Return the work (J) between two states; ``pushed`` (n,) are its load vectors in both."""
+        way = after.frames.centre - before.frames.centre
+        found = float(np.sum(self._force * way))
+        if self._lever is not None:
+            found += float(np.sum(self._lever * (_turned(after) - _turned(before))))
+        return found + float(pushed[1] @ after.deformation - pushed[0] @ before.deformation)
+
+    @cached_property
+    def _force(self) -> Floats:
+        """(B, 2) sum of the load on each body (N)."""
+        return np.stack([self._of_bodies(self._of_elements[:, i]) for i in (0, 1)], axis=1)
+
+    @cached_property
+    def _lever(self) -> Floats | None:
+        """(B, 2, 2) sum of force times arm (N m); None where loads are even and tilts do none."""
+        manifold = self.model.manifold
+        arm = centroids(manifold.elements) - manifold.body_centroid[manifold.element_body]
+        found = np.zeros((manifold.n_bodies, 2, 2))
+        for i, j in np.ndindex(2, 2):
+            found[:, i, j] = self._of_bodies(self._of_elements[:, i] * arm[:, j])
+        size = np.sqrt(manifold.body_area)
+        even = np.abs(found).max(axis=(1, 2)) <= EVEN * size * np.abs(self._force).sum(axis=1)
+        return None if even.all() else found
+
+    @cached_property
+    def _of_elements(self) -> Floats:
+        volume = self.model.element_area * self.model.thickness
+        return np.asarray(self.density * volume[:, None])
+
+    def _of_bodies(self, values: Floats) -> Floats:
+        manifold = self.model.manifold
+        found = np.bincount(manifold.element_body, values, minlength=manifold.n_bodies)
+        return np.asarray(found, dtype=float)
+
+
+def _turned(state: State) -> Floats:
+    """(B, 2, 2) from arms in body axes to the way from the centre in global axes."""
+    turn, tilt = state.frames.rotation, state.frames.tilt
+    if tilt is None:
+        return turn
+    across = np.array([[0.0, -1.0], [1.0, 0.0]])
+    return np.asarray(turn @ (np.eye(2) + tilt[:, None, None] * across))
