@@ -6,8 +6,9 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.verification.hard.base import HardCase, HardClass
-from nmm.verification.hard.crossings import GAPS, STEPS, over_parts, steps_of
+from nmm.verification.hard.crossings import GAPS, STEPS, steps_of
 from nmm.verification.hard.motion import flying, moving
+from nmm.verification.hard.parts import over_parts
 from nmm.verification.hard.writing import block, held, in_time, rock
 from nmm.verification.text import turned
 

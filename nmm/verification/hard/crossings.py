@@ -7,9 +7,9 @@ import numpy as np
 import shapely
 
 from integration.arrays import Floats
-from nmm.verification.hard.base import Document, HardCase, HardClass, Judge
+from nmm.verification.hard.base import Document, HardCase, HardClass
 from nmm.verification.hard.motion import flying, moving
-from nmm.verification.hard.parts import moving_parts, with_parts
+from nmm.verification.hard.parts import over_parts
 from nmm.verification.hard.writing import block, held, in_time, rock
 
 COUNTS = (3, 4, 5, 8)
@@ -109,21 +109,6 @@ def fly(
 def steps_of(step: float) -> int:
     """Steps enough for blocks to pass by centimetres, and not more than a hundred and fifty."""
     return int(np.clip(round(0.2 / step), 40, 150))
-
-
-def over_parts(words: str, scene: Document, step: float, judge: Judge) -> Iterator[HardCase]:
-    """Yield a scene with every enforcement and every integrator."""
-    for parts in moving_parts():
-        made = with_parts(
-            scene,
-            {
-                "contact.enforcement": parts["enforcement"],
-                "integrator.type": parts["integrator"],
-                "integrator.step": step,
-            },
-        )
-        label = f"{words}, {step:g} s, {parts['enforcement']}, {parts['integrator']}"
-        yield HardCase(label, made, judge, parts)
 
 
 def _with_point(points: Floats, centre: Floats) -> Floats:

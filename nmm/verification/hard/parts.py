@@ -9,7 +9,7 @@ from nmm.contact.enforcement import ENFORCEMENTS
 from nmm.formulation import Formulation
 from nmm.solvers.linear import SOLVERS
 from nmm.stepping.integrators import INTEGRATORS
-from nmm.verification.hard.base import Document
+from nmm.verification.hard.base import Document, HardCase, Judge
 
 BLOCKS: dict[str, Document] = {
     "block": {"type": "block"},
@@ -89,6 +89,23 @@ def moving_parts() -> Iterator[dict[str, str]]:
     for name in times[1:]:
         for force in forces[:1] + forces[3:4]:
             yield {"enforcement": force, "integrator": name}
+
+
+def over_parts(
+    words: str, scene: Document, step: float, judge: Judge, slow: bool = False
+) -> Iterator[HardCase]:
+    """Yield a scene of bodies in motion with every enforcement and every integrator."""
+    for parts in moving_parts():
+        made = with_parts(
+            scene,
+            {
+                "contact.enforcement": parts["enforcement"],
+                "integrator.type": parts["integrator"],
+                "integrator.step": step,
+            },
+        )
+        label = f"{words}, {step:g} s, {parts['enforcement']}, {parts['integrator']}"
+        yield HardCase(label, made, judge, parts, slow)
 
 
 def _listed(table: str) -> list[str]:

@@ -11,5 +11,9 @@ HARD = Registry[type[HardClass]](
         "crossings": f"{_HOME}.crossings:Crossings",
         "corners": f"{_HOME}.corners:Corners",
         "fans": f"{_HOME}.corners:Fans",
+        "seams": f"{_HOME}.seams:Seams",
+        "wedges": f"{_HOME}.wedges:Wedges",
+        "slopes": f"{_HOME}.slopes:Slopes",
+        "heaps": f"{_HOME}.heaps:Heaps",
     },
 )
