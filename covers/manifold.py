@@ -54,6 +54,8 @@ class Manifold:
     reproduction
         Highest degree of the polynomials that displacements across elements hold everywhere; None
         where every block has covers of its own.
+    richest
+        The same where local functions are of the highest degree.
     fitted, enriched
         Number of covers whose coordinates fit what a cut has left of them, and of those that
         carry singular functions.
@@ -76,6 +78,7 @@ class Manifold:
     dependent: int = 0
     dependent_covers: int = 0
     reproduction: int | None = None
+    richest: int | None = None
     fitted: int = 0
     enriched: int = 0
     singular: Floats = field(default_factory=lambda: np.empty((0, 2)))

@@ -67,7 +67,8 @@ def mesh_manifold(
     n_unknowns = int(builder.offset[-1])
     body_area, body_centroid = _bodies(cut)
     # Covers hold rigid motions themselves where all can, as their mass block by block asks.
-    lowest = min(item.degree for item in kinds.functions)
+    degrees = [item.degree for item in kinds.functions]
+    lowest = min(degrees)
     by_nodes = cover.precision >= 1 and lowest == 0
     nodes = cover.patch_centre[cut.cover_patch] if by_nodes else None
     modes = (kinds, builder.covers, n_unknowns, body_centroid, nodes)
@@ -92,6 +93,7 @@ def mesh_manifold(
         dependent=dependent,
         dependent_covers=int(higher.sum()) if dependent else 0,
         reproduction=cover.precision + lowest,
+        richest=cover.precision + max(degrees),
         fitted=int(builder.fitted.sum()),
         enriched=int((builder.enriched >= 0).sum()),
         singular=np.array([item.point for item in enrichments]).reshape(-1, 2),

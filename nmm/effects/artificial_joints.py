@@ -19,7 +19,8 @@ from nmm.contact.joints import Joints, joint_points
 from nmm.contact.sides import sides
 from nmm.effects.averages import averages
 from nmm.effects.base import Effect, Instant, Setup
-from nmm.effects.glue import degree_of, pairs_of, shared_edges
+from nmm.effects.glue import pairs_of, shared_edges
+from nmm.effects.multiplier_space import degree_of
 from nmm.effects.ties import Pairs, Springs, Tie
 from nmm.errors import FormulationError
 from nmm.geometry.sub_blocks import SubBlocks

@@ -3,10 +3,15 @@
     a(u, v) + int {t(u)}.[v] + {t(v)}.[u] + gamma [u].[v],    {t} = k_1 t_1 + k_2 t_2
 
 with the normal from the second to the first side, jumps first less second. With ``r_i`` the largest
-ratio of ``int t_i^2`` to the energy of what ``t_i`` is taken from, ``k_1 = r_2 / (r_1 + r_2)`` and
-``gamma = 4 r_1 r_2 / (r_1 + r_2)`` make the form positive (Annavarapu, Hautefeuille and Dolbow
-2012; Griebel and Schweitzer 2003 for the ratio). The harmonic mean is below four times the softer
-side's ratio whatever the other's, and a side whose ratio is bad has little weight.
+ratio of ``int t_i^2`` to the energy of what ``t_i`` is taken from, the integral over all edges it
+serves, ``k_1 = r_2 / (r_1 + r_2)`` and ``gamma >= r_1 r_2 / (r_1 + r_2)`` make the form positive
+(Annavarapu, Hautefeuille and Dolbow 2012; Griebel and Schweitzer 2003 for the ratio). A side whose
+ratio is bad has little weight.
+
+The ratio is a modulus ``m_i`` times a reach ``g_i`` in 1/m. The penalty is four times the bound
+with the larger reach on both sides, ``gamma = 4 g m_1 m_2 / (m_1 + m_2)``: below four times the
+softer side's, whatever the other's modulus. With the reach of either side a thin side would hardly
+count, and what is glued to it would give way by a quarter of its own strain where nothing pulls.
 """
 
 from dataclasses import dataclass
@@ -112,24 +117,52 @@ def averages(
     elements
         (m,) and (m,) elements of the first and the second side.
     gamma
-        Penalty as a multiple of the bound ``r_1 r_2 / (r_1 + r_2)``; 4 when not given.
+        Penalty as a multiple of the bound ``g m_1 m_2 / (m_1 + m_2)``; 4 when not given.
     """
-    found, bounds = [], []
-    for side, own in zip((pairs.first, pairs.second), elements, strict=True):
-        donor = donors(model, own)
+    donor = [donors(model, own) for own in elements]
+    found = []
+    for side, own in zip((pairs.first, pairs.second), donor, strict=True):
         place = model.manifold.body_centroid[side.body] + side.arm
-        unknowns, rows = traction_rows(model, donor, place, pairs.normal)
-        bounds.append(traction_bound(model, donor, rows, pairs.weight))
-        found.append(Flux(side.body, unknowns, rows))
+        found.append(Flux(side.body, *traction_rows(model, own, place, pairs.normal)))
+    bounds = _bounds(model, donor, found, pairs.weight)
     # Functions without strain are as a material that nothing strains.
-    rigid = [bound == 0 for bound in bounds]
-    ease = [np.where(r, 0.0, 1 / np.where(r, 1.0, b)) for r, b in zip(rigid, bounds, strict=True)]
+    ease = [_inverse(bound) for bound in bounds]
     total = ease[0] + ease[1]
     held = total > 0
     share = np.where(held, total, 1.0)
-    penalty = np.where(held, (SAFETY if gamma is None else gamma) / share, 0.0)
     weighted = tuple(
         Flux(flux.body, flux.unknowns, (own / share)[:, None, None] * flux.values)
         for flux, own in zip(found, ease, strict=True)
     )
+    penalty = (SAFETY if gamma is None else gamma) * _least(model, donor, bounds)
     return Averages(pairs, (weighted[0], weighted[1]), penalty), ~held
+
+
+def _bounds(
+    model: Model, donor: list[Ints], found: list[Flux], weight: Floats
+) -> tuple[Floats, Floats]:
+    """Largest ratio (m,) of traction to energy of the donors on both sides.
+
+    An element may be on the first side of one edge and on the second of another: its tractions on
+    all of them draw on the same energy.
+    """
+    m, length = len(weight), max(flux.values.shape[2] for flux in found)
+    values = np.zeros((2 * m, 2, length))
+    for number, flux in enumerate(found):  # two sides
+        values[number * m : (number + 1) * m, :, : flux.values.shape[2]] = flux.values
+    both = traction_bound(model, np.concatenate(donor), values, np.tile(weight, 2))
+    return both[:m], both[m:]
+
+
+def _least(model: Model, donor: list[Ints], bounds: tuple[Floats, Floats]) -> Floats:
+    """``g m_1 m_2 / (m_1 + m_2)`` (m,): the bound with the larger reach on both sides (Pa/m)."""
+    modulus = model.elasticity[:, :2, :2].max(axis=(1, 2))
+    reach = np.maximum(bounds[0] / modulus[donor[0]], bounds[1] / modulus[donor[1]])
+    strained = [bound > 0 for bound in bounds]
+    give = [np.where(s, 1 / modulus[d], 0.0) for s, d in zip(strained, donor, strict=True)]
+    return np.asarray(reach * _inverse(give[0] + give[1]))
+
+
+def _inverse(values: Floats) -> Floats:
+    """One over each value; zero for zero."""
+    return np.asarray(np.where(values > 0, 1 / np.where(values > 0, values, 1.0), 0.0))

@@ -10,7 +10,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
 from nmm.effects.base import Instant
-from nmm.effects.multiplier_space import multipliers, pieces_of
+from nmm.effects.multiplier_space import degree_of, multipliers, pieces_of, traction_degree
 from nmm.effects.nitsche_penalty import least_penalty
 from nmm.effects.support_methods import (
     Multipliers,
@@ -65,10 +65,9 @@ class Method:
     gamma: float | None = None
     ghost: float = GHOST
 
-    @property
-    def order(self) -> int:
+    def order(self, model: Model) -> int:
         """Degree of polynomials to integrate along edges."""
-        return 2 * (self.degree + 2)
+        return max(2 * (self.degree + 2), 2 * degree_of(model))
 
     def hold(
         self,
@@ -86,8 +85,8 @@ class Method:
             spring = self._factor(place) * model.modulus[place.elements] / self.size * weight
             return Springs(name, place, axes, displacement, spring)
         if self.kind == "lagrange":
-            pieces = pieces_of(place, model.thickness, self.size)
-            basis = multipliers(pieces, self.size, self.degree, axes)
+            pieces = pieces_of(model, place, self.size)
+            basis = multipliers(pieces, self.size, traction_degree(model), axes)
             shared = Tractions(int(basis.shape[1]))
             return Multipliers(name, place, axes, displacement, weight, basis, shared)
         hard = model.elasticity[:, :2, :2].max(axis=(1, 2))

@@ -13,7 +13,7 @@ from nmm.assembly.motion import initial_state, material_points
 from nmm.contact.joints import Joints, find_joints
 from nmm.contact.sides import sides
 from nmm.effects.averages import averages
-from nmm.effects.multiplier_space import Pieces, multipliers
+from nmm.effects.multiplier_space import Pieces, degree_of, multipliers, traction_degree
 from nmm.effects.multiplier_ties import MultiplierGlue, independent
 from nmm.effects.ties import Pairs, Springs, Tie
 from nmm.errors import FormulationError
@@ -89,8 +89,7 @@ def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
 
 
 def _multipliers(model: Model, joints: Joints, size: float | None) -> MultiplierGlue:
-    degree = degree_of(model)
-    pairs, _, _, joint = pairs_of(model, joints, max(ORDER, 2 * degree + 2))
+    pairs, _, _, joint = pairs_of(model, joints, max(ORDER, 2 * degree_of(model) + 2))
     body = model.manifold.boundary.body
     a, b = body[joints.edge_a], body[joints.edge_b]
     turned = (a > b)[:, None]
@@ -105,16 +104,17 @@ def _multipliers(model: Model, joints: Joints, size: float | None) -> Multiplier
     )
     # A block is one cell: each of its joints has multipliers of its own.
     cell = float(joints.length.sum()) if size is None else size
-    basis = multipliers(pieces, cell, max(degree - 1, 0), np.ones(2, dtype=bool))
+    basis = multipliers(pieces, cell, traction_degree(model), np.ones(2, dtype=bool))
     found = MultiplierGlue(pairs, basis)
     rows, _ = found.border(initial_state(model.manifold), model.manifold.n_unknowns)
-    return replace(found, basis=csr_array(basis[:, independent(rows, model.stiffness.diagonal())]))
+    return replace(found, basis=csr_array(basis[:, independent(rows, _resistance(model))]))
 
 
-def degree_of(model: Model) -> int:
-    """Degree of the displacements, as far as it is known."""
-    found = [getattr(group, "degree", 2) for group in model.manifold.groups]
-    return max(found, default=1)
+def _resistance(model: Model) -> Floats:
+    """Stiffness (n,) of each unknown, motions of whole bodies held by springs of their modulus."""
+    area = model.manifold.body_area[model.manifold.element_body]
+    held = replace(model, density=model.modulus / area).consistent_mass
+    return np.asarray(model.stiffness.diagonal() + held.diagonal())
 
 
 def glue_stiffness(model: Model, joints: Joints, method: "Glue") -> Floats:

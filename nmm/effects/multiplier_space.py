@@ -14,6 +14,7 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from integration.monomials import evaluate, exponents
+from nmm.assembly.model import Model
 from nmm.assembly.places import Place
 
 # Length of a group in cells; kink (rad) at which a line ends; a function that the others resemble
@@ -50,8 +51,11 @@ class Pieces:
     weight: Floats
 
 
-def pieces_of(place: Place, thickness: float, size: float) -> Pieces:
-    """Return the pieces that points along edges came from: one element and one normal each."""
+def pieces_of(model: Model, place: Place, size: float) -> Pieces:
+    """Return the pieces that points along edges came from: one element and one normal each.
+
+    Multipliers end where a body does: across two of different stiffness a traction jumps.
+    """
     assert place.normal is not None
     x, n = place.position, place.normal
     new = np.ones(len(x), dtype=bool)
@@ -68,9 +72,21 @@ def pieces_of(place: Place, thickness: float, size: float) -> Pieces:
     # The material is on the left of an edge, and its normal points to the right.
     first = n[new]
     along = np.stack([-first[:, 1], first[:, 0]], axis=1) * length[:, None] / 2
-    line = np.zeros(count, dtype=np.int64)
-    weight = place.weight * thickness
+    line = model.manifold.element_body[place.elements[new]]
+    weight = place.weight * model.thickness
     return Pieces(middle - along, middle + along, line, piece, x, n, weight)
+
+
+def traction_degree(model: Model) -> int:
+    """Degree of the stresses of the polynomials that displacements hold where they are richest."""
+    richest = model.manifold.richest
+    return max((degree_of(model) if richest is None else richest) - 1, 0)
+
+
+def degree_of(model: Model) -> int:
+    """Degree of the displacements on an element, as far as it is known."""
+    found = [getattr(group, "degree", 2) for group in model.manifold.groups]
+    return max(found, default=1)
 
 
 def join(parts: Sequence[Pieces]) -> Pieces:

@@ -9,9 +9,11 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
 from nmm.effects.ties import Pairs
 
-# A condition that others imply up to this share of it is left out; more conditions than this are
-# not looked at.
-IMPLIED, MANY = 1e-8, 3000
+# A condition that others imply up to this share of it is left out, and one that is this share of
+# the largest: it is the rounding of none. The first is the root of what products of rows resolve.
+IMPLIED, NOTHING = 1e-6, 1e-12
+# More conditions than this are not looked at.
+MANY = 3000
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,7 @@ def independent(rows: csr_array, diagonal: Floats) -> Ints:
     soft = diags_array(np.where(diagonal > 0, 1 / np.where(diagonal > 0, diagonal, 1.0), 0.0))
     gram = np.asarray((rows @ soft @ rows.T).todense())
     size = np.sqrt(gram.diagonal())
-    scale = np.where(size > 0, 1 / np.where(size > 0, size, 1.0), 0.0)
+    said = size > NOTHING * size.max()
+    scale = np.where(said, 1 / np.where(said, size, 1.0), 0.0)
     _, order, rank, _ = dpstrf(scale[:, None] * gram * scale, tol=IMPLIED**2)
     return np.sort(order[:rank] - 1)

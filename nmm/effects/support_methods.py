@@ -18,7 +18,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
 from nmm.effects.base import Instant
-from nmm.effects.multiplier_space import join, multipliers, pieces_of
+from nmm.effects.multiplier_space import join, multipliers, pieces_of, traction_degree
 from nmm.effects.rows import AXES, sparse_rows
 
 Triplets = tuple[Ints, Ints, Floats]
@@ -256,9 +256,7 @@ class Multipliers(Support):
         return csr_array(heavy @ rows), heavy @ lag.ravel()
 
 
-def share_multipliers(
-    supports: Sequence[Support], size: float, degree: int, thickness: float
-) -> list[Support]:
+def share_multipliers(model: Model, supports: Sequence[Support], size: float) -> list[Support]:
     """Return the supports, those by multipliers that hold the same axes with multipliers in common.
 
     An edge of many short supports has room for no more multipliers than one support along it.
@@ -272,8 +270,8 @@ def share_multipliers(
             if isinstance(s, Multipliers) and tuple(s.held.tolist()) == held
         ]
         parts = [supports[i] for i in number]
-        pieces = join([pieces_of(part.place, thickness, size) for part in parts])
-        basis = multipliers(pieces, size, degree, parts[0].held)
+        pieces = join([pieces_of(model, part.place, size) for part in parts])
+        basis = multipliers(pieces, size, traction_degree(model), parts[0].held)
         shared, first = Tractions(int(basis.shape[1])), 0
         for i, part in zip(number, parts, strict=True):  # supports: a handful
             assert isinstance(part, Multipliers)

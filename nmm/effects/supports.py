@@ -61,7 +61,7 @@ class Supports(Effect):
         found = [_support(setup, support) for support in setup.scene.supports]
         method = _method(setup)
         if method.size is not None:
-            found = share_multipliers(found, method.size, method.degree, setup.model.thickness)
+            found = share_multipliers(setup.model, found, method.size)
         scene = setup.scene
         still = all(one.history is None or not any(one.displacement) for one in scene.supports)
         n_unknowns = setup.model.manifold.n_unknowns
@@ -207,7 +207,7 @@ def _method(setup: Setup) -> Method:
 def _support(setup: Setup, support: "SceneSupport") -> Support:
     method = _method(setup)
     mesh = not setup.formulation.cover.of_blocks
-    place = _place(setup, support, method.order if mesh else 4)
+    place = _place(setup, support, method.order(setup.model) if mesh else 4)
     to = np.array(support.displacement)
     held = ("x" in support.fix, "y" in support.fix)
     factor = displacement_factor(setup, support)

@@ -18,12 +18,12 @@ ACCEPTED = 1e-8
 """Largest relative residual of a solution; above it the load works on a free motion."""
 SHIFT = 1e-10
 """Part of the diagonal added to a rank-deficient matrix (Duarte, Babuska, Oden 2000)."""
-ROUNDING = 1e-15
+PIVOT = 1e-15
 """Part of the diagonal added to every matrix: what rounding changes anyway. It keeps a pivot of a
 rank-deficient matrix from being exactly zero, over which decompositions trip."""
 DIRECTIONS = 12
 """Most directions in which the shift of a decomposition is taken out at once."""
-ROUNDING = 1e-14
+FLOOR = 1e-14
 """Residual that rounding leaves for each unit of the solution."""
 SLOW = 1e-10
 """Residual above which refinement of a shifted matrix is given help."""
@@ -136,7 +136,7 @@ class Factor:
                 "stiffnesses and masses: check materials and the size of the step"
             )
         scale = solver.scaling(matrix)
-        scaled = _scaled(matrix, scale, max(solver.shift, ROUNDING))
+        scaled = _scaled(matrix, scale, max(solver.shift, PIVOT))
         try:
             return cls(solver, matrix, scale, solver.decompose(scaled))
         except RankDeficientError:
@@ -253,7 +253,7 @@ def sorted_rows(matrix: csc_array) -> csc_array:
 
 def _limit(growth: float) -> float:
     """Residual to accept: where the solution outgrows its load, rounding of it sets the floor."""
-    return max(ACCEPTED, ROUNDING * growth)
+    return max(ACCEPTED, FLOOR * growth)
 
 
 def jacobi_scale(matrix: csc_array) -> Floats:

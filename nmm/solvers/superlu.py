@@ -10,6 +10,7 @@ from scipy.sparse.linalg import splu
 
 from integration.arrays import Floats
 from nmm.solvers.linear import LinearSolver, RankDeficientError, jacobi_scale, ruiz_scale
+from nmm.solvers.saddle import saddle_scale
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,11 @@ class SuperLU(LinearSolver):
 
     def scaling(self, matrix: csc_array) -> Floats:
         """By the diagonal, or by the largest entries where diagonals may vanish."""
-        return ruiz_scale(matrix) if self.equilibrate else jacobi_scale(matrix)
+        if not self.equilibrate:
+            return jacobi_scale(matrix)
+        if matrix.diagonal().all():
+            return ruiz_scale(matrix)
+        return saddle_scale(matrix)
 
     def indefinite(self) -> "SuperLU":
         """Equilibrated, pivots within a factor 10 of the largest entry, refined twice."""

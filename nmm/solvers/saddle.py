@@ -1,0 +1,44 @@
+"""Scaling of systems with conditions held by multipliers: zeros on the diagonal."""
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+
+# Conditions are linked to stiff unknowns over at most so many free ones.
+LINKS = 20
+# An entry below this share of the largest of its column is rounding and no link.
+ROUNDED = 1e-12
+
+
+def saddle_scale(matrix: csc_array) -> Floats:
+    """(n,) factors: unknowns by their stiffness, multipliers by what holds their conditions.
+
+    With ``D`` the positive part of the diagonal a condition ``c`` is scaled by the root of
+    ``c D^-1 c^T``, so that its pivot after elimination is about one. What has neither a stiffness
+    nor a link to one, a translation of a glued block, takes the scale of its largest condition.
+    Scaling by the largest entry instead makes of a block without springs a stiff one, and loses
+    the digits of its strain.
+    """
+    diagonal = np.abs(matrix.diagonal())
+    known = diagonal > 0
+    scale = np.where(known, 1 / np.sqrt(np.where(known, diagonal, 1.0)), 0.0)
+    square = csc_array((_links(matrix) ** 2, matrix.indices, matrix.indptr), shape=matrix.shape)
+    for _ in range(LINKS):  # from stiff unknowns to conditions, and on
+        if known.all():
+            break
+        reach = np.sqrt(square.T @ scale**2)
+        found = ~known & (reach > 0)
+        if not found.any():
+            break
+        scale = np.where(found, 1 / np.where(found, reach, 1.0), scale)
+        known |= found
+    return np.asarray(np.where(known, scale, 1.0))
+
+
+def _links(matrix: csc_array) -> Floats:
+    """Entries, zero where they are rounding beside others of their column."""
+    size = np.abs(matrix.data)
+    largest = np.asarray(abs(matrix).max(axis=0).todense()).ravel()
+    column = np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.indptr))
+    return np.asarray(np.where(size > ROUNDED * largest[column], matrix.data, 0.0))
