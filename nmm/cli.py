@@ -12,12 +12,16 @@ from nmm.terminal import (
     console,
     faults_told,
     progress_bar,
+    tell_faults,
     tell_files,
     tell_next,
     tell_run,
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from nmm.results import StoredRun
     from nmm.results.sink import RunData
     from nmm.scene import Scene
 
@@ -95,16 +99,28 @@ def plot(
     component: Annotated[
         str, typer.Option(help="Stress drawn: mises, xx, yy, xy, major, minor.")
     ] = "mises",
+    paraview: Annotated[
+        bool, typer.Option("--paraview", help="Write the ParaView files anew too.")
+    ] = False,
 ) -> None:
-    """Draw a run again, whole or one frame of it; a run that was stopped can be drawn too."""
-    from nmm.results import read_run
-    from nmm.scene import parse_scene
+    """Draw a run again, whole or one frame of it; a run that was stopped can be drawn too.
 
+    Exit code 1 when the folder is damaged so that a picture or file could not be made.
+    """
+    from nmm.results import read_run
+
+    missed: list[str] = []
     with faults_told():
         stored = read_run(run)
-        scene = parse_scene(stored.scene, str(run / "scene.toml")) if stored.scene else None
         _frame_exists(frame, len(stored.frames))
-        tell_files(_draw(stored, run, scene, frame, magnification, component))
+        scene = _scene_of(stored, missed.append)
+        drawn = _draw(stored, run, scene, frame, magnification, component, missed.append)
+        tell_files([*drawn, *(_paraview(stored, run, missed.append) if paraview else ())])
+        if not drawn:
+            missed.append(f"{run}: nothing to draw: expected frames or a history: run it again")
+    tell_faults(missed)
+    if missed:
+        raise typer.Exit(1)
 
 
 study_verbs.register(app)
@@ -143,6 +159,7 @@ def _draw(
     frame: int | None = None,
     magnification: float | None = None,
     component: str = "mises",
+    tell: "Callable[[str], None] | None" = None,
 ) -> list[Path]:
     from nmm.plots import draw_all
     from nmm.results.files import PICTURES
@@ -154,14 +171,30 @@ def _draw(
         frame=frame,
         magnification=magnification,
         component=component,
+        tell=tell,
     )
 
 
-def _paraview(run: "RunData", folder: Path) -> list[Path]:
+def _scene_of(stored: "StoredRun", tell: "Callable[[str], None]") -> "Scene | None":
+    """Read the scene of a run again; a run is drawn without one that cannot be read."""
+    from nmm.errors import NmmError
+    from nmm.results.files import SCENE
+    from nmm.scene import parse_scene
+
+    try:
+        return parse_scene(stored.scene, str(stored.folder / SCENE)) if stored.scene else None
+    except NmmError as error:
+        tell(f"{error.faults[0]}; supports, loads and covers are not drawn")
+        return None
+
+
+def _paraview(
+    run: "RunData", folder: Path, tell: "Callable[[str], None] | None" = None
+) -> list[Path]:
     from nmm.results.files import PARAVIEW
     from nmm.results.paraview import write_paraview
 
-    return write_paraview(run, folder / PARAVIEW)
+    return write_paraview(run, folder / PARAVIEW, tell)
 
 
 def _frame_exists(frame: int | None, count: int) -> None:

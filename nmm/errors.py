@@ -60,3 +60,15 @@ class FormulationError(NmmError):
 
 class SolveError(NmmError):
     """A step was not solved: the line names step, contact, residual and remedy."""
+
+
+class StorageError(NmmError):
+    """A file or folder of a run cannot be written or read: the line names it and what to do."""
+
+
+class DamageError(StorageError):
+    """A file of a run folder is missing, cut off or altered."""
+
+
+class NmmWarning(UserWarning):
+    """What a caller should know though nothing is refused, such as a damaged run folder."""

@@ -1,13 +1,14 @@
 """What the command line prints: verdicts, faults, files, progress."""
 
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
-from nmm.errors import NmmError
+from nmm.errors import NmmError, NmmWarning
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -23,19 +24,38 @@ FAILED = "failed"
 def faults_told() -> Iterator[None]:
     """Print the faults of an error one a line and leave with exit code 1.
 
-    So is a file or folder that cannot be read or written.
+    So is a file or folder that cannot be read or written. Warnings of nmm are printed one a line.
     """
     try:
-        yield
+        with _warnings_told():
+            yield
     except NmmError as error:
         tell_faults([str(fault) for fault in error.faults])
         raise typer.Exit(1) from None
     except OSError as error:
-        if error.filename is None:
+        if error.errno is None:
             raise
+        place = "a file" if error.filename is None else error.filename
         expected = "a place that can be read and written: choose another one, or free it"
-        tell_faults([f"{error.filename}: {error.strerror}: expected {expected}"])
+        tell_faults([f"{place}: {error.strerror}: expected {expected}"])
         raise typer.Exit(1) from None
+
+
+@contextmanager
+def _warnings_told() -> Iterator[None]:
+    """Print warnings of nmm as sentences; those of others stay as they are."""
+    with warnings.catch_warnings():
+        others = warnings.showwarning
+
+        def show(message: Warning | str, category: type[Warning], *rest: Any, **more: Any) -> None:
+            if issubclass(category, NmmWarning):
+                typer.secho(f"warning: {message}", fg="yellow", err=True)
+            else:
+                others(message, category, *rest, **more)
+
+        warnings.showwarning = show
+        warnings.simplefilter("always", NmmWarning)
+        yield
 
 
 def tell_faults(faults: Sequence[str]) -> None:

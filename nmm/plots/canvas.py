@@ -1,5 +1,6 @@
 """Figures and axes: made without pyplot, so that no window system and no global state is needed."""
 
+import io
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,6 +10,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import Polygons
+from nmm.results.writing import told, write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -127,6 +129,9 @@ def save(axes: "Axes", path: PathLike | None) -> None:
     """Write the figure of the axes when a path is given; folders are made when missing."""
     if path is None:
         return
-    target = Path(path)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    axes.figure.figure.savefig(target, dpi=RESOLUTION)
+    target, picture = Path(path), io.BytesIO()
+    kind = target.suffix.removeprefix(".") or "png"
+    axes.figure.figure.savefig(picture, dpi=RESOLUTION, format=kind)
+    with told(target.parent):
+        target.parent.mkdir(parents=True, exist_ok=True)
+    write_bytes(target, picture.getvalue())

@@ -1,21 +1,25 @@
 """All pictures of a run that have something to show, in one folder."""
 
 import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from integration.arrays import Floats
+from nmm.errors import DamageError, FormulationError, SceneError
 from nmm.plots.contact_forces import contact_forces
 from nmm.plots.covers import covers
 from nmm.plots.curves import load_displacement, overview
 from nmm.plots.deformed import deformed, failure_mode
 from nmm.plots.stress import stress
+from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
 
 if TYPE_CHECKING:
     from nmm.scene import Scene
-    from nmm.stepping.covering import Covering
 
 
 def draw_all(
@@ -26,6 +30,7 @@ def draw_all(
     frame: int | None = None,
     magnification: float | None = None,
     component: str = "mises",
+    tell: Callable[[str], None] | None = None,
 ) -> list[Path]:
     """Draw a run and return the files, the most telling one first.
 
@@ -44,33 +49,66 @@ def draw_all(
         Factor on displacements; None takes a round one that makes them visible.
     component
         Measure of stress, see `stress`.
+    tell
+        Called with a sentence for each picture that a damaged run folder does not let us draw; the
+        others are drawn. Without it the first such fault is raised.
     """
     target = Path(folder)
     drawn: list[Path] = []
+    shown = _readable(run, tell)
 
-    def file(name: str) -> Path:
-        drawn.append(target / name)
-        return drawn[-1]
+    def draw(name: str, picture: Callable[..., object], *what: object, **how: object) -> None:
+        try:
+            made = picture(*what, **how, path=target / name)
+        except (DamageError, SceneError, FormulationError) as fault:
+            if tell is None:
+                raise
+            tell(f"{name} is not drawn: {fault}")
+        else:
+            drawn.extend([target / name] if made is not False else [])
 
-    if not run.frames:
-        return drawn
-    calm = _last_before_failure(run) if frame is None else frame
-    if frame is not None:
-        deformed(run, frame=frame, magnification=magnification, path=file("deformed.png"))
-    else:
-        name = "failure_mode.png" if run.frames[-1].stage == "failure" else "deformed.png"
-        failure_mode(run, scene=scene, magnification=magnification, path=file(name))
-    stress(run, component, frame=calm, path=file(f"stress_{component}.png"))
-    if len(run.frames[calm].contact_gap):
-        contact_forces(run, frame=calm, path=file("contact_forces.png"))
-    covering = _covering(run, scene)
-    if covering is not None and covering.laid is not None and covering.cut is not None:
-        covers(covering.laid, covering.cut, path=file("covers.png"))
+    if shown.frames:
+        calm = _last_before_failure(shown) if frame is None else frame
+        if frame is not None:
+            draw("deformed.png", deformed, shown, frame=frame, magnification=magnification)
+        else:
+            name = "failure_mode.png" if shown.frames[-1].stage == "failure" else "deformed.png"
+            draw(name, failure_mode, shown, scene=scene, magnification=magnification)
+        draw(f"stress_{component}.png", stress, shown, component, frame=calm)
+        if len(shown.frames[calm].contact_gap):
+            draw("contact_forces.png", contact_forces, shown, frame=calm)
+        if _has_covers(run, scene):
+            draw("covers.png", _covers, run, scene)
     if _steps(run) > 1:  # one step is no curve
-        if run.frames[-1].stage != "dynamic" and _moved(run):
-            load_displacement(run, path=file("load_displacement.png"))
-        overview(run, path=file("history.png"))
+        if _moved(run) and not (shown.frames and shown.frames[-1].stage == "dynamic"):
+            draw("load_displacement.png", load_displacement, run)
+        draw("history.png", overview, run)
     return drawn
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """A run up to its last frame that can be read."""
+
+    topologies: Sequence[Topology]
+    frames: Sequence[Frame]
+    history: Mapping[str, Floats]
+
+
+def _readable(run: RunData, tell: Callable[[str], None] | None) -> RunData:
+    """Return the run without damaged frames at its end, which are told."""
+    count = len(run.frames)
+    while count and tell is not None:
+        try:
+            run.frames[count - 1]
+        except DamageError as fault:
+            tell(str(fault))
+            count -= 1
+        else:
+            break
+    if count == len(run.frames):
+        return run
+    return _Shown(run.topologies, run.frames[:count], run.history)
 
 
 def _last_before_failure(run: RunData) -> int:
@@ -90,16 +128,22 @@ def _moved(run: RunData) -> bool:
     )
 
 
-def _covering(run: RunData, scene: "Scene | None") -> "Covering | None":
-    """Lay the covers of a stored run again; None for blocks and where scene or text is missing."""
-    text = getattr(run, "formulation", "")
-    if scene is None or not text:
-        return None
+def _has_covers(run: RunData, scene: "Scene | None") -> bool:
+    return scene is not None and bool(getattr(run, "formulation", ""))
+
+
+def _covers(run: RunData, scene: "Scene", path: Path) -> bool:
+    """Lay the covers of a stored run again and draw them; blocks have none to draw."""
     from nmm.formulation import parse_formulation
     from nmm.geometry import regions
     from nmm.stepping.covering import cover_regions
 
+    text: str = getattr(run, "formulation", "")
     cover = parse_formulation(text).cover.model_copy(update={"enrichment": None})
     if cover.of_blocks:
-        return None
-    return cover_regions(regions(scene), cover, [np.array(item.points) for item in scene.cracks])
+        return False
+    laid = cover_regions(regions(scene), cover, [np.array(item.points) for item in scene.cracks])
+    if laid.laid is None or laid.cut is None:
+        return False
+    covers(laid.laid, laid.cut, path=path)
+    return True

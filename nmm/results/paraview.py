@@ -6,23 +6,28 @@ openings show. `contacts.pvd` holds the contact points where they are, with thei
 """
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.errors import DamageError
 from nmm.results.cells import Cells, cells
-from nmm.results.files import write_text
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
 from nmm.results.vtu import POLYGON, TRIANGLE, VERTEX, collection, in_space, unstructured_grid
+from nmm.results.writing import told, write_text
 
 STRESS = {"stress": ("xx", "yy", "xy")}
 
 
-def write_paraview(run: RunData, folder: str | os.PathLike[str]) -> list[Path]:
+def write_paraview(
+    run: RunData,
+    folder: str | os.PathLike[str],
+    tell: Callable[[str], None] | None = None,
+) -> list[Path]:
     """Write all frames of a run for ParaView.
 
     Parameters
@@ -31,47 +36,82 @@ def write_paraview(run: RunData, folder: str | os.PathLike[str]) -> list[Path]:
         A run in memory or a stored one.
     folder
         Where the files go; made when missing.
+    tell
+        Called with a sentence for each frame of a damaged run folder, which is left out. Without
+        it the first such fault is raised.
 
     Returns
     -------
     list of Path
         The files to open: `blocks.pvd` and, when the run has contact points, `contacts.pvd`.
+
+    Raises
+    ------
+    StorageError
+        When a file cannot be written.
+    DamageError
+        When a frame cannot be read and there is no ``tell``.
     """
     target = Path(folder)
-    target.mkdir(parents=True, exist_ok=True)
-    cut = [cells(topology.elements) for topology in run.topologies]
-    times = output_times(run.frames)
+    with told(target):
+        target.mkdir(parents=True, exist_ok=True)
+    cut: dict[int, Cells] = {}
+    times: list[float] = []
+    bare = ""  # the text of contacts where there are none; written once there are some
+    touching = False
+    for frame, topology in _readable(run, tell):
+        if frame.topology not in cut:
+            cut[frame.topology] = cells(topology.elements)
+        number = len(times)
+        write_text(
+            _file(target, "blocks", number), blocks_grid(frame, topology, cut[frame.topology])
+        )
+        times.append(frame.time)
+        contacts = contacts_grid(frame)
+        if not touching and len(frame.contact_gap):
+            touching = True
+            for earlier in range(number):
+                write_text(_file(target, "contacts", earlier), bare)
+        if touching:
+            write_text(_file(target, "contacts", number), contacts)
+        bare = bare or contacts
+    names = ("blocks", "contacts") if touching else ("blocks",)
+    return [_write_collection(target, name, output_times(times)) for name in names]
 
-    def block_text(frame: Frame) -> str:
-        return blocks_grid(frame, run.topologies[frame.topology], cut[frame.topology])
 
-    opened = [_write_series(target, "blocks", run.frames, times, block_text)]
-    if any(len(frame.contact_gap) for frame in run.frames):
-        opened.append(_write_series(target, "contacts", run.frames, times, contacts_grid))
-    return opened
+def _file(folder: Path, name: str, number: int) -> Path:
+    return folder / f"{name}_{number:06d}.vtu"
 
 
-def output_times(frames: Sequence[Frame]) -> list[float]:
+def _readable(run: RunData, tell: Callable[[str], None] | None) -> Iterator[tuple[Frame, Topology]]:
+    """Yield the frames that can be read with their topologies, and tell each fault once."""
+    told_before = set[str]()
+    for number in range(len(run.frames)):
+        try:
+            frame = run.frames[number]
+            topology = run.topologies[frame.topology]
+        except DamageError as fault:
+            if tell is None:
+                raise
+            if str(fault) not in told_before:
+                tell(str(fault))
+                told_before.add(str(fault))
+        else:
+            yield frame, topology
+
+
+def output_times(times: Sequence[float]) -> list[float]:
     """Return the times of frames, s; their numbers where time does not grow from frame to frame.
 
     Viewers take two files at one time for two parts of one state.
     """
-    times = [frame.time for frame in frames]
     if any(late <= early for early, late in pairwise(times)):
         return [float(number) for number in range(len(times))]
-    return times
+    return list(times)
 
 
-def _write_series(
-    folder: Path,
-    name: str,
-    frames: Sequence[Frame],
-    times: Sequence[float],
-    text: Callable[[Frame], str],
-) -> Path:
-    names = [f"{name}_{number:06d}.vtu" for number in range(len(frames))]
-    for file, frame in zip(names, frames, strict=True):
-        write_text(folder / file, text(frame))
+def _write_collection(folder: Path, name: str, times: Sequence[float]) -> Path:
+    names = [_file(folder, name, number).name for number in range(len(times))]
     write_text(folder / f"{name}.pvd", collection(times, names))
     return folder / f"{name}.pvd"
 

@@ -1,20 +1,26 @@
 """The folder of a run, written while the run goes.
 
-Layout: `scene.toml` and `formulation.toml` as run, `topology.npz`, `frames/000000.npz`, ...,
-`history.csv`, `summary.json`. Every file but the history is put in place whole, the history is
-flushed line by line, so a run that was killed can be read up to its last step.
+Layout: `run.json` with the version of this layout, `scene.toml` and `formulation.toml` as run,
+`topology.npz`, `frames/000000.npz`, ..., `history.csv`, `summary.json`; `.lock` while a run writes.
+Every file but the history is put in place whole, the history grows by whole lines, so a run that
+was killed can be read up to its last step.
 """
 
 import os
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from warnings import warn
 
-from nmm.errors import NmmError
-from nmm.results import files
+from nmm.errors import NmmError, NmmWarning
+from nmm.results import files, former
 from nmm.results.frame import Frame, Topology
 from nmm.results.history import HistoryFile
-from nmm.results.summary import Summary
+from nmm.results.lock import FolderLock
+from nmm.results.mark import Mark
+from nmm.results.summary import REPLACING, STOPPED, Summary
+from nmm.results.writing import ToDisk, told, write_text
 
 
 class RunFolder:
@@ -31,8 +37,14 @@ class RunFolder:
 
     Raises
     ------
-    NmmError
-        When the folder holds files but no run, so that nothing of the user's is deleted.
+    StorageError
+        When the folder cannot be written, holds files but no run, so that nothing of the user's is
+        deleted, or another run is writing to it.
+
+    Warns
+    -----
+    NmmWarning
+        When the earlier run there was killed.
     """
 
     def __init__(
@@ -44,43 +56,91 @@ class RunFolder:
         summary: Summary | None = None,
     ) -> None:
         self.path = Path(path)
-        _clear(self.path)
-        (self.path / files.FRAMES).mkdir(parents=True, exist_ok=True)
-        files.write_text(self.path / files.SUMMARY, (summary or Summary()).to_json())
-        files.write_text(self.path / files.SCENE, scene)
-        files.write_text(self.path / files.FORMULATION, formulation)
+        self._summary = summary or Summary()
+        self._topologies = self._frames = self._rows = 0
+        replaced = former.is_there(self.path)
+        with told(self.path):
+            self.path.mkdir(parents=True, exist_ok=True)
+        self._lock = FolderLock(self.path / files.LOCK)
+        try:
+            self._disk = ToDisk()
+            self._replace(replaced)
+            self._start(scene, formulation)
+            self._write(files.SUMMARY, self._summary.to_json())
+        except BaseException:
+            self._lock.release()
+            raise
         self._history = HistoryFile(self.path / files.HISTORY)
-        self._topologies = 0
 
     def begin(self, topology: Topology) -> None:
         """Write the elements as the topology of the frames to come."""
-        files.write_topology(self.path / files.topology_name(self._topologies), topology)
+        path = self.path / files.topology_name(self._topologies)
+        files.write_topology(path, topology)
+        self._disk.wrote(path)
         self._topologies += 1
 
     def frame(self, frame: Frame) -> None:
         """Write one frame."""
         numbered = replace(frame, topology=self._topologies - 1)
-        files.write_frame(self.path / files.FRAMES / files.frame_name(frame.index), numbered)
+        path = self.path / files.FRAMES / files.frame_name(frame.index)
+        files.write_frame(path, numbered)
+        self._disk.wrote(path)
+        self._frames += 1
 
     def row(self, values: Mapping[str, float]) -> None:
         """Append one row to the history."""
         self._history.append(values)
+        self._rows += 1
+        self._disk.wrote(self._history.path)
 
     def finish(self, summary: Summary) -> None:
-        """Put the summary in the place of the one that says "running"."""
+        """Put the summary in the place of the one that says "running", and free the folder."""
+        self._write(files.SUMMARY, summary.to_json())
+        self._disk.sync()
+        self.close()
+
+    def stop(self, fault: BaseException) -> None:
+        """Say in the summary that the run was stopped and by what, as far as that can be written.
+
+        Nothing happens after `finish`.
+        """
+        if self._lock.released:
+            return
+        with suppress(NmmError):
+            said = f"{type(fault).__name__}: {fault}".rstrip(": ")
+            sentence = f"the run was stopped before its end after {self._rows} steps by {said}"
+            stopped = replace(self._summary, status=STOPPED, sentence=" ".join(sentence.split()))
+            self._write(files.SUMMARY, replace(stopped, steps=self._rows).to_json())
+            self._disk.sync()
+        self.close()
+
+    def close(self) -> None:
+        """Close the history and free the folder; a second call does nothing."""
         self._history.close()
-        files.write_text(self.path / files.SUMMARY, summary.to_json())
+        self._lock.release()
 
+    def _replace(self, replaced: bool) -> None:
+        """Delete the earlier run; whoever is killed over it leaves a folder that says so."""
+        if self._lock.stale is not None:
+            warn(
+                f"{self.path}: {self._lock.stale} was stopped here before its run had ended: "
+                "what it left is replaced",
+                NmmWarning,
+                stacklevel=4,
+            )
+        status = REPLACING if replaced else self._summary.status
+        self._write(files.SUMMARY, replace(self._summary, status=status).to_json())
+        if replaced:
+            former.delete(self.path)
 
-def _clear(path: Path) -> None:
-    """Delete the files of an earlier run, and refuse a folder that holds something else."""
-    if not path.exists():
-        return
-    if not path.is_dir() or (any(path.iterdir()) and not (path / files.SUMMARY).exists()):
-        raise NmmError(
-            f"{path}: exists and is not a run folder: expected a new or empty folder, or one with "
-            f"{files.SUMMARY}: choose another name"
-        )
-    for pattern in files.OF_A_RUN:
-        for old in path.glob(pattern):
-            old.unlink()
+    def _start(self, scene: str, formulation: str) -> None:
+        with told(self.path / files.FRAMES):
+            (self.path / files.FRAMES).mkdir(exist_ok=True)
+        self._write(files.SCENE, scene)
+        self._write(files.FORMULATION, formulation)
+        mark = Mark.of({files.SCENE: scene, files.FORMULATION: formulation})
+        self._write(files.MARK, mark.to_json())
+
+    def _write(self, name: str, content: str) -> None:
+        write_text(self.path / name, content)
+        self._disk.wrote(self.path / name)

@@ -3,10 +3,13 @@
 import json
 import math
 import platform
+import types
+from collections import abc
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from importlib import metadata
-from typing import TYPE_CHECKING, Any
+from types import NoneType
+from typing import TYPE_CHECKING, Any, get_args, get_origin
 
 from nmm.errors import NmmError
 
@@ -14,6 +17,9 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 RUNNING = "running"
+STOPPED = "stopped"
+REPLACING = "replacing"
+UNKNOWN = "unknown"
 FAILED = "failed"
 PACKAGES = ("nmm-framework", "numpy", "scipy", "scikit-fem", "shapely", "numba")
 
@@ -37,8 +43,9 @@ class Summary:
     ----------
     status, sentence
         Code of the verdict ("running", "converged", ...) and the sentence that explains it.
-    blocks, elements, covers, unknowns, steps, passes
-        Counts; covers are physical covers, passes are contact passes summed over steps.
+    blocks, elements, covers, unknowns, steps, passes, frames
+        Counts; covers are physical covers, passes are contact passes summed over steps, frames are
+        those stored, of the motion after failure too.
     cures
         What was done about dependent functions and small cuts, and on how many of them.
     warnings
@@ -75,6 +82,7 @@ class Summary:
     warnings: Sequence[str] = field(default_factory=list)
     steps: int = 0
     passes: int = 0
+    frames: int = 0
     seconds: Mapping[str, float] = field(default_factory=dict)
     effect_seconds: Mapping[str, float] = field(default_factory=dict)
     peak_memory: int | None = None
@@ -102,12 +110,20 @@ class Summary:
         Raises
         ------
         NmmError
-            When the text is not JSON or names a field that a summary does not have.
+            When the text is not JSON, names a field that a summary does not have, or gives one a
+            value of another kind.
         """
         try:
             values = json.loads(text)
         except json.JSONDecodeError as fault:
             raise NmmError(f"summary.json, line {fault.lineno}: not JSON ({fault.msg})") from fault
+        except (
+            ValueError,
+            RecursionError,
+        ) as fault:  # more than Python reads
+            raise NmmError(f"summary.json: not JSON ({fault})") from fault
+        if not isinstance(values, dict):
+            raise NmmError("summary.json: expected a table of fields")
         return cls.from_mapping(values)
 
     @classmethod
@@ -117,7 +133,7 @@ class Summary:
         Raises
         ------
         NmmError
-            When a key is not a field of a summary.
+            When a key is not a field of a summary, or its value is of another kind.
         """
         known = {item.name for item in fields(cls)}
         strange = sorted(set(values) - known)
@@ -125,7 +141,30 @@ class Summary:
             raise NmmError(
                 f"summary: unknown field {strange[0]!r}: expected one of {', '.join(sorted(known))}"
             )
+        for item in fields(cls):
+            if item.name in values and not _fits(values[item.name], item.type):
+                raise NmmError(
+                    f"summary: {item.name}: {values[item.name]!r}: expected {item.type}: "
+                    "restore the file"
+                )
         return cls(**values)
+
+
+def _fits(value: Any, kind: Any) -> bool:
+    """Whether a value read from JSON is of the kind that a field's annotation names."""
+    inner = get_args(kind)
+    match get_origin(kind):
+        case abc.Mapping:
+            return isinstance(value, Mapping) and all(_fits(v, inner[1]) for v in value.values())
+        case abc.Sequence:
+            return isinstance(value, list | tuple) and all(_fits(v, inner[0]) for v in value)
+        case types.UnionType:
+            return any(_fits(value, one) for one in inner)
+    if kind is float:  # one that is not finite was written as null
+        return value is None or (isinstance(value, int | float) and not isinstance(value, bool))
+    if kind in (int, str, bool, NoneType):
+        return isinstance(value, kind) and (kind is bool or not isinstance(value, bool))
+    return True
 
 
 def _finite(value: Any) -> Any:

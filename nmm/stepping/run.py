@@ -98,6 +98,9 @@ def run(
     NmmError
         When scene or formulation cannot be run at all. A run that starts and fails ends with a
         summary whose status is "failed" and whose sentence says why.
+    StorageError
+        When the folder cannot be written, for one as the disk is full; what was written before
+        stays, and the summary there says what stopped the run.
     """
     _refuse_other(scene, "Scene", "nmm.read_scene")
     if formulation is not None:
@@ -106,7 +109,12 @@ def run(
     memory = MemorySink()
     folder = None if out is None else simulation.folder(Path(out))
     sinks: list[Sink] = [memory] if folder is None else [memory, folder]
-    state = simulation.run(sinks, progress or (lambda share, text: None))
+    try:
+        state = simulation.run(sinks, progress or (lambda share, text: None))
+    except BaseException as fault:
+        if folder is not None:
+            folder.stop(fault)
+        raise
     return Run(
         summary=memory.summary,
         history=memory.history,

@@ -143,7 +143,10 @@ class Simulation:
         times = Schedule(duration, self.formulation.integrator.step, FRAMES // 2, factor, "failure")
         shown = Frames(recorder.sink)
         moving = replace(recorder, stepper=quiet, sink=shown, ledger=Ledger())
+        begun = perf_counter()
         run_in_time(quiet, moving, replace(state, load_factor=factor), times, progress)
+        self.stepper.seconds["motion after failure"] = perf_counter() - begun
+        recorder.frames = moving.frames
 
     def _load_schedule(self) -> LoadSchedule:
         loading, steps = self.scene.loading, self.formulation.loading
@@ -179,6 +182,7 @@ class Simulation:
             sentence=verdict.sentence,
             steps=recorder.steps,
             passes=recorder.passes,
+            frames=recorder.frames,
             seconds=_with_rest(stepper.seconds, perf_counter() - self.begun),
             effect_seconds=dict(stepper.plan.seconds),
             peak_memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,

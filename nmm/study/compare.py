@@ -11,6 +11,7 @@ from integration.arrays import Floats
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
 from nmm.results.frame import Frame
+from nmm.results.writing import told, write_text
 from nmm.scene import Scene
 from nmm.stepping.run import Run, run
 from nmm.study.measure import Progress, machine, method_of
@@ -100,10 +101,11 @@ def _compared(case: Case, grid: Raster, memory: bool) -> Compared:
 
 def write_comparison(study: Comparison, out: Path) -> list[Path]:
     """Write ``compare.md`` and ``compare.png`` into a folder; return their paths."""
-    out.mkdir(parents=True, exist_ok=True)
+    with told(out):
+        out.mkdir(parents=True, exist_ok=True)
     page, picture = out / "compare.md", out / "compare.png"
     draw(study, picture)
-    page.write_text(comparison_page(study, picture.name), encoding="utf-8")
+    write_text(page, comparison_page(study, picture.name))
     return [page, picture]
 
 

@@ -180,7 +180,7 @@ def test_a_place_that_cannot_be_written_is_one_line(scene, tmp_path):
     assert result.exit_code == 1
     (line,) = result.stderr.splitlines()
     assert line.startswith(str(tmp_path / "file"))
-    assert "expected a place that can be read and written" in line
+    assert "cannot be written, not a directory: expected a folder that can be made" in line
 
 
 def test_check_passes_a_sound_scene(scene):

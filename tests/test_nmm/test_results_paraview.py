@@ -163,9 +163,8 @@ def test_a_run_without_contacts_has_no_contact_files(tmp_path, memory_run):
     assert [path.name for path in write_paraview(sink, tmp_path)] == ["blocks.pvd"]
 
 
-def test_frames_at_one_time_are_numbered(memory_run):
-    standing = [replace(frame, time=1.0) for frame in memory_run.frames]
-    assert output_times(standing) == [0, 1, 2, 3]
+def test_frames_at_one_time_are_numbered():
+    assert output_times([1.0, 1.0, 1.0, 1.0]) == [0, 1, 2, 3]
 
 
 def test_tension_on_an_upper_side_pulls_the_lower_side_up(memory_run):
