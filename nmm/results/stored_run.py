@@ -213,10 +213,10 @@ class _Reader:
                 self._fault(path, f"damaged ({fault})", "frames and history can be read")
             return Summary(status=UNKNOWN, sentence="the summary of the run is lost", versions={})
         if found.status == REPLACING:
-            self._fault(
-                self.folder, "an earlier run was being replaced as its process ended",
-                "parts of it may be missing; run the scene again",
-            )  # fmt: skip
+            self.faults.append(
+                f"{self.folder}: its process ended while it was replacing an earlier run: expected "
+                "the run that was asked for: run the scene again"
+            )
         if found.status != RUNNING or (held := owner(self.folder / files.LOCK)) is None:
             return _stopped(found, history) if found.status == RUNNING else found
         return replace(found, sentence=f"the run has not ended: {held} writes to it")
