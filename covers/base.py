@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -33,8 +34,11 @@ class Cover(ABC):
         length that scales coordinates about the centre to at most about one in the patch, m.
     cell_shape : (C,)
         cells of one number are translations of one another; -1 where nothing is known.
+    coordinates
+        options of ``regular`` that are points, in the axes of ``bounds``.
     """
 
+    coordinates: ClassVar[tuple[str, ...]] = ()
     vertices: Floats
     cell_vertices: Ints
     cell_patches: Ints

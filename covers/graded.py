@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +23,8 @@ class Graded(Triangles):
     Lines run through the whole net, so that rectangles are slender beside a focus: the angles stay
     at most right ones, which is what linear interpolation needs (Babuska and Aziz 1976).
     """
+
+    coordinates: ClassVar[tuple[str, ...]] = ("focus",)
 
     @classmethod
     def regular(

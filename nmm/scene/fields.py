@@ -75,7 +75,13 @@ AnyQuantity = Annotated[float, quantity("any")]
 Count = Annotated[int, Field(strict=True)]
 Flag = Annotated[bool, Field(strict=True)]
 
-Point = Annotated[tuple[Length, Length], BeforeValidator(_listed)]
+
+class Coordinates:
+    """Mark of a type that says where in a scene: its values move when the scene does."""
+
+
+# A place. What is only a direction or a way, a displacement, is a pair of lengths.
+Point = Annotated[tuple[Length, Length], BeforeValidator(_listed), Coordinates()]
 Segment = Annotated[tuple[Point, Point], BeforeValidator(_listed)]
 Ring = Annotated[tuple[Point, ...], BeforeValidator(_listed), Field(min_length=3)]
 History = Annotated[tuple[tuple[Number, Number], ...], BeforeValidator(_listed)]

@@ -7,7 +7,8 @@ written is shifted back.
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from functools import cache
+from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
 import numpy as np
 
@@ -16,6 +17,8 @@ from nmm.geometry.blocks import Regions
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import Sink
 from nmm.results.tee import Tee
+from nmm.scene.cover_tables import Cover
+from nmm.scene.fields import Coordinates
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -25,12 +28,6 @@ if TYPE_CHECKING:
 # A scene keeps its axes as long as its middle is not further from their origin than this, in sizes
 # of the scene: coordinates then lose at most four binary digits.
 FAR = 10.0
-
-COORDINATES = (
-    *("point", "points", "segment", "polygon", "corners"),
-    *("vertices", "region", "holes", "keep", "origin"),
-)
-"""Keys of scenes and formulations that hold coordinates."""
 
 
 def own_origin(points: Floats) -> Floats:
@@ -56,14 +53,51 @@ def shifted_regions(regions: Regions, by: Floats) -> Regions:
 
 
 def shifted(part: "ModelT", by: Floats) -> "ModelT":
-    """Return a scene or formulation with all its coordinates moved by ``by`` (2,)."""
-    changes = {}
+    """Return a scene or formulation with all its coordinates moved by ``by`` (2,).
+
+    Fields are coordinates by their type, options of a cover by what its class says of them.
+    """
+    changes: dict[str, Any] = {}
+    places = coordinate_fields(type(part))
     for name in type(part).model_fields:
         value = getattr(part, name)
-        changed = _moved(value, by) if name in COORDINATES else _shifted_within(value, by)
+        changed = _moved(value, by) if name in places else _shifted_within(value, by)
         if changed is not value:
             changes[name] = changed
+    if isinstance(part, Cover) and part.options and not part.of_blocks:
+        changes["options"] = _moved_options(part, by)
     return part.model_copy(update=changes) if changes else part
+
+
+@cache
+def coordinate_fields(model: "type[BaseModel]") -> frozenset[str]:
+    """Return the fields of a model that hold coordinates."""
+    return frozenset(
+        name
+        for name, item in model.model_fields.items()
+        if any(isinstance(mark, Coordinates) for mark in item.metadata) or _marked(item.annotation)
+    )
+
+
+def _marked(hint: Any) -> bool:
+    """Whether a type, or one that it is made of, is marked as coordinates."""
+    if any(isinstance(mark, Coordinates) for mark in getattr(hint, "__metadata__", ())):
+        return True
+    return any(map(_marked, get_args(hint)))
+
+
+def _moved_options(cover: Cover, by: Floats) -> dict[str, Any]:
+    from covers.registry import cover_class
+
+    moved = dict(cover.options)
+    for name in cover_class(cover.type).coordinates:
+        try:
+            points = np.asarray(moved.get(name, ()), dtype=float).reshape(-1, 2)
+        except (TypeError, ValueError):  # no points: the cover says so when it is laid
+            continue
+        if len(points):
+            moved[name] = (points + by).tolist()
+    return moved
 
 
 def _shifted_within(value: Any, by: Floats) -> Any:
