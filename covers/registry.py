@@ -16,25 +16,17 @@ COVERS = {
 
 
 def cover_class(name: str) -> type[Cover]:
-    """Return the class of a cover from its name or from ``module:Class``.
+    """Return the class of a cover from its name.
 
     Every class listed makes a cover by ``regular(bounds, size, **options)``.
 
     Raises
     ------
     ValueError
-        An unknown name, or a place that holds no cover.
+        An unknown name.
     """
-    place = COVERS.get(name, name)
-    module, _, attribute = place.partition(":")
-    if not attribute:
-        raise ValueError(
-            f"cover: {name!r}: expected one of {', '.join(COVERS)} or 'module:Class': "
-            "correct the name"
-        )
-    found = getattr(import_module(module), attribute, None)
-    if not (isinstance(found, type) and issubclass(found, Cover)):
-        raise ValueError(
-            f"cover: {name!r}: no subclass of covers.base.Cover there: name one as 'module:Class'"
-        )
+    if name not in COVERS:
+        raise ValueError(f"cover: {name!r}: expected one of {', '.join(COVERS)}: correct the name")
+    module, _, attribute = COVERS[name].partition(":")
+    found: type[Cover] = getattr(import_module(module), attribute)
     return found

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from nmm import scene_verbs, study_verbs, verification_verbs
-from nmm.scene_verbs import FormulationFile, SceneFile, read_beside, read_formulation
+from nmm.scene_verbs import AllowCode, FormulationFile, SceneFile, allowed, read_formulation
 from nmm.terminal import (
     FAILED,
     console,
@@ -69,12 +69,13 @@ def run(
     steps: Annotated[
         bool, typer.Option("--steps", help="A line after each step: passes, states of contacts.")
     ] = False,
+    allow_code: AllowCode = None,
 ) -> None:
     """Run a scene; write its folder with pictures and ParaView files.
 
     Exit code 2 when a step could not be solved; what was written before it stays.
     """
-    with faults_told():
+    with faults_told(), allowed(scene, allow_code):
         _run(scene, formulation, out or _free(RUNS / scene.stem), quiet, steps)
 
 
@@ -102,6 +103,7 @@ def plot(
     paraview: Annotated[
         bool, typer.Option("--paraview", help="Write the ParaView files anew too.")
     ] = False,
+    allow_code: AllowCode = None,
 ) -> None:
     """Draw a run again, whole or one frame of it; a run that was stopped can be drawn too.
 
@@ -110,7 +112,7 @@ def plot(
     from nmm.results import read_run
 
     missed: list[str] = []
-    with faults_told():
+    with faults_told(), allowed(run / "scene.toml", allow_code):
         stored = read_run(run)
         _frame_exists(frame, len(stored.frames))
         scene = _scene_of(stored, missed.append)
@@ -133,7 +135,7 @@ def _run(
     import nmm
     from nmm.results.summary import render
 
-    scene = read_beside(place)
+    scene = nmm.read_scene(place)
     chosen = read_formulation(formulation)
     try:
         with progress_bar(quiet, steps) as progress:

@@ -20,7 +20,7 @@ from nmm.scene.cover_tables import CoverRegion as CoverRegion
 from nmm.scene.cover_tables import Enrichment as Enrichment
 from nmm.scene.document import parse, read_text
 from nmm.scene.faults import Source
-from nmm.scene.fields import Count, Frozen, Number, PartName, Time
+from nmm.scene.fields import Count, Frozen, Number, PartName, Text, Time
 
 
 class SupportMethod(Frozen):
@@ -142,9 +142,15 @@ class Rotation(Frozen):
 class LoadSteps(Frozen):
     """Load increments of static scenes."""
 
-    increment: Number = Field(default=0.1, gt=0, description="a load factor > 0", examples=[0.1])
+    increment: Number = Field(
+        default=0.1, ge=1e-6, description="a load factor, at least 1e-6", examples=[0.1]
+    )
     tolerance: Number = Field(
-        default=0.005, gt=0, lt=1, description="a relative tolerance in (0, 1)", examples=[0.005]
+        default=0.005,
+        ge=1e-9,
+        lt=1,
+        description="a relative tolerance in [1e-9, 1)",
+        examples=[0.005],
     )
 
 
@@ -161,7 +167,7 @@ class Solver(Part):
 class Formulation(Frozen):
     """Cover, contact enforcement, integrator, rotation, load steps and linear solver."""
 
-    title: str = Field(default="", description="a title", examples=["DDA"])
+    title: Text = Field(default="", description="a title", examples=["DDA"])
     cover: Cover = Field(default=Cover(), description="a table [cover]")
     supports: SupportMethod = Field(default=SupportMethod(), description="a table [supports]")
     glue: Glue = Field(default=Glue(), description="a table [glue]")

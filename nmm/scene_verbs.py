@@ -1,7 +1,7 @@
 """The verbs of files before a run: check, explain, new. What they need they import."""
 
-import sys
 from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeVar
 
@@ -19,6 +19,14 @@ FormulationFile = Annotated[
     Path | None,
     typer.Option("--formulation", "-f", help="Formulation file, TOML; else the scene's own."),
 ]
+AllowCode = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--allow-code",
+        metavar="MODULE",
+        help="Let parts named MODULE:Class run, code beside the scene or installed; repeatable.",
+    ),
+]
 Read = TypeVar("Read")
 
 CALLED_BY = {
@@ -32,9 +40,12 @@ CALLED_BY = {
 """How a scene names an effect, where that is not `[effect]`."""
 
 
-def check(scene: SceneFile, formulation: FormulationFile = None) -> None:
-    """Name every fault of the files; exit code 1 if there is one."""
-    faults = _faults(scene, formulation)
+def check(
+    scene: SceneFile, formulation: FormulationFile = None, allow_code: AllowCode = None
+) -> None:
+    """Name every fault of the files, and what a run would refuse; exit code 1 if there is one."""
+    with faults_told(), allowed(scene, allow_code):
+        faults = _faults(scene, formulation)
     tell_faults(faults)
     if faults:
         typer.echo(f"{len(faults)} fault{'s' * (len(faults) > 1)}", err=True)
@@ -47,9 +58,10 @@ def explain(
     scene: SceneFile,
     formulation: FormulationFile = None,
     cost: Annotated[bool, typer.Option("--cost", help="Also seconds and memory.")] = False,
+    allow_code: AllowCode = None,
 ) -> None:
     """Say what a scene simulates and what it does not, and how large it is."""
-    with faults_told():
+    with faults_told(), allowed(scene, allow_code):
         _explain(scene, formulation, cost)
 
 
@@ -90,32 +102,27 @@ def read_formulation(place: Path | None) -> "Formulation | None":
     return nmm.read_formulation(place)
 
 
-def import_beside(scene: Path) -> None:
-    """Let a scene name parts of modules in its own folder, behind all that is installed."""
-    sys.path.append(str(scene.resolve().parent))
+def allowed(scene: Path, modules: list[str] | None) -> AbstractContextManager[None]:
+    """Let parts of the modules that the user names be imported, from the scene's folder too."""
+    from nmm.trust import allowing
 
-
-def read_beside(scene: Path) -> "Scene":
-    """Read a scene, which may name parts of modules in its own folder."""
-    import nmm
-
-    import_beside(scene)
-    return nmm.read_scene(scene)
+    return allowing(*(modules or ()), folder=scene.resolve().parent if modules else None)
 
 
 def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
     from rich.markup import escape
     from rich.table import Table
 
+    import nmm
     from nmm.formulation import Formulation
     from nmm.stepping.plan import called_for
     from nmm.stepping.simulation import prepare
 
-    scene = read_beside(place)
+    scene = nmm.read_scene(place)
     chosen = read_formulation(formulation) or scene.formulation or Formulation()
     prepared = prepare(scene, chosen)
     manifold = prepared.stepper.model.manifold
-    effects = Table(title=scene.title, title_justify="left", show_header=False)
+    effects = Table(title=escape(scene.title), title_justify="left", show_header=False)
     for name, named in called_for(scene).items():
         key = CALLED_BY.get(name, f"[{name}]")
         effects.add_row(
@@ -154,10 +161,12 @@ def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) ->
 
 def _faults(place: Path, formulation: Path | None) -> list[str]:
     """Lines about keys and values of both files, then about blocks and parts that they name."""
+    import nmm
     from nmm.errors import NmmError
     from nmm.formulation import Formulation
     from nmm.geometry import regions
     from nmm.stepping.parts import check_parts
+    from nmm.stepping.together import check_together
 
     faults: list[str] = []
 
@@ -168,13 +177,24 @@ def _faults(place: Path, formulation: Path | None) -> list[str]:
             faults.extend(str(fault) for fault in error.faults)
             return None
 
-    scene = tried(read_beside, place)
+    scene = tried(nmm.read_scene, place)
     chosen = tried(read_formulation, formulation)
     if scene is not None:
         tried(regions, scene)
     if scene is not None and not (formulation and chosen is None):
-        tried(check_parts, scene, chosen or scene.formulation or Formulation())
+        whole = chosen or scene.formulation or Formulation()
+        tried(check_together, scene, whole)
+        tried(check_parts, scene, whole)
+        if not faults:
+            tried(_prepared, scene, whole)
     return faults
+
+
+def _prepared(scene: "Scene", formulation: "Formulation") -> None:
+    """Build all that a run needs: what it would refuse is refused here."""
+    from nmm.stepping.simulation import prepare
+
+    prepare(scene, formulation).identity()
 
 
 def _tell_cost(simulation: "Simulation") -> None:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from nmm.scene_verbs import read_beside
+from nmm.scene_verbs import AllowCode, allowed
 from nmm.terminal import console, faults_told, progress_bar, tell_files
 
 if TYPE_CHECKING:
@@ -51,10 +51,12 @@ def cost(
     memory: Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")] = True,
     out: Out = None,
     quiet: Quiet = False,
+    allow_code: AllowCode = None,
 ) -> None:
     """Show what accuracy costs: error against seconds over formulations and sizes."""
-    with faults_told():
+    with faults_told(), allowed(scene, allow_code):
         _one_thread()
+        import nmm
         from nmm.study.cost import cost_study, yardsticks
         from nmm.study.cost_levels import levels
         from nmm.study.cost_report import write_cost_report
@@ -63,7 +65,7 @@ def cost(
         said = ([f"{SIZE}={sizes}"] if sizes else []) + (vary or [])
         with progress_bar(quiet) as progress:
             study = cost_study(
-                read_beside(scene),
+                nmm.read_scene(scene),
                 _formulations(scene, [*(formulations or []), *(more or [])])
                 | yardsticks(_listed(yardstick)),
                 dict(_varied(text) for text in said),
@@ -91,15 +93,17 @@ def compare(
     memory: Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")] = True,
     out: Out = None,
     quiet: Quiet = False,
+    allow_code: AllowCode = None,
 ) -> None:
     """Draw a scene under several formulations side by side, with a table."""
-    with faults_told():
+    with faults_told(), allowed(scene, allow_code):
         _one_thread()
+        import nmm
         from nmm.study.compare import compare_formulations, comparison_page, write_comparison
 
         with progress_bar(quiet) as progress:
             study = compare_formulations(
-                read_beside(scene), _formulations(scene, formulations or []), memory, progress
+                nmm.read_scene(scene), _formulations(scene, formulations or []), memory, progress
             )
         files = write_comparison(study, out or Path("runs") / f"{scene.stem}-compare")
         if not quiet:
@@ -120,12 +124,13 @@ def study(
     again: Annotated[bool, typer.Option(help="Run cases again that failed before.")] = False,
     out: Out = None,
     quiet: Quiet = False,
+    allow_code: AllowCode = None,
 ) -> None:
     """Run a sweep or an ensemble; what is done already is skipped.
 
     Exit code 2 when all cases failed.
     """
-    with faults_told():
+    with faults_told(), allowed(plan, allow_code):
         _one_thread()
         from nmm.study.plan import read_plan
         from nmm.study.sweep import run_study
@@ -208,12 +213,13 @@ def _one_thread() -> None:
 
 
 def _formulations(scene: Path, paths: list[Path]) -> "dict[str, Formulation]":
+    import nmm
     from nmm.formulation import Formulation
     from nmm.study.variants import read_formulations
 
     if paths:
         return read_formulations(paths)
-    own = read_beside(scene).formulation or Formulation()
+    own = nmm.read_scene(scene).formulation or Formulation()
     return {own.title or "the scene's own": own}
 
 

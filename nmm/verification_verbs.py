@@ -1,12 +1,11 @@
 """The verbs of benchmarks: verify and publish. What they need they import."""
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from nmm.scene_verbs import read_beside
+from nmm.scene_verbs import AllowCode, allowed
 from nmm.terminal import console, faults_told, progress_bar, tell_files
 
 if TYPE_CHECKING:
@@ -40,6 +39,7 @@ def verify(
         list[str] | None,
         typer.Option(help="With --hard: a part that cases must have, such as cone; repeatable."),
     ] = None,
+    allow_code: AllowCode = None,
 ) -> None:
     """Run problems whose answers are known from elsewhere; exit code 1 when one is missed.
 
@@ -49,10 +49,10 @@ def verify(
 
     With --hard, generated scenes with oracles that need no answer; --out takes those that miss.
 
-    Your own: derive a class from nmm.verification.Case, and name it module:Class.
+    Your own: derive a class from nmm.verification.Case, and name it module:Class. Naming it here
+    lets its module run; case folders are data, and parts of one's own in them need --allow-code.
     """
-    with faults_told():
-        sys.path.append(str(Path.cwd()))
+    with faults_told(), allowed(Path("here"), allow_code):
         if hard:
             from nmm.hard_verbs import verify_hard
 
@@ -90,12 +90,14 @@ def publish(
     ] = None,
     tolerance: Annotated[float, typer.Option(min=0, help="Relative tolerance.")] = 1e-6,
     source: Annotated[str, typer.Option(help="Who publishes it, and where.")] = "",
+    allow_code: AllowCode = None,
 ) -> None:
     """Write a case folder that others reproduce by `nmm verify FOLDER`."""
-    with faults_told():
+    with faults_told(), allowed(scene, allow_code):
+        import nmm
         from nmm.verification.published import publish as write
 
-        read = read_beside(scene)
+        read = nmm.read_scene(scene)
         names = quantity or [item.quantity for item in read.references]
         typer.echo(write(scene, formulation, names or ["energy"], tolerance, out, source))
 
@@ -129,7 +131,7 @@ def _list(names: list[str]) -> None:
     wanted = in_order({found for name in names for found in named(name)} or CASES.table)
     wide = max(map(len, wanted))
     for name in wanted:
-        kind = CASES.load(name)
+        kind = CASES.load_said(name)
         cases = kind.variants()
         runs = sum(len(case.formulations) for case in cases)
         lasting = sum(len(case.formulations) for case in cases if case.slow)

@@ -24,7 +24,9 @@ LIBRARIES = {
 # solver; `results` stands above `stepping`, which hands its frames to a sink that knows no loop.
 ROOMS = (
     "errors",
+    "trust",
     "registry",
+    "capacity",
     "scene",
     "geometry",
     "materials",

@@ -1,4 +1,4 @@
-"""A lumped mass must be positive in every cover."""
+"""A lumped mass must not be negative in any cover."""
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -6,12 +6,13 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats, Ints
 from nmm.errors import FormulationError
 
-# Least eigenvalue of the mass of a cover, of unit diagonal.
-POSITIVE = 1e-12
+# Least eigenvalue of the mass of a cover, of unit diagonal, that is zero but for rounding: that of
+# functions that depend on one another in a sliver.
+ROUNDING = 1e-12
 
 
 def check_positive(mass: csc_array, offset: Ints) -> None:
-    """Refuse a mass that is not positive in some cover, unless it is zero there.
+    """Refuse a mass that is negative in some cover; it may be zero for some functions.
 
     Raises
     ------
@@ -22,7 +23,7 @@ def check_positive(mass: csc_array, offset: Ints) -> None:
     for size in np.unique(sizes):  # a handful of sizes
         chosen = np.flatnonzero(sizes == size)
         least = np.linalg.eigvalsh(_blocks(mass, offset[chosen], int(size)))[:, 0]
-        bad = np.flatnonzero(least < POSITIVE)
+        bad = np.flatnonzero(least < -ROUNDING)
         if len(bad):
             raise FormulationError(
                 f'[integrator] mass: "lumped": cover {chosen[bad[0]]} has a mass of '

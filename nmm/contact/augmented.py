@@ -17,6 +17,7 @@ from nmm.contact.rounds import (
     stiff_springs,
 )
 from nmm.errors import SolveError
+from nmm.registry import above_zero
 from nmm.solvers.linear import LinearSolver
 
 
@@ -52,11 +53,11 @@ class Augmented(Enforcement):
     name: ClassVar[str] = "augmented"
     multipliers: ClassVar[bool] = True
     scale: float | None = 10.0
-    growth: float = 10.0
-    max_rounds: int = 50
+    growth: float = above_zero(10.0)
+    max_rounds: int = above_zero(50)
     rescue: int = 100
-    tolerance: float = 1e-8
-    gap_tolerance: float = 1e-7
+    tolerance: float = above_zero(1e-8)
+    gap_tolerance: float = above_zero(1e-7)
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None

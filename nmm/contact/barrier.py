@@ -17,6 +17,7 @@ from nmm.contact.rounds import compliances, stiff_springs
 from nmm.contact.settle import settle
 from nmm.contact.springs import Settled
 from nmm.errors import SolveError
+from nmm.registry import above_zero
 from nmm.solvers.linear import LinearSolver
 
 TOO_THIN = 1e-2
@@ -50,8 +51,8 @@ class Barrier(Enforcement):
 
     name: ClassVar[str] = "barrier"
     width: float | None = None
-    max_passes: int = 100
-    tolerance: float = 1e-7
+    max_passes: int = above_zero(100)
+    tolerance: float = above_zero(1e-7)
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None

@@ -10,6 +10,7 @@ from nmm.contact.memory import Memory
 from nmm.contact.problem import StepAnswer, StepProblem
 from nmm.contact.rounds import exact_goal, rounds_verdict, stiff_springs
 from nmm.errors import SolveError
+from nmm.registry import above_zero
 from nmm.solvers.linear import LinearSolver
 
 
@@ -37,9 +38,9 @@ class Cone(Enforcement):
 
     name: ClassVar[str] = "cone"
     multipliers: ClassVar[bool] = True
-    max_factorisations: int = 100
-    tolerance: float = 1e-8
-    gap_tolerance: float = 1e-7
+    max_factorisations: int = above_zero(100)
+    tolerance: float = above_zero(1e-8)
+    gap_tolerance: float = above_zero(1e-7)
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None

@@ -59,6 +59,7 @@ class Enforcement(ABC):
 
 ENFORCEMENTS: Registry[type[Enforcement]] = Registry(
     "enforcement",
+    Enforcement,
     {
         "penalty": "nmm.contact.penalty:Penalty",
         "augmented": "nmm.contact.augmented:Augmented",

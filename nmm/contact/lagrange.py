@@ -24,6 +24,7 @@ from nmm.contact.rounds import (
 )
 from nmm.contact.springs import CutSprings, Settled
 from nmm.errors import SolveError
+from nmm.registry import above_zero
 from nmm.solvers.linear import LinearSolver
 
 SOFT = 1e-10
@@ -61,10 +62,10 @@ class Lagrange(Enforcement):
 
     name: ClassVar[str] = "lagrange"
     multipliers: ClassVar[bool] = True
-    max_passes: int = 20
+    max_passes: int = above_zero(20)
     rescue: int = 100
-    tolerance: float = 1e-8
-    gap_tolerance: float = 1e-7
+    tolerance: float = above_zero(1e-8)
+    gap_tolerance: float = above_zero(1e-7)
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None

@@ -17,6 +17,7 @@ from nmm.contact.pattern import SpringPattern
 from nmm.contact.problem import StepAnswer, StepProblem, Verdict
 from nmm.contact.springs import CutSprings
 from nmm.errors import FormulationError, SolveError
+from nmm.registry import above_zero
 from nmm.solvers.linear import LinearSolver
 
 REMEDY = "allow more passes, shorten the step or use the cone enforcement"
@@ -46,8 +47,8 @@ class Penalty(Enforcement):
 
     name: ClassVar[str] = "penalty"
     iteration: str = "settle"
-    max_passes: int = 20
-    tolerance: float = 1e-8
+    max_passes: int = above_zero(20)
+    tolerance: float = above_zero(1e-8)
 
     def __post_init__(self) -> None:
         if self.iteration not in ("settle", "open_close"):

@@ -45,6 +45,8 @@ def functions_along(contacts: ContactPoints, surface: Surface, traces: Traces) -
     Points of joints and mere vertices have none.
     """
     points = np.flatnonzero((contacts.length > 0) & ~contacts.is_joint)
+    if not len(points):  # bodies apart, or at corners alone
+        return Entries(points, points, np.zeros(0))
     some = contacts.take(points)
     at, face, other = _sides(some, surface, traces)
     order = np.lexsort((at, some.interface, other, face))

@@ -62,7 +62,7 @@ class ArtificialJoints(Effect):
         own = region[edges.element[joints.edge_a]] == region[edges.element[joints.edge_b]]
         joints = joints.take(own)
         degree, n = degree_of(model), model.manifold.n_unknowns
-        if glue == "nitsche":
+        if glue == "nitsche" and len(joints.edge_a):  # blocks that are not divided have none
             pairs, one, two, _ = pairs_of(model, joints, 2 * degree)
             tie, free = averages(model, pairs, (one, two))
             if free.any():

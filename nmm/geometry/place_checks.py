@@ -11,6 +11,7 @@ from integration.arrays import Floats, Ints
 from nmm.errors import Fault
 from nmm.geometry.blocks import Regions
 from nmm.geometry.places import edges_on, polygons_at, tolerance
+from nmm.geometry.support_checks import contradicting_supports
 from nmm.scene.actions import Load, Monitor, Support
 from nmm.scene.model import Scene
 
@@ -29,7 +30,13 @@ def place_faults(scene: Scene, whole: Regions) -> list[Fault]:
         for key, index, item in items
         for finding in _findings(item, whole)
     ]
-    return [*found, *_named_pieces(scene, whole)]
+    return [
+        *found,
+        *_named_pieces(scene, whole),
+        *_given_twice(scene, whole),
+        *_cracks(scene, whole),
+        *contradicting_supports(scene, whole),
+    ]
 
 
 def _findings(item: Support | Load | Monitor, whole: Regions) -> Iterator[_Finding]:
@@ -52,6 +59,45 @@ def _named_pieces(scene: Scene, whole: Regions) -> Iterator[Fault]:
         for index, block in enumerate(blocks):
             if not len(whole.select(block)):
                 yield Fault(scene.source.place(key, index), *_no_block(block))
+
+
+def _given_twice(scene: Scene, whole: Regions) -> Iterator[Fault]:
+    """Velocities and stresses at the start that one block has from two tables."""
+    named = {
+        "initial_velocities": [item.block for item in scene.initial_velocities],
+        "initial_stresses": [item.block for item in scene.initial_stresses],
+    }
+    for key, blocks in named.items():
+        first = np.full(len(whole), -1)
+        for index, block in enumerate(blocks):
+            chosen = whole.select(block)
+            twice = chosen[first[chosen] >= 0]
+            if len(twice):
+                before = f"{key}.{first[twice[0]]}"
+                value = f'block "{whole.name[twice[0]]}" has one from {before} already'
+                remedy = "keep one of them, or name blocks in place of all"
+                yield Fault(scene.source.place(key, index), value, "one for each block", remedy)
+            first[chosen] = index
+
+
+def _cracks(scene: Scene, whole: Regions) -> Iterator[Fault]:
+    """Cracks that cut nothing."""
+    if not scene.cracks:
+        return
+    lines = [shapely.LineString(crack.points) for crack in scene.cracks]
+    tree = shapely.STRtree(list(whole.polygons.to_shapely()))
+    within = tolerance(whole.polygons.points)
+    for index, line in enumerate(lines):
+        place = scene.source.place("cracks", index, "points")
+        if line.length <= within:
+            value = f"a line of length {line.length:.3g} m"
+            yield Fault(place, value, "a length", "correct its points")
+            continue
+        near = tree.geometries[tree.query(line, predicate="intersects")]
+        inside = shapely.length(shapely.intersection(near, line)).sum()
+        if inside <= within:
+            value = f"the crack lies outside of all blocks, from {list(line.coords[0])}"
+            yield Fault(place, value, "a crack inside a block", "move it onto a block")
 
 
 def _no_block(block: str | None) -> _Finding:

@@ -6,10 +6,12 @@ from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
+import shapely
 
 from integration.arrays import Floats
 from integration.polygons import Polygons
-from nmm.errors import Fault, GeometryError
+from nmm.errors import Fault, GeometryError, NmmError
+from nmm.geometry.amounts import refuse_many_blocks
 from nmm.geometry.blocks import Regions, joined
 from nmm.geometry.checks import outline_faults, overlap_faults
 from nmm.geometry.jointing import jointed
@@ -35,11 +37,19 @@ def regions(scene: Scene) -> Regions:
     """
     outlines = _outlines(scene)
     _refuse(outline_faults(outlines, partial(_ring_place, scene)))
+    refuse_many_blocks(scene, outlines)
     parts = [_given(scene, outlines)]
     for index in range(len(scene.tessellations)):
         outline = outlines.take([len(scene.blocks) + index]).oriented()
         parts.append(_tessellated(scene, index, outline))
-    whole = jointed(scene, joined(parts))
+    try:
+        whole = jointed(scene, joined(parts))
+    except (ValueError, shapely.errors.GEOSException) as fault:
+        if isinstance(fault, NmmError):
+            raise
+        place, value = scene.source.place("joint_sets"), " ".join(str(fault).split())
+        remedy = "move or remove joints that almost coincide, or use another seed"
+        raise GeometryError(Fault(place, value, "joints that cut blocks", remedy)) from fault
     faults = overlap_faults(whole.polygons, whole.source, whole.name, partial(_place, scene))
     _refuse([*faults, *place_faults(scene, whole)])
     return whole

@@ -10,6 +10,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
 from nmm.errors import FormulationError
+from nmm.registry import check_values
 
 if TYPE_CHECKING:
     from covers.base import Cover as Net
@@ -55,13 +56,9 @@ class SubBlocks:
         FormulationError
             An unknown option or value, or no size.
         """
-        known = {item.name for item in fields(cls)}
-        unknown = sorted(set(cover.options) - known)
-        if unknown:
-            raise FormulationError(
-                f"[cover.options] {unknown[0]}: expected one of {', '.join(sorted(known))}: "
-                "correct the name"
-            )
+        check_values(
+            "[cover.options]", {item.name: item.type for item in fields(cls)}, cover.options
+        )
         found = cls(**cover.options)
         for name, values in (("mesh", MESHES), ("bond", BONDS), ("glue", GLUES)):
             if getattr(found, name) not in values:

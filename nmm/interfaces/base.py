@@ -104,6 +104,7 @@ class InterfaceLaw(ABC):
 
 INTERFACE_LAWS = Registry[type[InterfaceLaw]](
     "interface law",
+    InterfaceLaw,
     {
         "mohr_coulomb": "nmm.interfaces.mohr_coulomb:MohrCoulomb",
         "linear_softening": "nmm.interfaces.softening:LinearSoftening",

@@ -33,5 +33,5 @@ class Law(ABC):
 
 
 MATERIAL_LAWS = Registry[Callable[..., Law]](
-    "material law", {"elastic": "nmm.materials.elastic:Elastic"}
+    "material law", Law, {"elastic": "nmm.materials.elastic:Elastic"}
 )

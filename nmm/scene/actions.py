@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field, field_validator, model_validator
 
 from nmm.scene.fields import (
+    NAME,
     Acceleration,
     AngularVelocity,
     AnyQuantity,
@@ -21,8 +22,10 @@ from nmm.scene.fields import (
     Name,
     Number,
     Point,
+    Prose,
     Segment,
     Stress,
+    Text,
     Time,
     Velocity,
     fault,
@@ -34,7 +37,7 @@ _HISTORY = "pairs [t, factor] with t increasing"
 class _Placed(Frozen):
     """Something that acts at a place: a point, a segment, a block, or a part of a block."""
 
-    name: Name = Field(description='a name without "." and ":"', examples=["left"])
+    name: Name = Field(description=NAME, examples=["left"])
     point: Point | None = Field(default=None, description="a point [x, y] in m", examples=[[0, 0]])
     segment: Segment | None = Field(
         default=None, description="two points [[x, y], [x, y]] in m", examples=[[[0, 0], [1, 0]]]
@@ -193,7 +196,7 @@ class InitialStress(Frozen):
 class Monitor(Frozen):
     """A point of a block whose displacement is recorded."""
 
-    name: Name = Field(description='a name without "." and ":"', examples=["midspan"])
+    name: Name = Field(description=NAME, examples=["midspan"])
     point: Point = Field(description="a point [x, y] in m", examples=[[0, 0]])
     block: BlockName | None = Field(
         default=None, description="the name of a block", examples=["beam"]
@@ -203,9 +206,9 @@ class Monitor(Frozen):
 class Reference(Frozen):
     """An answer from elsewhere that a result is compared with."""
 
-    quantity: str = Field(
+    quantity: Text = Field(
         description="a number of summary.json or a column of history.csv", examples=["failure_load"]
     )
     value: AnyQuantity = Field(description="a number in SI", examples=[9124.0])
     tolerance: Number = Field(ge=0, description="a relative tolerance, >= 0", examples=[0.02])
-    source: str = Field(description="where the value comes from", examples=["linear programme"])
+    source: Prose = Field(description="where the value comes from", examples=["linear programme"])

@@ -121,7 +121,7 @@ def _block_names(data: Tables) -> Iterator[Finding]:
         name = row.get("block")
         if not isinstance(name, str) or name.split(".")[0] in known:
             continue
-        if name == "all" and path[0] in _ON_BLOCKS:
+        if name == "all":
             continue
         yield (*path, "block"), f'"{name}"', "the name of a block", suggestion(name, known)
 
@@ -129,7 +129,7 @@ def _block_names(data: Tables) -> Iterator[Finding]:
 def _densities(data: Tables) -> Iterator[Finding]:
     needs = [f"[{key}]" for key in ("gravity", "inertia") if key in data]
     needs += ["motion_after_failure"] if "motion_after_failure" in _table(data, "loading") else []
-    used = {row.get("material") for _, row in _rows(data, *_SOLIDS)}
+    used = [row.get("material") for _, row in _rows(data, *_SOLIDS)]
     for name, row in _table(data, "materials").items():
         if needs and name in used and isinstance(row, Mapping) and "density" not in row:
             expected = f"a density in kg/m3, as {needs[0]} is named"

@@ -15,6 +15,7 @@ from nmm.scene.fields import (
     Frozen,
     Length,
     Number,
+    Options,
     PartName,
     Point,
     Ring,
@@ -28,7 +29,7 @@ _OF_BLOCKS = ("block", "sub_blocks")
 class Part(Frozen):
     """A part that can be exchanged; `options` is checked by the part itself."""
 
-    options: dict[str, Any] = Field(default={}, description="a table of options of the part")
+    options: Options = Field(default={}, description="a table of options of the part")
 
 
 class Enrichment(Frozen):

@@ -11,6 +11,7 @@ from pydantic import BaseModel, ValidationError
 
 from nmm.errors import Fault, NmmError
 from nmm.scene.faults import Source, report
+from nmm.scene.fields import DEEPEST
 
 # Model, what its file is called, and keys that it has and files of the other kinds have not.
 OWN_KEYS = {
@@ -18,6 +19,9 @@ OWN_KEYS = {
     "Formulation": ("a formulation", {"cover", "integrator", "rotation", "solver", "glue"}),
     "Plan": ("a study", {"scene", "scenes", "vary"}),
 }
+
+# Bytes of a file.
+LONGEST = 256_000_000
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -31,7 +35,14 @@ def read_text(path: str | Path, error: type[NmmError]) -> str:
         The file does not exist or is no UTF-8 text.
     """
     try:
-        return Path(path).read_text(encoding="utf-8")
+        size = Path(path).stat().st_size
+        if not Path(path).is_file():
+            raise error(Fault(str(path), "no file", "a TOML file", "check the path"))
+        if size > LONGEST:
+            found, most = f"{size / 1e6:.0f} MB", f"at most {LONGEST / 1e6:.0f} MB"
+            raise error(Fault(str(path), found, most, "let a program build the scene"))
+        # Windows marks UTF-8 by three bytes in front.
+        return Path(path).read_text(encoding="utf-8-sig")
     except OSError as cause:
         reason = cause.strerror or str(cause)
         raise error(Fault(str(path), reason, "a TOML file", "check the path")) from None
@@ -48,9 +59,13 @@ def parse(text: str, model: type[Model], place: str, error: type[NmmError]) -> t
         The text is no TOML or a file of another kind, or the model refuses it; one fault a line.
     """
     try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as cause:
+        data = tomllib.loads(text.removeprefix("\ufeff"))
+    except ValueError as cause:  # also numbers of thousands of digits
         raise error(_syntax(str(cause), place)) from None
+    except RecursionError:
+        raise error(_deep(place)) from None
+    if not _shallow(data):
+        raise error(_deep(place))
     _refuse_other_kind(data, model, place, error)
     source = Source(place, text)
     return build(data, model, source, error), source
@@ -74,6 +89,21 @@ def _refuse_other_kind(
     for kind, keys in OWN_KEYS.values():
         if data.keys() & keys:
             raise error(Fault(place, kind, wanted, f"give the file of {wanted} here"))
+
+
+def _deep(place: str) -> Fault:
+    return Fault(place, "brackets within brackets", f"at most {DEEPEST} levels", "write it flatter")
+
+
+def _shallow(data: dict[str, Any]) -> bool:
+    """Whether lists and tables lie at most `DEEPEST` deep in one another."""
+    level: list[Any] = [data]
+    for _ in range(DEEPEST):
+        inner = (one.values() if isinstance(one, dict) else one for one in level)
+        level = [item for items in inner for item in items if isinstance(item, dict | list)]
+        if not level:
+            return True
+    return False
 
 
 def _syntax(message: str, place: str) -> Fault:

@@ -9,13 +9,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
 from nmm.scene.units import EXAMPLES, UnitError, convert
 
-# No integer beyond it is a floating-point number.
-LARGEST = 10**308
+# What is further from 1 than this is a slip of the pen, and its products overflow or vanish.
+LARGEST, SMALLEST = 10**30, 1e-30
+# Tables within tables; deeper ones are no data of ours.
+DEEPEST = 16
 
 
 class Frozen(BaseModel):
@@ -32,8 +34,11 @@ def fault(value: object, expected: str, remedy: str) -> PydanticCustomError:
     return PydanticCustomError("fault", "expected {expected}: {remedy}", context)
 
 
-def quantity(unit: str) -> BeforeValidator:
-    """Validator that accepts a number in `unit` or a text of number and unit."""
+def quantity(unit: str, smallest: float = 0.0) -> BeforeValidator:
+    """Validator that accepts a number in `unit` or a text of number and unit.
+
+    Its magnitude is at most `LARGEST`, and at least ``smallest`` where it is not zero.
+    """
 
     def read(value: object) -> object:
         if isinstance(value, bool):
@@ -43,8 +48,11 @@ def quantity(unit: str) -> BeforeValidator:
                 value = convert(value, unit)
             except UnitError as error:
                 raise fault(repr(value), error.expected, error.remedy) from None
-        if isinstance(value, int) and abs(value) > LARGEST:
-            raise fault("too many digits", f"a number in {unit}", "write it as 1e9, and check it")
+        if isinstance(value, int | float) and abs(value) > LARGEST:
+            shown = value if isinstance(value, float) else "too many digits"
+            raise fault(shown, f"a number up to 1e30 in {unit}", "check the number and its unit")
+        if isinstance(value, int | float) and 0 < abs(value) < smallest:
+            raise fault(value, f"0, or at least {smallest:g} in {unit}", "check the number")
         # Adding 0.0 turns -0.0 into 0.0, so that both give the same scene hash.
         return float(value) + 0.0 if isinstance(value, int | float) else value
 
@@ -56,16 +64,43 @@ def _listed(value: object) -> object:
     return value.tolist() if hasattr(value, "tolist") else value
 
 
+def _plain(value: object) -> object:
+    """Refuse what is no number, text, truth value, list or table, or lies too deep."""
+    level = [value]
+    for _ in range(DEEPEST):
+        for item in level:
+            if isinstance(item, float) and not abs(item) <= LARGEST:
+                raise fault(item, "a number up to 1e30", "check the number")
+            if item is not None and not isinstance(
+                item, str | int | float | list | tuple | Mapping
+            ):
+                kinds = "numbers, texts, true or false, lists and tables"
+                raise fault(item, kinds, "write it as one of them")
+        parts = [one for one in level if isinstance(one, list | tuple | Mapping)]
+        level = [x for one in parts for x in (one.values() if isinstance(one, Mapping) else one)]
+        if not level:
+            return value
+    raise fault("tables within tables", f"at most {DEEPEST} levels", "write it flatter")
+
+
+def _ring(value: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+    if len(value) < 4 and value[0] == value[-1]:
+        remedy = "add the others; the first need not be repeated"
+        raise fault(f"{len(value) - 1} points and the first again", "three points", remedy)
+    return value
+
+
 Number = Annotated[float, quantity("1")]
-Length = Annotated[float, quantity("m")]
-Time = Annotated[float, quantity("s")]
+Coordinate = Annotated[float, quantity("m")]
+Length = Annotated[float, quantity("m", SMALLEST)]
+Time = Annotated[float, quantity("s", SMALLEST)]
 Angle = Annotated[float, quantity("rad")]
-Force = Annotated[float, quantity("N")]
-Stress = Annotated[float, quantity("Pa")]
-Density = Annotated[float, quantity("kg/m^3")]
-ForceDensity = Annotated[float, quantity("N/m^3")]
-SpringStiffness = Annotated[float, quantity("Pa/m")]
-SurfaceEnergy = Annotated[float, quantity("J/m^2")]
+Force = Annotated[float, quantity("N", SMALLEST)]
+Stress = Annotated[float, quantity("Pa", SMALLEST)]
+Density = Annotated[float, quantity("kg/m^3", SMALLEST)]
+ForceDensity = Annotated[float, quantity("N/m^3", SMALLEST)]
+SpringStiffness = Annotated[float, quantity("Pa/m", SMALLEST)]
+SurfaceEnergy = Annotated[float, quantity("J/m^2", SMALLEST)]
 Velocity = Annotated[float, quantity("m/s")]
 Acceleration = Annotated[float, quantity("m/s^2")]
 AngularVelocity = Annotated[float, quantity("rad/s")]
@@ -81,18 +116,29 @@ class Coordinates:
 
 
 # A place. What is only a direction or a way, a displacement, is a pair of lengths.
-Point = Annotated[tuple[Length, Length], BeforeValidator(_listed), Coordinates()]
+Point = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_listed), Coordinates()]
 Segment = Annotated[tuple[Point, Point], BeforeValidator(_listed)]
-Ring = Annotated[tuple[Point, ...], BeforeValidator(_listed), Field(min_length=3)]
+Ring = Annotated[
+    tuple[Point, ...], BeforeValidator(_listed), Field(min_length=3), AfterValidator(_ring)
+]
 History = Annotated[tuple[tuple[Number, Number], ...], BeforeValidator(_listed)]
 
+# Signs that a terminal, a table of numbers or a file name would take for something else: control
+# and formatting characters, line ends, brackets, quotes, slashes.
+_STRANGE = r"\p{C}\p{Zl}\p{Zp}\[\]\"/\\"
 # "." and ":" separate parts of names in results ("beam.12", "monitor:top:ux").
-Name = Annotated[str, Field(pattern=r"^[^.:\s][^.:]*$")]
+Name = Annotated[str, Field(pattern=rf"^[^.:\s{_STRANGE}][^.:{_STRANGE}]*$")]
+NAME = 'a name without ".", ":", brackets, quotes, slashes and line breaks'
 # A block, or one piece "beam.12" of a tessellated or cut block.
-BlockName = Annotated[str, Field(pattern=r"^[^.:\s][^:]*$")]
+BlockName = Annotated[str, Field(pattern=rf"^[^.:\s{_STRANGE}][^:{_STRANGE}]*$")]
+# Of a material or an interface.
+TableName = Annotated[str, Field(pattern=rf"^[^{_STRANGE}]+$", description=NAME)]
+# One line, and a text that may have several.
+Text = Annotated[str, Field(pattern=r"^[^\p{Cc}\p{Zl}\p{Zp}]*$")]
+Prose = Annotated[str, Field(pattern=r"^([^\p{Cc}\p{Zl}\p{Zp}]|[\n\t])*$")]
 # A registry name, or "module:Name" for a part of one's own.
 PartName = Annotated[str, Field(pattern=r"^[A-Za-z_]\w*$|^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")]
-Options = Mapping[str, Any]
+Options = Annotated[dict[str, Any], BeforeValidator(_plain)]
 
 
 def example(unit: str) -> list[object]:

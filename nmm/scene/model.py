@@ -29,7 +29,7 @@ from nmm.scene.actions import (
 )
 from nmm.scene.consistency import contradictions
 from nmm.scene.faults import Source
-from nmm.scene.fields import Count, Frozen, Length, Time, example
+from nmm.scene.fields import Count, Frozen, Length, TableName, Text, Time, example
 from nmm.scene.solids import Block, Crack, Interface, JointSet, Material, Tessellation
 
 
@@ -42,7 +42,7 @@ class Scene(Frozen):
     what they need. Whether its blocks are sound is the matter of `nmm.geometry.regions`.
     """
 
-    title: str = Field(default="", description="a title", examples=["beam"])
+    title: Text = Field(default="", description="a title", examples=["beam"])
     plane: Literal["stress", "strain"] = Field(
         description='"stress" or "strain"', examples=["strain"]
     )
@@ -53,10 +53,12 @@ class Scene(Frozen):
         default=None, gt=0, description="a duration in s, > 0", examples=example("s")
     )
     seed: Count = Field(default=0, ge=0, description="a seed, an integer >= 0", examples=[1])
-    materials: dict[str, Material] = Field(
+    materials: dict[TableName, Material] = Field(
         min_length=1, description="at least one table [materials.NAME]"
     )
-    interfaces: dict[str, Interface] = Field(default={}, description="tables [interfaces.NAME]")
+    interfaces: dict[TableName, Interface] = Field(
+        default={}, description="tables [interfaces.NAME]"
+    )
     blocks: tuple[Block, ...] = Field(default=(), description="tables [[blocks]]")
     tessellations: tuple[Tessellation, ...] = Field(
         default=(), description="tables [[tessellations]]"

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from nmm.scene.fields import (
+    NAME,
     Angle,
     BlockName,
     Count,
@@ -17,6 +18,7 @@ from nmm.scene.fields import (
     Length,
     Name,
     Number,
+    Options,
     PartName,
     Point,
     Ring,
@@ -43,9 +45,7 @@ class Material(Frozen):
     poisson_ratio: Number = Field(
         gt=-1, le=0.5, description="Poisson's ratio in (-1, 0.5]", examples=[0.2]
     )
-    options: dict[str, Any] = Field(
-        default={}, description="a table of options of a law of one's own"
-    )
+    options: Options = Field(default={}, description="a table of options of a law of one's own")
 
 
 def _pair(value: object) -> object:
@@ -129,9 +129,7 @@ class Interface(Frozen):
         description="a coefficient of restitution in (0, 1], in place of damping",
         examples=[0.5],
     )
-    options: dict[str, Any] = Field(
-        default={}, description="a table of options of a law of one's own"
-    )
+    options: Options = Field(default={}, description="a table of options of a law of one's own")
 
     @model_validator(mode="after")
     def _check(self) -> Interface:
@@ -144,9 +142,7 @@ class Interface(Frozen):
 class Block(Frozen):
     """One block given by its corners."""
 
-    name: Name | None = Field(
-        default=None, description='a name without "." and ":"', examples=["base"]
-    )
+    name: Name | None = Field(default=None, description=NAME, examples=["base"])
     material: str = Field(description="the name of a material", examples=["rock"])
     vertices: Ring = Field(
         description="three or more points [x, y] in m", examples=[[[0, 0], [1, 0], [1, 1]]]
@@ -157,7 +153,7 @@ class Block(Frozen):
 class Crack(Frozen):
     """A crack that is there from the start: a polyline that may end inside blocks."""
 
-    name: Name = Field(description='a name without "." and ":"', examples=["notch"])
+    name: Name = Field(description=NAME, examples=["notch"])
     points: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(
         description="two or more points [x, y] in m", examples=[[[0, 0], [0.5, 0]]]
     )
@@ -166,7 +162,7 @@ class Crack(Frozen):
 class Tessellation(Frozen):
     """A region filled with Voronoi blocks, named `name.0`, `name.1`, ..."""
 
-    name: Name = Field(description='a name without "." and ":"', examples=["beam"])
+    name: Name = Field(description=NAME, examples=["beam"])
     material: str = Field(description="the name of a material", examples=["concrete"])
     region: Ring = Field(
         description="three or more points [x, y] in m", examples=[[[0, 0], [1, 0], [1, 1]]]
@@ -184,7 +180,7 @@ class Tessellation(Frozen):
         examples=[0.2],
     )
     smoothing: Count = Field(
-        default=2, ge=0, description="a number of Lloyd iterations, >= 0", examples=[2]
+        default=2, ge=0, le=1000, description="Lloyd iterations, 0 to 1000", examples=[2]
     )
     keep: tuple[Point, ...] = Field(
         default=(), description="a list of points [x, y] in m on the boundary that become vertices"
@@ -194,7 +190,7 @@ class Tessellation(Frozen):
 class JointSet(Frozen):
     """Parallel joints that cut blocks, with normally distributed dip, spacing and trace."""
 
-    name: Name = Field(description='a name without "." and ":"', examples=["bedding"])
+    name: Name = Field(description=NAME, examples=["bedding"])
     block: BlockName = Field(
         default="all", description='the block to cut, or "all"', examples=["slope"]
     )

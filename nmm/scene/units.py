@@ -10,6 +10,11 @@ from __future__ import annotations
 import math
 import re
 from decimal import Decimal
+from functools import cache
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import pint
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 
@@ -82,7 +87,7 @@ def convert(text: str, unit: str) -> float:
 def _by_pint(number: str, name: str, unit: str) -> float:
     import pint
 
-    registry: pint.UnitRegistry[float] = pint.UnitRegistry()
+    registry = _registry()
     expected = "a quantity" if unit == "any" else f"a quantity that converts to {unit}"
     try:
         quantity = registry.Quantity(float(number), name)
@@ -94,6 +99,14 @@ def _by_pint(number: str, name: str, unit: str) -> float:
     except Exception:  # pint raises tokenizer, attribute and type errors on malformed units
         raise UnitError(expected, f"{name!r} is no unit; {_similar(name, unit)}") from None
     return float(si.magnitude)
+
+
+@cache
+def _registry() -> pint.UnitRegistry[float]:
+    """Return the units that pint knows; to read them takes .2 s."""
+    import pint
+
+    return pint.UnitRegistry()
 
 
 def _similar(name: str, unit: str) -> str:

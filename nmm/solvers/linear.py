@@ -306,6 +306,7 @@ def _scaled_data(matrix: csc_array, scale: Floats, shift: float) -> tuple[Floats
 
 SOLVERS: Registry[type[LinearSolver]] = Registry(
     "solver",
+    LinearSolver,
     {
         "auto": "nmm.solvers.auto:Auto",
         "cholesky": "nmm.solvers.cholesky:Cholesky",

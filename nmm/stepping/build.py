@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nmm.assembly.model import Model
+from nmm.errors import Fault, SceneError
 from nmm.materials.base import MATERIAL_LAWS, Law
 from nmm.stepping.covering import local_functions
 from nmm.stepping.solid import covered
@@ -26,13 +27,25 @@ def build_model(scene: "Scene", formulation: "Formulation", regions: "Regions") 
     return covered(
         regions,
         formulation.cover,
-        [material_law(item) for item in materials],
+        [_finite(name, material_law(item), scene) for name, item in scene.materials.items()],
         scene.plane,
         cracks=[np.array(crack.points) for crack in scene.cracks],
         density=np.array([(item.density or 0.0) * has_mass for item in materials]),
         thickness=scene.thickness,
         lumped=formulation.integrator.mass == "lumped",
     )
+
+
+def _finite(name: str, law: Law, scene: "Scene") -> Law:
+    """Return a law whose matrix is one of numbers; refuse another by the material's name."""
+    stiffness = np.asarray(law.stiffness(scene.plane), dtype=float)
+    fits = stiffness.shape == (3, 3) and bool(np.isfinite(stiffness).all())
+    if not (fits and 0 < law.modulus < np.inf):
+        place = scene.source.place("materials", name)
+        value = f"stiffness {stiffness.tolist()} Pa, modulus {law.modulus} Pa"
+        expected = "a matrix (3, 3) of finite numbers, and a modulus above zero"
+        raise SceneError(Fault(place, value, expected, "correct the constants or the law"))
+    return law
 
 
 def material_law(item: "Material") -> Law:

@@ -91,6 +91,11 @@ def local_functions(cover: "Cover") -> LocalFunctions:
         raise FormulationError(
             '[cover] degree: not given: expected 0 to 3 with functions = "monomials": add degree'
         )
+    if cover.functions != "monomials" and cover.degree not in (None, 1):
+        raise FormulationError(
+            f'[cover] degree: {cover.degree}: expected 1 with functions = "{cover.functions}": use '
+            'functions = "monomials", or leave degree out'
+        )
     try:
         return functions(1 if cover.degree is None else cover.degree)
     except ValueError as fault:
@@ -117,6 +122,9 @@ def _mesh(
         laid, pieces = laid_and_cut(regions, cover, lines)
     except (ValueError, TypeError, ImportError) as fault:
         raise FormulationError(f"[cover] {fault}") from fault
-    extra = enrichments(pieces, cover, kappa)
+    try:
+        extra = enrichments(pieces, cover, kappa)
+    except ValueError as fault:
+        raise FormulationError(f"[cover.enrichment] {fault}") from fault
     kinds = functions if not cover.regions else kinds_by_region(regions, pieces, cover)
     return Covering(mesh_manifold(laid, pieces, kinds, extra), pieces, laid)

@@ -10,6 +10,9 @@ from nmm.stepping.recorder import Recorder
 from nmm.stepping.step import Stepper
 from nmm.stepping.verdict import CONVERGED, FAILED, RunVerdict
 
+# Of a step, about what sums of many steps are off by: 20 000 steps are 20 000, not one more of
+# 1e-12 s at the end.
+ROUNDING = 1e-6
 # A step is halved down to this power of two of the chosen step before the run is given up: 1/1024.
 CUTS = 10
 
@@ -52,8 +55,10 @@ def run_in_time(
     """
     begin, end = state.time, state.time + schedule.duration
     step, contacts, outputs, cuts, last = schedule.step, None, 0, 0, ""
-    while state.time < end - 1e-9 * schedule.step:
-        attempt, why = _step_or_cut(stepper, state, min(step, end - state.time), schedule)
+    while state.time < end - ROUNDING * schedule.step:
+        rest = end - state.time
+        length = rest if rest < (1 + ROUNDING) * step else step
+        attempt, why = _step_or_cut(stepper, state, length, schedule)
         if not attempt.converged:
             recorder.frame(state, schedule.stage, contacts)
             return state, RunVerdict(FAILED, _failure(attempt, state, schedule))

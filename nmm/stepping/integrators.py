@@ -231,6 +231,7 @@ class GeneralizedAlpha(Newmark):
 
 INTEGRATORS = Registry[type[Integrator]](
     "integrator",
+    Integrator,
     {
         "shi": "nmm.stepping.integrators:Shi",
         "newmark": "nmm.stepping.integrators:Newmark",

@@ -1,6 +1,7 @@
 """The nets of a formulation: one over all blocks, and those that blocks have of their own."""
 
 from collections.abc import Sequence
+from inspect import signature
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,12 +11,17 @@ from covers.cut_cells import CutCells
 from covers.cutting import cut
 from covers.nets import joined_cover, joined_cut
 from covers.polynomial_cover import PolynomialCover
-from covers.registry import cover_class
+from covers.registry import COVERS
 from integration.arrays import Floats, Ints
+from nmm.errors import Fault, FormulationError
+from nmm.registry import Registry, check_values
 
 if TYPE_CHECKING:
     from nmm.formulation import Cover, CoverNet
     from nmm.geometry.blocks import Regions
+
+NETS = Registry[type[MathematicalCover]]("cover", MathematicalCover, COVERS)
+"""Mathematical covers by name, or a user's own."""
 
 
 def laid_and_cut(
@@ -68,12 +74,33 @@ def _members(regions: "Regions", nets: "Sequence[CoverNet]") -> list[Ints]:
     return [np.flatnonzero(which == number) for number in range(len(nets) + 1)]
 
 
+def net_class(cover: "Cover") -> Any:
+    """Return the class of a formulation's cover.
+
+    Raises
+    ------
+    FormulationError
+        When it is not known, may not be imported, lays no net, or has no such options.
+    """
+    kind = NETS.load(cover.type)
+    regular = getattr(kind, "regular", None)
+    if regular is None:
+        expected, remedy = "a class method regular(bounds, size, ...)", "define it"
+        raise FormulationError(Fault("cover", f'"{cover.type}"', expected, remedy))
+    parameters = list(signature(regular).parameters.values())
+    if all(one.kind is not one.VAR_KEYWORD for one in parameters):
+        given = ("bounds", "size", "angle", "shift")
+        known = {one.name: one.annotation for one in parameters if one.name not in given}
+        check_values("[cover.options]", known, cover.options)
+    return kind
+
+
 def _laid(cover: "Cover", net: "CoverNet | None", points: Floats) -> MathematicalCover:
     bounds = np.stack([points.min(axis=0), points.max(axis=0)])
     chosen: dict[str, Any] = {name: getattr(cover, name) for name in ("size", "angle", "shift")}
     if net is not None:
         own = {name: getattr(net, name) for name in chosen}
         chosen |= {name: value for name, value in own.items() if value is not None}
-    kind: Any = cover_class(cover.type)
+    kind = net_class(cover)
     laid: MathematicalCover = kind.regular(bounds, **chosen, **cover.options)
     return laid

@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from nmm.errors import Fault, FormulationError, NmmError
+from nmm.registry import check_values
 from nmm.scene.faults import suggestion
 
 if TYPE_CHECKING:
@@ -60,8 +61,7 @@ def _named(
         yield scene.source, ("interfaces", name), interface, _interface
     source = formulation.source
     yield source, ("cover",), formulation.cover, _cover
-    if scene.contact is not None:
-        yield source, ("contact",), formulation.contact, _enforcement
+    yield source, ("contact",), formulation.contact, _enforcement
     yield source, ("integrator",), formulation.integrator, _integrator
     yield source, ("solver",), formulation.solver, _solver
 
@@ -80,21 +80,24 @@ def _interface(part: Any) -> None:
 
 def _cover(part: Any) -> None:
     from covers.local_functions import FUNCTIONS
-    from covers.registry import COVERS, cover_class
+    from covers.registry import COVERS
+    from nmm.geometry.sub_blocks import SubBlocks
+    from nmm.stepping.nets import net_class
 
     _known("functions", part.functions, [*FUNCTIONS])
     if part.degree is not None or part.functions == "monomials":
         from nmm.stepping.covering import local_functions
 
         local_functions(part)
+    if part.type == "sub_blocks":
+        SubBlocks.of(part)
+    if part.type == "block":
+        check_values("[cover.options]", {}, part.options)
     if part.of_blocks:
         return
     if ":" not in part.type:
         _known("cover", part.type, ["block", "sub_blocks", *COVERS])
-    try:
-        cover_class(part.type)
-    except (ValueError, ImportError) as fault:
-        raise FormulationError(str(fault)) from fault
+    net_class(part)
     if part.size is None:
         expected = f'the size of a cell in m, as type is "{part.type}"'
         raise FormulationError(Fault("size", "missing", expected, "add for example size = 0.1"))

@@ -16,6 +16,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup, defines
+from nmm.errors import SolveError
 
 if TYPE_CHECKING:
     from nmm.effects.contact import Contact
@@ -101,7 +102,13 @@ class Plan:
         """Return the sum of all effects' forces (n,)."""
         total = np.zeros(len(state.deformation))
         for effect in self._with("force"):
-            total += self._timed(effect.name, partial(effect.force, state, end))
+            part = self._timed(effect.name, partial(effect.force, state, end))
+            total += part
+            if not np.isfinite(part).all():
+                raise SolveError(
+                    f"{effect.name} at {end.time:.6g} s: the force is infinite or no number: "
+                    "expected finite numbers: correct its magnitude, history or place"
+                )
         return total
 
     @cached_property

@@ -1,5 +1,6 @@
 """One scene under one formulation, from files to a finished run."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ from nmm.results.sink import MemorySink, Sink
 from nmm.results.summary import Summary
 from nmm.stepping.simulation import Progress, prepare
 from nmm.stepping.step import Stepper
+from nmm.trust import allowing, beside, given
 
 if TYPE_CHECKING:
     from covers.manifold import Manifold
@@ -77,6 +79,7 @@ def run(
     *,
     out: str | Path | None = None,
     progress: Progress | None = None,
+    allow_code: Sequence[str] = (),
 ) -> Run:
     """Run a scene.
 
@@ -90,6 +93,9 @@ def run(
         Folder to write to; nothing is written without it.
     progress
         Called with the share done (0 to 1) and a line of text.
+    allow_code
+        Modules, beside the scene's file or on the Python path, that parts named ``module:Class``
+        may be imported from. Their code runs: name those that you trust.
 
     Raises
     ------
@@ -105,12 +111,22 @@ def run(
     _refuse_other(scene, "Scene", "nmm.read_scene")
     if formulation is not None:
         _refuse_other(formulation, "Formulation", "nmm.read_formulation")
+    if isinstance(allow_code, str):
+        raise TypeError(f"nmm.run: allow_code {allow_code!r}: expected a list of names of modules")
+    modules = given().modules.union(allow_code)
+    with allowing(*modules, folder=beside(scene.source.name, modules)):
+        return _run(scene, formulation, out, progress or (lambda share, text: None))
+
+
+def _run(
+    scene: "Scene", formulation: Formulation | None, out: str | Path | None, progress: Progress
+) -> Run:
     simulation = prepare(scene, formulation or scene.formulation or Formulation())
     memory = MemorySink()
     folder = None if out is None else simulation.folder(Path(out))
     sinks: list[Sink] = [memory] if folder is None else [memory, folder]
     try:
-        state = simulation.run(sinks, progress or (lambda share, text: None))
+        state = simulation.run(sinks, progress)
     except BaseException as fault:
         if folder is not None:
             folder.stop(fault)

@@ -14,8 +14,9 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, initial_state
 from nmm.effects.base import Setup
-from nmm.errors import FormulationError, SceneError
+from nmm.errors import FormulationError
 from nmm.formulation import Formulation, formulation_hash
+from nmm.geometry.amounts import refuse_many_cells
 from nmm.geometry.regions import regions as build_regions
 from nmm.results.frame import Topology
 from nmm.results.run_folder import RunFolder
@@ -35,6 +36,7 @@ from nmm.stepping.recorder import Monitor, Recorder, monitors
 from nmm.stepping.relay import Lay, check_relay
 from nmm.stepping.statics import LoadSchedule, run_load
 from nmm.stepping.step import Stepper, scaled_load
+from nmm.stepping.together import check_together
 from nmm.stepping.verdict import FAILURE, RunVerdict
 
 if TYPE_CHECKING:
@@ -82,7 +84,7 @@ class Simulation:
             path,
             scene=_toml(self.scene),
             formulation=_toml(self.formulation),
-            summary=self._identity(),
+            summary=self.identity(),
         )
 
     def run(self, sinks: list[Sink], progress: Progress) -> State:
@@ -156,7 +158,8 @@ class Simulation:
         target = loading.maximum_factor or (np.inf if until else float(loading.until))
         return LoadSchedule(target, until, steps.increment, steps.tolerance)
 
-    def _identity(self) -> Summary:
+    def identity(self) -> Summary:
+        """Return what is known of the run before it begins."""
         seeds = [item.seed for item in self.scene.tessellations if item.seed is not None]
         return Summary(
             title=self.scene.title,
@@ -177,7 +180,7 @@ class Simulation:
         stepper = self.stepper
         load = None if verdict.load_factor is None else scaled_load(stepper, verdict.load_factor)
         return replace(
-            self._identity(),
+            self.identity(),
             status=verdict.code,
             sentence=verdict.sentence,
             steps=recorder.steps,
@@ -201,8 +204,9 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
     """Build geometry, covers, effects and solver of a run."""
     begun = perf_counter()
     regions = build_regions(scene)
-    _check(scene, formulation)
+    check_together(scene, formulation)
     check_parts(scene, formulation)
+    refuse_many_cells(regions, formulation.cover, formulation.source.place("cover", "size"))
     asked, origin = (scene, formulation), own_origin(regions.polygons.points)
     if origin.any():
         regions = shifted_regions(regions, -origin)
@@ -249,15 +253,6 @@ def _small(scene: "Scene", formulation: Formulation) -> bool:
     return update == "small" or (
         update == "auto" and scene.inertia is None and scene.contact is None
     )
-
-
-def _check(scene: "Scene", formulation: Formulation) -> None:
-    """Refuse what cannot be run together."""
-    if scene.inertia is not None and scene.loading is not None:
-        raise SceneError(
-            "[loading]: named together with [inertia]: expected one of them: [loading] raises "
-            "loads in statics; give a dynamic load a history instead"
-        )
 
 
 def _toml(model: "Scene | Formulation") -> str:

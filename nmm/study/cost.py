@@ -12,6 +12,7 @@ from nmm.formulation import Formulation
 from nmm.scene import Scene
 from nmm.study.front import front
 from nmm.study.measure import Progress, measure
+from nmm.study.quantities import check_quantity
 from nmm.study.record import Record
 from nmm.study.reference import Reference, by_name, extrapolated_reference, stated_reference
 from nmm.study.running import SKFEM
@@ -117,7 +118,10 @@ def cost_study(
     cases = cases_of(scene, formulations, vary)
     stated = reference or stated_reference(scene, name)
     quantity = name or (stated.quantity if stated else "energy")
+    check_quantity(scene, quantity)
     records = measure(cases, [quantity], repeats, memory, progress)
+    if not any(one.valid for one in records):
+        raise NmmError(f"all {len(records)} runs failed; {records[0].label}: {records[0].sentence}")
     usable = None if divided else stated
     found = usable or extrapolated_reference(records, quantity)
     return CostStudy(scene.title, records, found, exponent)

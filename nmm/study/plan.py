@@ -12,14 +12,15 @@ from nmm.errors import NmmError
 from nmm.formulation import Formulation
 from nmm.scene import read_scene
 from nmm.scene.document import parse, read_text
-from nmm.scene.fields import Count, Frozen
+from nmm.scene.fields import Count, Frozen, Text
+from nmm.study.quantities import check_quantity
 from nmm.study.variants import Case, cases_of, read_formulations
 
 
 class Plan(Frozen):
     """A study: scenes, formulations, values by dotted key, and what is read off each run."""
 
-    title: str = Field(default="", description="a title", examples=["Kitoh, 12 seeds"])
+    title: Text = Field(default="", description="a title", examples=["Kitoh, 12 seeds"])
     scene: str = Field(
         default="",
         description="the path of a scene file, from the study's folder",
@@ -83,6 +84,8 @@ def _cases(folder: Path, plan: Plan, name: str) -> list[Case]:
     if not kinds:
         own = scene.formulation or Formulation()
         kinds = {own.title or "scene's own": own}
+    for quantity in plan.quantities:
+        check_quantity(scene, quantity)
     cases = cases_of(scene, kinds, plan.vary)
     if not plan.scenes:
         return cases

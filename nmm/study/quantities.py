@@ -7,12 +7,18 @@ elastic energy at the end.
 
 import math
 from collections.abc import Mapping
-from typing import Protocol
+from dataclasses import fields
+from typing import TYPE_CHECKING, Protocol
 
 from integration.arrays import Floats
-from nmm.errors import NmmError
+from nmm.errors import Fault, NmmError
 from nmm.results.summary import Summary
+from nmm.scene.faults import suggestion
 
+if TYPE_CHECKING:
+    from nmm.scene import Scene
+
+_NUMBERS = {item.name for item in fields(Summary)}
 _REDUCED = {"max": lambda column: column.max(), "min": lambda column: column.min()}
 
 
@@ -41,8 +47,8 @@ def quantity(run: Measured, name: str) -> float:
         return float(_REDUCED[reduction](_column(run, column)))
     if name == "energy":
         return float(_column(run, "strain_energy")[-1])
-    if hasattr(run.summary, name):
-        value = getattr(run.summary, name)
+    value = getattr(run.summary, name) if name in _NUMBERS else name
+    if value is None or isinstance(value, int | float):
         return math.nan if value is None else float(value)
     return float(_column(run, name)[-1])
 
@@ -55,3 +61,20 @@ def _column(run: Measured, name: str) -> Floats:
             f"({known}): correct the name, or add a monitor to the scene"
         )
     return run.history[name]
+
+
+def check_quantity(scene: "Scene", name: str) -> None:
+    """Refuse a name that no run of a scene has, before any is made.
+
+    Raises
+    ------
+    NmmError
+        With the names there are.
+    """
+    from nmm.stepping.together import known_quantities
+
+    known = ["energy", *known_quantities(scene)]
+    reduction, _, column = name.partition(":")
+    if (column if reduction in _REDUCED else name) not in known:
+        expected = "a number of the summary or a column of the history, or max: or min: of one"
+        raise NmmError(Fault("quantity", f'"{name}"', expected, suggestion(name, known)))

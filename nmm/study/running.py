@@ -1,12 +1,12 @@
 """Running one case of a study, wherever the process is and whatever carries the case."""
 
 import subprocess
-import sys
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nmm.study.quantities import Measured
+from nmm.trust import allowing
 
 if TYPE_CHECKING:
     from nmm.study.variants import Case
@@ -18,10 +18,14 @@ SKFEM = "skfem"
 def run_case(case: "Case") -> Measured:
     """Run a case in this process.
 
-    Parts of one's own are imported from the folder of the scene file, behind all that is installed.
+    Parts of one's own that are allowed are imported from the folder of the scene file too, behind
+    all that is installed.
     """
-    if case.folder and case.folder not in sys.path:
-        sys.path.append(case.folder)
+    with allowing(*case.allow_code, folder=case.folder if case.allow_code else None):
+        return _run_allowed(case)
+
+
+def _run_allowed(case: "Case") -> Measured:
     if case.formulation.cover.type == SKFEM:
         from nmm.study.yardstick import run_elements
 

@@ -15,6 +15,7 @@ from nmm.scene import Scene, build_scene
 from nmm.scene import canonical_text as scene_text
 from nmm.scene.document import build
 from nmm.scene.faults import Source
+from nmm.trust import given
 
 SIZE = "formulation.cover.size"
 
@@ -33,6 +34,8 @@ class Case:
         What this case differs in, by dotted key.
     folder
         Folder of the scene file, where parts of one's own lie; empty when there is no file.
+    allow_code
+        Modules whose parts may be imported: those that are allowed where the case is made.
     """
 
     name: str
@@ -40,6 +43,7 @@ class Case:
     formulation: Formulation
     settings: Mapping[str, Any] = field(default_factory=dict)
     folder: str = ""
+    allow_code: tuple[str, ...] = field(default_factory=lambda: tuple(sorted(given().modules)))
 
     @property
     def key(self) -> str:

@@ -98,7 +98,7 @@ def runs(names: Iterable[str] | None = None, slow: bool = False) -> Iterator[tup
         for name in (CASES.table if text is None else named(text))
     }
     for name, of_many in chosen.items():
-        for case in CASES.load(name).variants():
+        for case in CASES.load_said(name).variants():
             if case.slow and of_many and not slow:
                 continue
             for formulation in case.formulations:

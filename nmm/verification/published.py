@@ -17,7 +17,7 @@ from nmm.formulation import Formulation, read_formulation
 from nmm.results.summary import installed_versions
 from nmm.scene import read_scene
 from nmm.scene.document import parse, read_text
-from nmm.scene.fields import Frozen, Number
+from nmm.scene.fields import Frozen, Number, Prose, Text
 from nmm.stepping.run import run
 from nmm.study.quantities import quantity
 from nmm.verification.base import Case, Check, Checks
@@ -28,17 +28,17 @@ SCENE, FORMULATION, EXPECTED = "scene.toml", "formulation.toml", "expected.toml"
 class Value(Frozen):
     """One expected value."""
 
-    quantity: str = Field(description="the name of a quantity", examples=["failure_load"])
+    quantity: Text = Field(description="the name of a quantity", examples=["failure_load"])
     value: Number = Field(description="a number in SI", examples=[1.0])
     tolerance: Number = Field(ge=0, description="a relative tolerance, >= 0", examples=[1e-6])
-    source: str = Field(default="", description="where the value comes from")
+    source: Prose = Field(default="", description="where the value comes from")
 
 
 class Expected(Frozen):
     """What a published case came to, and with what."""
 
-    title: str = Field(default="", description="a title")
-    source: str = Field(default="", description="who published it, and where")
+    title: Text = Field(default="", description="a title")
+    source: Prose = Field(default="", description="who published it, and where")
     values: tuple[Value, ...] = Field(min_length=1, description="at least one table [[values]]")
     versions: dict[str, str] = Field(default={}, description="a table [versions]")
     scene_hash: str = Field(default="", description="the hash of the scene file")

@@ -7,6 +7,7 @@ _HOME = "nmm.verification.problems"
 
 CASES = Registry[type[Case]](
     "benchmark",
+    Case,
     {
         "A0a": f"{_HOME}.special_cases:FiniteElements",
         "A0b": f"{_HOME}.special_cases:BlockBasis",

@@ -253,7 +253,7 @@ def test_bilinear_weights_of_a_distorted_quad_are_those_of_its_reference_square(
         (lambda: MovingLeastSquares.regular([[0, 0], [1, 1]], 0.1, kernel="hat"), "kernel: 'hat'"),
         (lambda: MovingLeastSquares.regular([[0, 0], [1, 1]], 0.1, radius=0.6), "enlarge the rad"),
         (lambda: cover_class("hexagons"), "expected one of triangles"),
-        (lambda: cover_class("covers.kernels:KERNELS"), "no subclass"),
+        (lambda: cover_class("covers.triangles:Triangles"), "expected one of triangles"),
         (
             lambda: Quads.from_mesh(
                 MeshQuad(np.array([[0, 1, 0.2, 0], [0, 0, 0.2, 1.0]]), np.arange(4)[:, None])

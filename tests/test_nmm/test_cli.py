@@ -216,7 +216,7 @@ def test_a_scene_may_name_a_law_of_a_module_beside_it(scene, tmp_path):
     )
     path = tmp_path / "a.toml"
     path.write_text(starter().replace("[materials.rock]", '[materials.rock]\nlaw = "my_laws:Mine"'))
-    result = call("explain", path)
+    result = call("explain", path, "--allow-code", "my_laws")
     assert result.exit_code == 0, result.output
 
 

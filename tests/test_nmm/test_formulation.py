@@ -34,7 +34,7 @@ def test_a_part_of_ones_own_passes_with_its_options() -> None:
         ("[integrator]\nkinetic_factor = 1.1", (":2:", "1.1", "[0, 1]")),
         ('[contact]\njoint_points = "middle"', (":2:", '"corners" or "gauss"')),
         ("[contact]\nnormal_penalty = 0", (":2:", "> 0")),
-        ("[loading]\ntolerance = 1.0", (":2:", "(0, 1)")),
+        ("[loading]\ntolerance = 1.0", (":2:", "[1e-9, 1)")),
         ('[rotation]\nupdate = "none"', (":2:", '"exact"')),
     ],
 )

@@ -7,6 +7,7 @@ _HOME = "nmm.verification.hard"
 
 HARD = Registry[type[HardClass]](
     "hard class",
+    HardClass,
     {
         "crossings": f"{_HOME}.crossings:Crossings",
         "corners": f"{_HOME}.corners:Corners",

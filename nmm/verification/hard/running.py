@@ -91,7 +91,7 @@ def chosen_cases(
     """
     wanted = set(parts)
     for name in list(classes) or HARD.table:
-        made = HARD.load(name)()
+        made = HARD.load_said(name)()
         for seed in seeds:
             for case in made.cases(seed):
                 if wanted <= set(case.parts.values()) and (slow or not case.slow):
