@@ -138,6 +138,7 @@ def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
         if effect.about:
             out.print(f"{effect.name}: {effect.about}", highlight=False)
     out.print(f"unknowns: {manifold.n_unknowns:,}", highlight=False)
+    out.print(str(prepared.storage), highlight=False)
     if cost:
         _tell_cost(prepared)
     tell_next(f"nmm run {place}")

@@ -150,6 +150,18 @@ def _effects(data: Tables) -> Iterator[Finding]:
         remedy = "add [inertia], or remove [[initial_velocities]]"
         yield ("initial_velocities",), "no [inertia]", "a dynamic scene", remedy
     yield from _scaled_loads(data)
+    yield from _output(data)
+
+
+def _output(data: Tables) -> Iterator[Finding]:
+    output, loading = _table(data, "output"), _table(data, "loading")
+    moves = "inertia" in data or "motion_after_failure" in loading
+    if "every_time" in output and not moves:
+        remedy = "use every_steps, or add [inertia]; growing loads have no time"
+        yield ("output", "every_time"), "no [inertia]", "a scene that moves in time", remedy
+    if output.get("events") and "contact" not in data:
+        remedy = "remove events, or add [contact]"
+        yield ("output", "events"), "no [contact]", "a scene with contact", remedy
 
 
 def _scaled_loads(data: Tables) -> Iterator[Finding]:

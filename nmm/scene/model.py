@@ -30,6 +30,7 @@ from nmm.scene.actions import (
 from nmm.scene.consistency import contradictions
 from nmm.scene.faults import Source
 from nmm.scene.fields import Count, Frozen, Length, TableName, Text, Time, example
+from nmm.scene.output import Output
 from nmm.scene.solids import Block, Crack, Interface, JointSet, Material, Tessellation
 
 
@@ -78,6 +79,7 @@ class Scene(Frozen):
         default=(), description="tables [[initial_stresses]]"
     )
     monitors: tuple[Monitor, ...] = Field(default=(), description="tables [[monitors]]")
+    output: Output | None = Field(default=None, description="a table [output]")
     references: tuple[Reference, ...] = Field(
         default=(), alias="reference", description="tables [[reference]]"
     )

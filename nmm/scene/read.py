@@ -47,10 +47,10 @@ def _read_from(source: Source, scene: Scene) -> Scene:
 def canonical_text(scene: Scene) -> str:
     """The scene in one form, whatever its file's order, units and comments.
 
-    The default formulation is left out: it is not part of what happens.
+    The default formulation and what is stored are left out: they are no part of what happens.
     """
     content = scene.model_dump(
-        mode="json", by_alias=True, exclude_none=True, exclude={"formulation"}
+        mode="json", by_alias=True, exclude_none=True, exclude={"formulation", "output"}
     )
     return json.dumps(content, sort_keys=True, separators=(",", ":"), allow_nan=False)
 

@@ -25,8 +25,6 @@ class Schedule:
     ----------
     duration, step
         s.
-    frames
-        Number of frames over the duration.
     load_factor
         Factor on the scaled loads, constant in dynamics.
     stage
@@ -35,7 +33,6 @@ class Schedule:
 
     duration: float
     step: float
-    frames: int
     load_factor: float = 1.0
     stage: str = "dynamic"
 
@@ -54,13 +51,13 @@ def run_in_time(
     The last accepted state and the verdict.
     """
     begin, end = state.time, state.time + schedule.duration
-    step, contacts, outputs, cuts, last = schedule.step, None, 0, 0, ""
+    step, contacts, cuts, last = schedule.step, None, 0, ""
     while state.time < end - ROUNDING * schedule.step:
         rest = end - state.time
         length = rest if rest < (1 + ROUNDING) * step else step
         attempt, why = _step_or_cut(stepper, state, length, schedule)
         if not attempt.converged:
-            recorder.frame(state, schedule.stage, contacts)
+            recorder.last(state, schedule.stage, contacts)
             return state, RunVerdict(FAILED, _failure(attempt, state, schedule))
         taken = attempt.state.time - state.time
         after, contacts = stepper.accept(attempt)
@@ -72,10 +69,10 @@ def run_in_time(
         # After a cut the step grows back slowly: what made it fail is rarely over at once.
         step = min(schedule.step, 2 * taken) if taken < schedule.step else schedule.step
         share = (state.time - begin) / schedule.duration
-        if share * schedule.frames >= outputs + 1 - 1e-9:
-            outputs = int(share * schedule.frames + 1e-9)
+        if recorder.takes(state):
             recorder.frame(state, schedule.stage, contacts)
         progress(share, "  ".join([f"time {state.time:.4g} s of {end:.4g} s", said]).rstrip())
+    recorder.last(state, schedule.stage, contacts)
     sentence = f"every step to {state.time:.6g} s converged"
     if cuts:
         sentence += f", {cuts} of them cut; the last {last}"

@@ -1,6 +1,6 @@
 """From states to what a run hands over: frames, history rows, and the totals of the summary."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from nmm.results.frame import Frame
 from nmm.results.sink import Sink
 from nmm.stepping.attempt import Attempt
 from nmm.stepping.ledger import Ledger
+from nmm.stepping.output import Choice, Watch
 from nmm.stepping.step import Stepper
 
 if TYPE_CHECKING:
@@ -61,6 +62,8 @@ class Recorder:
         What is recorded, where to, and which points.
     ledger
         Energies.
+    choice
+        Which states are stored as frames.
     """
 
     stepper: Stepper
@@ -68,11 +71,15 @@ class Recorder:
     monitors: list[Monitor]
     ledger: Ledger = field(default_factory=Ledger)
     passes: int = 0
+    choice: Choice = field(default_factory=lambda: Choice(0.0, steps=1))
+    watch: Watch = field(default_factory=Watch)
     frames: int = 0
     residual: float = 0.0
     penetration: float = 0.0
     largest: dict[str, int] = field(default_factory=dict)
     counts: dict[str, int] = field(default_factory=dict)
+    _stored: State | None = None
+    _kept: Frame | None = None
 
     @property
     def steps(self) -> int:
@@ -117,26 +124,54 @@ class Recorder:
         noun = "pass" if attempt.passes == 1 else "passes"
         return f"{attempt.passes} {noun}, contacts: {', '.join(held)}" if held else ""
 
+    def takes(self, state: State) -> bool:
+        """Return whether the state after the step just recorded is to be a frame; ask once."""
+        return self.choice.takes(state.time, self.watch.happened(self.counts))
+
     def frame(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over a frame."""
+        self._hand_over(self._made(state, stage, contacts))
+        self._stored = state
+
+    def offer(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
+        """Hand over a frame if it is to be stored; else keep it, as it may prove the last."""
+        made, self._kept = self._made(state, stage, contacts), None
+        if self.takes(state):
+            self._hand_over(made)
+        else:
+            self._kept = made
+
+    def last(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
+        """Hand over the last state of a stretch, unless that was done."""
+        if self._stored is not state:
+            self.frame(state, stage, contacts)
+
+    def flush(self) -> None:
+        """Hand over what was offered last, unless that was done."""
+        if self._kept is not None:
+            self._hand_over(self._kept)
+            self._kept = None
+
+    def _hand_over(self, frame: Frame) -> None:
+        self.sink.frame(replace(frame, index=self.frames))
+        self.frames += 1
+
+    def _made(self, state: State, stage: str, contacts: "ContactPoints | None") -> Frame:
         stepper, manifold = self.stepper, self.stepper.model.manifold
         place = stepper.place(state)
         body = manifold.element_body[manifold.elements.polygon_of_point]
         velocity = stepper.vertices.rows.apply(state.velocity)
-        self.sink.frame(
-            Frame(
-                index=self.frames,
-                time=state.time,
-                load_factor=state.load_factor,
-                stage=stage,
-                points=place,
-                displacement=place - stepper.reference,
-                velocity=state.frames.to_global(body, velocity),
-                stress=self.stress(state),
-                **self._contact_arrays(state, contacts),
-            )
+        return Frame(
+            index=self.frames,
+            time=state.time,
+            load_factor=state.load_factor,
+            stage=stage,
+            points=place,
+            displacement=place - stepper.reference,
+            velocity=state.frames.to_global(body, velocity),
+            stress=self.stress(state),
+            **self._contact_arrays(state, contacts),
         )
-        self.frames += 1
 
     def stress(self, state: State) -> Floats:
         """Return the mean Cauchy stress (E, 3) of the elements in global axes (Pa)."""

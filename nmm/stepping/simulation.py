@@ -30,6 +30,14 @@ from nmm.stepping.dynamics import Schedule, run_in_time
 from nmm.stepping.integrators import make_integrator
 from nmm.stepping.ledger import Ledger
 from nmm.stepping.origin import MovedBack, own_origin, shifted, shifted_regions
+from nmm.stepping.output import (
+    FRAMES_AFTER_FAILURE,
+    Choice,
+    Storage,
+    choice_in_time,
+    choice_under_loads,
+    storage,
+)
 from nmm.stepping.parts import check_parts
 from nmm.stepping.plan import Plan, compile_plan
 from nmm.stepping.recorder import Monitor, Recorder, monitors
@@ -44,9 +52,6 @@ if TYPE_CHECKING:
     from nmm.scene.model import Scene
 
 Progress = Callable[[float, str], None]
-
-# Frames of a dynamic run; the first and the last state are among them.
-FRAMES = 60
 
 
 @dataclass(frozen=True)
@@ -101,7 +106,7 @@ class Simulation:
                 region_names=tuple(self.regions.name),
             )
         )
-        recorder = Recorder(self.stepper, sink, self.monitors)
+        recorder = Recorder(self.stepper, sink, self.monitors, choice=self._choice())
         recorder.frame(self.start, "load" if self.scene.inertia is None else "dynamic", None)
         state, verdict = self._advance(recorder, progress)
         summary = self._summary(recorder, state, verdict)
@@ -113,11 +118,12 @@ class Simulation:
         if scene.inertia is not None:
             assert scene.duration is not None
             step = self.formulation.integrator.step
-            times = Schedule(scene.duration, step, FRAMES)
+            times = Schedule(scene.duration, step)
             return run_in_time(stepper, recorder, self.start, times, progress)
         state, verdict = run_load(
             stepper, recorder, self.start, self._load_schedule(), progress, self.regions.name
         )
+        recorder.flush()
         loading = scene.loading
         if verdict.code == FAILURE and loading is not None and loading.motion_after_failure:
             self._show_failure(recorder, state, verdict, loading.motion_after_failure, progress)
@@ -142,13 +148,31 @@ class Simulation:
             small=False,
         )
         factor = (verdict.load_factor or 0.0) * (1 + 2 * (verdict.tolerance or 0.0))
-        times = Schedule(duration, self.formulation.integrator.step, FRAMES // 2, factor, "failure")
+        times = Schedule(duration, self.formulation.integrator.step, factor, "failure")
         shown = Frames(recorder.sink)
-        moving = replace(recorder, stepper=quiet, sink=shown, ledger=Ledger())
+        asked = choice_in_time(self.scene.output, state.time, duration, FRAMES_AFTER_FAILURE)
+        moving = replace(
+            recorder, stepper=quiet, sink=shown, ledger=Ledger(), largest={}, choice=asked
+        )
         begun = perf_counter()
         run_in_time(quiet, moving, replace(state, load_factor=factor), times, progress)
         self.stepper.seconds["motion after failure"] = perf_counter() - begun
         recorder.frames = moving.frames
+
+    def _choice(self) -> Choice:
+        """Return which states are stored."""
+        if self.scene.inertia is None or self.scene.duration is None:
+            return choice_under_loads(self.scene.output)
+        return choice_in_time(self.scene.output, self.start.time, self.scene.duration)
+
+    @property
+    def storage(self) -> Storage:
+        """How much the frames take, but for those of the motion after failure."""
+        elements, duration = self.stepper.model.manifold.elements, self.scene.duration
+        times = None
+        if self.scene.inertia is not None and duration is not None:
+            times = duration, self.formulation.integrator.step
+        return storage(self._choice(), times, len(elements.points), len(elements))
 
     def _load_schedule(self) -> LoadSchedule:
         loading, steps = self.scene.loading, self.formulation.loading

@@ -93,7 +93,7 @@ def run_load(
         if found.attempt.converged:
             said = recorder.step(state, found.attempt, found.contacts)
             state = found.attempt.state
-            recorder.frame(state, "load", found.contacts)
+            recorder.offer(state, "load", found.contacts)
             done = min(factor / schedule.target, 1.0)
             progress(done, "  ".join([f"load factor {factor:.5g}", said]).rstrip())
             increment = increment if broke else min(2 * increment, schedule.increment)

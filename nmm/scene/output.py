@@ -1,0 +1,38 @@
+"""Which states of a run are stored as frames."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from nmm.scene.fields import Count, Frozen, Time
+
+Event = Literal["first_contact", "first_slip", "bond_breaks", "state_changes"]
+
+
+class Output(Frozen):
+    """Which states are stored as frames, each by what is named; the first and the last always are.
+
+    Where nothing is named these are 60 in a dynamic run, 30 in the motion after failure and each
+    step of growing loads. Steps are not cut to meet a time, so results do not depend on what is
+    stored; the history has a line for each step whatever stands here.
+    """
+
+    every_time: Time | None = Field(
+        default=None,
+        gt=0,
+        description="a time in s, > 0: the first step that reaches each multiple of it is stored; "
+        "of runs with inertia and of the motion after failure",
+        examples=["10 ms"],
+    )
+    every_steps: Count | None = Field(
+        default=None, gt=0, description="a number of steps, > 0", examples=[5]
+    )
+    events: tuple[Event, ...] = Field(
+        default=(),
+        description='a list of "first_contact", "first_slip", "bond_breaks" and "state_changes" '
+        "(of the number of contact points that stick, slide, hold or are broken): the step after "
+        "which it is so is stored",
+        examples=[["first_contact", "bond_breaks"]],
+    )

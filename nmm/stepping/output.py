@@ -1,0 +1,141 @@
+"""Which accepted states of a run become frames: by time, by steps, by what happened in a step."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import floor
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from nmm.scene.output import Output
+
+# Frames of a dynamic run and of the motion after failure; the last state is among them.
+FRAMES, FRAMES_AFTER_FAILURE = 60, 30
+TOUCHING = ("stick", "slide")
+# Bytes of a contact point in a frame, and of the headers of a file.
+CONTACT, HEADERS = 72, 4096
+CHANGING = ("stick", "slide", "bonded", "broken")
+
+
+@dataclass
+class Choice:
+    """What is stored of one stretch of a run; asked once after each accepted step.
+
+    Attributes
+    ----------
+    begin
+        Time at which the stretch begins (s).
+    period
+        Time between frames (s); None when time does not count.
+    steps
+        Steps between frames; None when they do not count.
+    events
+        What happens in a step that is stored.
+    """
+
+    begin: float
+    period: float | None = None
+    steps: int | None = None
+    events: frozenset[str] = frozenset()
+    _periods: int = 0
+    _taken: int = 0
+
+    def takes(self, time: float, happened: frozenset[str]) -> bool:
+        """Return whether the state after a step is stored."""
+        self._taken += 1
+        due = self.steps is not None and self._taken % self.steps == 0
+        if self.period is not None:
+            periods = floor((time - self.begin) / self.period + 1e-9)
+            due, self._periods = due or periods > self._periods, max(periods, self._periods)
+        return due or not self.events.isdisjoint(happened)
+
+
+def choice_in_time(
+    asked: "Output | None", begin: float, duration: float, frames: int = FRAMES
+) -> Choice:
+    """Return what is stored of a stretch in time."""
+    if asked is None or asked == type(asked)():
+        return Choice(begin, duration / frames)
+    return Choice(begin, asked.every_time, asked.every_steps, frozenset(asked.events))
+
+
+def choice_under_loads(asked: "Output | None") -> Choice:
+    """Return what is stored while loads grow, where there is no time."""
+    if asked is None or (asked.every_steps is None and not asked.events):
+        return Choice(0.0, steps=1)
+    return Choice(0.0, None, asked.every_steps, frozenset(asked.events))
+
+
+@dataclass
+class Watch:
+    """Tells what happened in a step from the numbers of contact points in each state."""
+
+    before: Mapping[str, int] = field(default_factory=dict)
+    touched: bool = False
+    slipped: bool = False
+
+    def happened(self, counts: Mapping[str, int]) -> frozenset[str]:
+        """Return the events of the step after which contacts are so many in each state."""
+        touches = any(counts.get(name, 0) for name in TOUCHING)
+        slips = counts.get("slide", 0) > 0
+        found = {
+            "first_contact": touches and not self.touched,
+            "first_slip": slips and not self.slipped,
+            "bond_breaks": counts.get("broken", 0) > self.before.get("broken", 0),
+            "state_changes": any(
+                counts.get(name, 0) != self.before.get(name, 0) for name in CHANGING
+            ),
+        }
+        self.before = dict(counts)
+        self.touched, self.slipped = self.touched or touches, self.slipped or slips
+        return frozenset(name for name, true in found.items() if true)
+
+
+@dataclass(frozen=True)
+class Storage:
+    """How much the frames of a run take.
+
+    Attributes
+    ----------
+    frames
+        How many at most, those of events left out; None when the run decides.
+    bytes
+        Of one frame without contacts, on disk and in memory alike.
+    events
+        Whether there is a frame for each event too.
+    """
+
+    frames: int | None
+    bytes: int
+    events: bool = False
+
+    def __str__(self) -> str:
+        one = f"{_size(self.bytes)} each on disk and in memory, and {CONTACT} bytes a contact point"
+        more = " and one for each event" if self.events else ""
+        if self.frames is None:
+            return f"frames: as many as the run comes to, {one}"
+        whole = _size(self.frames * self.bytes)
+        return f"frames: {self.frames:,} at most{more}, {one}; {whole} in all"
+
+
+def storage(
+    choice: Choice, times: tuple[float, float] | None, points: int, elements: int
+) -> Storage:
+    """Return what frames of a run take; ``times`` are its duration and step, None under loads."""
+    size = 8 * (6 * points + 3 * elements) + HEADERS
+    if times is None:
+        return Storage(None, size)
+    duration, step = times
+    steps, count = duration / step, 2.0
+    if choice.period is not None:
+        count += min(duration / choice.period, steps)
+    if choice.steps is not None:
+        count += steps / choice.steps
+    return Storage(min(int(count), int(steps) + 2), size, bool(choice.events))
+
+
+def _size(count: float) -> str:
+    for unit in ("bytes", "KiB", "MiB", "GiB"):
+        if count < 1024 or unit == "GiB":
+            break
+        count /= 1024
+    return f"{count:.3g} {unit}"
