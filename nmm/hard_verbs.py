@@ -11,6 +11,9 @@ from nmm.terminal import console
 if TYPE_CHECKING:
     from nmm.verification.hard.running import Finding
 
+REDUCED_BELOW = 5.0
+"""Seconds of a case above which it is not made smaller."""
+
 
 def verify_hard(
     names: list[str],
@@ -72,9 +75,13 @@ def _tell(finding: "Finding") -> None:
 
 
 def _keep(finding: "Finding", out: Path) -> None:
+    """Write the scene of a case that misses, and the smallest one found that does so too."""
     from nmm.verification.hard.files import write_scene
+    from nmm.verification.hard.running import smallest
 
-    path = write_scene(
-        out, f"{finding.group} {finding.case.label}", finding.case.scene, finding.words
-    )
+    label = f"{finding.group} {finding.case.label}"
+    path = write_scene(out, label, finding.case.scene, finding.words)
+    if finding.seconds < REDUCED_BELOW:
+        small, words = smallest(finding)
+        path = write_scene(out, f"{label} reduced", small, words)
     console().print(f"  {path}", highlight=False, markup=False, soft_wrap=True)

@@ -16,5 +16,13 @@ HARD = Registry[type[HardClass]](
         "wedges": f"{_HOME}.wedges:Wedges",
         "slopes": f"{_HOME}.slopes:Slopes",
         "heaps": f"{_HOME}.heaps:Heaps",
+        "cuts": f"{_HOME}.cuts:Cuts",
+        "tips": f"{_HOME}.tips:Tips",
+        "ligaments": f"{_HOME}.tips:Ligaments",
+        "pieces": f"{_HOME}.pieces:Pieces",
+        "motions": f"{_HOME}.motions:Motions",
+        "steps": f"{_HOME}.halving:Steps",
+        "agreement": f"{_HOME}.halving:Agreement",
+        "solids": f"{_HOME}.random_solids:Solids",
     },
 )

@@ -1,12 +1,13 @@
 """Run hard cases and keep what came out."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import process_time
 
 from nmm.errors import NmmError
 from nmm.verification.base import Checks
-from nmm.verification.hard.base import HardCase
+from nmm.verification.hard.base import Document, HardCase
+from nmm.verification.hard.reducing import reduced
 from nmm.verification.hard.registry import HARD
 
 
@@ -68,6 +69,27 @@ def judged(group: str, case: HardCase) -> Finding:
     except Exception as error:  # a traceback is a finding
         fault, crashed = f"{type(error).__name__}: {error}", True
     return Finding(group, case, checks, fault, crashed, process_time() - started)
+
+
+def smallest(finding: Finding) -> tuple[Document, str]:
+    """Return the smallest scene that fails as a finding does, and what it says then."""
+    judge, wanted = finding.case.judge, _faults(finding)
+    first = finding.fault.split(":")[0]
+
+    def fails(scene: Document) -> bool:
+        found = judged(finding.group, replace(finding.case, scene=scene))
+        if finding.fault:
+            return found.crashed == finding.crashed and found.fault.split(":")[0] == first
+        return not found.fault and bool(wanted & _faults(found))
+
+    scene = reduced(finding.case.scene, fails)
+    words = judged(finding.group, replace(finding.case, scene=scene, judge=judge)).words
+    return scene, words
+
+
+def _faults(finding: Finding) -> set[str]:
+    """Names of what misses; of a run that did not end, how its sentence begins."""
+    return {f"{name} {finding.checks[name].reason[:25]}" for name in finding.missed}
 
 
 def chosen_cases(
