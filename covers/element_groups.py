@@ -54,6 +54,11 @@ class ElementGroup(ABC):
         """Number d of distinct shapes."""
         return int(self.shape.max(initial=-1)) + 1
 
+    @property
+    @abstractmethod
+    def slots(self) -> Ints:
+        """(S,) place of the cover of each weighted monomial among those of an element, else -1."""
+
     @abstractmethod
     def values(self, index: Ints, points: Floats) -> Floats:
         """``phi_s`` (m, S) at reference points (m, 2) in elements ``index`` (m,) of the group."""
@@ -77,6 +82,10 @@ class ElementGroup(ABC):
     @abstractmethod
     def gradient_products(self) -> Floats:
         """Integrals (d, 3, S, S) of ``s_x t_x``, ``s_x t_y``, ``s_y t_y``."""
+
+    @abstractmethod
+    def value_gradients(self, of: Ints) -> Floats:
+        """Integrals (d, T, S, 2) of ``t s_x`` and ``t s_y``, ``t`` the functions ``of`` (T,)."""
 
     @abstractmethod
     def integrals(self) -> Floats:
@@ -136,6 +145,11 @@ class PolynomialGroup(ElementGroup):
     matrix: Floats
     moments: Floats
 
+    @property
+    def slots(self) -> Ints:
+        """See `ElementGroup.slots`."""
+        return self.cover
+
     def values(self, index: Ints, points: Floats) -> Floats:
         """See `ElementGroup.values`."""
         return self._evaluate(self.table, self.degree, index, points)
@@ -161,6 +175,13 @@ class PolynomialGroup(ElementGroup):
         x, y = self._derivatives
         lower = max(self.degree - 1, 0)
         return np.stack([self._contract(a, b, lower) for a, b in ((x, x), (x, y), (y, y))], axis=1)
+
+    def value_gradients(self, of: Ints) -> Floats:
+        """See `ElementGroup.value_gradients`."""
+        slopes = count(max(self.degree - 1, 0))
+        gram = self.moments[:, product_index(self.degree)[:, :slopes]]
+        weighted = self.table[:, of] @ gram
+        return np.stack([weighted @ np.swapaxes(d, 1, 2) for d in self._derivatives], axis=-1)
 
     def integrals(self) -> Floats:
         """See `ElementGroup.integrals`."""

@@ -109,6 +109,12 @@ class EnrichedFields(Fields):
         each = 2 * self.enrichments[0].functions.number
         return np.concatenate([self.base.cover, np.repeat(np.arange(self.n_enriched), each)])
 
+    @property
+    def monomial_slots(self) -> Ints:
+        """See `Fields.monomial_slots`."""
+        extra = len(self.cover) - len(self.base.cover)
+        return np.concatenate([self.base.cover, np.full(extra, -1, dtype=np.int64)])
+
     def local_values(self, index: Ints, points: Floats) -> Floats:
         """See `Fields.local_values`."""
         singular = [self._singular(index, slot, points)[0] for slot in range(self.n_enriched)]

@@ -28,6 +28,11 @@ class Fields(ABC):
     def cover(self) -> Ints:
         """(S,) place of the cover of each function among those of an element."""
 
+    @property
+    def monomial_slots(self) -> Ints:
+        """(S,) the same of weighted monomials; -1 for functions that are none."""
+        return self.cover
+
     @abstractmethod
     def local_values(self, index: Ints, points: Floats) -> Floats:
         """Values (m, S) of the functions without their weights."""
@@ -57,6 +62,11 @@ class QuadratureGroup(ElementGroup):
         """See `ElementGroup.extends`."""
         return self.fields.extends
 
+    @property
+    def slots(self) -> Ints:
+        """See `ElementGroup.slots`."""
+        return self.fields.monomial_slots
+
     def values(self, index: Ints, points: Floats) -> Floats:
         """See `ElementGroup.values`."""
         return self.fields.evaluate(index, points)[0]
@@ -83,6 +93,15 @@ class QuadratureGroup(ElementGroup):
     def gradient_products(self) -> Floats:
         """See `ElementGroup.gradient_products`."""
         return self._integrals[1]
+
+    def value_gradients(self, of: Ints) -> Floats:
+        """See `ElementGroup.value_gradients`."""
+        found = np.zeros((len(self.elements), len(of), self._size, 2))
+        for some, points in self._batches():
+            value, slope, weight = self._at(some, points)
+            heavy = np.swapaxes(weight[:, :, None] * value[:, :, of], 1, 2)
+            found[some] = np.stack([heavy @ slope[..., 0], heavy @ slope[..., 1]], axis=-1)
+        return found
 
     def integrals(self) -> Floats:
         """See `ElementGroup.integrals`."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.rules import PointRule, polygon_rule
-from nmm.assembly.model import Model
+from nmm.assembly.model import VOLUME, Model
 
 Field = Callable[[Floats], Floats]
 
@@ -54,10 +54,22 @@ def strains(model: Model, unknowns: Floats, rule: PointRule) -> Floats:
     return np.stack([g[:, 0, 0], g[:, 1, 1], g[:, 0, 1] + g[:, 1, 0]], axis=1)
 
 
-def stresses(model: Model, unknowns: Floats, rule: PointRule) -> Floats:
-    """Stresses (Q, 3) at the points of a rule (Pa)."""
-    elasticity = model.elasticity[rule.owner]
-    return np.asarray(np.einsum("mij,mj->mi", elasticity, strains(model, unknowns, rule)))
+def stresses(
+    model: Model, unknowns: Floats, rule: PointRule, pressure: Floats | None = None
+) -> Floats:
+    """Stresses (Q, 3) at the points of a rule (Pa).
+
+    ``pressure`` (k,) are those on the patches, beside supports above all; without them they are
+    those of the unknowns alone (`Model.pressure`).
+    """
+    strain = strains(model, unknowns, rule)
+    known = model.pressure(unknowns) if pressure is None else pressure
+    if known is None:
+        return np.asarray(np.einsum("mij,mj->mi", model.elasticity[rule.owner], strain))
+    assert model.pressures is not None
+    mean = model.pressures.rows(model.manifold, rule.owner, rule.points) @ known
+    drained = np.einsum("mij,mj->mi", model.drained[rule.owner], strain)
+    return np.asarray(drained + mean[:, None] * VOLUME)
 
 
 def _energy(model: Model, rule: PointRule, strain: Floats) -> float:

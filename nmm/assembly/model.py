@@ -15,6 +15,15 @@ from integration.polygons import areas
 from nmm.assembly import element_matrices
 from nmm.assembly.blocks import Part, assemble
 from nmm.assembly.lumping import check_positive
+from nmm.assembly.patches import pressures
+from nmm.assembly.pressures import Pressures
+from nmm.errors import FormulationError
+
+# Volume is resisted in every point up to this many shear moduli, by pressures beyond: a Poisson
+# ratio of 1/3 in plane strain. No material in plane stress goes beyond.
+DRAINED = 2.0
+# Volume from strain, and a pressure's stress.
+VOLUME = np.array([1.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True)
@@ -35,6 +44,8 @@ class Model:
         Out-of-plane thickness (m).
     lumped
         Whether the mass couples no cover with another.
+    projected
+        Whether pressures on patches resist changes of volume (`nmm.assembly.pressures`).
     cut
         How the cut left a mathematical cover; None for blocks.
     """
@@ -46,11 +57,64 @@ class Model:
     thickness: float
     cut: CutCells | None = None
     lumped: bool = False
+    projected: bool = False
 
     @cached_property
     def stiffness(self) -> csc_array:
         """Elastic stiffness (n_unknowns, n_unknowns)."""
-        return self._matrix(element_matrices.stiffness, self.thickness * self.elasticity)
+        if not self.projected or self.pressures is None:
+            return self._matrix(element_matrices.stiffness, self.thickness * self.elasticity)
+        drained = self._matrix(element_matrices.stiffness, self.thickness * self.drained)
+        held = csr_array(self.pressures.root @ self.pressures.divergence)
+        return csc_array(drained + self.thickness * (held.T @ held))
+
+    @cached_property
+    def pressures(self) -> Pressures | None:
+        """Pressures of materials that resist volume much more than shear; None without any.
+
+        Where the volume is resisted in every point they serve edges alone (`nmm.effects.lift`) and
+        are of the degree of the strains, which are held exactly where they are polynomials.
+
+        Raises
+        ------
+        FormulationError
+            Projected volumes with weights that are negative somewhere.
+        """
+        excess = self._excess
+        found = pressures(self.manifold, excess, int(self.projected)) if excess.any() else None
+        if found is None and self.projected and excess.any():
+            raise FormulationError(
+                '[cover] volumetric: "projected": the weights of this cover are negative '
+                "somewhere, so that patches have no measure: expected weights >= 0: use type = "
+                '"triangles", "quads" or "bspline", or volumetric = "full"'
+            )
+        return found
+
+    @cached_property
+    def bulk(self) -> Floats:
+        """(E,) stiffness against changes of volume that pressures hold (Pa)."""
+        excess = self._excess
+        return excess if self.pressures is not None else np.zeros_like(excess)
+
+    @cached_property
+    def drained(self) -> Floats:
+        """(E, 3, 3) stress from strain without what pressures hold (Pa)."""
+        return np.asarray(self.elasticity - self.bulk[:, None, None] * np.outer(VOLUME, VOLUME))
+
+    @cached_property
+    def _excess(self) -> Floats:
+        d = self.elasticity
+        return np.asarray(np.maximum(d[:, 0, 1] - DRAINED * d[:, 2, 2], 0.0))
+
+    def pressure(self, deformation: Floats, gap: Floats | None = None) -> Floats | None:
+        """Pressures (k,) of the unknowns; None where volumes are not projected.
+
+        ``gap`` (k,) are volumes that lie between edges and where they are held (m2).
+        """
+        if not self.projected or self.pressures is None:
+            return None
+        volume = self.pressures.divergence @ deformation
+        return self.pressures.of(volume if gap is None else volume - gap)
 
     @cached_property
     def mass(self) -> csc_array:
@@ -101,9 +165,18 @@ class Model:
             lambda g: element_matrices.stress_load(g, self.thickness * stress[g.elements])
         )
 
-    def mean_stress(self, deformation: Floats) -> Floats:
-        """Mean elastic stress (E, 3) in body axes of the unknowns ``deformation``."""
-        return np.asarray(np.einsum("eij,ej->ei", self.elasticity, self.mean_strain(deformation)))
+    def mean_stress(self, deformation: Floats, pressure: Floats | None = None) -> Floats:
+        """Mean elastic stress (E, 3) in body axes of the unknowns ``deformation``.
+
+        ``pressure`` (k,) is that of the patches where it is known better, see `pressure`.
+        """
+        strain = self.mean_strain(deformation)
+        known = self.pressure(deformation) if pressure is None else pressure
+        if known is None:
+            return np.asarray(np.einsum("eij,ej->ei", self.elasticity, strain))
+        assert self.pressures is not None
+        mean = (self.pressures.integrals(self.manifold) @ known) / self.element_area
+        return np.asarray(np.einsum("eij,ej->ei", self.drained, strain) + mean[:, None] * VOLUME)
 
     def mean_strain(self, deformation: Floats) -> Floats:
         """Mean strain (E, 3) of the unknowns ``deformation``."""

@@ -113,6 +113,10 @@ class Effect(ABC):
         """Energy (J) the effect stores."""
         raise NotImplementedError
 
+    def gap_volume(self, state: State, k: int) -> Floats:
+        """Volumes (k,) left open at edges that the effect holds, for a model's k pressures (m2)."""
+        raise NotImplementedError
+
     def relaid(self, model: Model) -> "Effect":
         """Return the effect on a model whose blocks were laid anew where they stand."""
         raise NotImplementedError

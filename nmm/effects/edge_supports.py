@@ -10,6 +10,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
 from nmm.effects.base import Instant
+from nmm.effects.lift import lift
 from nmm.effects.multiplier_space import degree_of, multipliers, pieces_of, traction_degree
 from nmm.effects.nitsche_penalty import least_penalty
 from nmm.effects.support_methods import (
@@ -89,7 +90,7 @@ class Method:
             basis = multipliers(pieces, self.size, traction_degree(model), axes)
             shared = Tractions(int(basis.shape[1]))
             return Multipliers(name, place, axes, displacement, weight, basis, shared)
-        hard = model.elasticity[:, :2, :2].max(axis=(1, 2))
+        hard = model.drained[:, :2, :2].max(axis=(1, 2))
         soft = np.minimum(hard, SOFTEST * model.elasticity[:, 2, 2])
         gamma = GAMMA[min(self.degree, 3)] if self.gamma is None else self.gamma
         tie = ghost(
@@ -102,7 +103,8 @@ class Method:
         penalty = gamma * hard[place.elements] / self.size
         if self.gamma is None:
             penalty = np.maximum(penalty, least_penalty(model, place, traction, tie))
-        return Nitsche(name, place, axes, displacement, weight, penalty, traction, tie)
+        held_up = lift(model, place.elements, place.position, place.weight)
+        return Nitsche(name, place, axes, displacement, weight, penalty, traction, tie, held_up)
 
     def _factor(self, place: Place) -> float:
         """Spring in E / h: it must grow as the error of the approximation falls."""

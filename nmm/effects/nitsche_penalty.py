@@ -80,7 +80,7 @@ def _energy(model: Model, place: Place) -> csc_array:
     parts = []
     for group in manifold.groups:  # a handful of groups
         chosen = np.flatnonzero(near[group.elements])
-        elasticity = model.thickness * model.elasticity[group.elements[chosen]]
+        elasticity = model.thickness * model.drained[group.elements[chosen]]
         values = element_matrices.stiffness(group, group.shape[chosen], elasticity)
         parts.append(Part(group.unknowns[chosen], values, np.arange(len(chosen))))
     return assemble(parts, n, manifold.cover_offset)

@@ -18,6 +18,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
 from nmm.effects.base import Instant
+from nmm.effects.lift import Lift
 from nmm.effects.multiplier_space import join, multipliers, pieces_of, traction_degree
 from nmm.effects.rows import AXES, sparse_rows
 
@@ -117,12 +118,15 @@ class Nitsche(Support):
         (m, 2, L) rows of the traction in body axes.
     ghost
         Stabilising matrix of the elements on the edge.
+    lift
+        The part of pressures; None where the material has none.
     """
 
     weight: Floats
     penalty: Floats
     traction: Floats
     ghost: csc_array
+    lift: Lift | None = None
 
     def stiffness(self, state: State) -> Triplets:
         """See `Support.stiffness`."""
@@ -138,7 +142,10 @@ class Nitsche(Support):
             total -= cross + np.swapaxes(cross, 1, 2)
             total += weighted @ (rows * self.penalty.reshape(runs[:2])[:, :, None])
         row, column, value = _triplets(points.rows.unknowns[::together], total)
-        tie = self.ghost.tocoo()
+        more = self.ghost
+        if self.lift is not None:
+            more = more + self.lift.matrix(self._across(state, self.ghost.shape[0]))
+        tie = more.tocoo()
         return (
             np.concatenate([row, tie.coords[0]]),
             np.concatenate([column, tie.coords[1]]),
@@ -155,6 +162,9 @@ class Nitsche(Support):
             push = (self.weight * (now + self.penalty * lag[:, axis]))[:, None] * rows
             push -= (self.weight * lag[:, axis])[:, None] * traction
             total += np.bincount(unknowns.ravel(), push.ravel(), minlength=n)
+        if self.lift is not None:
+            gap = -self._normal_part(state, lag)
+            total += self.lift.force(self._across(state, n), state.deformation, gap)
         return np.asarray(total)
 
     def reaction(self, state: State, lag: Floats) -> Floats:
@@ -164,6 +174,9 @@ class Nitsche(Support):
         for axis in np.flatnonzero(self.held).tolist():
             now = np.einsum("ml,ml->m", self._along(state, axis)[1], state.deformation[unknowns])
             force[axis] = np.sum(self.weight * (now + self.penalty * lag[:, axis]))
+        if self.lift is not None:
+            pressure = self.lift.pressure(state.deformation, -self._normal_part(state, lag))
+            force += self.held * (pressure @ self._normal(state))
         return force
 
     def energy(self, state: State, lag: Floats) -> float:
@@ -174,12 +187,37 @@ class Nitsche(Support):
             now = np.einsum("ml,ml->m", self._along(state, axis)[1], q[unknowns])
             late = lag[:, axis]
             total += float(np.sum(self.weight * late * (now + self.penalty * late / 2)))
+        if self.lift is not None:
+            total += self.lift.energy(q, -self._normal_part(state, lag))
         return total
+
+    def gap_volume(self, state: State, lag: Floats, k: int) -> Floats:
+        """Volumes (k,) that lie between the edge and where it should be (m2)."""
+        if self.lift is None:
+            return np.zeros(k)
+        return self.lift.gap_volume(-self._normal_part(state, lag), k)
 
     @property
     def turns(self) -> bool:
         """See `Support.turns`."""
         return True
+
+    def _normal(self, state: State) -> Floats:
+        """Outward normals (m, 2) in global axes."""
+        assert self.place.normal is not None
+        return state.frames.to_global(self.place.points.body, self.place.normal)
+
+    def _normal_part(self, state: State, way: Floats) -> Floats:
+        """What ways (m, 2) along the held axes do along the normal (m,)."""
+        return np.asarray(np.sum(self.held * way * self._normal(state), axis=1))
+
+    def _across(self, state: State, n: int) -> csr_array:
+        """Rows (m, n) of the motion of the held axes along the normal."""
+        points = self.place.points
+        rows = points.along(state.frames, self.held * self._normal(state))
+        m, length = rows.shape
+        entries = rows.ravel(), points.rows.unknowns.ravel(), np.arange(m + 1) * length
+        return csr_array(entries, shape=(m, n))
 
     def _along(self, state: State, axis: int) -> tuple[Floats, Floats]:
         points = self.place.points
@@ -282,13 +320,16 @@ def share_multipliers(model: Model, supports: Sequence[Support], size: float) ->
 
 
 def traction_rows(model: Model, place: Place) -> Floats:
-    """Rows (m, 2, L) of the traction ``sigma n`` in body axes at points of the boundary."""
+    """Rows (m, 2, L) of the traction ``sigma n`` in body axes at points of the boundary.
+
+    Without the part of pressures, which `nmm.effects.lift` gives.
+    """
     assert place.normal is not None
     _, gradient = model.manifold.gradient_rows(place.elements, place.position)
     strain = np.stack(
         [gradient[:, 0, 0], gradient[:, 1, 1], gradient[:, 0, 1] + gradient[:, 1, 0]], axis=1
     )
-    stress = np.einsum("mij,mjl->mil", model.elasticity[place.elements], strain)
+    stress = np.einsum("mij,mjl->mil", model.drained[place.elements], strain)
     n = place.normal[:, :, None]
     return np.stack(
         [

@@ -171,6 +171,14 @@ class Supports(Effect):
             for i, s in enumerate(self._supports)
         }
 
+    def gap_volume(self, state: State, k: int) -> Floats:
+        """See `Effect.gap_volume`."""
+        now, total = Instant(state.time, state.load_factor), np.zeros(k)
+        for i, support in enumerate(self._supports):
+            if isinstance(support, Nitsche):
+                total += support.gap_volume(state, self._lag(i, state, now), k)
+        return total
+
     def tied_unknowns(self) -> Ints:
         """Return the unknowns in the ghost terms of Nitsche's supports."""
         none = [np.empty(0, dtype=np.int64)]

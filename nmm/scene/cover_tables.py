@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
@@ -144,6 +144,13 @@ class Cover(Part):
         default=(0.0, 0.0),
         description="a displacement of the mesh in fractions of a cell",
         examples=[[0.3, 0.2]],
+    )
+    volumetric: Literal["full", "projected"] = Field(
+        default="full",
+        description='"full" or "projected": whether changes of volume are resisted in every point, '
+        "or by pressures of one degree less than the strains, which do not lock near a Poisson "
+        "ratio of 1/2",
+        examples=["projected"],
     )
     enrichment: Enrichment | None = Field(default=None, description="a table [cover.enrichment]")
     regions: tuple[CoverRegion, ...] | None = Field(

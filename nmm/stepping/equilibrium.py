@@ -5,7 +5,7 @@ tractions of a verification problem.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -48,18 +48,31 @@ class Equilibrium:
         Relative out-of-balance force.
     factor
         The factorised system.
+    effects
+        What acts on it.
     """
 
     model: Model
     state: State
     residual: float
     factor: Factor
+    effects: tuple[Effect, ...] = ()
 
     @property
     def energy(self) -> float:
         """Strain energy (J)."""
         u = self.state.deformation
-        return 0.5 * float(u @ (self.model.stiffness @ u))
+        lifted = _plan(self.effects).lifted_energy(self.model, self._end)
+        return 0.5 * float(u @ (self.model.stiffness @ u)) + lifted
+
+    @property
+    def pressure(self) -> Floats | None:
+        """Pressures (k,) on patches (Pa); None where volumes are not projected."""
+        return _plan(self.effects).pressure(self.model, self._end)
+
+    @property
+    def _end(self) -> State:
+        return replace(self.state, time=END.time, load_factor=END.load_factor)
 
 
 def equilibrium(
@@ -82,7 +95,7 @@ def equilibrium(
         if defines(effect, "force"):
             force = force + effect.force(start, END)
     matrix = csc_array(model.stiffness + held)
-    border = Plan({str(number): effect for number, effect in enumerate(effects)}).border(start, END)
+    border = _plan(effects).border(start, END)
     if border is not None:
         matrix, force = bordered(matrix, border[0]), np.concatenate([force, border[1]])
         linear = linear.indefinite()
@@ -94,8 +107,13 @@ def equilibrium(
         apart = solve_apart(factor, bodies, held, force, None if border is None else border[0])
         if apart.residual < residual:
             state = strain_only(model, start, apart.strain, apart.rigid)
-            return Equilibrium(model, state, apart.residual, factor)
-    return Equilibrium(model, strain_only(model, start, found[:n]), residual, factor)
+            return Equilibrium(model, state, apart.residual, factor, tuple(effects))
+    state = strain_only(model, start, found[:n])
+    return Equilibrium(model, state, residual, factor, tuple(effects))
+
+
+def _plan(effects: Sequence[Effect]) -> Plan:
+    return Plan({str(number): effect for number, effect in enumerate(effects)})
 
 
 def hold(

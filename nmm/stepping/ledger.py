@@ -116,12 +116,13 @@ class Ledger:
 def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
     """Return the energies (J) of a state by name."""
     q = state.deformation
-    strain = float(q @ (model.stiffness @ q)) / 2
+    lifted = plan.lifted_energy(model, state)
+    strain = float(q @ (model.stiffness @ q)) / 2 + lifted
     return {
         "kinetic_energy": plan.energy("inertia", state),
         "strain_energy": strain + plan.energy("initial stress", state),
         "contact_energy": plan.energy("contact", state),
-        "support_energy": sum(plan.energy(name, state) for name in HOLDING),
+        "support_energy": sum(plan.energy(name, state) for name in HOLDING) - lifted,
     }
 
 

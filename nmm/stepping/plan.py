@@ -19,6 +19,7 @@ from nmm.effects.base import Effect, Instant, Setup, defines
 from nmm.errors import SolveError
 
 if TYPE_CHECKING:
+    from nmm.assembly.model import Model
     from nmm.effects.contact import Contact
     from nmm.effects.inertia import Inertia
     from nmm.effects.initial_stress import InitialStress
@@ -127,6 +128,30 @@ class Plan:
         if kept is None or not _are(kept[0], parts):
             kept = self.sums["matrix"] = parts, csc_array(sum(parts[1:], start=base))
         return kept[1]
+
+    def pressure(self, model: "Model", state: State) -> Floats | None:
+        """Return the pressures (k,) on patches of a model; None where volumes are not projected."""
+        if not model.projected or model.pressures is None:
+            return None
+        return model.pressure(state.deformation, self._gaps(len(model.pressures), state))
+
+    def lifted_energy(self, model: "Model", state: State) -> float:
+        """Return the energy (J) of pressures with what lies open at edges, less that without.
+
+        It is stored in the material and part of the energy of what holds the edges.
+        """
+        if not model.projected or model.pressures is None:
+            return 0.0
+        known = model.pressures
+        volume = known.divergence @ state.deformation
+        whole = known.root @ volume
+        left = known.root @ (volume - self._gaps(len(known), state))
+        return model.thickness * float(left @ left - whole @ whole) / 2
+
+    def _gaps(self, k: int, state: State) -> Floats:
+        """Volumes (k,) between edges and where they are held."""
+        gaps = [effect.gap_volume(state, k) for effect in self._with("gap_volume")]
+        return sum(gaps, start=np.zeros(k))
 
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Return conditions on the step's unknowns that multipliers hold, None without any."""

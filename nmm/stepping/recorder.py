@@ -176,7 +176,8 @@ class Recorder:
     def stress(self, state: State) -> Floats:
         """Return the mean Cauchy stress (E, 3) of the elements in global axes (Pa)."""
         model, initial = self.stepper.model, self.stepper.plan.initial_stress
-        stress = model.mean_stress(state.deformation)
+        pressure = self.stepper.plan.pressure(model, state)
+        stress = model.mean_stress(state.deformation, pressure)
         if initial is not None:
             stress = stress + initial.stress
         return turned_stress(stress, state.frames.angle[model.manifold.element_body])

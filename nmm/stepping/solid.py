@@ -93,4 +93,5 @@ def covered(
         thickness=thickness,
         cut=covering.cut,
         lumped=lumped,
+        projected=cover.volumetric == "projected",
     )

@@ -219,7 +219,7 @@ def stress_at(found: "Equilibrium", point: npt.ArrayLike) -> Floats:
 
     place = at_point(found.model.manifold, np.asarray(point, dtype=float))
     rule = PointRule(place.position[:1], np.ones(1), place.elements[:1])
-    return np.asarray(stresses(found.model, found.state.deformation, rule)[0])
+    return np.asarray(stresses(found.model, found.state.deformation, rule, found.pressure)[0])
 
 
 def traction_of(stress: Floats, normal: Floats) -> Floats:

@@ -1,0 +1,96 @@
+"""Pressures on edges that Nitsche's method holds: a gap counts as volume of the patches beside it.
+
+With the volumes ``B u`` of the pressures' functions (`nmm.assembly.pressures`) and ``G g`` their
+integrals with the gap ``g`` along the outward normal, the terms
+
+    -(G g)^T D B u + (G g)^T D (G g) / 2,     D = lambda M^-1,
+
+are the pressure's traction, consistent and symmetric, with a penalty on what the pressures see of
+the gap. Together with the stiffness they are not negative, whatever the cut, and nothing of the
+size of ``lambda`` is asked point by point: along a line through elements that alone would lock (the
+lifting of Bassi and Rebay 1997; Brezzi and others 2000).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+
+
+@dataclass(frozen=True)
+class Lift:
+    """The pressures beside an edge.
+
+    Attributes
+    ----------
+    wanted
+        (j,) which pressures of the model.
+    volume
+        (j, n) rows of the volumes ``B`` (m).
+    root
+        (i, j) with ``root.T @ root`` the stiffness ``D`` times the thickness (Pa/m).
+    weights
+        (j, m) the pressures' functions at the points times the length of edge of each (m).
+    """
+
+    wanted: Ints
+    volume: csr_array
+    root: csr_array
+    weights: csr_array
+
+    def matrix(self, rows: csr_array) -> csc_array:
+        """Matrix (n, n) from rows (m, n) of the gap."""
+        gap = csr_array(self.root @ (self.weights @ rows))
+        free = csr_array(self.root @ self.volume)
+        cross = gap.T @ free
+        return csc_array(gap.T @ gap - cross - cross.T)
+
+    def pressure(self, deformation: Floats, gap: Floats) -> Floats:
+        """Pressures at the points times their area (m,), of gaps (m,)."""
+        volume = self.volume @ deformation - self.weights @ gap
+        return np.asarray(self.weights.T @ self._stiff(volume))
+
+    def force(self, rows: csr_array, deformation: Floats, gap: Floats) -> Floats:
+        """Force (n,) on the unknowns: minus the slope of the terms' energy."""
+        pull = rows.T @ self.pressure(deformation, gap)
+        return np.asarray(pull + self.volume.T @ self._stiff(self.weights @ gap))
+
+    def energy(self, deformation: Floats, gap: Floats) -> float:
+        """Energy (J) of the terms."""
+        lost = self.root @ (self.weights @ gap)
+        return float(lost @ lost / 2 - lost @ (self.root @ (self.volume @ deformation)))
+
+    def gap_volume(self, gap: Floats, k: int) -> Floats:
+        """Volumes (k,) of a gap (m,) for all pressures of the model (m2)."""
+        found = np.zeros(k)
+        found[self.wanted] = self.weights @ gap
+        return found
+
+    def _stiff(self, volume: Floats) -> Floats:
+        return np.asarray(self.root.T @ (self.root @ volume))
+
+
+def lift(model: Model, elements: Ints, points: Floats, length: Floats) -> Lift | None:
+    """Return the pressures at points of edges; None where the material has none.
+
+    Parameters
+    ----------
+    elements, points
+        (m,) and (m, 2).
+    length
+        (m,) of edge that each point stands for (m), times the share of its side in the traction.
+    """
+    known = model.pressures
+    if known is None:
+        return None
+    rows = known.rows(model.manifold, elements, points)
+    wanted = np.unique(rows.indices).astype(np.int64)
+    if not len(wanted):
+        return None
+    weights = csr_array(csr_array(rows[:, wanted]).T @ diags_array(length))
+    root = csr_array(np.sqrt(model.thickness) * known.root[:, wanted])
+    root = csr_array(root[np.diff(root.indptr) > 0])
+    return Lift(wanted, csr_array(known.divergence[wanted]), root, weights)
