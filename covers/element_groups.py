@@ -50,6 +50,11 @@ class ElementGroup(ABC):
         return True
 
     @property
+    def weighted(self) -> bool:
+        """Whether the functions carry weights that vary over the element."""
+        return True
+
+    @property
     def n_shapes(self) -> int:
         """Number d of distinct shapes."""
         return int(self.shape.max(initial=-1)) + 1
@@ -144,6 +149,11 @@ class PolynomialGroup(ElementGroup):
     origin: Floats
     matrix: Floats
     moments: Floats
+
+    @property
+    def weighted(self) -> bool:
+        """See `ElementGroup.weighted`."""
+        return self.degree > self.local_degree
 
     @property
     def slots(self) -> Ints:

@@ -1,5 +1,8 @@
 """The pressures of a manifold: which patches there are, their measures and changes of volume."""
 
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 
@@ -11,84 +14,99 @@ from nmm.assembly.patch_inverse import inverse_roots
 from nmm.assembly.pressures import Pressures
 
 
+@dataclass(frozen=True)
+class _Part:
+    """What pressures take of one element group.
+
+    Attributes
+    ----------
+    group
+        The elements.
+    chosen, slot, rank
+        (T,) functions that pressures have, the covers they are of, and their place among them.
+    patch
+        (n, slots) patch of each cover of each element, or -1.
+    """
+
+    group: ElementGroup
+    chosen: Ints
+    slot: Ints
+    rank: Ints
+    patch: Ints
+
+    def pressure(self, offset: Ints) -> Ints:
+        """Pressure (n, T) of each function, -1 for none."""
+        own = self.patch[:, self.slot]
+        return np.where(own >= 0, offset[own] + self.rank, -1)
+
+    def measures(self) -> Iterator[tuple[Ints, Floats]]:
+        """Patches (m,) and the integrals (m, q, q) of products, cover by cover."""
+        products = self.group.lumped_products()
+        for one in np.unique(self.slot):  # the covers of one element
+            at = self.chosen[self.slot == one]
+            there = np.flatnonzero(self.patch[:, one] >= 0)
+            yield self.patch[there, one], products[:, at[:, None], at][self.group.shape[there]]
+
+
 def pressures(manifold: Manifold, bulk: Floats, lower: int) -> Pressures | None:
     """Return the pressures of elements of a bulk stiffness (E,) above zero (Pa).
 
-    Their functions are ``lower`` degrees below those of the displacements. None where weights are
-    negative somewhere, so that a patch has no positive measure.
+    Their functions are ``lower`` degrees below those of the displacements, twice as many where
+    weights are constant, and of degree 0 at least. None where weights are negative somewhere, so
+    that a patch has no positive measure.
     """
-    patch, parts = _patches(manifold, bulk, lower)
-    degree_of = np.zeros(len(patch), dtype=np.int64)
-    for _, _, _, of_slot, width in parts:
-        degree_of[of_slot[of_slot >= 0]] = np.broadcast_to(width, of_slot.shape)[of_slot >= 0]
-    offset = np.concatenate([[0], np.cumsum(degree_of)])
-    k, most = int(offset[-1]), int(degree_of.max(initial=1))
-    mass = np.zeros((len(patch), most, most))
-    functions, entries = [], []
-    for group, chosen, rank, of_slot, _ in parts:
-        slot = group.slots[chosen]
-        own = of_slot[:, slot]
-        pressure = np.where(own >= 0, offset[own] + rank, -1)
-        functions.append((chosen, pressure))
-        if not len(chosen):
-            continue
-        products = group.lumped_products()[:, chosen][:, :, chosen]
-        for one in np.unique(slot):  # the covers of one element
-            at = np.flatnonzero(slot == one)
-            there = np.flatnonzero(of_slot[:, one] >= 0)
-            block = products[:, at[:, None], at][group.shape[there]]
-            np.add.at(mass[:, : len(at), : len(at)], of_slot[there, one], block)
-        entries.append(_divergence(group, chosen, pressure))
-    roots = inverse_roots(mass, degree_of)
+    stiffness, parts = _patches(manifold, bulk, lower)
+    size = np.zeros(len(stiffness), dtype=np.int64)
+    for part in parts:  # a handful of groups
+        there = part.patch >= 0
+        width = np.bincount(part.slot, minlength=part.patch.shape[1])
+        size[part.patch[there]] = np.broadcast_to(width, there.shape)[there]
+    most = int(size.max(initial=1))
+    mass = np.zeros((len(size), most, most))
+    for part in parts:
+        for patch, block in part.measures():
+            q = block.shape[1]
+            np.add.at(mass[:, :q, :q], patch, block)
+    roots = inverse_roots(mass, size)
     if roots is None:
         return None
-    root = _block_diagonal(roots * np.sqrt(patch)[:, None, None], offset, degree_of)
-    row, column, value = (np.concatenate(part) for part in zip(*entries, strict=True))
-    shape = (k, manifold.n_unknowns)
-    divergence = csr_array(coo_array((value, (row, column)), shape=shape))
-    return Pressures(divergence, root, tuple(functions))
+    offset = np.concatenate([[0], np.cumsum(size)])
+    return Pressures(
+        _divergence(parts, offset, manifold.n_unknowns),
+        _block_diagonal(roots * np.sqrt(stiffness)[:, None, None], offset, size),
+        tuple((part.chosen, part.pressure(offset)) for part in parts),
+    )
 
 
-def _patches(
-    manifold: Manifold, bulk: Floats, lower: int
-) -> tuple[Floats, list[tuple[ElementGroup, Ints, Ints, Ints, Ints]]]:
-    """Bulk stiffness of each patch, and the functions of each group.
-
-    For a group: functions (T,), their rank in a patch, patch (n, slots) or -1 of each cover of an
-    element, and the number of functions (slots,) of each.
-    """
-    _, kind = np.unique(bulk, return_inverse=True)
+def _patches(manifold: Manifold, bulk: Floats, lower: int) -> tuple[Floats, list[_Part]]:
+    """Bulk stiffness of each patch, one for each cover and stiffness in it, and the groups."""
+    value, kind = np.unique(bulk, return_inverse=True)
     kind = kind.ravel()
-    keys, found = [], []
-    n_kinds = int(kind.max(initial=0)) + 1
+    parts = []
     for group in manifold.groups:  # a handful of groups
         slots = group.slots
-        number = int(slots.max(initial=-1)) + 1
-        sizes = np.bincount(slots[slots >= 0], minlength=number)
-        width = np.array([_below(size, lower) for size in sizes.tolist()], dtype=np.int64)
-        first = np.array([np.flatnonzero(slots == s)[0] for s in range(number)], dtype=np.int64)
+        sizes = np.bincount(slots[slots >= 0])
+        # The divergence under weights that vary is of the degree of the functions.
+        below = lower if group.weighted else 2 * lower
+        width = np.array([_below(size, below) for size in sizes.tolist()], dtype=np.int64)
+        first = np.array([np.argmax(slots == one) for one in range(len(sizes))], dtype=np.int64)
         rank = np.arange(len(slots)) - first[slots]
         chosen = np.flatnonzero((slots >= 0) & (rank < width[slots]))
-        cover = _covers(manifold, group, number)
-        key = cover * n_kinds + kind[group.elements][:, None]
+        key = _covers(manifold, group, len(sizes)) * len(value) + kind[group.elements, None]
         key[bulk[group.elements] <= 0] = -1
-        keys.append(key.ravel())
-        found.append((group, chosen, rank[chosen], key, width))
-    every = np.unique(np.concatenate(keys))
+        parts.append(_Part(group, chosen, slots[chosen], rank[chosen], key))
+    every = np.unique(np.concatenate([part.patch.ravel() for part in parts]))
     every = every[every >= 0]
-    value = np.zeros(n_kinds)
-    value[kind] = bulk
-    parts = []
-    for group, chosen, rank, key, width in found:
-        patch = np.where(key >= 0, np.searchsorted(every, key), -1)
-        parts.append((group, chosen, rank, patch, width))
-    return value[every % n_kinds], parts
+    for part in parts:
+        none = part.patch < 0
+        part.patch[:] = np.where(none, -1, np.searchsorted(every, part.patch))
+    return value[every % len(value)], parts
 
 
 def _below(functions: int, lower: int) -> int:
     """Number of monomials ``lower`` degrees below complete ones of a number; at least one."""
     degree = 0
-    while count(degree) < functions:
+    while count(degree) < functions:  # degrees 0 to 3
         degree += 1
     return count(max(degree - lower, 0))
 
@@ -102,24 +120,26 @@ def _covers(manifold: Manifold, group: ElementGroup, number: int) -> Ints:
     return np.asarray(owner[:, starts[:number]])
 
 
-def _divergence(group: ElementGroup, chosen: Ints, pressure: Ints) -> tuple[Ints, Ints, Floats]:
-    """Rows, columns and values of the divergence's integrals of a group."""
-    integrals = group.value_gradients(chosen)
-    d, t, size, _ = integrals.shape
-    full = integrals.reshape(d, t, 2 * size)
-    if group.combination is not None:
-        full = full @ group.combination
-    values = full[group.shape]
-    there = pressure >= 0
-    length = values.shape[2]
-    row = np.repeat(pressure[there], length)
-    unknowns = np.repeat(group.unknowns[:, None, :], t, axis=1)[there]
-    return row, unknowns.ravel(), values[there].ravel()
+def _divergence(parts: Sequence[_Part], offset: Ints, n: int) -> csr_array:
+    """Integrals (k, n) of the pressures' functions times the divergence."""
+    rows, columns, values = [], [], []
+    for part in parts:  # a handful of groups
+        integrals = part.group.value_gradients(part.chosen)
+        d, t, size, _ = integrals.shape
+        full = integrals.reshape(d, t, 2 * size)
+        if part.group.combination is not None:
+            full = full @ part.group.combination
+        pressure = part.pressure(offset)
+        there = pressure >= 0
+        rows.append(np.repeat(pressure[there], full.shape[2]))
+        columns.append(np.repeat(part.group.unknowns[:, None, :], t, axis=1)[there].ravel())
+        values.append(full[part.group.shape][there].ravel())
+    places = np.concatenate(rows), np.concatenate(columns)
+    return csr_array(coo_array((np.concatenate(values), places), shape=(int(offset[-1]), n)))
 
 
 def _block_diagonal(blocks: Floats, offset: Ints, size: Ints) -> csr_array:
-    most = blocks.shape[1]
-    inside = np.arange(most)
+    inside = np.arange(blocks.shape[1])
     there = (inside[None, :, None] < size[:, None, None]) & (inside < size[:, None, None])
     row = np.broadcast_to(offset[:-1, None, None] + inside[None, :, None], blocks.shape)
     column = np.broadcast_to(offset[:-1, None, None] + inside, blocks.shape)

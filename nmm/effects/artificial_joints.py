@@ -97,6 +97,10 @@ class ArtificialJoints(Effect):
         """Energy stored in the joints (J)."""
         return self.tie.energy(state)
 
+    def gap_volume(self, state: State, k: int) -> Floats:
+        """See `Effect.gap_volume`."""
+        return self.tie.gap_volume(state, k)
+
 
 def _spring(model: Model, joints: Joints, stiffness: float) -> Floats:
     """Stiffness (j,) of joints in Pa/m."""

@@ -12,6 +12,8 @@ The ratio is a modulus ``m_i`` times a reach ``g_i`` in 1/m. The penalty is four
 with the larger reach on both sides, ``gamma = 4 g m_1 m_2 / (m_1 + m_2)``: below four times the
 softer side's, whatever the other's modulus. With the reach of either side a thin side would hardly
 count, and what is glued to it would give way by a quarter of its own strain where nothing pulls.
+
+Pressures of nearly incompressible sides have terms of their own (`nmm.effects.lift`).
 """
 
 from dataclasses import dataclass
@@ -23,6 +25,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.donors import donors, traction_bound, traction_rows
+from nmm.effects.lift import Lift, lift
 from nmm.effects.rows import sparse_rows
 from nmm.effects.ties import Pairs, Tie
 
@@ -68,11 +71,14 @@ class Averages(Tie):
         Tractions of both sides with their weights.
     penalty
         (m,) Pa/m.
+    lifts
+        The part of pressures, of each side that has any.
     """
 
     pairs: Pairs
     sides: tuple[Flux, Flux]
     penalty: Floats
+    lifts: tuple[Lift, ...] = ()
 
     @property
     def about(self) -> str:
@@ -84,20 +90,54 @@ class Averages(Tie):
         rows, flux = self.pairs.rows(state, n), self._flux(state, n)
         cross = csc_array(rows.T @ (self._weights() @ flux))
         square = rows.T @ (self._weights(self.penalty) @ rows)
-        return csc_array(cross + cross.T + square)
+        total = cross + cross.T + square
+        if self.lifts:
+            across = self._across(state, n)
+            for part in self.lifts:  # at most two
+                total = total + part.matrix(across)
+        return csc_array(total)
 
     def force(self, state: State, n: int) -> Floats:
         """See `Tie.force`."""
         rows, flux = self.pairs.rows(state, n), self._flux(state, n)
         jump = self.pairs.jump(state).ravel()
         pull = self._weights() @ (flux @ state.deformation) + self._weights(self.penalty) @ jump
-        return np.asarray(-(rows.T @ pull) - flux.T @ (self._weights() @ jump))
+        total = np.asarray(-(rows.T @ pull) - flux.T @ (self._weights() @ jump))
+        if self.lifts:
+            across, gap = self._across(state, n), self._gap(state)
+            for part in self.lifts:  # at most two
+                total = total + part.force(across, state.deformation, gap)
+        return total
 
     def energy(self, state: State) -> float:
         """See `Tie.energy`; below zero by what the average traction stores in the jump."""
         n, jump = len(state.deformation), self.pairs.jump(state).ravel()
         average = self._flux(state, n) @ state.deformation
-        return float(jump @ (self._weights() @ average + self._weights(self.penalty) @ jump / 2))
+        found = float(jump @ (self._weights() @ average + self._weights(self.penalty) @ jump / 2))
+        gap = self._gap(state) if self.lifts else jump
+        return found + sum(part.energy(state.deformation, gap) for part in self.lifts)
+
+    def gap_volume(self, state: State, k: int) -> Floats:
+        """See `Tie.gap_volume`."""
+        gap, total = self._gap(state), np.zeros(k)
+        for part in self.lifts:  # at most two
+            total += part.gap_volume(gap, k)
+        return total
+
+    def _gap(self, state: State) -> Floats:
+        """By how much (m,) the sides overlap, which is along the outward normal of either."""
+        return -np.asarray(np.sum(self.pairs.jump(state) * self._normal(state), axis=1))
+
+    def _across(self, state: State, n: int) -> csr_array:
+        """Rows (m, n) of the same."""
+        normal = self._normal(state)
+        m = np.arange(len(normal))
+        entries = -normal.ravel(), (np.repeat(m, 2), np.arange(2 * len(normal)))
+        pick = csr_array(entries, shape=(len(normal), 2 * len(normal)))
+        return csr_array(pick @ self.pairs.rows(state, n))
+
+    def _normal(self, state: State) -> Floats:
+        return state.frames.to_global(self.pairs.second.body, self.pairs.normal)
 
     def _flux(self, state: State, n: int) -> csr_array:
         one, two = self.sides
@@ -120,9 +160,10 @@ def averages(
         Penalty as a multiple of the bound ``g m_1 m_2 / (m_1 + m_2)``; 4 when not given.
     """
     donor = [donors(model, own) for own in elements]
-    found = []
+    found, places = [], []
     for side, own in zip((pairs.first, pairs.second), donor, strict=True):
         place = model.manifold.body_centroid[side.body] + side.arm
+        places.append(place)
         found.append(Flux(side.body, *traction_rows(model, own, place, pairs.normal)))
     bounds = _bounds(model, donor, found, pairs.weight)
     # Functions without strain are as a material that nothing strains.
@@ -135,7 +176,13 @@ def averages(
         for flux, own in zip(found, ease, strict=True)
     )
     penalty = (SAFETY if gamma is None else gamma) * _least(model, donor, bounds)
-    return Averages(pairs, (weighted[0], weighted[1]), penalty), ~held
+    length = pairs.weight / model.thickness
+    lifts = [
+        lift(model, own, place, length * near / share)
+        for own, place, near in zip(elements, places, ease, strict=True)
+    ]
+    known = tuple(one for one in lifts if one is not None)
+    return Averages(pairs, (weighted[0], weighted[1]), penalty, known), ~held
 
 
 def _bounds(
@@ -156,7 +203,7 @@ def _bounds(
 
 def _least(model: Model, donor: list[Ints], bounds: tuple[Floats, Floats]) -> Floats:
     """``g m_1 m_2 / (m_1 + m_2)`` (m,): the bound with the larger reach on both sides (Pa/m)."""
-    modulus = model.elasticity[:, :2, :2].max(axis=(1, 2))
+    modulus = model.drained[:, :2, :2].max(axis=(1, 2))
     reach = np.maximum(bounds[0] / modulus[donor[0]], bounds[1] / modulus[donor[1]])
     strained = [bound > 0 for bound in bounds]
     give = [np.where(s, 1 / modulus[d], 0.0) for s, d in zip(strained, donor, strict=True)]

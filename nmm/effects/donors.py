@@ -51,7 +51,7 @@ def donors(model: Model, elements: Ints) -> Ints:
 def traction_rows(
     model: Model, elements: Ints, points: Floats, normal: Floats
 ) -> tuple[Ints, Floats]:
-    """Unknowns (m, L) and rows (m, 2, L) of ``sigma n`` in body axes.
+    """Unknowns (m, L) and rows (m, 2, L) of ``sigma n`` in body axes, less that of pressures.
 
     Points need not lie in the elements: polynomials are continued to them.
     """
@@ -59,7 +59,7 @@ def traction_rows(
     strain = np.stack(
         [gradient[:, 0, 0], gradient[:, 1, 1], gradient[:, 0, 1] + gradient[:, 1, 0]], axis=1
     )
-    stress = np.einsum("mij,mjl->mil", model.elasticity[elements], strain)
+    stress = np.einsum("mij,mjl->mil", model.drained[elements], strain)
     n = normal[:, :, None]
     across = n[:, 0] * stress[:, 0] + n[:, 1] * stress[:, 2]
     up = n[:, 0] * stress[:, 2] + n[:, 1] * stress[:, 1]
@@ -101,7 +101,7 @@ def element_stiffness(model: Model, elements: Ints, length: int) -> Floats:
         if not len(chosen):
             continue
         shape = group.shape[place[elements[chosen]]]
-        material = model.thickness * model.elasticity[elements[chosen]]
+        material = model.thickness * model.drained[elements[chosen]]
         own = element_matrices.stiffness(group, shape, material)
         total[chosen, : own.shape[1], : own.shape[2]] = own
     return total

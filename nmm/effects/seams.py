@@ -80,6 +80,10 @@ class Seams(Effect):
         """Return the energy of the ties (J)."""
         return sum(tie.energy(state) for tie in self.ties)
 
+    def gap_volume(self, state: State, k: int) -> Floats:
+        """See `Effect.gap_volume`."""
+        return sum((tie.gap_volume(state, k) for tie in self.ties), start=np.zeros(k))
+
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Conditions that multipliers hold; None without multipliers."""
         return None if self.glue is None else self.glue.border(state, self._n)

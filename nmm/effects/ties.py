@@ -70,6 +70,10 @@ class Tie(ABC):
     def energy(self, state: State) -> float:
         """Energy (J) of the tie."""
 
+    def gap_volume(self, state: State, k: int) -> Floats:
+        """Volumes (k,) between the sides, for a model's k pressures (m2); springs have none."""
+        return np.zeros(k)
+
 
 @dataclass(frozen=True)
 class Springs(Tie):

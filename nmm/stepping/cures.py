@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nmm.solvers.linear import LinearSolver, make_solver
+from nmm.stepping.locking import locking
 
 if TYPE_CHECKING:
     from covers.manifold import Manifold
@@ -13,10 +14,6 @@ if TYPE_CHECKING:
     from nmm.effects.supports import Supports
     from nmm.formulation import Solver
 
-
-# Constant covers lock from about this Poisson ratio on: at 0.49 a thick cylinder is 13 to 20 %
-# too stiff on cells of a quarter of its wall.
-LOCKING = 0.45
 
 # Most steps of refinement that take the shift out again. They end when the residual does not fall;
 # springs of 1e6 E make the shift, a share of their diagonal, as stiff as soft motions and want ten.
@@ -55,7 +52,8 @@ def cures(
 
 def warnings(model: "Model") -> list[str]:
     """Return what is known to spoil answers of the model: one sentence each."""
-    return [*_locking(model), *_plain_tips(model)]
+    locked = locking(model)
+    return [*([] if locked is None else [locked]), *_plain_tips(model)]
 
 
 def _plain_tips(model: "Model") -> list[str]:
@@ -71,19 +69,6 @@ def _plain_tips(model: "Model") -> list[str]:
         "their tip, and stress intensities come out too small, by 2 to 30 % where cells are a "
         "fortieth to a tenth of the body; use smaller cells, or [cover.enrichment] "
         "where the crack is straight"
-    ]
-
-
-def _locking(model: "Model") -> list[str]:
-    """Linear fields that keep the volume of every cell hardly move at all."""
-    reproduced = model.manifold.reproduction
-    # In plane strain the ratio of these stiffnesses is nu / (1 - nu); in plane stress it is nu.
-    ratio = float((model.elasticity[:, 0, 1] / model.elasticity[:, 0, 0]).max(initial=0.0))
-    if reproduced is None or reproduced > 1 or ratio <= LOCKING / (1 - LOCKING):
-        return []
-    return [
-        f"covers of degree 0 lock in plane strain at a Poisson ratio of {ratio / (1 + ratio):.4g}: "
-        f"displacements come out too small above {LOCKING}; use degree 1, or 2 near 0.5"
     ]
 
 

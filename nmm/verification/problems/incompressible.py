@@ -1,0 +1,69 @@
+"""Pressures of materials that hardly change their volume."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from integration.rules import polygon_rule
+from nmm.verification.base import Check, Checks, limit
+from nmm.verification.continuum import displacement_at
+from nmm.verification.problems.cylinders import RESIDUAL, Cylinder
+
+
+@dataclass(frozen=True)
+class Pressures(Cylinder):
+    """Pressures in a thick cylinder that hardly changes its volume.
+
+    Stresses do not depend on Poisson's ratio. With volumes projected on pressures of one degree
+    less than the strains neither do their errors; volumes that are resisted in every point have
+    pressures 60 % off with degree 1 at 0.4999.
+    """
+
+    name: ClassVar[str] = "A6 pressures"
+    title: ClassVar[str] = "Thick cylinder, pressures near a Poisson ratio of 1/2"
+    formulations: ClassVar[tuple[str, ...]] = ("projected", "projected degree 2", "projected quads")
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return two ratios of Poisson at two positions of the mesh."""
+        return [cls(poisson, position) for poisson in (0.4999, 0.4999999) for position in (0, 1)]
+
+    @property
+    def variant(self) -> str:
+        """Poisson's ratio, and the position."""
+        return f"nu = {self.poisson!r}, position {self.position}"
+
+    def checks(self, formulation: str) -> Checks:
+        """Compare the widening and the mean stresses of elements."""
+        found, nu = self.solved(formulation, self.size, self.position), self.poisson
+        model, area = found.model, found.model.element_area
+        widening = 4 / 3 * (1 + nu) * ((1 - 2 * nu) / 4 + 1)
+        stress = model.mean_stress(found.state.deformation, found.pressure)
+        rule = polygon_rule(model.manifold.elements, 6)
+        exact = np.stack(
+            [np.bincount(rule.owner, rule.weights * part) for part in _lame(rule.points).T], axis=1
+        )
+        exact = exact / area[:, None]
+        miss, mean = (one[:, :2].mean(axis=1) for one in (stress - exact, exact))
+        pressure = float(np.sqrt(area @ miss**2 / (area @ mean**2)))
+        whole = float(np.sqrt(area @ ((stress - exact) ** 2).sum(1) / (area @ (exact**2).sum(1))))
+        rms = "mean stresses of elements, root of the mean square over the area"
+        return {
+            "ux at (1, 0) (m)": Check(displacement_at(found, [1, 0])[0], widening, 1e-2, "the aim"),
+            "uy at (0, 1) (m)": Check(displacement_at(found, [0, 1])[1], widening, 1e-2, "the aim"),
+            "error of the pressure": limit(pressure, 0.05, rms),
+            "error of the stress": limit(whole, 0.05, rms),
+            "residual": limit(found.residual, 1e-7, RESIDUAL),
+        }
+
+
+def _lame(points: Floats) -> Floats:
+    """Stresses (m, 3) of the cylinder at points (m, 2)."""
+    r, t = np.hypot(*points.T), np.arctan2(points[:, 1], points[:, 0])
+    c, s, radial, hoop = np.cos(t), np.sin(t), (1 - 4 / r**2) / 3, (1 + 4 / r**2) / 3
+    return np.stack(
+        [radial * c**2 + hoop * s**2, radial * s**2 + hoop * c**2, (radial - hoop) * c * s], axis=1
+    )
