@@ -4,6 +4,7 @@ Whatever the method, the force is read from the whole distance to where points s
 nothing drifts over steps.
 """
 
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
@@ -15,6 +16,7 @@ from nmm.assembly.motion import State
 from nmm.assembly.places import Place, at_point, on_block, on_segment
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.edge_supports import Method, method_of
+from nmm.effects.lift import sharing
 from nmm.effects.load_factor import displacement_factor
 from nmm.effects.support_methods import (
     Multipliers,
@@ -46,7 +48,7 @@ class Supports(Effect):
         in_time: bool = False,
         still: bool = True,
     ) -> None:
-        self._supports = supports
+        self._supports = _sharing(supports)
         self._n = n_unknowns
         self._in_time, self._still = in_time, still
         self._stood: tuple[Floats, csc_array] | None = None
@@ -204,6 +206,13 @@ class Supports(Effect):
         """Bodies whose rotation changes the stiffness: springs alike in x and y do not turn."""
         none = [np.zeros(0, dtype=np.int64)]
         return none + [np.unique(s.place.points.body) for s in self._supports if s.turns]
+
+
+def _sharing(supports: list[Support]) -> list[Support]:
+    """Return supports whose pressures know of one another."""
+    lifts = sharing([s.lift if isinstance(s, Nitsche) else None for s in supports])
+    pairs = zip(supports, lifts, strict=True)
+    return [replace(s, lift=own) if isinstance(s, Nitsche) and own else s for s, own in pairs]
 
 
 def _method(setup: Setup) -> Method:

@@ -43,10 +43,8 @@ class Pressures(Cylinder):
         widening = 4 / 3 * (1 + nu) * ((1 - 2 * nu) / 4 + 1)
         stress = model.mean_stress(found.state.deformation, found.pressure)
         rule = polygon_rule(model.manifold.elements, 6)
-        exact = np.stack(
-            [np.bincount(rule.owner, rule.weights * part) for part in _lame(rule.points).T], axis=1
-        )
-        exact = exact / area[:, None]
+        parts = [np.bincount(rule.owner, rule.weights * part) for part in _lame(rule.points).T]
+        exact = np.stack(parts, axis=1) / area[:, None]
         miss, mean = (one[:, :2].mean(axis=1) for one in (stress - exact, exact))
         pressure = float(np.sqrt(area @ miss**2 / (area @ mean**2)))
         whole = float(np.sqrt(area @ ((stress - exact) ** 2).sum(1) / (area @ (exact**2).sum(1))))
