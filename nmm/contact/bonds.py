@@ -9,6 +9,7 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.points import ContactPoints
 from nmm.contact.problem import BROKEN, Limits, StepAnswer
+from nmm.contact.surface import Surface
 from nmm.interfaces.base import InterfaceLaw
 
 # Loads on bonds of a symmetric structure agree to rounding only; those within this of the worst
@@ -55,20 +56,24 @@ class Laws:
     def springs(
         self, contacts: ContactPoints, opened: Bools | None = None
     ) -> tuple[Floats, Floats, Bools]:
-        """Return normal and shear stiffness (N/m) and which are the joints' own.
+        """Return normal and shear stiffness (N/m) and which are a law's own.
 
         Bonds that soften have what is left of their normal stiffness where they are ``opened``
         (m,), by default where the gap is positive.
         """
-        own = contacts.is_joint
+        own = contacts.is_joint.copy()
         normal = np.where(own, self.normal_bond, self.normal_penalty) * contacts.slenderness
         shear = np.where(own, self.shear_bond, self.shear_penalty) * contacts.slenderness
         for law, index in self._by_law(contacts):
-            index = index[own[index]]
+            if law.normal_stiffness is not None:
+                found = index[~contacts.is_joint[index]]
+                own[found] = True
+                shear[found] = normal[found] * _shear_ratio(law)
+            index = index[contacts.is_joint[index]]
             area = contacts.length[index] * self.thickness
             if law.normal_stiffness is not None:
                 normal[index] = law.normal_stiffness * area
-                shear[index] = (law.shear_stiffness or law.normal_stiffness) * area
+                shear[index] = normal[index] * _shear_ratio(law)
             if law.softens:
                 damage = contacts.damage[index]
                 away = (contacts.gap > 0 if opened is None else opened)[index] & (damage < 1)
@@ -76,10 +81,37 @@ class Laws:
                 normal[index] *= np.where(away, share, 1.0)
         return normal, shear, own
 
-    def energy(self, contacts: ContactPoints) -> float:
-        """Energy (J) that comes back when the contacts are unloaded."""
-        normal, shear, _ = self.springs(contacts)
+    def sized(self, contacts: ContactPoints, surface: Surface) -> ContactPoints:
+        """Return found contacts as stiff as their laws ask for.
+
+        A stretch of a face has its length; a mere vertex stands for half the edge that faces the
+        other body, or half the other's if that is shorter, so that the two corners of a face that
+        lies on a longer one carry all of it.
+        """
+        slenderness = contacts.slenderness.copy()
+        for law, index in self._by_law(contacts):
+            if law.normal_stiffness is not None:
+                some = contacts.take(index)
+                mere = _half_edge(surface, some.edge_a, some.edge_b)
+                length = np.where(some.length > 0, some.length, mere)
+                spring = law.normal_stiffness * length * self.thickness
+                slenderness[index] = spring / self.normal_penalty
+        return replace(contacts, slenderness=slenderness)
+
+    @cached_property
+    def stiff(self) -> bool:
+        """Whether any law has a stiffness of its own."""
+        return any(law.normal_stiffness is not None for law in self.laws)
+
+    def energy(self, contacts: ContactPoints, own_only: bool = False) -> float:
+        """Energy (J) that comes back when the contacts are unloaded.
+
+        With ``own_only`` of those alone whose stiffness is a law's: exact contacts are no springs,
+        what they overlap by, within a tolerance, stores nothing.
+        """
+        normal, shear, own = self.springs(contacts)
         acts = (contacts.normal_force != 0) | (contacts.shear_force != 0)
+        acts &= own | (not own_only)
         stretch = np.where(contacts.damage < 1, contacts.gap, np.minimum(contacts.gap, 0.0))
         elastic = normal * stretch**2 + shear * contacts.slip**2
         return float(elastic[acts].sum() / 2)
@@ -184,3 +216,17 @@ def break_bonds(contacts: ContactPoints, broken: Bools) -> ContactPoints:
         shear_force=np.where(broken, 0.0, contacts.shear_force),
         slip=np.where(broken, 0.0, contacts.slip),
     )
+
+
+def _shear_ratio(law: InterfaceLaw) -> float:
+    """Shear over normal stiffness of a law that has one."""
+    assert law.normal_stiffness is not None
+    return (law.shear_stiffness or law.normal_stiffness) / law.normal_stiffness
+
+
+def _half_edge(surface: Surface, vertex: Ints, edge: Ints) -> Floats:
+    """Half the length (m,) of the edge at a vertex that faces ``edge``, or of that if shorter."""
+    before, along = surface.previous[vertex], surface.direction[edge]
+    faces = [np.einsum("ij,ij->i", surface.direction[own], along) for own in (vertex, before)]
+    facing = np.where(faces[0] <= faces[1], vertex, before)
+    return np.asarray(np.minimum(surface.length[facing], surface.length[edge]) / 2)

@@ -119,7 +119,8 @@ class Contact(Effect):
         enforcement = make_enforcement(method.enforcement, options)
         # Fields of blocks follow what single points ask for.
         in_the_mean = enforcement.multipliers and not setup.formulation.cover.of_blocks
-        in_the_mean &= points > 0
+        # Nor has a mean a stiffness of its own.
+        in_the_mean &= points > 0 and not laws.stiff
         return cls(
             setup.model,
             laws,
@@ -150,6 +151,8 @@ class Contact(Effect):
         joints = record.book.now(surface, self._apart(state))
         found, interface = self._partners.search(state, 2 * reach, step, record.book, record.found)
         new = searched_points(found, interface, surface)
+        if self._laws.stiff:
+            new = self._laws.sized(new, surface)
         if self._bends:
             apart = Stations.at(self._sides, new).apart(new, state.frames, state.deformation)
             new = replace(new, gap=np.einsum("ij,ij->i", apart, new.normal))
@@ -326,8 +329,7 @@ class Contact(Effect):
         record = self.record
         known = [] if record.known is None else [record.known]
         points = concatenate([record.book.points, *known])
-        # Exact contacts are no springs: what they overlap by, within a tolerance, stores nothing.
-        return self._laws.energy(points.take(points.is_joint) if self._exact else points)
+        return self._laws.energy(points, own_only=self._exact)
 
     def _dashpots(
         self, contacts: ContactPoints, normal: Floats, rows: csr_array, step: float | None
