@@ -123,6 +123,10 @@ class Memory:
         """Drop a factor that no longer serves."""
         self.kept = [other for other in self.kept if other is not kept]
 
+    def forget_answers(self) -> None:
+        """Drop all that was found: after a step that failed none of it is near the next answer."""
+        self.start, self.found, self.answered = None, [], None
+
     def keep(self, increment: Floats, load: Floats) -> None:
         """Keep the unknowns found under a load, in place of what was found under it before."""
         if not np.isfinite(increment).all():

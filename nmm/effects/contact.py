@@ -288,6 +288,14 @@ class Contact(Effect):
         )
         return concatenate([done, self.record.book.lost])
 
+    def restore(self, record: ContactRecord) -> None:
+        """Go back to an earlier step, and start from there alone.
+
+        Friction has many answers, and what a step that failed has slid is near wrong ones.
+        """
+        self.record = record
+        self._memory.forget_answers()
+
     def passage(self, before: State, after: State) -> str:
         """Say where a body went through another in the step last solved; empty if none did."""
         return self._partners.passage(before, after)

@@ -133,7 +133,7 @@ class Stepper:
     def restore(self, record: "ContactRecord | None") -> None:
         """Take back what was accepted since `remember`."""
         if self.plan.contact is not None and record is not None:
-            self.plan.contact.record = record
+            self.plan.contact.restore(record)
 
     @property
     def broken_bonds(self) -> int:
