@@ -18,10 +18,20 @@ from nmm.errors import GeometryError
 
 # Degree to which the sums of squares of the fit are integrated.
 ORDER = 4
+# Weights of the fit fall as ``exp(-bell (r / radius)^2)``: at edges and inside to a half in 0.38
+# sizes of a cell. In corners, where elements fill less of the disc, a fit so near carries errors of
+# single elements on in two directions: there it is wider, down to `WIDE` at a share of `CORNER`.
+BELL, WIDE = 19.0, 2.0
+EDGE, CORNER = 0.43, 0.3
 
 
 def recovered_stress(
-    model: Model, unknowns: Floats, points: Floats, radius: float, degree: int
+    model: Model,
+    unknowns: Floats,
+    points: Floats,
+    radius: float,
+    degree: int,
+    pressure: Floats | None = None,
 ) -> Floats:
     """Stress (m, 3) in body axes at reference points (m, 2), Pa.
 
@@ -35,6 +45,8 @@ def recovered_stress(
         Elements whose centroids are nearer (m) are fitted: two sizes of a cell.
     degree
         Of the polynomial: that of the local functions and one.
+    pressure
+        (k,) on the patches of projected volumes, see `nmm.assembly.errors.stresses`.
 
     Raises
     ------
@@ -44,15 +56,27 @@ def recovered_stress(
     Notes
     -----
     Only elements of the material of the point take part that share covers with those at the point,
-    or share covers with such: the fit does not look across cracks. With covers of degree 1 and
-    cells of a quarter of its radius the threefold stress beside a hole comes out 1.6 % wrong at
-    most over five positions of the net; evaluated at the point it is up to 5.8 % wrong.
+    or share covers with such: the fit does not look across cracks. They count by a bell of their
+    distance: with equal weights a peak at a boundary, where elements lie on one side only,
+    is cut by 5 to 15 %. Beside a hole in a plate, with covers of degree 1 and cells of a quarter of
+    its radius, the threefold peak comes out right to 1 % over five positions of the net, and no
+    component all around the hole is wrong by more than 3.3 % of the peak, 0.4 % inside; evaluated
+    at the point it is up to 8 % wrong. With degree 2 it is 0.6 %, with half the cells across 9 %.
+    Where the boundary of the hole meets an axis of symmetry, a corner of a quarter of the plate,
+    the peak is right to 1.5 %.
     """
-    found = [_at(model, unknowns, point, radius, degree) for point in points]  # a fit for each
+    found = [_at(model, unknowns, point, radius, degree, pressure) for point in points]
     return np.array(found).reshape(-1, 3)
 
 
-def _at(model: Model, unknowns: Floats, point: Floats, radius: float, degree: int) -> Floats:
+def _at(
+    model: Model,
+    unknowns: Floats,
+    point: Floats,
+    radius: float,
+    degree: int,
+    pressure: Floats | None,
+) -> Floats:
     place = at_point(model.manifold, point)
     if not len(place):
         raise GeometryError(
@@ -62,13 +86,18 @@ def _at(model: Model, unknowns: Floats, point: Floats, radius: float, degree: in
     chosen = _about(model, int(place.elements[0]), point, radius)
     rule = polygon_rule(model.manifold.elements.take(chosen), ORDER)
     rule = type(rule)(rule.points, rule.weights, chosen[rule.owner])
-    stress = stresses(model, unknowns, rule)
+    stress = stresses(model, unknowns, rule, pressure)
     # Near the rim of the body there may be too few elements for the degree.
     fitted = degree
     while fitted and len(chosen) < count(fitted):
         fitted -= 1
-    weight = np.sqrt(rule.weights)[:, None]
-    terms = evaluate((rule.points - point) / radius, fitted)
+    away = (rule.points - point) / radius
+    square = (away**2).sum(axis=1)
+    share = rule.weights.sum() / (np.pi * radius**2)
+    bell = np.interp(share, [CORNER, EDGE], [WIDE, BELL])
+    near = np.exp(-bell * (square - square.min()))
+    weight = np.sqrt(rule.weights * near)[:, None]
+    terms = evaluate(away, fitted)
     return np.asarray(np.linalg.lstsq(terms * weight, stress * weight, rcond=1e-12)[0][0])
 
 

@@ -83,11 +83,44 @@ def test_the_peak_beside_a_hole_is_right_to_two_percent_wherever_the_net_lies() 
         found = plate_with_a_hole(position)
         assert found.energy == pytest.approx(7.693653726e-3, rel=5e-3)
         peak = recovered_stress(found.model, found.state.deformation, top, 2 * SIZE, 2)[0, 0]
-        assert peak == pytest.approx(3.0, rel=0.02)
+        assert peak == pytest.approx(3.0, rel=0.015)
         raw = at_the_point(found, at_point(found.model.manifold, top[0]))[0]
         worst = max(worst, abs(raw / 3 - 1))
     # What the recovery is for: at the point itself 5.8 % are missing in one position.
     assert worst > 0.04
+
+
+def whole_plate_with_a_hole(position: tuple[float, tuple[float, float]]) -> Equilibrium:
+    """The whole of benchmark A5, held at two points, with the exact tractions all around."""
+    from shapely import Polygon
+
+    from nmm.verification.continuum import pin
+
+    angle = np.linspace(0, 2 * np.pi, 768, endpoint=False)
+    hole = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    square = [(-4, -4), (4, -4), (4, 4), (-4, 4)]
+    region = Polygons.from_shapely([Polygon(square, [hole])])
+    model = solid(region, cover(position), [LAW], "strain")
+    rest = on_edges(model.manifold, np.ones(len(model.manifold.boundary), dtype=bool), 12)
+    pins = [pin(model, [4, 0.1]), pin(model, [-4, 0.1], (False, True))]
+    supports = Supports(pins, model.manifold.n_unknowns, initial_state(model.manifold))
+    return equilibrium(model, [supports, traction(model, rest, pull)])
+
+
+@pytest.mark.parametrize("position", POSITIONS[:2])
+def test_stress_all_around_a_hole_in_a_whole_plate_is_as_good_as_stated(
+    position: tuple[float, tuple[float, float]],
+) -> None:
+    found = whole_plate_with_a_hole(position)
+    angle = np.arange(0, 768, 24) * 2 * np.pi / 768
+    around = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    points = np.concatenate([around, 1.3 * around])
+    stress = recovered_stress(found.model, found.state.deformation, points, 2 * SIZE, 2)
+    # As the docstring has it, in parts of the threefold peak; a fit without weights misses by 13 %.
+    assert stress[angle.argmin() + 8, 0] == pytest.approx(3.0, rel=0.01)
+    miss = np.abs(stress - kirsch(points)) / 3
+    assert miss[: len(around)].max() < 0.033
+    assert miss[len(around) :].max() < 0.005
 
 
 def test_stress_of_a_quadratic_displacement_comes_back_exactly() -> None:
