@@ -3,9 +3,6 @@
 Addresses are arguments of the compiled functions, so these can be kept on disk.
 """
 
-import ctypes
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
@@ -18,7 +15,6 @@ from numba.extending import get_cython_function_address, intrinsic
 from integration.arrays import Floats, Ints
 
 Index = npt.NDArray[np.int32]
-VERBS = ("set", "get")
 LETTERS, SCALARS = np.frombuffer(b"LNRTU", dtype=np.uint8), np.array([1.0, -1.0, 0.0])
 
 
@@ -54,37 +50,3 @@ def _caller(count: int) -> Any:
 
 call5, call6, call8 = _caller(5), _caller(6), _caller(8)
 call10, call11, call13 = _caller(10), _caller(11), _caller(13)
-
-
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """Keep OpenBLAS from starting threads: fronts are too small for them (6 times slower)."""
-    setter, getter = _thread_control()
-    if setter is None or getter is None:
-        yield
-        return
-    before = getter()
-    setter(1)
-    try:
-        yield
-    finally:
-        setter(before)
-
-
-@cache
-def _thread_control() -> tuple[Any, Any]:
-    """Setter and getter of the number of threads in scipy's OpenBLAS; None where unknown."""
-    import scipy.linalg.cython_blas as module
-
-    try:
-        library = ctypes.CDLL(module.__file__)
-    except OSError:
-        return None, None
-    for name in ("scipy_openblas_{}_num_threads", "openblas_{}_num_threads"):
-        for suffix in ("", "64_"):
-            try:
-                setter, getter = (getattr(library, name.format(v) + suffix) for v in VERBS)
-                return setter, getter
-            except AttributeError:
-                continue
-    return None, None

@@ -7,13 +7,14 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.solvers import fronts
-from nmm.solvers.blas import addresses, one_thread, words
+from nmm.solvers.blas import addresses, words
 from nmm.solvers.linear import Decomposition, LinearSolver, sorted_rows
 from nmm.solvers.loan import Loan
 from nmm.solvers.lu import FrontalLU
 from nmm.solvers.panels import Borrowed, Panels
 from nmm.solvers.plans import symmetric_plan
 from nmm.solvers.superlu import SuperLU
+from nmm.solvers.threads import one_thread
 
 
 @dataclass(frozen=True)

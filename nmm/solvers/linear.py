@@ -12,6 +12,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats
 from nmm.errors import SolveError
 from nmm.registry import Registry
+from nmm.solvers.draws import same_draws
 from nmm.solvers.krylov import minimal_residual
 
 ACCEPTED = 1e-8
@@ -200,7 +201,9 @@ class Factor:
         scaled = _scaled(self.matrix, self.scale, 0.0)
         solve = self.decomposition.solve
         inverse = LinearOperator(scaled.shape, matvec=solve, rmatvec=solve, dtype=np.float64)
-        return float(abs(scaled).sum(axis=0).max() * onenormest(inverse))
+        with same_draws():
+            norm = onenormest(inverse)
+        return float(abs(scaled).sum(axis=0).max() * norm)
 
     def _refined(self, rhs: Floats) -> tuple[Floats, float, float]:
         load = self.scale * rhs

@@ -9,12 +9,13 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.solvers import lu_fronts
-from nmm.solvers.blas import Index, addresses, one_thread, words
+from nmm.solvers.blas import Index, addresses, words
 from nmm.solvers.linear import Decomposition, LinearSolver, sorted_rows
 from nmm.solvers.loan import Loan
 from nmm.solvers.panels import Borrowed, Panels
 from nmm.solvers.plans import any_plan
 from nmm.solvers.superlu import SuperLU
+from nmm.solvers.threads import one_thread
 
 TRUSTED = 1e-6
 """Largest residual of a load of ones of either sign. On contact problems SuperLU leaves as much

@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
-from nmm.solvers.blas import Index, addresses, one_thread, words
+from nmm.solvers.blas import Index, addresses, words
 from nmm.solvers.elimination import Fronts
 from nmm.solvers.loan import Loan
+from nmm.solvers.threads import one_thread
 
 Borrowed = tuple[Ints, npt.NDArray[np.uint8], Index, Floats]
 """Addresses of the kernels, and room for the letters, sizes and numbers they take."""
