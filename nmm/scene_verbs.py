@@ -117,6 +117,7 @@ def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
     from nmm.formulation import Formulation
     from nmm.stepping.plan import called_for
     from nmm.stepping.simulation import prepare
+    from nmm.stepping.tips import tip_lines
 
     scene = nmm.read_scene(place)
     chosen = read_formulation(formulation) or scene.formulation or Formulation()
@@ -137,6 +138,8 @@ def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
     for effect in prepared.stepper.plan.effects.values():
         if effect.about:
             out.print(f"{effect.name}: {effect.about}", highlight=False)
+    for line in tip_lines(prepared.stepper.model):
+        out.print(line, highlight=False, markup=False)
     out.print(f"unknowns: {manifold.n_unknowns:,}", highlight=False)
     out.print(str(prepared.storage), highlight=False)
     if cost:

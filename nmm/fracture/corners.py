@@ -9,6 +9,8 @@ from integration.arrays import Floats
 from nmm.errors import FormulationError
 
 NEAR = 1e-9
+# Angle (rad) above a straight line below which singular fields cannot be told from smooth ones.
+FLAT = 1e-3
 
 
 @dataclass(frozen=True)
@@ -26,7 +28,7 @@ def corner_at(boundary: BoundaryEdges, point: Floats) -> Corner:
     Raises
     ------
     FormulationError
-        No edge of the boundary starts there.
+        No edge of the boundary starts there, or the corner is not re-entrant.
     """
     away = np.hypot(*(boundary.start - point).T)
     edge = int(np.argmin(away))
@@ -40,6 +42,12 @@ def corner_at(boundary: BoundaryEdges, point: Floats) -> Corner:
     back = boundary.start[before] - boundary.end[before]
     first = float(np.arctan2(out[1], out[0]))
     angle = float(np.mod(np.arctan2(back[1], back[0]) - first, 2 * np.pi))
+    if angle <= np.pi + FLAT:
+        raise FormulationError(
+            f"[cover.enrichment] corners: {point.tolist()}: the material fills "
+            f"{np.degrees(angle):.6g} degrees there: expected a re-entrant corner of more than "
+            "180, where stresses are singular: take the point out"
+        )
     middle = first + angle / 2
     direction = np.array([np.cos(middle), np.sin(middle)])
     return Corner(angle, direction, int(boundary.element[edge]))

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from covers.crack_tip_functions import crack_tip_functions
+from covers.cut_cells import CutCells
 from covers.enrichment import Enrichment, singular_fields
 from integration.arrays import Floats, Ints
 from integration.rules import polygon_rule
@@ -24,6 +25,7 @@ from integration.segments import segment_rule
 from integration.singular import tip_rule
 from nmm.assembly.model import Model
 from nmm.errors import NmmError
+from nmm.fracture.surroundings import nearest_obstacle
 
 Field = Callable[[Floats], Floats]
 
@@ -31,6 +33,8 @@ Field = Callable[[Floats], Floats]
 ORDER = 12
 # ``q`` is 1 up to this part of the radius, and falls smoothly to 0 from there on.
 INNER = 0.3
+# Part of its radius by which a domain may touch what it must not hold.
+NEAR = 1e-9
 
 
 @dataclass(frozen=True)
@@ -63,6 +67,7 @@ def stress_intensity(
     kappa: float,
     body_force: Field | None = None,
     face_traction: Callable[[Floats, Floats], Floats] | None = None,
+    pressure: Floats | None = None,
 ) -> StressIntensity:
     """Return the stress intensity factors at a tip of the model's cracks.
 
@@ -73,20 +78,24 @@ def stress_intensity(
     tip
         Number among ``model.cut.tips``.
     radius
-        Of the domain (m): inside the body, and short of other tips and of kinks.
+        Of the domain (m): inside the body, and short of other tips, other cracks and kinks.
     kappa
         Kolosov's constant (`nmm.materials.base.Law.kolosov`).
     body_force, face_traction
         Functions of points, and of points and outward normals, as loaded; None is none.
+    pressure
+        (k,) on the patches of projected volumes, see `nmm.assembly.errors.stresses`.
 
     Raises
     ------
     NmmError
-        A tip that does not exist.
+        A tip that does not exist; a domain that holds more than the material about one straight
+        crack, whose integral would be that of something else.
     """
     if model.cut is None or not 0 <= tip < len(model.cut.tips):
         count = 0 if model.cut is None else len(model.cut.tips)
         raise NmmError(f"crack tip {tip}: {count} tips: expected a tip of a crack inside a block")
+    _check_domain(model.cut, tip, radius)
     tips = model.cut.tips
     point, ahead = tips.point[tip], tips.direction[tip]
     polygons = model.manifold.elements
@@ -96,13 +105,25 @@ def stress_intensity(
     )
     shear = float(model.elasticity[tips.element[tip], 2, 2])
     fields = _Auxiliary(Enrichment(crack_tip_functions(kappa, 1.0), point, ahead), shear)
-    total = _domain(model, unknowns, near, radius, fields, body_force)
+    held = model.pressure(unknowns) if pressure is None else pressure
+    total = _domain(model, unknowns, near, radius, fields, body_force, held)
     if face_traction is not None:
         total -= _faces(model, radius, fields, face_traction)
     stiff = 8 * shear / (kappa + 1)  # E'
     opening, sliding = (stiff / 2 * total).tolist()
     rate = (opening**2 + sliding**2) / stiff
     return StressIntensity(opening, sliding, rate, point, ahead)
+
+
+def _check_domain(cut: CutCells, tip: int, radius: float) -> None:
+    found = nearest_obstacle(cut, tip)
+    if not 0 < radius <= found.distance * (1 + NEAR):
+        x, y = cut.tips.point[tip]
+        raise NmmError(
+            f"crack tip {tip} at [{x:.6g}, {y:.6g}]: radius {radius:.6g}: {found.what} is "
+            f"{found.distance:.6g} m away: expected a domain of material about one straight crack: "
+            f"use a radius above 0 and up to {found.distance:.6g}, several cells of the cover"
+        )
 
 
 @dataclass(frozen=True)
@@ -134,6 +155,7 @@ def _domain(
     radius: float,
     fields: _Auxiliary,
     body_force: Field | None,
+    pressure: Floats | None,
 ) -> Floats:
     point, ahead = fields.tip.point, fields.tip.direction
     polygons = model.manifold.elements.take(near)
@@ -152,9 +174,11 @@ def _domain(
         q, dq = fields.cutoff(rule.points, radius)
         gradient = _gradients(model, unknowns, owner, rule.points)
         side = _sides(model, owner, fields)
+        stress = _held_stress(model, owner, rule.points, gradient, pressure)
         for mode in (0, 1):
             v = fields.gradients(rule.points, side)[:, mode]
-            total[mode] += rule.weights @ _density(model, owner, gradient, v, ahead, dq)
+            density = _density(model.elasticity[owner], stress, gradient, v, ahead, dq)
+            total[mode] += rule.weights @ density
             if body_force is not None:
                 work = np.einsum("mi,mij,j->m", body_force(rule.points), v, ahead)
                 total[mode] -= rule.weights @ (work * q)
@@ -166,10 +190,22 @@ def _gradients(model: Model, unknowns: Floats, owner: Ints, points: Floats) -> F
     return np.asarray(np.einsum("mcjl,ml->mcj", rows, unknowns[index]))
 
 
-def _density(model: Model, owner: Ints, u: Floats, v: Floats, ahead: Floats, dq: Floats) -> Floats:
+def _held_stress(
+    model: Model, owner: Ints, points: Floats, gradient: Floats, pressure: Floats | None
+) -> Floats:
+    """Stress tensors (m, 2, 2) of the displacement, with the pressures on patches."""
+    if pressure is None:
+        return _stress(model.elasticity[owner], gradient)
+    assert model.pressures is not None
+    mean = model.pressures.rows(model.manifold, owner, points) @ pressure
+    return _stress(model.drained[owner], gradient) + mean[:, None, None] * np.eye(2)
+
+
+def _density(
+    elasticity: Floats, one: Floats, u: Floats, v: Floats, ahead: Floats, dq: Floats
+) -> Floats:
     """Integrand without body force; derivatives along ``ahead`` are those by axis 1."""
-    elasticity = model.elasticity[owner]
-    one, two = _stress(elasticity, u), _stress(elasticity, v)
+    two = _stress(elasticity, v)
     u1, v1 = u @ ahead, v @ ahead
     mutual = np.einsum("mij,mij->m", one, v)
     flow = np.einsum("mij,mi,mj->m", one, v1, dq) + np.einsum("mij,mi,mj->m", two, u1, dq)

@@ -7,6 +7,7 @@ import numpy as np
 
 from nmm.solvers.linear import LinearSolver, make_solver
 from nmm.stepping.locking import locking
+from nmm.stepping.tips import tip_warnings
 
 if TYPE_CHECKING:
     from covers.manifold import Manifold
@@ -53,23 +54,7 @@ def cures(
 def warnings(model: "Model") -> list[str]:
     """Return what is known to spoil answers of the model: one sentence each."""
     locked = locking(model)
-    return [*([] if locked is None else [locked]), *_plain_tips(model)]
-
-
-def _plain_tips(model: "Model") -> list[str]:
-    """A cover about a tip is not parted: the crack ends before the cell of its tip."""
-    if model.cut is None:
-        return []
-    known = set(map(tuple, model.manifold.singular.tolist()))
-    tips = sum(tuple(point) not in known for point in model.cut.tips.point.tolist())
-    if not tips:
-        return []
-    return [
-        f"{tips} crack tips without tip functions: cracks act as if they ended before the cell of "
-        "their tip, and stress intensities come out too small, by 2 to 30 % where cells are a "
-        "fortieth to a tenth of the body; use smaller cells, or [cover.enrichment] "
-        "where the crack is straight"
-    ]
+    return [*([] if locked is None else [locked]), *tip_warnings(model)]
 
 
 def _covers(manifold: "Manifold", supports: "Supports") -> int:
