@@ -123,6 +123,12 @@ def _outward(surface: Surface, e: Ints, own: Floats, before: Floats, rules: Rule
     return np.asarray((np.minimum(out_own, out_before) >= -rules.sine) & ~back)
 
 
+def _closed(opening: Floats, aside: Floats, flush: Floats) -> Floats:
+    """How far (m,) from its touching end an edge that opens from another is still flush (m)."""
+    left = np.maximum(flush - aside, 0.0)
+    return np.divide(left, opening, out=np.full_like(left, np.inf), where=opening > 0.0)
+
+
 def shielded(
     surface: Surface, covers: Covers, v: Ints, e: Ints, along: Floats, rules: Rules
 ) -> Bools:
@@ -136,13 +142,17 @@ def shielded(
     foot = np.clip(along, 0.0, length)
     hidden = np.zeros(len(e), dtype=bool)
     total = np.zeros(len(e))
-    for x, corner, far, distance in (
-        (covers.own[e], surface.start[e], surface.start, foot),
-        (covers.before[surface.next[e]], surface.end[e], surface.end, length - foot),
+    for x, corner, far, distance, sense in (
+        (covers.own[e], surface.start[e], surface.start, foot, 1.0),
+        (covers.before[surface.next[e]], surface.end[e], surface.end, length - foot, -1.0),
     ):
         third = (x >= 0) & (surface.body[x] != partner)
-        third &= np.abs(cross(surface.direction[x], corner - surface.start[x])) <= room
-        covered = np.where(third, np.abs(dot(far[x] - corner, surface.direction[e])), 0.0)
+        aside = np.abs(cross(surface.direction[x], corner - surface.start[x]))
+        third &= aside <= room
+        beside = np.abs(dot(far[x] - corner, surface.direction[e]))
+        opening = sense * cross(surface.direction[e], surface.direction[x])
+        beside = np.minimum(beside, _closed(opening, aside, flush_distance(surface, e, x, rules)))
+        covered = np.where(third, beside, 0.0)
         whole = covered >= length - flush_distance(surface, e, x, rules)
         margin = np.minimum(rules.depth * thinner(surface, e, x), 0.5 * covered)
         inside = distance <= covered - margin

@@ -151,6 +151,7 @@ def joint_book(
         shear_force=zeros,
         slid=zeros,
         worn=zeros,
+        reference=zeros,
     )
     pairs = pair_key(surface, vertex, edge)
     return JointBook(
@@ -191,6 +192,7 @@ def searched_points(
         shear_force=zeros,
         slid=zeros,
         worn=zeros,
+        reference=zeros,
     )
 
 

@@ -31,12 +31,15 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact import narrow_arrays
-from nmm.contact.rules import Rules, flush_distance, measure, rules_of
+from nmm.contact.rules import Rules, dot, flush_distance, measure, rules_of
 from nmm.contact.surface import Surface
 
 VERTEX_EDGE = 0
 VERTEX_VERTEX = 1
 FACE = 2
+
+# Cosine between the normals of two bodies' faces that a vertex may slide along one after the other.
+FACING = 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +150,8 @@ def follow(old: Contacts, new: Contacts) -> Ints:
     """Predecessor (m,) of each new contact among the old ones, -1 where there is none.
 
     The same vertex before the same edge; or else the vertex before another edge of the same body,
-    having slid around its corner; or else two vertices whose roles have changed.
+    having slid around its corner; or else two vertices whose roles have changed; or else the vertex
+    before an edge of another body that faces the same way, having slid on to it.
     """
     if len(old) and np.array_equal(old.key, new.key) and (np.diff(new.key) > 0).all():
         return np.arange(len(new))
@@ -157,12 +161,11 @@ def follow(old: Contacts, new: Contacts) -> Ints:
     span = 1 + max(_top(old.vertex), _top(new.vertex), _top(old.body), _top(new.body))
     span = max(span, 1 + max(_top(old.corner), _top(new.corner)))
     was_on, is_on = (part.vertex + span * (part.kind == FACE) for part in (old, new))
-    # Roles change at corners only: elsewhere the swapped pair is another contact.
-    swapped = np.where(new.kind == VERTEX_VERTEX, new.vertex * span + new.corner, -1)
-    for was, now in (
-        (old.key, new.key),
-        (was_on * span + old.body, is_on * span + new.body),
-        (old.corner * span + old.vertex, swapped),
+    for was, now, onward in (
+        (old.key, new.key, False),
+        (was_on * span + old.body, is_on * span + new.body, False),
+        (old.corner * span + old.vertex, new.vertex * span + new.corner, False),
+        (was_on, is_on, True),
     ):
         free = np.ones(len(old), dtype=bool)
         free[found[found >= 0]] = False
@@ -174,6 +177,8 @@ def follow(old: Contacts, new: Contacts) -> Ints:
             break
         at = np.minimum(np.searchsorted(values, now[target]), len(values) - 1)
         hit = values[at] == now[target]
+        if onward:
+            hit &= dot(new.normal[target], old.normal[source[first[at]]]) >= FACING
         found[target[hit]] = source[first[at[hit]]]
     return found
 

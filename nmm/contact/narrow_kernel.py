@@ -145,6 +145,17 @@ def _aside(shape, e, x, end):  # type: ignore[no-untyped-def]
 
 
 @_compiled
+def _closed(shape, e, x, end, aside, rules):  # type: ignore[no-untyped-def]
+    """How far from the end of an edge another one beside it, that opens, is still flush."""
+    opening = shape.real[x, TX] * shape.real[e, TY] - shape.real[x, TY] * shape.real[e, TX]
+    if end == 0:
+        opening = -opening
+    if opening <= 0.0:
+        return np.inf
+    return max(rules.flush * _thinner(shape, e, x) + rules.rounding - aside, 0.0) / opening
+
+
+@_compiled
 def _shielded(shape, v, e, s, rules):  # type: ignore[no-untyped-def]
     """Whether the foot is on a stretch of edge, next to its end, that a third body covers."""
     length, partner = shape.real[e, LENGTH], shape.link[v, BODY]
@@ -163,10 +174,11 @@ def _shielded(shape, v, e, s, rules):  # type: ignore[no-untyped-def]
             distance = length - foot
             dx = shape.real[x, EX] - shape.real[e, EX]
             dy = shape.real[x, EY] - shape.real[e, EY]
-        if abs(_aside(shape, e, x, end)) > room:
+        aside, thin = abs(_aside(shape, e, x, end)), _thinner(shape, e, x)
+        if aside > room:
             continue
         covered = abs(dx * shape.real[e, TX] + dy * shape.real[e, TY])
-        thin = _thinner(shape, e, x)
+        covered = min(covered, _closed(shape, e, x, end, aside, rules))
         if covered >= length - (rules.flush * thin + rules.rounding):
             return True
         if distance <= covered - min(rules.depth * thin, 0.5 * covered):

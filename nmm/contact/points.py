@@ -25,7 +25,7 @@ class ContactPoints:
     normal
         (m, 2) at the start of the step.
     gap
-        (m,) normal distance (m), positive open.
+        (m,) normal distance (m), positive open, counted from the reference.
     slip
         (m,) stretch of the shear spring at the start of the step (m).
     length
@@ -46,6 +46,9 @@ class ContactPoints:
         (m,) part of the stretch of a bond that is no longer elastic (m).
     worn
         (m,) way slid under load, back and forth added (m).
+    reference
+        (m,) overlap that no step has made, as a gap (m), not positive; see
+        `nmm.contact.reference_gap`.
     """
 
     edge_a: Ints
@@ -65,6 +68,7 @@ class ContactPoints:
     shear_force: Floats
     slid: Floats
     worn: Floats
+    reference: Floats
 
     def __len__(self) -> int:
         return len(self.gap)

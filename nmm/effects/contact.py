@@ -41,6 +41,7 @@ from nmm.contact.narrow import Contacts, follow
 from nmm.contact.overlaps import face_points
 from nmm.contact.points import ContactPoints, concatenate, rows
 from nmm.contact.problem import SLIDE, StepAnswer, StepProblem
+from nmm.contact.reference_gap import counted
 from nmm.contact.record import Breaking, ContactRecord, Solved
 from nmm.contact.softness import Softness
 from nmm.contact.stations import Stations
@@ -156,10 +157,20 @@ class Contact(Effect):
         if self._bends:
             apart = Stations.at(self._sides, new).apart(new, state.frames, state.deformation)
             new = replace(new, gap=np.einsum("ij,ij->i", apart, new.normal))
-        if record.found is not None and record.known is not None:
-            new = remember(new, record.known, follow(record.found, found))
         self._last = found
+        new = self._followed(new, found)
         return concatenate([joints, new])
+
+    def _followed(self, new: ContactPoints, found: Contacts) -> ContactPoints:
+        """Return found points with what the last accepted step left, and gaps as they count."""
+        record, body = self.record, self._model.manifold.boundary.body
+        if record.found is None or record.known is None:
+            nobody = np.full(len(new), -1, dtype=np.int64)
+            return counted(new, None, nobody, (np.empty(0), np.empty(0)), body)
+        before = follow(record.found, found)
+        new = remember(new, record.known, before)
+        normal, last = (self._laws.springs(points)[0] for points in (new, record.known))
+        return counted(new, record.known, before, (normal, last), body)
 
     def solve(
         self,
