@@ -46,13 +46,14 @@ def find_crossings(
     after: Surface,
     candidates: tuple[Ints, Ints] | None = None,
     within_bodies: bool = False,
+    share: float = DEPTH,
 ) -> Crossings:
     """Find the vertices that crossed an edge while all points moved straight and evenly.
 
-    A vertex crosses an edge where it comes deeper than `rules.DEPTH` of the thinner body's
-    thickness, over the edge itself: less is the penetration that enforcement allows and search
-    finds again. A vertex that leaves over the end of the edge has not crossed, nor has one that
-    began inside and slides into the depth close below the surface of another edge.
+    A vertex crosses an edge where it comes deeper than a share of the thinner body's thickness,
+    over the edge itself: less than `rules.DEPTH` is the penetration that enforcement allows and
+    search finds again. A vertex that leaves over the end of the edge has not crossed, nor has one
+    that began inside and slides into the depth close below the surface of another edge.
 
     Parameters
     ----------
@@ -63,6 +64,8 @@ def find_crossings(
         default those that the motion lets meet are searched.
     within_bodies
         See `search.near_pairs`.
+    share
+        Of the thickness of the thinner body, which is too deep.
 
     Notes
     -----
@@ -74,7 +77,7 @@ def find_crossings(
     from nmm.contact.crossing_kernel import can_meet
 
     edges = before.start, before.end, after.start, before.next, before.body
-    near = can_meet(*edges, *pairs, DEPTH)
+    near = can_meet(*edges, *pairs, share)
     v, e = pairs[0][near], pairs[1][near]
     if not len(v):
         return Crossings(v, e, np.empty(0))
@@ -83,7 +86,7 @@ def find_crossings(
     # Twice the area, positive inside: c0 + c1 t + c2 t^2.
     c0, both = cross(edge0, offset0), cross(edge1 - edge0, offset1 - offset0)
     c1 = cross(edge0, offset1 - offset0) + cross(edge1 - edge0, offset0)
-    allowed = DEPTH * np.minimum(before.thickness[v], before.thickness[e]) * before.length[e]
+    allowed = share * np.minimum(before.thickness[v], before.thickness[e]) * before.length[e]
     deep = _first_root(c0 - allowed, c1, both)
     touch = np.where(c0 < 0.0, _first_root(c0, c1, both), deep)
 

@@ -134,6 +134,20 @@ def find_contacts(
     return Contacts(*columns)
 
 
+def with_pairs(surface: Surface, found: Contacts, vertex: Ints, edge: Ints) -> Contacts:
+    """Return contacts with other pairs of a vertex and an edge beside them, in order of keys."""
+    new = ~np.isin(pair_key(surface, vertex, edge), found.key)
+    if not new.any():
+        return found
+    v, e = vertex[new], edge[new]
+    along, gap = measure(surface, v, e)
+    more = _contacts(surface, v, e, along, gap, np.zeros(len(v), dtype=bool), rules_of(surface, 0))
+    names = [part.name for part in fields(found)]
+    both = [np.concatenate([getattr(part, name) for part in (found, more)]) for name in names]
+    joined = type(found)(*both)
+    return joined.take(np.argsort(joined.key, kind="stable"))
+
+
 def remeasure(surface: Surface, contacts: Contacts) -> Contacts:
     """Return the same contacts with foot, normal and gap where the surface is now."""
     v, e = contacts.vertex, contacts.edge

@@ -1,15 +1,16 @@
 """The gap from which a contact counts: an overlap that no step has made stores no energy.
 
 Search may find a vertex already inside a body: two corners have passed each other, or the scene
-began so. A spring that entered loaded would push with energy from nowhere. Such a contact counts its
-gap from what it was when it appeared, its *reference*. A contact that continues another one, at the
-corner of a body or on the next body, takes over the stretch of that one's spring, and a stretch of
-two faces that are pressed together already is pressed like its neighbours.
+began so. A spring that entered loaded would push with energy from nowhere. Such a contact counts
+its gap from what it was when it appeared, its *reference*. A contact that continues another one, at
+the corner of a body or on the next body, takes over the stretch of that one's spring, and a stretch
+of two faces that are pressed together already is pressed like its neighbours.
 
 The reference recovers without work: when the contact opens, what is left of the overlap becomes the
 new reference, and it never grows again.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -22,7 +23,7 @@ def counted(
     new: ContactPoints,
     old: ContactPoints | None,
     predecessor: Ints,
-    stiffness: tuple[Floats, Floats],
+    stiffness: Callable[[ContactPoints], Floats],
     body: Ints,
 ) -> ContactPoints:
     """Return new points with gaps counted from their references.
@@ -36,7 +37,7 @@ def counted(
     predecessor
         (m,) which of the old points each new one continues, -1 where it is new.
     stiffness
-        (m,), (k,) normal stiffness (N/m) of the new and of the old points.
+        Normal stiffness (N/m) of contact points.
     body
         (E,) of the boundary edges.
     """
@@ -45,18 +46,18 @@ def counted(
         known = predecessor >= 0
         source = np.where(known, predecessor, 0)
         stays = known & (old.key[source] == new.key)
-        stretch = _passed_on(old.gap[source], stiffness[1][source] / stiffness[0])
-        born = ~known & (new.length > 0) & (new.gap < 0)
-        if born.any():
-            stretch[born] = _beside(new.take(born), old, body)
-        reference = np.where(known | born, _from_stretch(new.gap, stretch), reference)
-        reference = np.where(stays, _recovered(new.gap, old.reference[source]), reference)
+        # An overlap that has become less is followed.
+        reference = np.where(stays, np.maximum(reference, old.reference[source]), reference)
+        handed = np.flatnonzero(known & ~stays & (new.gap < 0))
+        if len(handed):
+            giver, taker = old.take(source[handed]), new.take(handed)
+            stretch = _passed_on(giver.gap, stiffness(giver) / stiffness(taker))
+            reference[handed] = _from_stretch(taker.gap, stretch)
+        born = np.flatnonzero(~known & (new.length > 0) & (new.gap < 0))
+        if len(born):
+            taker = new.take(born)
+            reference[born] = _from_stretch(taker.gap, _beside(taker, old, body))
     return replace(new, gap=new.gap - reference, reference=reference)
-
-
-def _recovered(gap: Floats, reference: Floats) -> Floats:
-    """Reference (m,) of contacts that go on: it follows an overlap that becomes less."""
-    return np.minimum(np.maximum(gap, reference), 0.0)
 
 
 def _from_stretch(gap: Floats, stretch: Floats) -> Floats:

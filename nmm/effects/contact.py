@@ -14,12 +14,13 @@ from typing import Any, Self
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.balance import with_springs
 from nmm.contact.bonds import Laws, break_bonds
+from nmm.contact.crossing import Crossings
 from nmm.contact.dashpots import Dashpots, meeting_mass
 from nmm.contact.enforcement import Enforcement, make_enforcement
 from nmm.contact.evenly import solved_evenly
@@ -37,12 +38,13 @@ from nmm.contact.held import Conditioned, Held
 from nmm.contact.joints import Joints, find_joints
 from nmm.contact.mean_springs import MeanSprings, end_shares
 from nmm.contact.memory import Memory
-from nmm.contact.narrow import Contacts, follow
+from nmm.contact.narrow import Contacts, follow, pair_key
 from nmm.contact.overlaps import face_points
 from nmm.contact.points import ContactPoints, concatenate, rows
 from nmm.contact.problem import SLIDE, StepAnswer, StepProblem
-from nmm.contact.reference_gap import counted
 from nmm.contact.record import Breaking, ContactRecord, Solved
+from nmm.contact.reference_gap import counted
+from nmm.contact.rules import FLUSH
 from nmm.contact.softness import Softness
 from nmm.contact.stations import Stations
 from nmm.contact.surface import Surface
@@ -142,15 +144,24 @@ class Contact(Effect):
             in_the_mean=in_the_mean,
         )
 
-    def candidates(self, state: State, reach: float, step: float | None = None) -> ContactPoints:
+    def candidates(
+        self,
+        state: State,
+        reach: float,
+        step: float | None = None,
+        crossed: tuple[Ints, Ints] | None = None,
+    ) -> ContactPoints:
         """Return the contact points of a step in which no point moves further than ``reach``.
 
         ``step`` is its length (s), None in statics: bodies in flight meet where they fly to.
+        ``crossed`` are pairs of a vertex and an edge that are contacts in any case (`overlooked`).
         """
         surface = self._partners.surface(state)
         record = self.record
         joints = record.book.now(surface, self._apart(state))
-        found, interface = self._partners.search(state, 2 * reach, step, record.book, record.found)
+        found, interface = self._partners.search(
+            state, 2 * reach, step, record.book, record.found, crossed
+        )
         new = searched_points(found, interface, surface)
         if self._laws.stiff:
             new = self._laws.sized(new, surface)
@@ -163,14 +174,15 @@ class Contact(Effect):
 
     def _followed(self, new: ContactPoints, found: Contacts) -> ContactPoints:
         """Return found points with what the last accepted step left, and gaps as they count."""
-        record, body = self.record, self._model.manifold.boundary.body
-        if record.found is None or record.known is None:
-            nobody = np.full(len(new), -1, dtype=np.int64)
-            return counted(new, None, nobody, (np.empty(0), np.empty(0)), body)
-        before = follow(record.found, found)
-        new = remember(new, record.known, before)
-        normal, last = (self._laws.springs(points)[0] for points in (new, record.known))
-        return counted(new, record.known, before, (normal, last), body)
+        record, before = self.record, np.full(len(new), -1, dtype=np.int64)
+        if record.found is not None and record.known is not None:
+            before = follow(record.found, found)
+            new = remember(new, record.known, before)
+        body = self._model.manifold.boundary.body
+        return counted(new, record.known, before, self._normal_stiffness, body)
+
+    def _normal_stiffness(self, points: ContactPoints) -> Floats:
+        return self._laws.springs(points)[0]
 
     def solve(
         self,
@@ -307,6 +319,28 @@ class Contact(Effect):
         self.record = record
         self._memory.forget_answers()
 
+    def crossings(self, before: State, after: State) -> Crossings:
+        """Return the vertices that went further into another body than counts as flush."""
+        return self._partners.crossings(before, after, FLUSH)
+
+    def overlooked(
+        self, contacts: ContactPoints, found: Crossings, before: State
+    ) -> tuple[Ints, Ints] | None:
+        """Return vertex and edge of crossings of pairs that were no contacts; None without any.
+
+        Which edge a corner meets first is judged by where bodies seem to go; contacts on the way
+        may send them elsewhere.
+        """
+        surface, book = self._partners.surface(before), self.record.book
+        known = contacts.take(~contacts.is_joint)
+        new = ~np.isin(
+            pair_key(surface, found.vertex, found.edge),
+            np.concatenate([pair_key(surface, known.edge_a, known.edge_b), book.pairs]),
+        )
+        new &= self._partners.interfaces(found.vertex, found.edge) >= 0
+        new &= ~_between_joints(surface, book, found.vertex, found.edge)
+        return (found.vertex[new], found.edge[new]) if new.any() else None
+
     def passage(self, before: State, after: State) -> str:
         """Say where a body went through another in the step last solved; empty if none did."""
         return self._partners.passage(before, after)
@@ -396,3 +430,13 @@ class Contact(Effect):
         share = far_a / (far_a + far_b)
         mixed = share * softness[a] + (1 - share) * softness[b]
         return np.asarray(apart * np.where(softness[a] == softness[b], softness[a], mixed))
+
+
+def _between_joints(surface: Surface, book: JointBook, vertex: Ints, edge: Ints) -> Bools:
+    """Which pairs belong to edges that a followed joint holds together."""
+    n, held = len(surface), book.edges(len(surface))
+    beside = [
+        np.minimum(own, edge) * n + np.maximum(own, edge)
+        for own in (vertex, surface.previous[vertex])
+    ]
+    return np.asarray(np.isin(beside[0], held) | np.isin(beside[1], held))

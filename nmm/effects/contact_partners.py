@@ -6,10 +6,11 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.contact.crossing import find_crossings
+from nmm.contact.crossing import Crossings, find_crossings
 from nmm.contact.following import JointBook
-from nmm.contact.narrow import Contacts, find_contacts
+from nmm.contact.narrow import Contacts, find_contacts, with_pairs
 from nmm.contact.overlaps import faced
+from nmm.contact.rules import DEPTH
 from nmm.contact.search import NeighbourList
 from nmm.contact.sides import sides
 from nmm.contact.surface import Surface
@@ -77,6 +78,7 @@ class Partners:
         step: float | None,
         book: JointBook,
         before: Contacts | None,
+        crossed: tuple[Ints, Ints] | None = None,
     ) -> tuple[Contacts, Ints]:
         """Find the contacts of a step but for those of joints, and their interfaces (m,).
 
@@ -88,6 +90,9 @@ class Partners:
             Its length (s), None in statics: bodies in flight meet where they fly to.
         book, before
             Joints, whose contacts are theirs, and what the last accepted step found.
+        crossed
+            Vertex and edge (k,) of pairs that an answer to the step has let through each other:
+            they are contacts too.
 
         Raises
         ------
@@ -99,6 +104,8 @@ class Partners:
             self._neighbours = NeighbourList(4 * reach, within_bodies=self._within_bodies)
         vertex, edge = self._neighbours.update(surface)
         found = find_contacts(surface, vertex, edge, reach, before, motion)
+        if crossed is not None:
+            found = with_pairs(surface, found, *crossed)
         if self._face_points:
             joints = book.edges(len(surface))
             found = faced(surface, found, self._face_points, joints, self._whole_faces)
@@ -110,17 +117,25 @@ class Partners:
         meets = (interface >= 0) & ~book.hides(found)
         return (found, interface) if meets.all() else (found.take(meets), interface[meets])
 
-    def passage(self, before: State, after: State) -> str:
-        """Say where a body went through another in the step last solved; empty if none did."""
+    def crossings(self, before: State, after: State, share: float) -> Crossings:
+        """Find where vertices went through edges in the step last solved.
+
+        ``share`` of the thickness of the thinner body is how deep they may be.
+        """
         assert self._neighbours is not None
         start = self.surface(before)
         vertex, edge = self._neighbours.update(start)
         if self._pairs.glued:
             meets = self.interfaces(vertex, edge) != GLUED
             vertex, edge = vertex[meets], edge[meets]
-        found = find_crossings(start, self.surface(after), (vertex, edge))
+        return find_crossings(start, self.surface(after), (vertex, edge), share=share)
+
+    def passage(self, before: State, after: State) -> str:
+        """Say where a body went through another in the step last solved; empty if none did."""
+        found = self.crossings(before, after, DEPTH)
         if not len(found):
             return ""
+        start = self.surface(before)
         first = np.array([int(found.fraction.argmin())])
         x, y = start.start[found.vertex[first]][0] + self._origin
         if self.interfaces(found.vertex[first], found.edge[first])[0] == MISSING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
 from nmm.solvers.linear import LinearSolver
 from nmm.stepping.attempt import Attempt
@@ -30,6 +30,11 @@ FIRST_REACH = 1e-6
 FURTHER = 1.5
 # How often a step is solved again with contact forces where they act half way.
 HALVES = 4
+# How often a step is solved again for vertices that went through edges they were no contacts of.
+LOOKS = 4
+
+# Vertex and edge (k,) of pairs.
+Pairs = tuple[Ints, Ints]
 
 
 class Touching:
@@ -70,8 +75,9 @@ class Touching:
             Where the load moves a part that nothing holds.
         """
         contact, state = self._contact, equations.state
-        passes, halves, reach = 0, 0, self._reach
+        passes, halves, looks, reach = 0, 0, 0, self._reach
         contacts, halfway = self.candidates(state, reach, equations.step), None
+        crossed: Pairs | None = None
         held = self._conditions(equations)
         while True:
             solved = self._solve(equations, contacts, breaking, halfway, held, reach)
@@ -81,7 +87,13 @@ class Touching:
             good = verdict.converged and result.motion <= self._size and not solved.stopped
             if good and result.motion > reach:
                 reach = FURTHER * result.motion
-                contacts, halfway = self.candidates(state, reach, equations.step), None
+                contacts, halfway = self.candidates(state, reach, equations.step, crossed), None
+                continue
+            through = contact.crossings(state, result.state) if good else None
+            missed = contact.overlooked(contacts, through, state) if through else None
+            if missed is not None and looks < LOOKS:
+                looks, crossed = looks + 1, _joined(crossed, missed)
+                contacts, halfway = self.candidates(state, reach, equations.step, crossed), None
                 continue
             if good and equations.step is not None and not self._mover.still:
                 half = contact.momentum.halfway(solved, state, result.state, halfway)
@@ -89,20 +101,22 @@ class Touching:
                     halfway, halves = half, halves + 1
                     continue
                 result = self._kept(equations, solved, result, rest)
-            through = contact.passage(state, result.state) if good else ""
+            passage = contact.passage(state, result.state) if through else ""
             return replace(
                 result,
-                converged=good and not through,
-                sentence=through or verdict.sentence,
+                converged=good and not passage,
+                sentence=passage or verdict.sentence,
                 residual=solved.answer.residual,
                 passes=passes,
                 solved=solved,
             )
 
-    def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
+    def candidates(
+        self, state: State, reach: float, step: float | None, crossed: Pairs | None = None
+    ) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
         with self._clock.phase("search"):
-            return self._contact.candidates(state, reach, step)
+            return self._contact.candidates(state, reach, step, crossed)
 
     @property
     def _contact(self) -> "Contact":
@@ -176,3 +190,10 @@ class Touching:
         state = result.state
         change = self._contact.momentum.kept(solved, equations.state, state, equations.step, rest)
         return replace(result, state=replace(state, velocity=state.velocity + change))
+
+
+def _joined(one: Pairs | None, other: Pairs) -> Pairs:
+    """Return pairs that were missed before and now."""
+    if one is None:
+        return other
+    return np.concatenate([one[0], other[0]]), np.concatenate([one[1], other[1]])
