@@ -41,6 +41,26 @@ class Crossings:
         return float(self.fraction.min(initial=1.0))
 
 
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A step of all edges.
+
+    Attributes
+    ----------
+    before, after
+        The edges at its start and end.
+    pairs
+        Vertex and edge (m,) of all that can meet.
+    near
+        (k,) rows of the pairs that need a closer look.
+    """
+
+    before: Surface
+    after: Surface
+    pairs: tuple[Ints, Ints]
+    near: Ints
+
+
 def find_crossings(
     before: Surface,
     after: Surface,
@@ -73,12 +93,22 @@ def find_crossings(
     body that is left on its far side within the step (Provot 1997, for triangles in space).
     """
     pairs = _meeting(before, after, within_bodies) if candidates is None else candidates
+    return crossings_in(motion_of(before, after, pairs, share), share)
+
+
+def motion_of(before: Surface, after: Surface, pairs: tuple[Ints, Ints], share: float) -> Motion:
+    """Return a step with the pairs that can come deeper in it than ``share``, or begin so."""
     # Compiled code is loaded by the first search, not by whoever names this module.
     from nmm.contact.crossing_kernel import can_meet
 
     edges = before.start, before.end, after.start, before.next, before.body
-    near = can_meet(*edges, *pairs, share)
-    v, e = pairs[0][near], pairs[1][near]
+    return Motion(before, after, pairs, can_meet(*edges, *pairs, share))
+
+
+def crossings_in(motion: Motion, share: float) -> Crossings:
+    """Find the crossings deeper than ``share``, which is not less than the motion was made for."""
+    before, after, pairs = motion.before, motion.after, motion.pairs
+    v, e = pairs[0][motion.near], pairs[1][motion.near]
     if not len(v):
         return Crossings(v, e, np.empty(0))
     edge0, edge1 = before.end[e] - before.start[e], after.end[e] - after.start[e]

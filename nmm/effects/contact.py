@@ -20,7 +20,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.balance import with_springs
 from nmm.contact.bonds import Laws, break_bonds
-from nmm.contact.crossing import Crossings
+from nmm.contact.crossing import Motion, crossings_in
 from nmm.contact.dashpots import Dashpots, meeting_mass
 from nmm.contact.enforcement import Enforcement, make_enforcement
 from nmm.contact.evenly import solved_evenly
@@ -319,19 +319,20 @@ class Contact(Effect):
         self.record = record
         self._memory.forget_answers()
 
-    def crossings(self, before: State, after: State) -> Crossings:
-        """Return the vertices that went further into another body than counts as flush."""
-        return self._partners.crossings(before, after, FLUSH)
+    def motion(self, before: State, after: State) -> Motion:
+        """Return the step last solved as the edges moved in it."""
+        return self._partners.motion(before, after)
 
-    def overlooked(
-        self, contacts: ContactPoints, found: Crossings, before: State
-    ) -> tuple[Ints, Ints] | None:
+    def overlooked(self, contacts: ContactPoints, motion: Motion) -> tuple[Ints, Ints] | None:
         """Return vertex and edge of crossings of pairs that were no contacts; None without any.
 
         Which edge a corner meets first is judged by where bodies seem to go; contacts on the way
         may send them elsewhere.
         """
-        surface, book = self._partners.surface(before), self.record.book
+        found = crossings_in(motion, FLUSH)
+        if not len(found):
+            return None
+        surface, book = motion.before, self.record.book
         known = contacts.take(~contacts.is_joint)
         new = ~np.isin(
             pair_key(surface, found.vertex, found.edge),
@@ -341,9 +342,9 @@ class Contact(Effect):
         new &= ~_between_joints(surface, book, found.vertex, found.edge)
         return (found.vertex[new], found.edge[new]) if new.any() else None
 
-    def passage(self, before: State, after: State) -> str:
-        """Say where a body went through another in the step last solved; empty if none did."""
-        return self._partners.passage(before, after)
+    def passage(self, motion: Motion) -> str:
+        """Say where a body went through another in a step; empty if none did."""
+        return self._partners.passage(motion)
 
     @property
     def broken_bonds(self) -> int:

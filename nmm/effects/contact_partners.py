@@ -6,11 +6,11 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.contact.crossing import Crossings, find_crossings
+from nmm.contact.crossing import Motion, crossings_in, motion_of
 from nmm.contact.following import JointBook
 from nmm.contact.narrow import Contacts, find_contacts, with_pairs
 from nmm.contact.overlaps import faced
-from nmm.contact.rules import DEPTH
+from nmm.contact.rules import DEPTH, FLUSH
 from nmm.contact.search import NeighbourList
 from nmm.contact.sides import sides
 from nmm.contact.surface import Surface
@@ -117,25 +117,21 @@ class Partners:
         meets = (interface >= 0) & ~book.hides(found)
         return (found, interface) if meets.all() else (found.take(meets), interface[meets])
 
-    def crossings(self, before: State, after: State, share: float) -> Crossings:
-        """Find where vertices went through edges in the step last solved.
-
-        ``share`` of the thickness of the thinner body is how deep they may be.
-        """
+    def motion(self, before: State, after: State) -> Motion:
+        """Return the step last solved as the edges moved in it."""
         assert self._neighbours is not None
         start = self.surface(before)
         vertex, edge = self._neighbours.update(start)
         if self._pairs.glued:
             meets = self.interfaces(vertex, edge) != GLUED
             vertex, edge = vertex[meets], edge[meets]
-        return find_crossings(start, self.surface(after), (vertex, edge), share=share)
+        return motion_of(start, self.surface(after), (vertex, edge), FLUSH)
 
-    def passage(self, before: State, after: State) -> str:
-        """Say where a body went through another in the step last solved; empty if none did."""
-        found = self.crossings(before, after, DEPTH)
+    def passage(self, motion: Motion) -> str:
+        """Say where a body went through another in a step; empty if none did."""
+        found, start = crossings_in(motion, DEPTH), motion.before
         if not len(found):
             return ""
-        start = self.surface(before)
         first = np.array([int(found.fraction.argmin())])
         x, y = start.start[found.vertex[first]][0] + self._origin
         if self.interfaces(found.vertex[first], found.edge[first])[0] == MISSING:

@@ -89,8 +89,8 @@ class Touching:
                 reach = FURTHER * result.motion
                 contacts, halfway = self.candidates(state, reach, equations.step, crossed), None
                 continue
-            through = contact.crossings(state, result.state) if good else None
-            missed = contact.overlooked(contacts, through, state) if through else None
+            motion = contact.motion(state, result.state) if good else None
+            missed = None if motion is None else contact.overlooked(contacts, motion)
             if missed is not None and looks < LOOKS:
                 looks, crossed = looks + 1, _joined(crossed, missed)
                 contacts, halfway = self.candidates(state, reach, equations.step, crossed), None
@@ -101,7 +101,7 @@ class Touching:
                     halfway, halves = half, halves + 1
                     continue
                 result = self._kept(equations, solved, result, rest)
-            passage = contact.passage(state, result.state) if through else ""
+            passage = "" if motion is None else contact.passage(motion)
             return replace(
                 result,
                 converged=good and not passage,
