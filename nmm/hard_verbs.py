@@ -25,22 +25,29 @@ def verify_hard(
 ) -> None:
     """Run classes of hard cases, or list them; write the scenes that miss to a folder.
 
+    Where ``out`` is a file NAME.md, it becomes a page of the manual in place of that.
+
     Raises
     ------
     typer.Exit
         With code 1 when a case misses.
     """
+    from nmm.verification.hard.page import write_page
     from nmm.verification.hard.running import chosen_cases, judged
 
     if listed:
         _list()
         return
+    seeds = list(seeds)
+    how = " ".join([*names, f"--first {seeds[0]} --seeds {len(seeds)}", *["--slow"] * slow])
     found = []
     for group, case in chosen_cases(names, seeds, slow, parts):
         finding = judged(group, case)
         found.append(finding)
         _tell(finding)
-        if out is not None and not finding.passed:
+        if out is not None and out.suffix == ".md":
+            write_page(found, out, how)  # anew with each, so that a run that is stopped leaves it
+        if out is not None and out.suffix != ".md" and not finding.passed:
             _keep(finding, out)
     missed = [finding for finding in found if not finding.passed]
     seconds = sum(finding.seconds for finding in found)

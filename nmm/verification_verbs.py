@@ -47,7 +47,8 @@ def verify(
 
     Runs of more than a few seconds need --slow, or the benchmark's full name.
 
-    With --hard, generated scenes with oracles that need no answer; --out takes those that miss.
+    With --hard, generated scenes with oracles that need no answer; --out takes those that miss, or
+    a file NAME.md the page of the manual.
 
     Your own: derive a class from nmm.verification.Case, and name it module:Class. Naming it here
     lets its module run; case folders are data, and parts of one's own in them need --allow-code.

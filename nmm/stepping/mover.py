@@ -74,7 +74,11 @@ class Mover:
         return replace(state, velocity=velocity, acceleration=acceleration)
 
     def _accelerated(self, push: Floats) -> Floats:
-        """Return the acceleration (n,) by a force; none of what has no mass."""
+        """Return the acceleration (n,) by a force; none of what has no mass.
+
+        The force is what was left of the others, rounding among it. Where functions are dependent
+        that part has no acceleration, which says nothing: the solution is not judged.
+        """
         inertia = self._laid.plan.inertia
         assert inertia is not None
         mass = inertia.mass
@@ -84,5 +88,5 @@ class Mover:
             self._masses = mass, heavy, factor
         _, heavy, factor = self._masses
         found = np.zeros_like(push)
-        found[heavy] = factor.solve(push[heavy])
+        found[heavy] = factor.refined(push[heavy])
         return found

@@ -49,11 +49,14 @@ class HardClass(ABC):
         What is hard about it, in words.
     oracle
         What is checked, in words.
+    share
+        Seeds it takes for each that is asked for: more where cases are cheap.
     """
 
     name: ClassVar[str]
     title: ClassVar[str]
     oracle: ClassVar[str]
+    share: ClassVar[int] = 1
 
     @abstractmethod
     def cases(self, seed: int) -> Iterator[HardCase]:

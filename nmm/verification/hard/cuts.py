@@ -41,6 +41,7 @@ class Cuts(HardClass):
     name = "cuts"
     title = "two glued blocks, their edge 0 to 1e-2 of a cell beside a corner of the net"
     oracle = "uniform stress under uniform tension, energy sigma^2 A / 2 E"
+    share = 4
 
     def cases(self, seed: int) -> Iterator[HardCase]:
         """Yield every cover and degree, with one of each method and distance."""

@@ -22,6 +22,7 @@ class Steps(HardClass):
     name = "steps"
     title = "smooth vibrations, steps halved twice, every integrator and linear solver"
     oracle = "differences fall by 1.8 and more; every solver gives the same"
+    share = 2
 
     def cases(self, seed: int) -> Iterator[HardCase]:
         """Yield one random block under each integrator and solver."""

@@ -45,6 +45,7 @@ class Motions(HardClass):
         "momentum, energy never rises, nobody through anybody; the same after shift, turn, mirror, "
         "units, order; history = summary = frames; the plan names what the scene names"
     )
+    share = 5
 
     def cases(self, seed: int) -> Iterator[HardCase]:
         """Yield one random scene with every enforcement and one cover each, and further ones."""
@@ -87,8 +88,8 @@ def thrown(random: np.random.Generator) -> tuple[Document, float]:
     )
     scene["plane"] = str(random.choice(["strain", "stress"]))
     wave = np.sqrt(scene["materials"]["rock"]["young_modulus"] / 2600.0)
-    speed = float(wave * 10.0 ** random.uniform(-5, -3.3))
-    step = float(0.08 * size / STEPS / speed * random.uniform(0.5, 2.0))
+    speed = float(wave * 10.0 ** random.uniform(-4, -2.5))
+    step = float(0.25 * size / STEPS / speed * random.uniform(0.5, 2.0))
     tables, speeds, points = [], [], []
     for number, angle in enumerate(angles):
         corners = _convex(random, 0.45 * size)

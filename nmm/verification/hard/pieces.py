@@ -36,6 +36,7 @@ class Pieces(HardClass):
     name = "pieces"
     title = "networks of cracks: five lines, dead ends, T and X, two to five branches at a point"
     oracle = "number and areas of pieces by polygon arithmetic (shapely)"
+    share = 3
 
     def cases(self, seed: int) -> Iterator[HardCase]:
         """Yield four networks with every cover."""

@@ -25,6 +25,7 @@ class Solids(HardClass):
         "equilibrium, work = energy, linearity, reciprocity, invariance under shift to 1e6, "
         "turn, units, order of blocks and corners, neutral effects"
     )
+    share = 5
 
     def cases(self, seed: int) -> Iterator[HardCase]:
         """Yield one random body under each cover, with a support and glue method drawn."""

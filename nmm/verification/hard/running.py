@@ -105,16 +105,16 @@ def chosen_cases(
     classes
         Names in `HARD` or ``module:Class``; all when empty.
     seeds
-        What the generators draw from.
+        What the generators draw from; cheap classes take several for each.
     slow
         Whether cases of more than a second or two are among them.
     parts
         Parts that a case must have, all of them; those of any when empty.
     """
-    wanted = set(parts)
+    wanted, seeds = set(parts), list(seeds)
     for name in list(classes) or HARD.table:
         made = HARD.load_said(name)()
-        for seed in seeds:
+        for seed in (made.share * one + more for one in seeds for more in range(made.share)):
             for case in made.cases(seed):
                 if wanted <= set(case.parts.values()) and (slow or not case.slow):
                     yield name, case

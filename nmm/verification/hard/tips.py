@@ -28,6 +28,7 @@ class Tips(HardClass):
         "crack tips and faces 0 to 0.1 of a cell from corners and lines of the net, three angles"
     )
     oracle = "K_I of degree-4 finite elements within 2 %, K_II below 1 % of it, one body"
+    share = 2
 
     def cases(self, seed: int) -> Iterator[HardCase]:
         """Yield every cover of degree 1 and the next, at one distance and angle each."""
@@ -49,6 +50,7 @@ class Ligaments(HardClass):
     name = "ligaments"
     title = "a crack that stops 1e-1 to 1e-12 of a cell short of the far edge"
     oracle = "either apart or held: forces finite, no more than those of a longer ligament"
+    share = 3
 
     def cases(self, seed: int) -> Iterator[HardCase]:
         """Yield every cover at one gap each."""

@@ -1,0 +1,142 @@
+"""The hard matrix: a small share of it, that new parts join it, and that what fails is reduced."""
+
+import numpy as np
+import pytest
+
+from nmm.contact.enforcement import ENFORCEMENTS
+from nmm.contact.penalty import Penalty
+from nmm.verification.hard.base import HardCase
+from nmm.verification.hard.motion import overlap, prepared, ran
+from nmm.verification.hard.page import write_page
+from nmm.verification.hard.parts import enforcements, with_parts
+from nmm.verification.hard.reducing import reduced
+from nmm.verification.hard.registry import HARD
+from nmm.verification.hard.running import chosen_cases, judged
+from nmm.verification.hard.transforms import in_units, listed_anew, mirrored, shifted, turned
+from nmm.verification.hard.writing import block, in_time, rock
+
+# Classes with what cannot pass yet run whole under the slow marker; docs/hard_cases.md lists it.
+SHARE = {
+    "pieces": {"triangles degree 1", "quads degree 1"},
+    "cuts": {"triangles degree 1", "quads degree 2", "graded degree 0"},
+    "tips": {"triangles degree 1"},
+    "ligaments": {"quads degree 1"},
+    "solids": {"block", "triangles degree 1", "graded degree 2"},
+    "steps": {"newmark"},
+}
+
+
+class Mine(Penalty):
+    """An enforcement of a user's own."""
+
+
+def share():
+    for name, parts in SHARE.items():
+        for part in parts:
+            yield from list(chosen_cases([name], [0], parts=[part]))[:2]
+
+
+@pytest.mark.parametrize(
+    ("group", "case"), list(share()), ids=lambda one: getattr(one, "label", one)
+)
+def test_a_share_of_the_hard_matrix_passes(group, case):
+    found = judged(group, case)
+    assert found.passed, found.words
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("group", HARD.table)
+def test_hard_cases_of_a_class_pass(group):
+    missed = [
+        f"{case.label}: {found.words}"
+        for _, case in chosen_cases([group], [1])
+        if not (found := judged(group, case)).passed
+    ]
+    assert not missed, "\n".join(missed)
+
+
+def test_an_enforcement_that_joins_the_registry_joins_the_matrix(monkeypatch):
+    before = {case.label for _, case in chosen_cases(["crossings"], [0])}
+    monkeypatch.setitem(ENFORCEMENTS.table, "mine", f"{__name__}:Mine")
+    assert "mine" in enforcements()
+    joined = [case for _, case in chosen_cases(["crossings"], [0], parts=["mine"])]
+    assert joined
+    assert all(case.label not in before for case in joined)
+    assert all(case.scene["formulation"]["contact"]["enforcement"] == "mine" for case in joined)
+
+
+def two_squares(apart):
+    squares = [[[0, 0], [1, 0], [1, 1], [0, 1]], [[apart, 0], [apart + 1, 0], [apart + 1, 1]]]
+    scene = rock()
+    scene["blocks"] = [block(f"b{number}", points) for number, points in enumerate(squares)]
+    return in_time(scene, 1e-3, 2, None)
+
+
+def test_the_overlap_of_bodies_is_that_of_their_polygons():
+    found = ran(two_squares(1.5)).run
+    points = found.frames[0].points.copy()
+    points[4:] -= [1.0, 0.0]
+    # A right triangle over the square's right half: 1/8 is shared, of its area of 1/2.
+    assert overlap(points, found) == pytest.approx(0.25, abs=1e-9)
+
+
+def test_a_scene_that_fails_is_reduced_to_what_makes_it_fail():
+    scene = two_squares(1.5)
+    scene["monitors"] = [{"name": "m", "point": [0.5, 0.5], "block": "b0"}]
+    small = reduced(scene, lambda tried: any(b["name"] == "b1" for b in tried["blocks"]))
+    assert [table["name"] for table in small["blocks"]] == ["b1"]
+    assert "monitors" not in small
+    assert "inertia" not in small
+
+
+def test_an_image_of_a_scene_is_the_scene_seen_from_elsewhere():
+    scene = two_squares(1.5)
+    scene["initial_velocities"] = [{"block": "b0", "velocity": [1.0, 2.0]}]
+
+    def seen(image):
+        ready = prepared(image)
+        energy = ready.stepper.plan.energy("inertia", ready.start)
+        return energy, float(ready.stepper.model.manifold.elements.areas.sum())
+
+    plain = seen(scene)
+    # 2600 kg at the speed of sqrt 5; the areas of a square and of half of one.
+    assert plain == pytest.approx((2600 * 5 / 2, 1.5), rel=1e-12)
+    for image in (shifted(scene, (10, 3)), turned(scene, 0.4), mirrored(scene)):
+        assert seen(image) == pytest.approx(plain, rel=1e-12)
+    assert seen(listed_anew(scene, 1)) == pytest.approx(plain, rel=1e-12)
+    # Energy is force times length.
+    energy, area = seen(in_units(scene, 10.0, 7.0))
+    assert (energy, area) == pytest.approx((70 * plain[0], 100 * plain[1]), rel=1e-12)
+
+
+def test_parts_are_set_in_a_copy():
+    scene = two_squares(1.5)
+    made = with_parts(scene, {"contact.enforcement": "cone"})
+    assert made["formulation"]["contact"]["enforcement"] == "cone"
+    assert "contact" not in scene["formulation"]
+
+
+def test_the_page_lists_what_misses_and_what_crashes(tmp_path):
+    def broken(scene):
+        raise IndexError("no such thing")
+
+    findings = [judged("seams", HardCase("one", {}, broken, {"cover": "block"}))]
+    page = write_page(findings, tmp_path / "page.md", "seams").read_text()
+    assert "| `seams` | crashed | 1 | IndexError: no such thing |" in page
+    assert "| block | 0/1 |" in page
+
+
+@pytest.mark.parametrize("form", ["triangles", "quads"])
+def test_bodies_of_dependent_functions_fly_with_carried_accelerations(form):
+    scene = two_squares(1.5)
+    scene["initial_velocities"] = [{"block": "b0", "velocity": [1.0, 0.5], "angular_velocity": 0.3}]
+    cover = {"type": form, "size": 0.5, "functions": "monomials", "degree": 1}
+    parts = {"cover": cover, "integrator.type": "generalized_alpha"}
+    found = ran(with_parts(scene, parts)).run
+    assert found.summary.status == "converged", found.summary.sentence
+    velocity = found.frames[-1].velocity[: len(found.manifold.elements.take([0]).points)]
+    assert np.isfinite(velocity).all()
+    kinetic = found.history["kinetic_energy"]
+    # 2600 kg at the speed of sqrt 1.25, turning with a moment of inertia of m / 6.
+    right = 2600 * (1.25 + 0.3**2 / 6) / 2
+    assert kinetic == pytest.approx([right, right], rel=1e-6)
