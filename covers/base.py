@@ -5,13 +5,20 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from covers.mesh_edges import MeshEdges, mesh_edges
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from covers.cut_cells import CutCells
+
+    Recut = Callable[["Cover"], CutCells]
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +71,23 @@ class Cover(ABC):
     @abstractmethod
     def evaluate(self, cells: Ints, points: Floats) -> tuple[Floats, Floats]:
         """Weights (m, k) and gradients (m, k, 2) of the patches of ``cells`` (m,) at points."""
+
+    def settled(self, cut: CutCells, again: Recut) -> tuple[Cover, CutCells]:
+        """Return cover and cut as functions are made on them: without patches that carry none.
+
+        Parameters
+        ----------
+        cut
+            What the material has left of the cover.
+        again
+            Cuts another cover by the same material.
+        """
+        return self, cut
+
+    @property
+    def mended(self) -> dict[str, int]:
+        """What `settled` has changed, in words with how many patches."""
+        return {}
 
     def weights(self, cells: Ints, points: Floats) -> Floats:
         """Weights (m, k) at ``points`` (m, 2), each in the cell of the same row."""

@@ -59,6 +59,8 @@ class Manifold:
     fitted, enriched
         Number of covers whose coordinates fit what a cut has left of them, and of those that
         carry singular functions.
+    mended
+        What was done to patches that reach the material too little, in words, and to how many.
     singular
         (k, 2) points whose singular functions covers carry (m).
     """
@@ -81,6 +83,7 @@ class Manifold:
     richest: int | None = None
     fitted: int = 0
     enriched: int = 0
+    mended: dict[str, int] = field(default_factory=dict)
     singular: Floats = field(default_factory=lambda: np.empty((0, 2)))
 
     @property

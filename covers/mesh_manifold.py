@@ -30,15 +30,12 @@ from covers.quadrature_groups import QuadratureGroup
 from covers.rigid_modes import rigid_modes, stretch_modes
 from covers.singular_rules import singular_rule
 from covers.small_matrices import inverses
-from covers.weighted_fields import WeightedFields
+from covers.weighted_fields import RATIONAL, WeightedFields
 from covers.whitening import Frames
 from integration.arrays import Bools, Floats, Ints
 from integration.monomials import affine
 from integration.polygons import diameters
 from integration.rules import polygon_rule
-
-# Degree beyond that of the polynomials to which weights that are none are integrated.
-RATIONAL = 6
 
 
 def mesh_manifold(
@@ -95,6 +92,7 @@ def mesh_manifold(
         reproduction=cover.precision + lowest,
         richest=cover.precision + max(degrees),
         fitted=int(builder.fitted.sum()),
+        mended=cover.mended,
         enriched=int((builder.enriched >= 0).sum()),
         singular=np.array([item.point for item in enrichments]).reshape(-1, 2),
     )

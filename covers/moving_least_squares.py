@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Self
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -15,10 +15,19 @@ from covers.regular_nets import grid_cells, grid_vertices, regular_net
 from integration.arrays import Floats, Ints
 from integration.monomials import count, differentiate, evaluate
 
+if TYPE_CHECKING:
+    from covers.base import Recut
+    from covers.cut_cells import CutCells
+
 # Default radius of the discs in spacings of a regular net of nodes, by degree of the basis.
 RADII = {0: 1.5, 1: 2.0, 2: 3.0, 3: 4.0}
 # Weights that miss the sum one by more come from a singular fit.
 UNDETERMINED = 1e-6
+# Least sum of kernels at a point, and least eigenvalue of scaled moments by degree of the basis.
+HELD = 0.02
+FIXED = {0: 0.0, 1: 1e-2, 2: 1e-3, 3: 1e-4}
+# Discs that are wanted beyond their reach grow by this factor, at most so many times.
+GROWTH, ROUNDS = 1.25, 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,11 +47,16 @@ class MovingLeastSquares(Cover):
         degree of the basis.
     kernel : str
         one of `covers.kernels.KERNELS`.
+    left_out, enlarged : int
+        pieces of discs that reach the material too little to carry functions, and discs whose
+        radius has grown in their place (`covers.disc_supports`).
     """
 
     radius: Floats
     degree: int
     kernel: str
+    left_out: int = 0
+    enlarged: int = 0
 
     @property
     def precision(self) -> int:
@@ -53,6 +67,15 @@ class MovingLeastSquares(Cover):
     def disc_radius(self) -> Floats:
         """Radii (N,) of the discs, m."""
         return self.radius
+
+    @property
+    def mended(self) -> dict[str, int]:
+        """See `Cover.mended`."""
+        said = {
+            "pieces of discs left out that hardly reach the material": self.left_out,
+            "discs enlarged where others hardly reach": self.enlarged,
+        }
+        return {words: number for words, number in said.items() if number}
 
     @classmethod
     def regular(
@@ -161,6 +184,60 @@ class MovingLeastSquares(Cover):
         length = radius.max(axis=1, initial=0.0)
         basis, steps = self._basis(-away / length[:, None, None], length)
         return _fit(basis, steps, value, slope, points)
+
+    def kernels(self, cells: Ints, points: Floats) -> Floats:
+        """Kernels (m, k) of the patches of ``cells`` (m,) at points; zero where there is none."""
+        patches = self.cell_patches[cells]
+        away = points[:, None] - self.patch_centre[patches]
+        return self._kernel(away, self.radius[patches], patches >= 0)[0]
+
+    def determined(self, cells: Ints, points: Floats) -> npt.NDArray[np.bool_]:
+        """Whether (m,) the discs of ``cells`` hold at least `HELD` of a point and fix its fit well.
+
+        The fit is well fixed when the moments of the basis, scaled to a diagonal of ones, have no
+        eigenvalue below `FIXED` of the degree.
+        """
+        patches = self.cell_patches[cells]
+        away = points[:, None] - self.patch_centre[patches]
+        radius = self.radius[patches]
+        value = self._kernel(away, radius, patches >= 0)[0]
+        length = radius.max(axis=1, initial=0.0)
+        basis = evaluate(-away / length[:, None, None], self.degree)
+        moment = np.einsum("mk,mka,mkb->mab", value, basis, basis)
+        scale = 1 / np.sqrt(np.maximum(np.einsum("maa->ma", moment), 1e-300))
+        least = np.linalg.eigvalsh(moment * scale[:, :, None] * scale[:, None, :])[:, 0]
+        return np.asarray((value.sum(axis=1) >= HELD) & (least >= FIXED[self.degree]))
+
+    def settled(self, cut: CutCells, again: Recut) -> tuple[MovingLeastSquares, CutCells]:
+        """See `Cover.settled`: leave out discs that reach too little, enlarge the others there.
+
+        Raises
+        ------
+        ValueError
+            Points whose fit no enlarged disc determines.
+        """
+        from covers.disc_supports import fitted_discs, loose_discs
+
+        cover, radius = self, self.radius
+        for _ in range(ROUNDS):  # each lets the discs that are wanted reach farther
+            kept, pieces = fitted_discs(cover, cut)
+            loose = loose_discs(kept, pieces)
+            if not loose.any():
+                return replace(kept, enlarged=int((radius > self.radius).sum())), pieces
+            radius = np.where(loose, GROWTH * radius, radius)
+            cover = self._wider(radius)
+            cut = again(cover)
+        at = self.patch_centre[np.flatnonzero(loose)[0]]
+        raise ValueError(
+            f"moving least squares: {int(loose.sum())} discs, the first about {at.tolist()}: do "
+            f"not determine a fit of degree {self.degree} though enlarged {GROWTH**ROUNDS:.3g} "
+            "times: use a smaller size, a lower degree of the basis or a cover of triangles"
+        )
+
+    def _wider(self, radius: Floats) -> MovingLeastSquares:
+        """Return the cover with other radii (N,)."""
+        cells = discs_of_cells(self.patch_centre, radius, self.vertices[self.cell_vertices])
+        return replace(self, cell_patches=cells, patch_size=radius, radius=radius)
 
     def _kernel(
         self, away: Floats, radius: Floats, active: npt.NDArray[np.bool_]

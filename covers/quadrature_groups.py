@@ -24,6 +24,11 @@ class Fields(ABC):
         return False
 
     @property
+    def degree(self) -> int:
+        """Degree of polynomials that come near to them on an element."""
+        return 2
+
+    @property
     @abstractmethod
     def cover(self) -> Ints:
         """(S,) place of the cover of each function among those of an element."""
@@ -56,6 +61,11 @@ class QuadratureGroup(ElementGroup):
 
     fields: Fields
     rule: PointRule
+
+    @property
+    def degree(self) -> int:
+        """See `Fields.degree`."""
+        return self.fields.degree
 
     @property
     def extends(self) -> bool:

@@ -12,6 +12,9 @@ from covers.quadrature_groups import Fields
 from integration.arrays import Floats, Ints
 from integration.monomials import count, differentiate, evaluate
 
+# Degree beyond that of the polynomials to which weights that are none are integrated.
+RATIONAL = 6
+
 
 @dataclass(frozen=True)
 class WeightedFields(Fields):
@@ -42,6 +45,13 @@ class WeightedFields(Fields):
     def extends(self) -> bool:
         """Polynomial weights do; others know their own cell alone."""
         return self.weighted.weight_degree is not None
+
+    @property
+    def degree(self) -> int:
+        """See `Fields.degree`."""
+        highest = max(item.degree for item in self.functions)
+        own = self.weighted.weight_degree
+        return highest + (self.weighted.precision + RATIONAL // 2 if own is None else own)
 
     @property
     def cover(self) -> Ints:

@@ -30,16 +30,29 @@ class Frames:
     tilt
         (B,) linear rotations besides, of small displacements that are kept apart from the strain;
         None is none.
+    way
+        (B, 2) how far the centroids have come from where they were laid (m): what differences of
+        places have lost to the rounding of coordinates. None where it was not followed.
     """
 
     centre: Floats
     angle: Floats
     tilt: Floats | None = None
+    way: Floats | None = None
 
     @cached_property
     def rotation(self) -> Floats:
         """(B, 2, 2) from body axes to global axes."""
         return rotation_matrices(self.angle)
+
+    @cached_property
+    def turn(self) -> Floats:
+        """(B, 2, 2) the rotation less one, to its own rounding."""
+        found = np.empty((len(self.angle), 2, 2))
+        found[:, 0, 0] = found[:, 1, 1] = -2 * np.sin(self.angle / 2) ** 2
+        found[:, 1, 0] = np.sin(self.angle)
+        found[:, 0, 1] = -found[:, 1, 0]
+        return found
 
     def to_global(self, body: Ints, vectors: Floats) -> Floats:
         """Turn vectors (m, 2) from body axes to global axes."""
@@ -86,7 +99,8 @@ def rotation_matrices(angle: Floats) -> Floats:
 def initial_state(manifold: Manifold) -> State:
     """Return the state of rest in the reference place."""
     n = manifold.n_unknowns
-    frames = Frames(manifold.body_centroid, np.zeros(manifold.n_bodies))
+    centre = manifold.body_centroid
+    frames = Frames(centre, np.zeros(manifold.n_bodies), way=np.zeros_like(centre))
     return State(0.0, 0.0, frames, np.zeros(n), np.zeros(n), np.zeros(n))
 
 
@@ -115,6 +129,18 @@ class MaterialPoints:
             across = np.stack([-self.arm[:, 1], self.arm[:, 0]], axis=1)
             local = local + frames.tilt[self.body, None] * across
         return frames.centre[self.body] + frames.to_global(self.body, local)
+
+    def moved(self, frames: Frames, deformation: Floats) -> Floats:
+        """Return the way (m, 2) from the reference place, to the rounding of the way itself."""
+        assert frames.way is not None
+        local = self.rows.apply(deformation)
+        if frames.tilt is not None:
+            across = np.stack([-self.arm[:, 1], self.arm[:, 0]], axis=1)
+            local = local + frames.tilt[self.body, None] * across
+        found = frames.way[self.body] + frames.to_global(self.body, local)
+        if frames.angle.any():
+            found = found + np.einsum("mij,mj->mi", frames.turn[self.body], self.arm)
+        return np.asarray(found)
 
     def along(self, frames: Frames, directions: Floats) -> Floats:
         """Rows (m, L) of the motion along global directions (m, 2)."""
@@ -150,10 +176,12 @@ def move(model: Model, state: State, increment: Floats) -> State:
     rigid = (model.rigid_projection @ increment).reshape(-1, 3)
     frames = state.frames
     bodies = np.arange(len(rigid))
+    shift = frames.to_global(bodies, rigid[:, :2])
     moved = Frames(
-        frames.centre + frames.to_global(bodies, rigid[:, :2]),
+        frames.centre + shift,
         frames.angle + rigid[:, 2],
         frames.tilt,
+        None if frames.way is None else frames.way + shift,
     )
     # What the sum of angles has taken up, rounded: a velocity must not drift against its axes.
     turn = rotation_matrices(moved.angle - frames.angle)
@@ -189,6 +217,8 @@ def strain_only(
         return after
     way, frames = rigid.reshape(-1, 3), state.frames
     bodies = np.arange(len(way))
-    centre = frames.centre + frames.to_global(bodies, way[:, :2])
+    shift = frames.to_global(bodies, way[:, :2])
     tilt = way[:, 2] if frames.tilt is None else frames.tilt + way[:, 2]
-    return replace(after, frames=replace(frames, centre=centre, tilt=tilt))
+    far = None if frames.way is None else frames.way + shift
+    moved = replace(frames, centre=frames.centre + shift, tilt=tilt, way=far)
+    return replace(after, frames=moved)

@@ -138,7 +138,10 @@ def faced(
 
 
 def _edge_pairs(surface: Surface, found: Contacts) -> tuple[Ints, Ints]:
-    """Pairs of edges that may overlap, sorted, and those (2, m) that hold each contact."""
+    """Pairs of edges that may overlap, sorted, and those (4, m) that hold each contact.
+
+    A corner on a corner stands for all edges that end there, whichever of them the search named.
+    """
     n = len(surface)
     v, e = found.vertex, found.edge
     before = surface.previous[v]
@@ -146,13 +149,11 @@ def _edge_pairs(surface: Surface, found: Contacts) -> tuple[Ints, Ints]:
     def key(one: Ints, other: Ints) -> Ints:
         return np.minimum(one, other) * n + np.maximum(one, other)
 
-    own = np.stack([key(v, e), key(before, e)])
-    # At a corner the other edge that ends there may be the one that is faced.
-    near = np.flatnonzero(found.kind == VERTEX_VERTEX)
-    corner = found.corner[near]
-    other = np.where(corner == e[near], surface.previous[corner], corner)
-    around = np.concatenate([own.ravel(), key(v[near], other), key(before[near], other)])
-    return np.unique(around), own
+    corner = found.corner
+    across = np.where(corner == e, surface.previous[corner], corner)
+    other = np.where(found.kind == VERTEX_VERTEX, across, e)
+    own = np.stack([key(v, e), key(before, e), key(v, other), key(before, other)])
+    return np.unique(own), own
 
 
 def _beside(surface: Surface, overlaps: Overlaps) -> Ints:

@@ -54,7 +54,7 @@ class Supports(Effect):
         self._stood: tuple[Floats, csc_array] | None = None
         self._known: list[tuple[State, list[Floats]]] = []
         self._anchors = [
-            support.place.points.place(state.frames, state.deformation) for support in supports
+            support.place.points.moved(state.frames, state.deformation) for support in supports
         ]
 
     @classmethod
@@ -189,15 +189,15 @@ class Supports(Effect):
 
     def _lag(self, number: int, state: State, end: Instant) -> Floats:
         now = self._anchors[number] + self._supports[number].displacement(end)
-        return np.asarray(now - self._places(state)[number])
+        return np.asarray(now - self._ways(state)[number])
 
-    def _places(self, state: State) -> list[Floats]:
-        """Where the points of each support are; those at both ends of a step are kept."""
+    def _ways(self, state: State) -> list[Floats]:
+        """How far the points of each support have come; those at both ends of a step are kept."""
         for known, places in self._known:
             if known is state:
                 return places
         points = (support.place.points for support in self._supports)
-        places = [one.place(state.frames, state.deformation) for one in points]
+        places = [one.moved(state.frames, state.deformation) for one in points]
         self._known = [*self._known[-1:], (state, places)]
         return places
 

@@ -31,9 +31,12 @@ class Pairs:
     weight: Floats
 
     def jump(self, state: State) -> Floats:
-        """Return by how much the first side has moved from the second (m, 2), in global axes."""
+        """Return by how much the first side has moved from the second (m, 2), in global axes.
+
+        Sides are bonded as they lie: a gap that the search for shared edges allows is no jump.
+        """
         frames, q = state.frames, state.deformation
-        return np.asarray(self.first.place(frames, q) - self.second.place(frames, q))
+        return np.asarray(self.first.moved(frames, q) - self.second.moved(frames, q))
 
     def rows(self, state: State, n: int) -> csr_array:
         """Rows (2m, n) of the jump, component minor."""

@@ -7,6 +7,7 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import strain_only
+from nmm.errors import SolveError
 from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.solvers.rigid_apart import ROUNDED, Apart, rounding, solve_apart
@@ -16,6 +17,10 @@ from nmm.stepping.clock import Clock
 from nmm.stepping.equations import Equations
 from nmm.stepping.mover import Mover
 from nmm.stepping.relay import Laid
+
+TRUSTED = 1e-4
+"""Largest residual of a linear step, as a share of its load: beyond it no digit that matters is
+known of soft motions. The summary has the residual, and warns of it from 1e-6 on."""
 
 
 class Alone:
@@ -45,10 +50,19 @@ class Alone:
         Raises
         ------
         SolveError
-            Where the load moves a part that nothing holds.
+            Where the load moves a part that nothing holds, or rounding leaves a residual above
+            `TRUSTED`.
         """
         with self._clock.phase("solve"):
             increment, residual, apart = self._solve(equations)
+        left = residual if apart is None else apart.residual
+        if not left <= TRUSTED:
+            raise SolveError(
+                f"linear system of {len(increment)} unknowns: rounding leaves a residual of "
+                f"{left:.1e} of the load: expected at most {TRUSTED:.0e}: stiffnesses differ by "
+                "more than numbers can hold; look for springs or bodies far stiffer than others, "
+                "slivers, and parts that hardly hang together"
+            )
         result = self._mover.after(equations, increment)
         if apart is None:
             return replace(result, residual=residual)

@@ -127,4 +127,11 @@ def _mesh(
     except ValueError as fault:
         raise FormulationError(f"[cover.enrichment] {fault}") from fault
     kinds = functions if not cover.regions else kinds_by_region(regions, pieces, cover)
-    return Covering(mesh_manifold(laid, pieces, kinds, extra), pieces, laid)
+    found = mesh_manifold(laid, pieces, kinds, extra)
+    if found.reproduction == 0:
+        raise FormulationError(
+            f'[cover] degree: 0 with type = "{cover.type}" and options {dict(cover.options)}: '
+            "displacements hold constants only, so that no strain is approached however small the "
+            "cells: expected a linear field: use degree = 1, or weights that hold one"
+        )
+    return Covering(found, pieces, laid)

@@ -45,6 +45,7 @@ def cures(
         found["covers in coordinates fitted to the cut"] = manifold.fitted
     if manifold.enriched:
         found["covers with singular functions"] = manifold.enriched
+    found |= manifold.mended
     tied = 0 if supports is None else _covers(manifold, supports)
     if tied:
         found["covers tied to their neighbours beside supports (ghost)"] = tied

@@ -36,7 +36,11 @@ def laid_and_cut(
     """
     if not cover.nets:
         whole = _laid(cover, None, regions.polygons.points)
-        return whole, cut(whole, regions.polygons, lines)
+
+        def again(other: MathematicalCover) -> CutCells:
+            return cut(other, regions.polygons, lines)
+
+        return whole.settled(again(whole), again)
     members = _members(regions, cover.nets)
     parts = [(net, own) for net, own in zip([None, *cover.nets], members, strict=True) if len(own)]
     nets, cuts = [], []

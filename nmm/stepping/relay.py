@@ -48,7 +48,8 @@ def relay(
     new = replace(model, manifold=manifold)
     effects = {name: effect.relaid(new) for name, effect in plan.effects.items()}
     effects[InitialStress.name] = InitialStress(new, stress)
-    frames = Frames(manifold.body_centroid, np.zeros(manifold.n_bodies))
+    centre = manifold.body_centroid
+    frames = Frames(centre, np.zeros(manifold.n_bodies), way=np.zeros_like(centre))
     rest = np.zeros(manifold.n_unknowns)
     return new, replace(plan, effects=effects), replace(state, frames=frames, deformation=rest)
 
