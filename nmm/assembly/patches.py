@@ -13,6 +13,9 @@ from integration.monomials import count
 from nmm.assembly.patch_inverse import inverse_roots
 from nmm.assembly.pressures import Pressures
 
+# Share of its largest neighbour below which a patch has no constant pressure of its own.
+SLIVER = 0.1
+
 
 @dataclass(frozen=True)
 class _Part:
@@ -100,7 +103,38 @@ def _patches(manifold: Manifold, bulk: Floats, lower: int) -> tuple[Floats, list
     for part in parts:
         none = part.patch < 0
         part.patch[:] = np.where(none, -1, np.searchsorted(every, part.patch))
-    return value[every % len(value)], parts
+    kept, stands = np.unique(_joined(parts, len(every)), return_inverse=True)
+    for part in parts:
+        part.patch[:] = np.where(part.patch < 0, -1, stands.ravel()[part.patch])
+    return value[every[kept] % len(value)], parts
+
+
+def _joined(parts: Sequence[_Part], n: int) -> Ints:
+    """Patch (n,) of which each patch is a part: itself, or a larger one beside a sliver.
+
+    What a cut leaves of a patch, `SLIVER` of its neighbour, is too little to say what the pressure
+    is there. Only constant pressures are joined: those of higher degree have own coordinates.
+    """
+    measure, constant = np.zeros(n), np.ones(n, dtype=bool)
+    for part in parts:  # a handful of groups
+        for patch, block in part.measures():
+            np.add.at(measure, patch, block[:, 0, 0])
+            constant[patch] &= block.shape[1] == 1
+    best = np.arange(n)
+    for part in parts:
+        there = part.patch >= 0
+        size = np.where(there & constant[part.patch], measure[part.patch], 0.0)
+        if not size.size:
+            continue
+        largest = np.take_along_axis(part.patch, size.argmax(axis=1)[:, None], axis=1)
+        own, other = part.patch[there], np.broadcast_to(largest, there.shape)[there]
+        order = np.argsort(measure[other], kind="stable")
+        own, other = own[order], other[order]
+        more = measure[other] > measure[best[own]]
+        best[own[more]] = other[more]
+    small = constant & constant[best] & (measure < SLIVER * measure[best])
+    found = np.where(small, best, np.arange(n))
+    return np.asarray(found[found])
 
 
 def _below(functions: int, lower: int) -> int:

@@ -99,13 +99,14 @@ def _displacement(run: "Run", elements: Ints, points: Floats) -> Floats:
 
 
 def _stress(run: "Run", elements: Ints, points: Floats) -> Floats:
-    unknowns, rows = run.manifold.gradient_rows(elements, points)
-    gradient = np.einsum("mijl,ml->mij", rows, run.state.deformation[unknowns])
-    strain = np.stack(
-        [gradient[:, 0, 0], gradient[:, 1, 1], gradient[:, 0, 1] + gradient[:, 1, 0]], axis=1
-    )
-    stress = np.einsum("mij,mj->mi", run.stepper.model.elasticity[elements], strain)
-    initial = run.stepper.plan.initial_stress
+    from integration.rules import PointRule
+    from nmm.assembly.errors import stresses
+
+    model, plan = run.stepper.model, run.stepper.plan
+    rule = PointRule(points, np.ones(len(points)), elements)
+    pressure = plan.pressure(model, run.state)
+    stress = stresses(model, run.state.deformation, rule, pressure)
+    initial = plan.initial_stress
     if initial is not None:
         stress = stress + initial.stress[elements]
     turn = run.state.frames.rotation[run.manifold.element_body[elements]]
