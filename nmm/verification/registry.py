@@ -29,6 +29,7 @@ CASES = Registry[type[Case]](
         "A8 quadratic": f"{_HOME}.manufactured:WavesOfDegreeTwo",
         "A6": f"{_HOME}.cylinders:Cylinder",
         "A6 pressures": f"{_HOME}.incompressible:Pressures",
+        "A7": f"{_HOME}.incompressible:NoDivergence",
         "A9 bars": f"{_HOME}.cylinders:Bars",
         "A9 disc": f"{_HOME}.cylinders:Core",
         "A10": f"{_HOME}.cracks:EdgeCrack",

@@ -231,10 +231,10 @@ def test_layers_of_which_one_hardly_changes_its_volume_are_glued_as_any_others(
 
 def test_slivers_have_the_pressure_of_what_lies_about_them() -> None:
     # A position of the net that leaves slivers: alone they were off by three times the pressure.
-    found = run(
-        parse_scene(quarter_of_a_cylinder(0.4999999)),
-        formulation("triangles", 1, "projected", 0.25),
-    )
+    how = formulation("triangles", 1, "projected", 0.25)
+    cover = how.cover.model_copy(update={"shift": (0.3, 0.1)})
+    scene = parse_scene(quarter_of_a_cylinder(0.4999999, 128))
+    found = run(scene, how.model_copy(update={"cover": cover}))
     elements = found.manifold.elements
     assert elements.areas.min() < 1e-2 * elements.areas.max()
     rule = polygon_rule(elements, 6)

@@ -1,15 +1,27 @@
 """Pressures of materials that hardly change their volume."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 import numpy as np
 
 from integration.arrays import Floats
 from integration.rules import polygon_rule
+from nmm.assembly.errors import FieldErrors, field_errors
+from nmm.formulation import Formulation
+from nmm.materials.elastic import Elastic
 from nmm.verification.base import Check, Checks, limit
-from nmm.verification.continuum import displacement_at
+from nmm.verification.continuum import (
+    ContinuumCase,
+    Problem,
+    displacement_at,
+    edge_support,
+    everywhere,
+    fine,
+    on_mesh,
+    polygon,
+)
 from nmm.verification.problems.cylinders import RESIDUAL, Cylinder
 
 
@@ -65,3 +77,63 @@ def _lame(points: Floats) -> Floats:
     return np.stack(
         [radial * c**2 + hoop * s**2, radial * s**2 + hoop * c**2, (radial - hoop) * c * s], axis=1
     )
+
+
+@dataclass(frozen=True)
+class NoDivergence(ContinuumCase):
+    """A field that keeps the volume, held all around, up to a Poisson ratio of nearly 1/2.
+
+    The field and its stresses of shear are the same for every ratio; what locks or is held too
+    stiffly shows as a growth of the errors from that of 0.3.
+    """
+
+    name: ClassVar[str] = "A7"
+    title: ClassVar[str] = "Field without divergence, Poisson ratios of 0.3 and 0.4999999"
+    source: ClassVar[str] = "u = (sin pi x cos pi y, -cos pi x sin pi y), b = 2 pi^2 mu u, E = 1"
+    formulations: ClassVar[tuple[str, ...]] = ("projected", "projected degree 2", "projected quads")
+    size: ClassVar[float] = 1 / 8
+    poisson: float = 0.4999999
+
+    def problem(self, formulation: Formulation) -> Problem:
+        """Return the unit square, held all around."""
+        from nmm.stepping.equilibrium import body_force
+        from nmm.stepping.solid import solid
+
+        region = polygon([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        law = Elastic(1.0, self.poisson)
+        model = solid(region, formulation.cover, [law], "strain")
+        factor, gauss = 2 * np.pi**2 * law.stiffness("strain")[2, 2], fine(formulation)
+        held = edge_support(model, formulation, everywhere(model, gauss), _swirl)
+        force = body_force(model, lambda p: factor * _swirl(p), gauss)
+        return Problem(model, [held], forces=[force])
+
+    def checks(self, formulation: str) -> Checks:
+        """Compare the errors with those at a ratio of 0.3 under the same cover."""
+        near, far = self.errors(formulation), replace(self, poisson=0.3).errors(formulation)
+        why = "errors at 0.4999999 over those at 0.3; 168 and more where penalties lock"
+        return {
+            "growth of the error of strains": limit(near.energy / far.energy, 2.0, why),
+            "growth of the error of displacements": limit(
+                near.displacement / far.displacement, 2.0, why
+            ),
+        }
+
+    def errors(self, formulation: str) -> FieldErrors:
+        """Relative errors of strains, weighted as by a material without lateral strain."""
+        found = self.solved(formulation)
+        law = np.broadcast_to(Elastic(1.0, 0.0).stiffness("strain"), found.model.elasticity.shape)
+        soft = replace(found.model, elasticity=law)
+        order = fine(on_mesh(formulation, self.size))
+        return field_errors(soft, found.state.deformation, _swirl, _shear, order)
+
+
+def _swirl(points: Floats) -> Floats:
+    x, y = np.pi * points.T
+    return np.stack([np.sin(x) * np.cos(y), -np.cos(x) * np.sin(y)], axis=1)
+
+
+def _shear(points: Floats) -> Floats:
+    """Strains (m, 3) of the field."""
+    x, y = np.pi * points.T
+    along = np.pi * np.cos(x) * np.cos(y)
+    return np.stack([along, -along, 0 * along], axis=1)
