@@ -8,7 +8,6 @@ import typer
 from nmm import scene_verbs, study_verbs, verification_verbs
 from nmm.scene_verbs import AllowCode, FormulationFile, SceneFile, allowed, read_formulation
 from nmm.terminal import (
-    FAILED,
     console,
     faults_told,
     progress_bar,
@@ -69,14 +68,19 @@ def run(
     steps: Annotated[
         bool, typer.Option("--steps", help="A line after each step: passes, states of contacts.")
     ] = False,
+    budget: Annotated[
+        float | None,
+        typer.Option(min=0, help="Seconds after which the run ends with what it has."),
+    ] = None,
     allow_code: AllowCode = None,
 ) -> None:
     """Run a scene; write its folder with pictures and ParaView files.
 
-    Exit code 2 when a step could not be solved; what was written before it stays.
+    Exit code 2 when a step could not be solved, 3 when the budget was spent, 4 when the structure
+    collapsed, 5 when an audit of energy, momentum or balance failed; what was written stays.
     """
     with faults_told(), allowed(scene, allow_code):
-        _run(scene, formulation, out or _free(RUNS / scene.stem), quiet, steps)
+        _run(scene, formulation, out or _free(RUNS / scene.stem), quiet, steps, budget)
 
 
 @app.command()
@@ -130,16 +134,22 @@ verification_verbs.register(app)
 
 
 def _run(
-    place: Path, formulation: Path | None, out: Path, quiet: bool, steps: bool = False
+    place: Path,
+    formulation: Path | None,
+    out: Path,
+    quiet: bool,
+    steps: bool = False,
+    budget: float | None = None,
 ) -> None:
     import nmm
     from nmm.results.summary import render
+    from nmm.stepping.verdict import EXIT_CODES
 
     scene = nmm.read_scene(place)
     chosen = read_formulation(formulation)
     try:
         with progress_bar(quiet, steps) as progress:
-            done = nmm.run(scene, chosen, out=out, progress=progress)
+            done = nmm.run(scene, chosen, out=out, progress=progress, budget=budget)
     except KeyboardInterrupt:
         typer.secho(f"stopped; what was written can be drawn: nmm plot {out}", err=True)
         raise typer.Exit(130) from None
@@ -150,8 +160,8 @@ def _run(
         console().print(render(done.summary))
         tell_files([out, *files])
         tell_next(f"nmm plot {out} --frame 0", f"paraview {out / 'paraview' / 'blocks.pvd'}")
-    if done.summary.status == FAILED:
-        raise typer.Exit(2)
+    if code := EXIT_CODES.get(done.summary.status, 2):
+        raise typer.Exit(code)
 
 
 def _draw(

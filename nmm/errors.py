@@ -59,7 +59,14 @@ class FormulationError(NmmError):
 
 
 class SolveError(NmmError):
-    """A step was not solved: the line names step, contact, residual and remedy."""
+    """A step was not solved: the line names step, contact, residual and remedy.
+
+    ``singular`` says that the load moves a part that nothing holds.
+    """
+
+    def __init__(self, *faults: Fault | str, singular: bool = False) -> None:
+        super().__init__(*faults)
+        self.singular = singular
 
 
 class StorageError(NmmError):

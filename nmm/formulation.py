@@ -152,6 +152,18 @@ class LoadSteps(Frozen):
         description="a relative tolerance in [1e-9, 1)",
         examples=[0.005],
     )
+    budget: Time | None = Field(
+        default=None,
+        gt=0,
+        description="seconds on the wall clock after which a run ends, static or dynamic, > 0",
+        examples=["10 min"],
+    )
+    max_steps: Count | None = Field(
+        default=None,
+        gt=0,
+        description="a number of steps after which a run ends, static or dynamic, > 0",
+        examples=[1000],
+    )
 
 
 class Solver(Part):

@@ -141,6 +141,8 @@ def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
     for line in tip_lines(prepared.stepper.model):
         out.print(line, highlight=False, markup=False)
     out.print(f"unknowns: {manifold.n_unknowns:,}", highlight=False)
+    for warning in prepared.identity().warnings:
+        out.print(f"warning: {warning}", style="yellow", highlight=False, markup=False)
     out.print(str(prepared.storage), highlight=False)
     if cost:
         _tell_cost(prepared)

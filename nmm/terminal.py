@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from nmm.stepping.run import Run
     from nmm.stepping.simulation import Progress
 
-FAILED = "failed"
+
+# Colours of the ends of runs; others are red.
+STYLES = {"converged": "green", "failure_load": "green", "budget_spent": "yellow"}
 
 
 @contextmanager
@@ -70,8 +72,7 @@ def tell_run(scene: "Scene", done: "Run") -> None:
     from nmm.results.summary import failure_line
 
     out = console()
-    failed = done.summary.status == FAILED
-    style = "red" if failed else "green"
+    style = STYLES.get(done.summary.status, "red")
     # Sentences name tables such as [contact], which are no markup.
     out.print(done.summary.sentence, style=style, highlight=False, markup=False)
     if (line := failure_line(done.summary)) is not None:

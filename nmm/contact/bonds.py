@@ -53,6 +53,18 @@ class Laws:
             friction[index] = limits.friction
         return Limits(tension, cohesion, friction)
 
+    def strength(self, contacts: ContactPoints) -> Limits:
+        """Return the limits with the strength of intact bonds, which has none within a step."""
+        limits = self.limits(contacts)
+        tension, cohesion = limits.tension.copy(), limits.cohesion.copy()
+        for law, index in self._by_law(contacts):
+            area = contacts.length[index] * self.thickness
+            tension[index] = np.minimum(tension[index], law.tensile_strength * area)
+            cohesion[index] = np.where(
+                np.isfinite(cohesion[index]), cohesion[index], law.cohesion * area
+            )
+        return Limits(tension, cohesion, limits.friction)
+
     def springs(
         self, contacts: ContactPoints, opened: Bools | None = None
     ) -> tuple[Floats, Floats, Bools]:

@@ -41,5 +41,10 @@ def polish(
             break
         increment, defect = increment - step, found
     return Settled(
-        springs, increment, defect.size, solves, taken, f"Newton with {taken} factorisations"
+        springs,
+        increment,
+        defect.size,
+        solves,
+        taken,
+        f"Newton with {taken} factorisation{'' if taken == 1 else 's'}",
     )

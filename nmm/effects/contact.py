@@ -41,7 +41,7 @@ from nmm.contact.memory import Memory
 from nmm.contact.narrow import Contacts, follow, pair_key
 from nmm.contact.overlaps import face_points
 from nmm.contact.points import ContactPoints, concatenate, rows
-from nmm.contact.problem import SLIDE, StepAnswer, StepProblem
+from nmm.contact.problem import SLIDE, Limits, StepAnswer, StepProblem
 from nmm.contact.record import Breaking, ContactRecord, Solved
 from nmm.contact.reference_gap import counted
 from nmm.contact.rules import FLUSH
@@ -369,6 +369,30 @@ class Contact(Effect):
             np.where(closed, problem.normal_stiffness, 0.0),
             np.where(held, problem.shear_stiffness, 0.0),
         )
+
+    @property
+    def springs_named(self) -> bool:
+        """Whether any interface names the stiffness of its contacts."""
+        return self._laws.stiff
+
+    @property
+    def stiffest(self) -> float | None:
+        """Largest stiffness (N/m) of a contact that pressed in the last step, None without any."""
+        if self._solved is None or self._exact:
+            return None
+        problem, answer = self._solved
+        pressed = answer.normal_force < 0
+        return float(problem.normal_stiffness[pressed].max()) if pressed.any() else None
+
+    def near(self, state: State, reach: float) -> tuple[tuple[csr_array, csr_array], Limits]:
+        """Return rows and strength of contacts that bonds hold or that are open by ``reach``."""
+        last = self._last
+        contacts = self.candidates(state, reach)
+        self._last = last
+        held = contacts.is_joint & (contacts.damage < 1)
+        contacts = contacts.take(held | (contacts.gap <= reach))
+        through = self._rows(contacts, state, None)
+        return (through.normal, through.tangent), self._laws.strength(contacts)
 
     def condition(self, solver: LinearSolver) -> float | None:
         """Estimate the condition number of the last system with the springs that acted in it."""

@@ -20,7 +20,8 @@ RUNNING = "running"
 STOPPED = "stopped"
 REPLACING = "replacing"
 UNKNOWN = "unknown"
-FAILED = "failed"
+# Ends at which the factor that was reached is no failure load.
+ON_THE_WAY = ("failed", "collapsed", "budget_spent")
 PACKAGES = ("nmm-framework", "numpy", "scipy", "scikit-fem", "shapely", "numba")
 
 
@@ -42,14 +43,18 @@ class Summary:
     Attributes
     ----------
     status, sentence
-        Code of the verdict ("running", "converged", ...) and the sentence that explains it.
+        Code of the verdict, "running" or a key of `nmm.stepping.verdict.MEANT`, and the sentence
+        that explains it.
     blocks, elements, covers, unknowns, steps, passes, frames
         Counts; covers are physical covers, passes are contact passes summed over steps, frames are
         those stored, of the motion after failure too.
     cures
         What was done about dependent functions and small cuts, and on how many of them.
+    audits
+        What the audits of the run have measured, by name: see `nmm.stepping.audits.table`.
     warnings
-        What is known to spoil the answer of this scene under this formulation, in sentences.
+        What the audits found, and what is known to spoil the answer of this scene under this
+        formulation, in sentences.
     seconds, effect_seconds
         Wall-clock seconds by phase and by effect.
     peak_memory
@@ -80,6 +85,7 @@ class Summary:
     unknowns: int = 0
     cures: Mapping[str, int] = field(default_factory=dict)
     warnings: Sequence[str] = field(default_factory=list)
+    audits: Mapping[str, float] = field(default_factory=dict)
     steps: int = 0
     passes: int = 0
     frames: int = 0
@@ -184,7 +190,7 @@ def failure_line(summary: Summary) -> str | None:
     A run that failed did not look for one: the factor it reached is no failure load.
     """
     none = summary.failure_factor is None and summary.failure_load is None
-    if none or summary.status == FAILED:
+    if none or summary.status in ON_THE_WAY:
         return None
     parts = []
     if summary.failure_load is not None:
@@ -208,7 +214,7 @@ def rows(summary: Summary) -> list[tuple[str, str]]:
         ("contact passes", f"{summary.passes:,}"),
         ("failure load", _or_none(summary.failure_load, _newton)),
         (
-            "load factor reached" if summary.status == FAILED else "failure load factor",
+            "load factor reached" if summary.status in ON_THE_WAY else "failure load factor",
             _or_none(summary.failure_factor, _number),
         ),
         ("equilibrium residual", _or_none(summary.equilibrium_residual, _number)),

@@ -148,7 +148,8 @@ class Factor:
                 raise SolveError(
                     f"linear system of {len(scale)} unknowns: {fault}, though shifted by "
                     f"{shifted.shift:.0e}: expected a supported system: add supports, contacts or "
-                    "inertia"
+                    "inertia",
+                    singular=True,
                 ) from fault
             return cls(shifted, matrix, scale, parts, deflated=True)
 
@@ -173,7 +174,8 @@ class Factor:
         raise SolveError(
             f"linear system of {len(rhs)} unknowns: residual {residual:.1e} of the load, largest "
             f"at unknown {at}: expected a supported system: the matrix is singular and the load "
-            "moves a free part; add supports, contacts or inertia"
+            "moves a free part; add supports, contacts or inertia",
+            singular=True,
         )
 
     def apply(self, rhs: Floats) -> Floats:

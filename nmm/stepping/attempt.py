@@ -33,6 +33,8 @@ class Attempt:
         Contact points with their forces; None without contact.
     booked
         Work of inertia and contact; None in statics.
+    singular
+        Whether the load moves a part that nothing holds.
     """
 
     converged: bool
@@ -44,3 +46,4 @@ class Attempt:
     passes: int
     solved: "Solved | None" = None
     booked: Booked | None = None
+    singular: bool = False

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.stepping.attempt import Attempt
+from nmm.stepping.budget import BudgetSpentError
 from nmm.stepping.recorder import Recorder
 from nmm.stepping.step import Stepper
-from nmm.stepping.verdict import CONVERGED, FAILED, RunVerdict
+from nmm.stepping.verdict import CONVERGED, FAILED, SPENT, RunVerdict
 
 # Of a step, about what sums of many steps are off by: 20 000 steps are 20 000, not one more of
 # 1e-12 s at the end.
@@ -55,7 +56,11 @@ def run_in_time(
     while state.time < end - ROUNDING * schedule.step:
         rest = end - state.time
         length = rest if rest < (1 + ROUNDING) * step else step
-        attempt, why = _step_or_cut(stepper, state, length, schedule)
+        try:
+            attempt, why = _step_or_cut(stepper, state, length, schedule)
+        except BudgetSpentError as spent:
+            recorder.last(state, schedule.stage, contacts)
+            return state, RunVerdict(SPENT, f"stopped at {state.time:.6g} s: {spent}")
         if not attempt.converged:
             recorder.last(state, schedule.stage, contacts)
             return state, RunVerdict(FAILED, _failure(attempt, state, schedule))

@@ -76,6 +76,7 @@ class Recorder:
     frames: int = 0
     residual: float = 0.0
     penetration: float = 0.0
+    stiffest: float = 0.0
     largest: dict[str, int] = field(default_factory=dict)
     counts: dict[str, int] = field(default_factory=dict)
     _stored: State | None = None
@@ -99,6 +100,7 @@ class Recorder:
         """
         plan, after = self.stepper.plan, attempt.state
         self.ledger.book(plan, self.stepper.model, before, attempt, stands or after)
+        self.stepper.budget.taken += 1
         self.passes += attempt.passes
         self.residual = max(self.residual, attempt.residual)
         row = {
@@ -188,6 +190,7 @@ class Recorder:
         contact = self.stepper.plan.contact
         assert contact is not None
         penetration = -float(contacts.gap.min(initial=0.0))
+        self.stiffest = max(self.stiffest, contact.stiffest or 0.0)
         self.penetration = max(self.penetration, penetration)
         tally = np.bincount(contacts.state, minlength=len(ContactState)).tolist()
         counts = {s.name.lower(): tally[s] for s in ContactState}

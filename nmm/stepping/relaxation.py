@@ -46,12 +46,18 @@ class Relaxed:
         Whether hardly anything moves any more.
     sentence
         Which block moves, and how, if it does.
+    falls
+        Whether it moves on, so that the structure and not the solver is at fault.
+    way
+        Sum of the largest motions of the steps (m).
     """
 
     state: State
     steps: int
     at_rest: bool
     sentence: str
+    falls: bool = False
+    way: float = 0.0
 
 
 def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) -> Relaxed:
@@ -65,6 +71,7 @@ def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) ->
     moving = Stepper(
         model, stepper.plan.joined(inertia), Shi(kinetic_factor=0.0), stepper.solver, small=False
     )
+    moving.budget = stepper.budget
     size = stepper.size
     length = _first_length(heavy, stepper.plan.force(state, end), size)
     way, cuts, attempt, start = 0.0, 0, None, None
@@ -84,13 +91,14 @@ def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) ->
         attempt = found if attempt is None or way - found.motion < FREE_WAY * size else attempt
         start = found.motion / length**2 if start is None else start
         if found.motion > GATHERS * start * length**2 and way > GATHERED * size:
-            return Relaxed(state, steps, False, f"it gathers speed: {_who(model, attempt, names)}")
+            who = _who(moving, attempt, names)
+            return Relaxed(state, steps, False, f"it gathers speed: {who}", True)
         if found.motion < STILL * size and _holds(stepper, state, end):
-            return Relaxed(state, steps, True, "")
+            return Relaxed(state, steps, True, "", way=way)
         if way > size:
             break
         length *= LONGER if found.motion < SLOW * size else 1.0
-    return Relaxed(state, steps, False, _who(model, attempt, names))
+    return Relaxed(state, steps, False, _who(moving, attempt, names), way > size)
 
 
 def _holds(stepper: Stepper, state: State, end: Instant) -> bool:
@@ -108,10 +116,26 @@ def _first_length(model: Model, force: Floats, size: float) -> float:
     return float(np.sqrt(2 * FIRST * size / fastest)) if fastest > 0 else 1.0
 
 
-def _who(model: Model, attempt: Attempt | None, names: Sequence[str]) -> str:
-    """Name the block that moves most, and how."""
+def _who(moving: Stepper, attempt: Attempt | None, names: Sequence[str]) -> str:
+    """Name the block that moves most, and how; one that nothing touches moves freely."""
     if attempt is None:
         return "no step converged"
+    model = moving.model
     body, how = largest_mover(model, attempt.state, attempt.increment)
     name = block_name(model, body, names)
+    if _touched(model, attempt, body):
+        return (
+            f"block {name} moves most: {how}; the blocks that touch it do not hold it: add "
+            "supports, friction or strength, or [inertia] to follow its motion"
+        )
     return f"block {name} can move freely: {how}; add a support or friction, or [inertia]"
+
+
+def _touched(model: Model, attempt: Attempt, body: int) -> bool:
+    """Whether anything pressed on a body in a step."""
+    if attempt.solved is None:
+        return False
+    contacts, answer = attempt.solved.contacts, attempt.solved.answer
+    owner = model.manifold.boundary.body
+    beside = (owner[contacts.edge_a] == body) | (owner[contacts.edge_b] == body)
+    return bool((beside & (answer.normal_force < 0)).any())

@@ -81,6 +81,7 @@ def run(
     out: str | Path | None = None,
     progress: Progress | None = None,
     allow_code: Sequence[str] = (),
+    budget: float | None = None,
 ) -> Run:
     """Run a scene.
 
@@ -97,14 +98,17 @@ def run(
     allow_code
         Modules, beside the scene's file or on the Python path, that parts named ``module:Class``
         may be imported from. Their code runs: name those that you trust.
+    budget
+        Seconds on the wall clock after which the run ends with what it has; the formulation's
+        ``[loading] budget`` when not given.
 
     Raises
     ------
     TypeError
         When something else than a scene or a formulation is given, such as the name of a file.
     NmmError
-        When scene or formulation cannot be run at all. A run that starts and fails ends with a
-        summary whose status is "failed" and whose sentence says why.
+        When scene or formulation cannot be run at all. A run that starts ends with a summary whose
+        status is a key of `nmm.stepping.verdict.MEANT` and whose sentence says why.
     StorageError
         When the folder cannot be written, for one as the disk is full; what was written before
         stays, and the summary there says what stopped the run.
@@ -117,13 +121,19 @@ def run(
     modules = given().modules.union(allow_code)
     # With several threads sums differ in their last digits from one number of threads to another.
     with allowing(*modules, folder=beside(scene.source.name, modules)), one_thread():
-        return _run(scene, formulation, out, progress or (lambda share, text: None))
+        return _run(scene, formulation, out, progress or (lambda share, text: None), budget)
 
 
 def _run(
-    scene: "Scene", formulation: Formulation | None, out: str | Path | None, progress: Progress
+    scene: "Scene",
+    formulation: Formulation | None,
+    out: str | Path | None,
+    progress: Progress,
+    budget: float | None,
 ) -> Run:
     simulation = prepare(scene, formulation or scene.formulation or Formulation())
+    if budget is not None:
+        simulation.stepper.budget.seconds = budget
     memory = MemorySink()
     folder = None if out is None else simulation.folder(Path(out))
     sinks: list[Sink] = [memory] if folder is None else [memory, folder]

@@ -24,6 +24,9 @@ from nmm.results.sink import Sink
 from nmm.results.summary import Summary
 from nmm.results.tee import Frames, Tee
 from nmm.scene import scene_hash
+from nmm.stepping.audits.base import Ended
+from nmm.stepping.audits.judge import audit, judged
+from nmm.stepping.budget import Budget
 from nmm.stepping.build import block_functions, build_model
 from nmm.stepping.cures import cures, solver_for, warnings
 from nmm.stepping.dynamics import Schedule, run_in_time
@@ -147,6 +150,7 @@ class Simulation:
             self.stepper.solver,
             small=False,
         )
+        quiet.budget = self.stepper.budget
         factor = (verdict.load_factor or 0.0) * (1 + 2 * (verdict.tolerance or 0.0))
         times = Schedule(duration, self.formulation.integrator.step, factor, "failure")
         shown = Frames(recorder.sink)
@@ -202,9 +206,17 @@ class Simulation:
 
     def _summary(self, recorder: Recorder, state: State, verdict: RunVerdict) -> Summary:
         stepper = self.stepper
+        condition = stepper.condition(state)
+        scene, formulation = self.scene, self.formulation
+        findings = audit(
+            Ended(scene, formulation, stepper, recorder, self.start, state, verdict, condition)
+        )
+        verdict, known = judged(verdict, findings), self.identity()
         load = None if verdict.load_factor is None else scaled_load(stepper, verdict.load_factor)
         return replace(
-            self.identity(),
+            known,
+            warnings=[*known.warnings, *(one.sentence for one in findings if one.warns)],
+            audits={one.name: one.value for one in findings},
             status=verdict.code,
             sentence=verdict.sentence,
             steps=recorder.steps,
@@ -216,7 +228,7 @@ class Simulation:
             equilibrium_residual=recorder.residual,
             largest_penetration=recorder.penetration,
             energy_balance=recorder.ledger.balance,
-            condition_estimate=stepper.condition(state),
+            condition_estimate=condition,
             failure_load=load,
             failure_factor=verdict.load_factor,
             failure_tolerance=verdict.tolerance,
@@ -252,6 +264,8 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
         small=_small(scene, formulation),
         lay=_lay(formulation, model, plan),
     )
+    limits = formulation.loading
+    stepper.budget = Budget(limits.budget, limits.max_steps, begun)
     stepper.seconds["covers"] = built - begun
     stepper.seconds["effects"] = perf_counter() - built
     return Simulation(*asked, regions, stepper, plan.begin(start), monitors(setup), begun, origin)

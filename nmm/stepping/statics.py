@@ -14,11 +14,13 @@ import numpy as np
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.stepping.attempt import Attempt
+from nmm.stepping.budget import BudgetSpentError
 from nmm.stepping.loose import ANCHOR, block_name, largest_mover, neutral
 from nmm.stepping.recorder import Recorder
 from nmm.stepping.relaxation import Relaxed, relax
+from nmm.stepping.static_theorem import carried
 from nmm.stepping.step import Stepper
-from nmm.stepping.verdict import CONVERGED, FAILED, FAILURE, RunVerdict
+from nmm.stepping.verdict import COLLAPSED, CONVERGED, FAILED, FAILURE, SPENT, RunVerdict
 
 if TYPE_CHECKING:
     from nmm.contact.points import ContactPoints
@@ -30,6 +32,11 @@ if TYPE_CHECKING:
 SETTLED = 1e-8
 ROUNDING = 1e-13
 CORRECTIONS = 12
+# While corrections shrink by this factor each they go on to so many.
+SHRINKS, PATIENCE = 0.9, 60
+# Corrections with anchors that do not shrink, so many and further than `COLLAPSE`, show a
+# mechanism: what is out of balance moves it on and on.
+STEADY = 4
 # A block that only anchors hold may wander by so many times that rounding.
 WANDER = 100.0
 
@@ -76,9 +83,34 @@ def run_load(
     -------
     The last state in equilibrium and the verdict.
     """
+    path = _Path(state)
+    try:
+        verdict = _raise_load(path, stepper, recorder, schedule, progress, names)
+    except BudgetSpentError as spent:
+        held = path.state.load_factor
+        verdict = RunVerdict(SPENT, f"stopped in equilibrium at load factor {held:.6g}: {spent}")
+    return path.state, verdict
+
+
+@dataclass
+class _Path:
+    """The last state in equilibrium."""
+
+    state: State
+
+
+def _raise_load(
+    path: _Path,
+    stepper: Stepper,
+    recorder: Recorder,
+    schedule: LoadSchedule,
+    progress: Callable[[float, str], None],
+    names: Sequence[str],
+) -> RunVerdict:
     increment = min(schedule.increment, schedule.target)
     rest: Relaxed | None = None
-    while state.load_factor < schedule.target * (1 - 1e-12):
+    while path.state.load_factor < schedule.target * (1 - 1e-12):
+        state = path.state
         factor = min(state.load_factor + increment, schedule.target)
         fine = increment <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
         start, bonds = stepper.remember(), stepper.broken_bonds
@@ -92,7 +124,7 @@ def run_load(
         broke = stepper.broken_bonds > bonds
         if found.attempt.converged:
             said = recorder.step(state, found.attempt, found.contacts)
-            state = found.attempt.state
+            path.state = state = found.attempt.state
             recorder.offer(state, "load", found.contacts)
             done = min(factor / schedule.target, 1.0)
             progress(done, "  ".join([f"load factor {factor:.5g}", said]).rstrip())
@@ -104,17 +136,19 @@ def run_load(
             rest = relax(stepper, state, end, names)
             if not rest.at_rest:
                 stepper.restore(start)
-                return state, RunVerdict(FAILED, _no_rest(rest), 0.0)
-            state = replace(rest.state, time=state.time, load_factor=0.0)
+                return _no_rest(rest)
+            path.state = replace(rest.state, time=state.time, load_factor=0.0)
             continue
         if fine:
-            verdict = _no_equilibrium(state, factor, found.attempt, schedule, stepper, names)
-            return state, _with_neutral(verdict, stepper, state, names)
+            verdict = _no_equilibrium(state, factor, found, schedule, stepper, names)
+            return _with_neutral(verdict, stepper, state, names)
         increment /= 2
+    state = path.state
     sentence = f"equilibrium at load factor {state.load_factor:.6g}"
     if rest is not None:
         sentence += f", loose blocks brought to rest in {rest.steps} steps of relaxation"
-    return state, _with_neutral(RunVerdict(CONVERGED, sentence), stepper, state, names)
+        sentence += f" over {rest.way:.3g} m"
+    return _with_neutral(RunVerdict(CONVERGED, sentence), stepper, state, names)
 
 
 def _breaking(fine: bool) -> "Breaking":
@@ -149,10 +183,14 @@ def _anchored(stepper: Stepper, state: State, end: Instant, breaking: "Breaking"
 
 @dataclass(frozen=True)
 class Settled:
-    """An attempt with its corrections, and the contacts as they are left."""
+    """An attempt with its corrections, and the contacts as they are left.
+
+    ``mechanism`` says that corrections went on without end.
+    """
 
     attempt: Attempt
     contacts: "ContactPoints | None"
+    mechanism: bool = False
 
 
 def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> Settled:
@@ -160,18 +198,24 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
     contacts: ContactPoints | None = None
     rounding = _rounding(stepper)
     total = attempt = stepper.attempt(state, end, None, breaking)
-    for _ in range(CORRECTIONS):
+    way, steady, count = 0.0, 0, 0
+    while count < CORRECTIONS or (count < PATIENCE and not steady):
         far = not stepper.small and total.motion > COLLAPSE * stepper.size
         if far or not attempt.converged:
-            return Settled(replace(total, converged=False), contacts)
+            return Settled(replace(total, converged=False), contacts, far)
         _, contacts = stepper.accept(attempt)
         if not stepper.anchored and stepper.small:
             return Settled(total, contacts)
         if attempt.motion <= SETTLED * total.motion + rounding:
             return Settled(total, contacts)
+        last, way = attempt, way + attempt.motion
         attempt = stepper.attempt(attempt.state, end, None, breaking)
-        total = _joined(total, attempt)
-    sentence = f"the moved place is not in equilibrium after {CORRECTIONS} corrections"
+        steady = steady + 1 if attempt.motion > SHRINKS * last.motion else 0
+        total, count = _joined(total, attempt), count + 1
+        if stepper.anchored and steady >= STEADY and way > COLLAPSE * stepper.size:
+            sentence = f"it moved by {way:.3g} m in {count} corrections that did not shrink"
+            return Settled(replace(total, converged=False, sentence=sentence), contacts, True)
+    sentence = f"the moved place is not in equilibrium after {count} corrections"
     return Settled(replace(total, converged=False, sentence=sentence), contacts)
 
 
@@ -196,32 +240,63 @@ def _joined(first: Attempt, then: Attempt) -> Attempt:
     )
 
 
-def _no_rest(rest: Relaxed) -> str:
-    return f"no equilibrium of loose blocks after {rest.steps} steps of relaxation: {rest.sentence}"
+def _no_rest(rest: Relaxed) -> RunVerdict:
+    sentence = f"after {rest.steps} steps of relaxation: {rest.sentence}"
+    if rest.falls:
+        return RunVerdict(COLLAPSED, f"no equilibrium of loose blocks {sentence}", 0.0)
+    return RunVerdict(FAILED, f"no equilibrium of loose blocks was found {sentence}", 0.0)
 
 
 def _no_equilibrium(
     state: State,
     factor: float,
-    attempt: Attempt,
+    found: Settled,
     schedule: LoadSchedule,
     stepper: Stepper,
     names: Sequence[str],
 ) -> RunVerdict:
-    held = state.load_factor
-    reason = attempt.sentence
-    if attempt.motion > COLLAPSE * stepper.size:
-        body, how = largest_mover(stepper.model, state, attempt.increment)
-        reason = (
-            f"points move by more than {100 * COLLAPSE:.0f} % of the domain in one increment, "
-            f"block {block_name(stepper.model, body, names)} most: {how}"
+    """Return the verdict on a load that was not solved: of the structure, if that is shown."""
+    held, reason = state.load_factor, found.attempt.sentence
+    shown = evidence(stepper, state, factor, found, names)
+    if shown is None:
+        sentence = (
+            f"no equilibrium was found between load factors {held:.6g} and {factor:.6g}: {reason}; "
+            "nothing shows that the structure is at fault: it may carry more; try another "
+            "enforcement or a larger loading.tolerance"
         )
+        tolerance = (factor - held) / held if held else None
+        return RunVerdict(FAILED, sentence, held, tolerance)
     if not schedule.until_failure or held == 0:
-        sentence = f"no equilibrium between load factors {held:.6g} and {factor:.6g}: {reason}"
-        return RunVerdict(FAILED, sentence, held)
+        sentence = f"no equilibrium between load factors {held:.6g} and {factor:.6g}: {shown}"
+        return RunVerdict(COLLAPSED, sentence, held)
     tolerance = (factor - held) / held
     sentence = (
         f"in equilibrium up to load factor {held:.6g}, none at {factor:.6g} "
-        f"({100 * tolerance:.2g} % above): {reason}"
+        f"({100 * tolerance:.2g} % above): {shown}"
     )
     return RunVerdict(FAILURE, sentence, held, tolerance)
+
+
+def evidence(
+    stepper: Stepper, state: State, factor: float, found: Settled, names: Sequence[str]
+) -> str | None:
+    """Return what shows that a structure, and not the solver, is at fault; None if nothing does.
+
+    The static theorem, a motion without end, or a system that is singular with the bonds and
+    contacts that are left.
+    """
+    attempt = found.attempt
+    proof = carried(stepper, state, factor)
+    said = [proof.sentence] if proof is not None and proof.fails else []
+    moves = attempt.motion > COLLAPSE * stepper.size
+    if (found.mechanism or moves) and np.isfinite(attempt.increment).all():
+        body, how = largest_mover(stepper.model, state, attempt.increment)
+        name = block_name(stepper.model, body, names)
+        if moves:
+            way = f"points move by more than {100 * COLLAPSE:.0f} % of the domain in one increment"
+        else:
+            way = attempt.sentence
+        said.append(f"a mechanism was found: {way}, block {name} most: {how}")
+    elif attempt.singular:
+        said.append(f"a mechanism was found: {attempt.sentence}")
+    return "; ".join(said) or None

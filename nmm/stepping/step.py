@@ -14,6 +14,7 @@ from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.alone import Alone
 from nmm.stepping.attempt import Attempt
 from nmm.stepping.booking import booked
+from nmm.stepping.budget import Budget
 from nmm.stepping.clock import Clock
 from nmm.stepping.equations import Assembly
 from nmm.stepping.integrators import Integrator, Shi
@@ -34,6 +35,8 @@ class Stepper:
     ----------
     solver, small
         The linear solver, and whether displacements are small.
+    budget
+        What the run may cost.
     anchored
         Whether soft springs hold bodies in statics to where they stand (`nmm.stepping.loose`).
     reference
@@ -56,6 +59,7 @@ class Stepper:
         clock = Clock()
         self.solver, self.small, self.seconds = solver, small, clock.seconds
         self.anchored = False
+        self.budget = Budget()
         self.reference = model.manifold.elements.points
         self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
         self._laid, self._lay, self._clock = Laid(model, plan), lay, clock
@@ -92,7 +96,14 @@ class Stepper:
     def attempt(
         self, state: State, end: Instant, step: float | None, breaking: "Breaking" = "all"
     ) -> Attempt:
-        """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics."""
+        """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics.
+
+        Raises
+        ------
+        BudgetSpentError
+            When the run may cost no more.
+        """
+        self.budget.check()
         with self._clock.phase("assembly"):
             equations = self._assembly.of(state, end, step, self._rule, self.anchored)
         try:
@@ -102,7 +113,8 @@ class Stepper:
                 found = self._touching.attempt(equations, breaking)
         except SolveError as fault:
             rest = np.zeros_like(equations.force)
-            return Attempt(False, str(fault), state, rest, 0.0, np.nan, 1)
+            singular = fault.singular
+            return Attempt(False, str(fault), state, rest, 0.0, np.nan, 1, singular=singular)
         if not found.converged or equations.inertia is None:
             return found
         return replace(found, booked=booked(equations, found.increment, found.solved))

@@ -105,11 +105,19 @@ class Touching:
             return replace(
                 result,
                 converged=good and not passage,
-                sentence=passage or verdict.sentence,
+                sentence=passage or self._why(verdict.sentence, result, solved),
                 residual=solved.answer.residual,
                 passes=passes,
                 solved=solved,
             )
+
+    def _why(self, solution: str, result: Attempt, solved: "Solved") -> str:
+        """Say why a solution is no step, though it be one of its equations."""
+        if solved.stopped:
+            return "a bond cannot hold: the increment is cut before it breaks"
+        if solved.answer.verdict.converged and result.motion > self._size:
+            return f"points move by {result.motion:.3g} m, further than the domain is large"
+        return solution
 
     def candidates(
         self, state: State, reach: float, step: float | None, crossed: Pairs | None = None

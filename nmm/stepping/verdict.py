@@ -3,8 +3,27 @@
 from dataclasses import dataclass
 
 CONVERGED = "converged"
+UNBALANCED = "unbalanced"
 FAILURE = "failure_load"
+COLLAPSED = "collapsed"
 FAILED = "failed"
+SPENT = "budget_spent"
+
+EXIT_CODES = {CONVERGED: 0, FAILURE: 0, FAILED: 2, SPENT: 3, COLLAPSED: 4, UNBALANCED: 5}
+"""What the command line leaves with; 1 are faults of the files."""
+
+MEANT = {
+    CONVERGED: "all steps were solved, and no audit of energy, momentum or balance failed",
+    UNBALANCED: "all steps were solved, but an audit of energy, momentum or balance failed: the "
+    "answer is not to be relied on; the warnings say what is off, where, and what to do",
+    FAILURE: "a run until failure found the load that the structure carries, and shows that it "
+    "carries no more",
+    COLLAPSED: "the structure has no equilibrium under a load that it was to carry; shown by a "
+    "mechanism, a motion that does not end, or the static theorem",
+    FAILED: "a step could not be solved, and nothing shows that the structure is at fault",
+    SPENT: "the budget of seconds or steps was spent before the end",
+}
+"""Every code in words."""
 
 
 @dataclass(frozen=True)
@@ -14,8 +33,7 @@ class RunVerdict:
     Attributes
     ----------
     code
-        "converged"; "failure_load" when a run until failure found it; "failed" when a step could
-        not be solved however short.
+        A key of `MEANT`.
     sentence
         The same in words, with place, number and remedy.
     load_factor, tolerance

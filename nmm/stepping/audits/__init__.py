@@ -1,0 +1,1 @@
+"""What a run says of its own answer: one file a group of audits, one table of thresholds."""

@@ -1,0 +1,76 @@
+"""Bodies: how deep they lie in each other, what they weigh, and how they move as a whole."""
+
+import numpy as np
+
+from integration.arrays import Floats
+from integration.polygons import areas
+from nmm.assembly.motion import State
+from nmm.stepping.audits.base import Ended, Finding, Findings, percent
+from nmm.stepping.step import Stepper
+
+
+def bodies(run: Ended) -> Findings:
+    """Audit overlap, area and momentum."""
+    model, deep = run.stepper.model, run.recorder.penetration
+    contact = run.stepper.plan.contact
+    if contact is not None:
+        size = float(np.sqrt(model.manifold.body_area.min()))
+        yield Finding(
+            "penetration",
+            deep / size,
+            f"bodies overlap by up to {deep:.3g} m, {percent(deep / size)} of the smallest",
+            "raise [contact] normal_penalty, take smaller steps, or an exact enforcement",
+            mild=contact.springs_named,
+        )
+    if run.formulation.rotation.update == "linear":
+        before = float(areas(model.manifold.elements.with_points(run.stepper.reference)).sum())
+        share = abs(float(areas(model.manifold.elements).sum()) / before - 1)
+        yield Finding(
+            "mass",
+            share,
+            f"the area of the bodies changed by {percent(share)}: the linear update grows what "
+            "turns",
+            'use [rotation] update = "exact"',
+        )
+    forces = any(name in run.stepper.plan.effects for name in ("supports", "loads", "body loads"))
+    whole = run.formulation.integrator.kinetic_factor == 1
+    if run.dynamic and not forces and whole and run.formulation.rotation.update != "linear":
+        yield from _momentum(run)
+
+
+def _momentum(run: Ended) -> Findings:
+    (first, spun), (last, spins) = (_of_bodies(run.stepper, one) for one in (run.start, run.state))
+    gravity = run.scene.gravity
+    mass = float((run.stepper.model.density * run.stepper.model.element_area).sum())
+    mass *= run.stepper.model.thickness
+    fall = np.zeros(2) if gravity is None else np.array(gravity.acceleration)
+    impulse = mass * fall * (run.state.time - run.start.time)
+    size = max(np.hypot(*part.T).sum() for part in (first, last))
+    if size > 0:
+        change = last.sum(axis=0) - first.sum(axis=0) - impulse
+        share = float(np.hypot(*change)) / size
+        yield Finding(
+            "momentum",
+            share,
+            f"momentum changed by ({change[0]:.3g}, {change[1]:.3g}) N s without a force",
+            "take smaller steps and compare",
+        )
+    turns = max(np.abs(part).sum() for part in (spun, spins))
+    if gravity is None and turns > 0 and run.formulation.rotation.update != "small":
+        gained = float(spins.sum() - spun.sum())
+        yield Finding(
+            "angular_momentum",
+            abs(gained) / turns,
+            f"angular momentum changed by {gained:.3g} N m s without a moment",
+            "take smaller steps and compare",
+        )
+
+
+def _of_bodies(stepper: Stepper, state: State) -> tuple[Floats, Floats]:
+    """Momentum (B, 2) and angular momentum (B,) about the middle of the domain."""
+    model = stepper.model
+    modes = model.manifold.rigid_modes
+    own = np.asarray(modes.T @ (model.mass @ state.velocity)).reshape(-1, 3)
+    pushed = state.frames.to_global(np.arange(len(own)), own[:, :2])
+    arm = state.frames.centre - stepper.reference.mean(axis=0)
+    return pushed, arm[:, 0] * pushed[:, 1] - arm[:, 1] * pushed[:, 0] + own[:, 2]

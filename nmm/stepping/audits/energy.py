@@ -1,0 +1,103 @@
+"""Energy that came from nowhere, energy that went, and work that was not stored."""
+
+import numpy as np
+
+from nmm.stepping.audits.base import Ended, Finding, Findings, percent
+from nmm.stepping.audits.steps import impact_lasts
+from nmm.stepping.audits.table import THRESHOLDS
+from nmm.stepping.ledger import Rise
+
+# A rise over the run that is less than this times that of one step is the same rise.
+SAME = 1.5
+
+# Steps in an impact with which Shi's integrator keeps nine tenths of its energy.
+RESOLVED = 60
+
+
+def energy(run: Ended) -> Findings:
+    """Audit the energies of a run."""
+    ledger = run.recorder.ledger
+    wrong = [name for name, value in ledger.row.items() if not np.isfinite(value)]
+    yield Finding(
+        "not_finite",
+        float(len(wrong)),
+        f"{', '.join(wrong)} of the last step are no finite numbers",
+        "take smaller steps, and look at stiffnesses and masses",
+    )
+    if wrong or not ledger.throughput:
+        return
+    if run.dynamic:
+        yield from _made(run)
+        yield from _lost(run)
+    elif run.stepper.small and run.stepper.plan.contact is None:
+        yield Finding(
+            "work_not_stored",
+            abs(ledger.balance),
+            f"work and stored energy differ by {percent(ledger.balance)}",
+            "the solution is not one of its equations: look at the residual and the condition",
+        )
+
+
+def _made(run: Ended) -> Findings:
+    ledger = run.recorder.ledger
+    rises = (("energy_made_in_step", ledger.in_step), ("energy_made_in_run", ledger.in_run))
+    for name, rise in rises:
+        share = rise.energy / ledger.throughput
+        said = rise is ledger.in_run and rise.energy < SAME * ledger.in_step.energy
+        yield Finding(name, share, _came(name, rise, share), _cause(run), told=said and _told(run))
+
+
+def _told(run: Ended) -> bool:
+    """Whether the rise in one step is worth a warning."""
+    ledger = run.recorder.ledger
+    return ledger.in_step.energy > THRESHOLDS["energy_made_in_step"].warns * ledger.throughput
+
+
+def _came(name: str, rise: Rise, share: float) -> str:
+    span = "in step" if name == "energy_made_in_step" else "up to step"
+    return (
+        f"{rise.energy:.3g} J, {percent(share)} of the turnover, came from nowhere {span} "
+        f"{rise.step}, at {rise.time:.6g} s"
+    )
+
+
+def _cause(run: Ended) -> str:
+    ledger = run.recorder.ledger
+    if ledger.contact_loss < -abs(ledger.integration_loss):
+        return "it came from contact: take smaller steps or another enforcement and compare"
+    if ledger.integration_loss < 0:
+        return (
+            f'it came from the integrator "{run.formulation.integrator.type}": take smaller steps, '
+            "or one without gain"
+        )
+    return "take smaller steps and compare"
+
+
+def _lost(run: Ended) -> Findings:
+    """Energy that damping took which nobody asked for, with the step that would keep it."""
+    ledger, rule = run.recorder.ledger, run.formulation.integrator
+    if rule.kinetic_factor < 1:
+        return
+    share = ledger.balance
+    parts = {
+        f'the integrator "{rule.type}"': ledger.integration_loss,
+        "closing and opening of contacts within steps": ledger.contact_loss,
+    }
+    told = " and ".join(
+        f"{percent(lost / ledger.throughput)} by {name}"
+        for name, lost in parts.items()
+        if lost > 0.01 * share * ledger.throughput
+    )
+    # Both fall with the first power of the step, what contact takes once impacts are resolved.
+    kept = rule.step * THRESHOLDS["energy_lost"].warns / max(share, 1e-300)
+    lasts = impact_lasts(run)
+    if lasts is not None and ledger.contact_loss > 0.5 * share * ledger.throughput:
+        kept = min(kept, lasts / RESOLVED)
+    other = ', or type = "newmark", which damps nothing but impacts' if rule.type == "shi" else ""
+    yield Finding(
+        "energy_lost",
+        share,
+        f"{percent(share)} of the turnover was lost to no friction or damper"
+        + (f": {told}" if told else ""),
+        f"steps of some {kept:.2g} s in place of {rule.step:g} s would keep it{other}",
+    )

@@ -1,0 +1,46 @@
+"""How well the systems were solved, and what they were made of."""
+
+import numpy as np
+
+from nmm.stepping.audits.base import Ended, Finding, Findings
+
+# Residual from which on dependent functions are worth a word.
+NOTICED = 1e-8
+
+
+def equations(run: Ended) -> Findings:
+    """Audit residual, condition, cuts and dependent functions."""
+    residual, manifold = run.recorder.residual, run.stepper.model.manifold
+    yield Finding(
+        "residual",
+        residual,
+        f"a step was accepted {residual:.1e} of its load out of balance",
+        "shorten the step, or ask [contact] options for a smaller tolerance",
+    )
+    if run.condition is not None:
+        yield Finding(
+            "condition",
+            run.condition,
+            f"the last system has a condition number of {run.condition:.1e}: "
+            f"some {max(16 - np.log10(run.condition), 0):.0f} digits of soft motions are left",
+            "bring stiffnesses of materials, supports and contacts nearer to each other",
+        )
+    if run.stepper.model.cut is not None:
+        area = run.stepper.model.element_area
+        at = int(np.argmin(area))
+        x, y = manifold.elements.points[manifold.elements.polygon_of_point == at].mean(axis=0)
+        yield Finding(
+            "smallest_cut",
+            float(area.max() / area[at]),
+            f"the element at ({x:.6g}, {y:.6g}) has {area[at] / area.max():.1e} of the area of the "
+            "largest",
+            "do not read stresses there; shift the net by [cover] origin, or turn it",
+        )
+    if manifold.dependent and residual > NOTICED:
+        yield Finding(
+            "dependent_functions",
+            manifold.dependent / manifold.n_unknowns,
+            f"{manifold.dependent} of {manifold.n_unknowns} functions depend on the others, and "
+            f"the residual is {residual:.1e}",
+            "take functions of a lower degree or smaller cells",
+        )

@@ -1,0 +1,29 @@
+"""All audits of a run, and what they make of its verdict."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from nmm.stepping.audits.base import Ended, Finding, Findings
+from nmm.stepping.audits.bodies import bodies
+from nmm.stepping.audits.energy import energy
+from nmm.stepping.audits.equations import equations
+from nmm.stepping.audits.steps import steps
+from nmm.stepping.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdict
+
+AUDITS: tuple[Callable[[Ended], Findings], ...] = (energy, equations, bodies, steps)
+
+
+def audit(run: Ended) -> list[Finding]:
+    """Return every number that an audit has measured; nothing of a run without a step."""
+    if not run.recorder.steps:
+        return []
+    return [finding for one in AUDITS for finding in one(run)]
+
+
+def judged(verdict: RunVerdict, findings: list[Finding]) -> RunVerdict:
+    """Return the verdict, which is "unbalanced" where the audit of a solved run failed."""
+    failed = [finding.where for finding in findings if finding.fails]
+    if verdict.code not in (CONVERGED, FAILURE) or not failed:
+        return verdict
+    sentence = f"{verdict.sentence}; the answer is not to be relied on: {'; '.join(failed)}"
+    return replace(verdict, code=UNBALANCED, sentence=sentence)

@@ -1,0 +1,67 @@
+"""Steps: in time against impacts, of loads against what they are to find."""
+
+import numpy as np
+
+from nmm.stepping.audits.base import Ended, Finding, Findings, percent
+from nmm.stepping.verdict import FAILURE
+
+# Share of the turnover lost by contact from which on its duration counts.
+LOST = 0.01
+# Increments in which friction may slide unseen.
+FEW = 10
+
+
+def steps(run: Ended) -> Findings:
+    """Audit time steps and load increments."""
+    yield from _impacts(run) if run.dynamic else _increments(run)
+
+
+def impact_lasts(run: Ended) -> float | None:
+    """Return how long (s) an impact of the lightest body lasts, about; None without springs.
+
+    Half a period of its mass on two of the stiffest springs that pressed in the run.
+    """
+    stiffest, model = run.recorder.stiffest, run.stepper.model
+    mass = np.bincount(model.manifold.element_body, model.density * model.element_area)
+    heavy = mass[mass > 0]
+    if stiffest == 0 or not len(heavy):
+        return None
+    return float(np.pi * np.sqrt(float(heavy.min()) * model.thickness / (2 * stiffest)))
+
+
+def _impacts(run: Ended) -> Findings:
+    ledger, step = run.recorder.ledger, run.formulation.integrator.step
+    lasts = impact_lasts(run)
+    if run.formulation.integrator.kinetic_factor < 1 or lasts is None:
+        return
+    if ledger.contact_loss <= LOST * ledger.throughput:
+        return
+    yield Finding(
+        "contact_duration",
+        step / lasts,
+        f"springs of contact lost {percent(ledger.contact_loss / ledger.throughput)} of the "
+        f"turnover: an impact of the lightest body lasts some {lasts:.2g} s, a step {step:g} s",
+        f"take steps of {lasts / 10:.2g} s, or a lower [contact] normal_penalty",
+    )
+
+
+def _increments(run: Ended) -> Findings:
+    verdict, asked = run.verdict, run.formulation.loading.tolerance
+    if verdict.code == FAILURE and verdict.tolerance is not None:
+        yield Finding(
+            "failure_tolerance",
+            verdict.tolerance / asked,
+            f"the failure load is known within {percent(verdict.tolerance)} only, "
+            f"{percent(asked)} were asked for",
+            "lower [loading] increment",
+        )
+    loading, recorder = run.scene.loading, run.recorder
+    slid = recorder.largest.get("slide", 0) + recorder.largest.get("broken", 0)
+    if loading is not None and loading.until != "failure" and slid and recorder.steps:
+        yield Finding(
+            "increments",
+            FEW / recorder.steps,
+            f"friction slid or bonds broke in a path of {recorder.steps} increments, on which the "
+            "answer depends",
+            "halve [loading] increment and compare",
+        )

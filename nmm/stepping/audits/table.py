@@ -1,0 +1,111 @@
+"""The thresholds of all audits, in the one place where they stand."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """When an audit speaks.
+
+    Attributes
+    ----------
+    what
+        The number that is measured.
+    warns
+        Beyond this there is a warning.
+    fails
+        Beyond this a run that was solved counts as "unbalanced"; None where an audit only warns.
+    where
+        Runs that are audited.
+    """
+
+    what: str
+    warns: float
+    fails: float | None
+    where: str
+
+
+THRESHOLDS: dict[str, Threshold] = {
+    "energy_made_in_step": Threshold(
+        "rise of stored energy and losses less work in one step, over the turnover",
+        1e-5,
+        1e-2,
+        "dynamics",
+    ),
+    "energy_made_in_run": Threshold("the same over any stretch of the run", 1e-4, 1e-2, "dynamics"),
+    "energy_lost": Threshold(
+        "energy that neither friction nor dampers took, over the turnover",
+        0.1,
+        None,
+        "dynamics without asked-for damping (`kinetic_factor` below 1)",
+    ),
+    "work_not_stored": Threshold(
+        "difference of work and stored energy, over the larger of both",
+        1e-6,
+        1e-2,
+        "statics of small displacements without contact",
+    ),
+    "not_finite": Threshold("energies that are no finite numbers", 0, 0, "all"),
+    "residual": Threshold(
+        "largest out-of-balance force of an accepted step, over the load", 1e-6, 1e-3, "all"
+    ),
+    "condition": Threshold(
+        "estimate of the condition number of the last system", 1e14, None, "all"
+    ),
+    "smallest_cut": Threshold(
+        "largest element over the smallest", 1e10, None, "covers that cut blocks"
+    ),
+    "dependent_functions": Threshold(
+        "share of dependent functions among the unknowns, where the residual exceeds 1e-8",
+        0.0,
+        None,
+        "all",
+    ),
+    "penetration": Threshold(
+        "largest overlap over the size (root of the area) of the smallest body",
+        1e-2,
+        0.1,
+        "contact; it only warns where an interface names its stiffness",
+    ),
+    "mass": Threshold("change of the bodies' total area", 1e-6, 1e-2, "all"),
+    "momentum": Threshold(
+        "change of the momentum less the impulse of weight, over the sum of all bodies'",
+        1e-8,
+        1e-4,
+        "dynamics without supports and loads",
+    ),
+    "angular_momentum": Threshold(
+        "change of the angular momentum, over the sum of all bodies'",
+        1e-8,
+        1e-4,
+        "dynamics without supports, loads and weight, unless axes stay",
+    ),
+    "contact_duration": Threshold(
+        "time step over the duration of an impact of the lightest body, where springs of contact "
+        "lost more than 1 % of the turnover",
+        0.1,
+        None,
+        "dynamics with springs in contact",
+    ),
+    "failure_tolerance": Threshold(
+        "width of the bracket of a failure load over `[loading] tolerance`",
+        1.01,
+        None,
+        "runs until failure",
+    ),
+    "increments": Threshold(
+        "ten over the number of increments in which friction slid or bonds broke",
+        1.0,
+        None,
+        "`[loading]` up to a factor, with contact",
+    ),
+}
+
+
+def markdown() -> str:
+    """Return the table as a page shows it."""
+    lines = ["| audit | what | warns above | fails above | which runs |", "|---|---|---|---|---|"]
+    for name, row in THRESHOLDS.items():
+        fails = "" if row.fails is None else f"{row.fails:g}"
+        lines.append(f"| `{name}` | {row.what} | {row.warns:g} | {fails} | {row.where} |")
+    return "\n".join(lines)
