@@ -17,11 +17,15 @@ HOLDING = ("supports", "seams", "artificial joints")
 
 @dataclass(frozen=True)
 class Rise:
-    """How much energy came from nowhere (J), and in which step (its number and time, s)."""
+    """How much energy came from nowhere (J), and in which step (its number and time, s).
+
+    ``given`` of it (J) the integrator gave: waves of one that is not monotone come and go.
+    """
 
     energy: float = 0.0
     step: int = 0
     time: float = 0.0
+    given: float = 0.0
 
 
 @dataclass
@@ -58,8 +62,9 @@ class Ledger:
     steps: int = 0
     in_step: Rise = field(default_factory=Rise)
     in_run: Rise = field(default_factory=Rise)
-    _lowest: float = 0.0
-    _last: float = 0.0
+    _given: float = 0.0
+    _lowest: tuple[float, float] = (0.0, 0.0)
+    _last: tuple[float, float] = (0.0, 0.0)
 
     def book(
         self, plan: "Plan", model: "Model", before: State, attempt: Attempt, stands: State
@@ -79,7 +84,9 @@ class Ledger:
         self.friction_loss += loss
         if attempt.booked is not None:
             gain = {name: value - earlier[name] for name, value in self.energies.items()}
-            self.integration_loss += attempt.booked.integration_loss(gain["kinetic_energy"])
+            lost = attempt.booked.integration_loss(gain["kinetic_energy"])
+            self.integration_loss += lost
+            self._given += max(-lost, 0.0)
             self.contact_loss += attempt.booked.contact_loss(gain["contact_energy"], loss)
         self._weigh(after)
 
@@ -106,11 +113,12 @@ class Ledger:
         self.throughput = max(
             self.throughput, abs(self.work), abs(total), abs(self.stored_first), self.friction_loss
         )
-        made = self._made
-        for name, low in (("in_step", self._last), ("in_run", self._lowest)):
+        made, given = self._made, self._given
+        for name, (low, before) in (("in_step", self._last), ("in_run", self._lowest)):
             if made - low > getattr(self, name).energy:
-                setattr(self, name, Rise(made - low, self.steps, after.time))
-        self._last, self._lowest = made, min(made, self._lowest)
+                setattr(self, name, Rise(made - low, self.steps, after.time, given - before))
+        self._last = made, given
+        self._lowest = min(self._lowest, self._last)
 
 
 def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:

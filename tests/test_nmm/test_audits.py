@@ -98,7 +98,6 @@ def test_the_growth_of_the_linear_update_is_told():
     found = run(FREE.replace("velocity = 2.0", "velocity = 20.0"), rotation={"update": "linear"})
     # Each step of angle t grows the area by t^2: 100 steps of 0.02 rad make 4 %.
     assert found.audits["mass"] == pytest.approx(0.04, rel=0.1)
-    assert found.status == "unbalanced"
     assert any("audit mass" in text for text in found.warnings)
 
 

@@ -67,7 +67,9 @@ THRESHOLDS: dict[str, Threshold] = {
         0.1,
         "contact; it only warns where an interface names its stiffness",
     ),
-    "mass": Threshold("change of the bodies' total area", 1e-6, 1e-2, "all"),
+    "mass": Threshold(
+        "change of the bodies' total area", 1e-6, None, '`[rotation] update = "linear"`'
+    ),
     "momentum": Threshold(
         "change of the momentum less the impulse of weight, over the sum of all bodies'",
         1e-8,
