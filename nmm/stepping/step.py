@@ -66,6 +66,7 @@ class Stepper:
         self._integrator = integrator
         self._starter = Shi(kinetic_factor=integrator.kinetic_factor)
         self._begun = False
+        self._pushing = np.zeros(0, dtype=np.int64)
         self._assembly = Assembly(self._laid)
         self._mover = Mover(self._laid, solver, small or lay is not None, clock)
         self._alone = Alone(self._laid, self._mover, solver, small, clock)
@@ -122,7 +123,7 @@ class Stepper:
     def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
         """Make an attempt the start of the next step; return it with its contacts as left."""
         self._touching.accepted(attempt.motion)
-        self._begun = True
+        self._begun = not (self._integrator.carries and self._struck(attempt))
         state, contact, contacts = attempt.state, self.plan.contact, None
         if contact is not None and attempt.solved is not None:
             contacts = contact.commit(attempt.solved, state)
@@ -133,6 +134,14 @@ class Stepper:
             )
             self._mover.begin()
         return state, contacts
+
+    def _struck(self, attempt: Attempt) -> bool:
+        """Whether contacts began or ended to push in a step."""
+        if attempt.solved is None:
+            return False
+        solved, before = attempt.solved, self._pushing
+        self._pushing = np.sort(solved.contacts.key[solved.answer.normal_force < 0])
+        return not np.array_equal(self._pushing, before)
 
     def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
@@ -169,7 +178,9 @@ class Stepper:
 
         The first step is Shi's: no acceleration is known at its start, and it damps the waves of
         loads that come all at once. Its error of the velocity, once of order 2 in the step, leaves
-        orders as they are.
+        orders as they are. So is one after contacts began or ended to push, where the integrator
+        carries accelerations: those of waves that the step does not resolve are large, and make
+        velocities overshoot by their frequency times the step (Hilber and Hughes 1978).
         """
         return self._integrator if self._begun else self._starter
 
