@@ -9,6 +9,9 @@ import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
 
+# Steps along a side, far more than memory holds.
+MOST = 1e8
+
 
 @dataclass(frozen=True)
 class Net:
@@ -65,6 +68,11 @@ def regular_net(
     corners = np.array([[0, 0], [high[0] - low[0], 0], high - low, [0, high[1] - low[1]]]) @ frame.T
     first = corners.min(axis=0) / step
     extent = corners.max(axis=0) / step - first
+    if extent.max() > MOST:
+        raise ValueError(
+            f"size: {step}: {extent.max():.3g} steps along a side: at most {MOST:g} expected: take "
+            "a larger size"
+        )
     begin = np.mod(shift, 1.0)
     begin[begin > 0] -= 1.0
     # Sides that are multiples of the step up to rounding need no further column.

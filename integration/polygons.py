@@ -203,7 +203,7 @@ class Polygons:
         first *= (np.sign(area) * self.ring_signs)[:, None]
         first = sums(first, self.polygon_offsets)
         flat = self.areas == 0.0
-        with np.errstate(invalid="ignore", divide="ignore"):
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             centroid = anchor + first / self.areas[:, None]
         if flat.any():
             vertices = np.diff(self.ring_offsets[self.polygon_offsets])[:, None]

@@ -27,7 +27,14 @@ class Fault:
     remedy: str
 
     def __str__(self) -> str:
-        return f"{self.place}: {self.value}: expected {self.expected}: {self.remedy}"
+        return printable(f"{self.place}: {self.value}: expected {self.expected}: {self.remedy}")
+
+
+def printable(text: str) -> str:
+    """Return a text with the signs that would move or colour a terminal written as escapes."""
+    if text.isprintable():
+        return text
+    return "".join(one if one.isprintable() else repr(one)[1:-1] for one in text)
 
 
 class NmmError(ValueError):

@@ -124,7 +124,8 @@ class Sides:
         """
         springs, scale, limits = self.springs, self.ease, self.springs.problem.limits
         normal, shear = trial
-        typical = float(np.sqrt(np.mean(normal**2))) or 1.0
+        typical = float(np.sqrt(np.mean(normal**2))) if len(normal) else 0.0
+        typical = typical or 1.0
         pull = np.where(self.active[0], limits.tension, 0.0)
         p = np.maximum(pull - normal, typical)
         stretch = (normal - springs.normal_shift) * self.compliance[0]

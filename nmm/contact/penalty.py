@@ -133,7 +133,8 @@ class _OpenClose:
         if verdict is None:
             good = residual <= self.options.tolerance and self._admissible(normal, shear, gap, slip)
             verdict = Verdict(good, "converged", f"contact states settled in {passes} passes")
-        elastic = np.where(springs.closed | (p.limits.tension > 0), shear / p.shear_stiffness, 0.0)
+        held = (springs.closed | (p.limits.tension > 0)) & (p.shear_stiffness > 0)
+        elastic = np.divide(shear, p.shear_stiffness, out=np.zeros_like(shear), where=held)
         return StepAnswer(
             increment=self.increment,
             normal_force=normal,

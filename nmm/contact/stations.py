@@ -55,20 +55,21 @@ class Stations:
         ):
             found = _material(sides, edge, parameter)
             chord = sides.at(edge, parameter).rows.values
-            off = np.abs(found.rows.values - chord).max(initial=0.0)
-            bent |= bool(off > ALIKE * np.abs(chord).max(initial=0.0))
+            # Discs reach other points than ends of edges: their fields bend.
+            bent |= found.rows.values.shape != chord.shape or _differ(found.rows.values, chord)
             both.append(found)
         if not bent:
             return None
         a, b = both
         rows = [sides.start.rows, a.rows, b.rows]
-        values = [part.values for part in rows]
+        width = max(part.unknowns.shape[1] for part in (*rows, sides.end.rows))
+        values = [_padded(part.values, width) for part in rows]
         return cls(
             a,
             b,
-            unknowns=np.concatenate([part.unknowns for part in rows]),
+            unknowns=np.concatenate([_padded(part.unknowns, width) for part in rows]),
             start=np.concatenate(values),
-            end=np.concatenate([sides.end.rows.values, *values[1:]]),
+            end=np.concatenate([_padded(sides.end.rows.values, width), *values[1:]]),
             body=np.concatenate([sides.start.body, a.body, b.body]),
         )
 
@@ -108,6 +109,11 @@ def _material(sides: Sides, edge: Ints, parameter: Floats) -> MaterialPoints:
     boundary, s = sides.manifold.boundary, parameter[:, None]
     place = boundary.start[edge] + s * (boundary.end[edge] - boundary.start[edge])
     return material_points(sides.manifold, boundary.element[edge], place)
+
+
+def _differ(values: Floats, others: Floats) -> bool:
+    off = np.abs(values - others).max(initial=0.0)
+    return bool(off > ALIKE * np.abs(others).max(initial=0.0))
 
 
 def _padded(values: Any, width: int) -> Any:

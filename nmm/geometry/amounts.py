@@ -10,11 +10,17 @@ import numpy as np
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm import capacity
+from nmm.errors import Fault, FormulationError
 
 if TYPE_CHECKING:
     from nmm.formulation import Cover
     from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
+
+# Sizes of a net in sizes of the blocks: beyond it they vanish in the rounding of its cells.
+COARSEST = 1e6
+# How many times the entries of a mesh's rows those of discs have, which overlap more.
+DISCS = 10.0
 
 
 def refuse_many_blocks(scene: Scene, outlines: Polygons) -> None:
@@ -61,15 +67,20 @@ def _refuse_cells(points: Floats, areas: Floats, size: float, cover: Cover, plac
 
     Sizes of a graded net grow away from its foci; its lines are counted where they are laid.
     """
+    box = np.ptp(points, axis=0)
+    if size > COARSEST * box.max():
+        value = f"{size:g} m, for blocks of {box.max():g} m"
+        expected = "a size nearer to that of the blocks"
+        raise FormulationError(Fault(place, value, expected, "check its unit"))
     if cover.type == "graded":
         return
-    box = np.ptp(points, axis=0)
     longest = size * 1e6  # cells along a side: beyond it their number is no longer exact
     cells = float(np.prod(np.minimum(box, longest) / size + 1))
     if cover.type == "sub_blocks":
         amount = float(areas.sum()) / size**2 * capacity.BLOCK
     else:
-        amount = cells * capacity.CELL * (1 + cover.highest_degree) ** 2
+        overlap = DISCS if cover.type == "mls" else 1.0
+        amount = cells * capacity.CELL * overlap * (1 + cover.highest_degree) ** 2
     what = f"size {size:g} m over {box[0]:g} m by {box[1]:g} m: {cells:,.0f} cells"
     capacity.refuse(place, what, amount, "take a larger size")
 

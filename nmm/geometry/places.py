@@ -71,7 +71,7 @@ def edges_on(start: Floats, end: Floats, segment: Floats, within: float) -> Edge
     along = (segment[1] - segment[0]) / length
     across = np.array([-along[1], along[0]])
     s0, s1 = (start - segment[0]) @ along, (end - segment[0]) @ along
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         t = np.clip((np.array([[0.0], [length]]) - s0) / (s1 - s0), 0.0, 1.0)
     low, high = np.min(t, axis=0), np.max(t, axis=0)
     step = end - start

@@ -171,6 +171,18 @@ class Loading(Frozen):
         examples=["5 ms"],
     )
 
+    @model_validator(mode="after")
+    def _check(self) -> Loading:
+        if self.until != "failure" and self.maximum_factor is not None:
+            remedy = 'write until = "failure", or leave maximum_factor out'
+            raise fault(f"until = {self.until} and maximum_factor", 'until = "failure"', remedy)
+        if self.until != "failure" and self.motion_after_failure is not None:
+            remedy = 'write until = "failure", or leave motion_after_failure out'
+            raise fault(
+                f"until = {self.until} and motion_after_failure", 'until = "failure"', remedy
+            )
+        return self
+
 
 class InitialVelocity(Frozen):
     """Velocity of blocks at the start."""

@@ -37,7 +37,7 @@ class Source:
     def place(self, *path: str | int) -> str:
         """`file:line: dotted.path`; the line is that of the nearest key that is in the file."""
         path = (*self.root, *path)
-        dotted = printable(".".join(str(part) for part in path))
+        dotted = ".".join(str(part) for part in path)
         line = self._line(path)
         where = f"{self.name}:{line}" if line else self.name
         return f"{where}: {dotted}" if dotted else where
@@ -55,13 +55,6 @@ class Source:
 
     def __hash__(self) -> int:
         return hash(Source)
-
-
-def printable(text: str) -> str:
-    """Text with all characters that would move or colour a terminal written as escapes."""
-    return "".join(
-        sign if sign.isprintable() else sign.encode("unicode_escape").decode() for sign in text
-    )
 
 
 def report(error: ValidationError, model: type[BaseModel], source: Source) -> list[Fault]:
@@ -89,12 +82,12 @@ def _fault(detail: Any, model: type[BaseModel], source: Source) -> Fault:
     place = source.place(*path)
     kind, context = detail["type"], detail.get("ctx", {})
     if kind == "fault":
-        return Fault(place, printable(context["value"]), context["expected"], context["remedy"])
+        return Fault(place, context["value"], context["expected"], context["remedy"])
     *_, (parent, info) = _walk(model, path)
     if kind == "extra_forbidden":
         known = [name for name, _ in _keys(parent)]
         remedy = suggestion(str(path[-1]), known)
-        return Fault(place, f'unknown key "{printable(str(path[-1]))}"', "a known key", remedy)
+        return Fault(place, f'unknown key "{path[-1]}"', "a known key", remedy)
     expected = (info.description if info else None) or detail["msg"]
     key = next((part for part in reversed(path) if isinstance(part, str)), "value")
     table = re.search(r"\[+[\w.]+\]+", expected)

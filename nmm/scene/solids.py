@@ -136,6 +136,11 @@ class Interface(Frozen):
         if self.tensile_strength > 0 and not self.bonded:
             remedy = "add bonded = true, or leave tensile_strength out"
             raise fault("tensile_strength > 0, bonded = false", "a bonded interface", remedy)
+        if self.restitution is not None and self.damping is not None:
+            raise fault("damping and restitution", "one of them", "leave the other out")
+        if self.dilation_slip is not None and self.dilation_angle is None:
+            remedy = "add dilation_angle, or leave dilation_slip out"
+            raise fault("dilation_slip without dilation_angle", "an angle that it ends", remedy)
         return self
 
 
@@ -238,4 +243,7 @@ class JointSet(Frozen):
     def _check(self) -> JointSet:
         if self.persistence < 1 and self.trace is None:
             raise fault("persistence < 1 without trace", "a trace length", 'add trace = "2 m"')
+        if self.persistence == 1 and (self.trace is not None or self.trace_scatter):
+            remedy = "add persistence = 0.8, or leave trace and trace_scatter out"
+            raise fault("a trace with persistence = 1", "a persistence below 1", remedy)
         return self

@@ -47,6 +47,7 @@ from nmm.stepping.recorder import Monitor, Recorder, monitors
 from nmm.stepping.relay import Lay, check_relay
 from nmm.stepping.statics import LoadSchedule, run_load
 from nmm.stepping.step import Stepper, scaled_load
+from nmm.stepping.telling import placed
 from nmm.stepping.together import check_together
 from nmm.stepping.verdict import FAILURE, RunVerdict
 
@@ -237,7 +238,18 @@ class Simulation:
 
 
 def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
-    """Build geometry, covers, effects and solver of a run."""
+    """Build geometry, covers, effects and solver of a run.
+
+    Raises
+    ------
+    NmmError
+        When the two cannot be run; with the lines of the files that it is about.
+    """
+    with placed(scene, formulation):
+        return _prepared(scene, formulation)
+
+
+def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     begun = perf_counter()
     regions = build_regions(scene)
     check_together(scene, formulation)

@@ -15,6 +15,7 @@ HARD = Registry[type[HardClass]](
         "seams": f"{_HOME}.seams:Seams",
         "wedges": f"{_HOME}.wedges:Wedges",
         "slopes": f"{_HOME}.slopes:Slopes",
+        "mutations": f"{_HOME}.mutations:Mutations",
         "heaps": f"{_HOME}.heaps:Heaps",
         "cuts": f"{_HOME}.cuts:Cuts",
         "tips": f"{_HOME}.tips:Tips",
