@@ -76,8 +76,8 @@ def mutated(text: str, random: Random, keys: tuple[str, ...]) -> str:
         Keys that files of its kind may have.
     """
     for _ in range(random.choice((1, 1, 1, 2, 3))):
-        ways = (*MUTATORS, lambda told, drawn: _with_key(told, drawn, keys))
-        text = random.choice(ways)(text, random)
+        way = random.choice((*MUTATORS, None))
+        text = _with_key(text, random, keys) if way is None else way(text, random)
     return text
 
 
