@@ -68,7 +68,7 @@ class Joints:
             )
             raise GeometryError(fault)
         across = np.array([-np.sin(self.dip), np.cos(self.dip)])
-        offsets = self._offsets(centre, half, across, generator)
+        offsets = self._offsets(centre, half, across, generator, place)
         angles = self.dip + self.dip_scatter * generator.standard_normal(len(offsets))
         middle = centre + offsets[:, None] * across
         along = np.stack([np.cos(angles), np.sin(angles)], axis=1)
@@ -83,13 +83,22 @@ class Joints:
         return np.concatenate([np.empty((0, 2, 2)), *rows])
 
     def _offsets(
-        self, centre: Floats, half: float, across: Floats, generator: np.random.Generator
+        self,
+        centre: Floats,
+        half: float,
+        across: Floats,
+        generator: np.random.Generator,
+        place: str,
     ) -> Floats:
         """Positions of the lines across the mean dip, from the box's centre."""
         if self.origin is None:
             first = self.spacing * generator.random()
         else:
             first = float((np.asarray(self.origin) - centre) @ across)
+            if abs(first) > _MOST_LINES * self.spacing:
+                away = f"origin {abs(first):.3g} m away from the blocks"
+                expected = f"an origin within {_MOST_LINES} spacings, as lines are drawn from there"
+                raise GeometryError(Fault(place, away, expected, "move it nearer"))
         count = int(np.ceil((half + abs(first)) / self.spacing)) + 2
         steps = _positive(self.spacing, self.spacing_scatter, (2, 2 * count), generator)
         up, down = np.cumsum(steps, axis=1)

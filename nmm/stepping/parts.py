@@ -93,7 +93,7 @@ def _cover(part: Any) -> None:
         SubBlocks.of(part)
     if part.type == "block":
         check_values("[cover.options]", {}, part.options)
-        for key in ("size", "angle", "shift", "enrichment"):
+        for key in () if part.nets else ("size", "angle", "shift", "enrichment"):
             if getattr(part, key) != type(part).model_fields[key].default:
                 remedy = f"remove {key}, or choose a net such as triangles"
                 expected = 'no such key: type is "block", and blocks have no net'

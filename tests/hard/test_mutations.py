@@ -120,6 +120,10 @@ def test_a_spoilt_text_is_reduced_to_the_lines_that_it_takes(monkeypatch):
             "stiffness",
         ),
         ('[formulation.cover]\ntype = "block"\nsize = 0.5\n', "blocks have no net"),
+        (
+            '[[joint_sets]]\nname = "j"\ndip = 0.3\nspacing = 0.4\norigin = [5e8, 0.5]\n',
+            "move it nearer",
+        ),
     ],
 )
 def test_what_was_a_traceback_is_a_line(more, said):
