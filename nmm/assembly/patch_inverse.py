@@ -25,4 +25,6 @@ def inverse_roots(mass: Floats, size: Ints) -> Floats | None:
         return None
     sure = value > POSITIVE
     root = np.where(sure, 1 / np.sqrt(np.where(sure, value, 1.0)), 0.0)
-    return np.asarray(root[:, :, None] * np.swapaxes(vector, 1, 2) * scale[:, None, :])
+    found = root[:, :, None] * np.swapaxes(vector, 1, 2) * scale[:, None, :]
+    # Largest values first, so that rows of matrices that are smaller than the others are the first.
+    return np.asarray(found[:, ::-1])

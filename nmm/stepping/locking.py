@@ -35,8 +35,10 @@ def locking(model: "Model") -> str | None:
     ratio = float((model.elasticity[:, 0, 1] / model.elasticity[:, 0, 0]).max(initial=0.0))
     poisson = ratio / (1 + ratio)
     held = model.manifold.reproduction
-    if held is None or not model.bulk.any() or poisson <= FROM:
+    if poisson <= FROM:
         return None
+    if held is None:
+        return _parted(model, poisson)
     if model.projected:
         return _crowded(model, poisson)
     return _locked(held, poisson)
@@ -55,6 +57,21 @@ def _locked(held: int, poisson: float) -> str | None:
     better = 'use volumetric = "projected" in [cover]'
     more = " with degree 1 or 2" if held == 1 else ""
     return f"{name} in plane strain at a Poisson ratio of {poisson:.7g}: {off}; {better}{more}"
+
+
+def _parted(model: "Model", poisson: float) -> str | None:
+    """Blocks that are divided and glued: each keeps its volume by itself."""
+    degree = max((getattr(group, "degree", 3) for group in model.manifold.groups), default=3)
+    divided = np.bincount(model.manifold.element_region, minlength=1).max() > 1
+    if not divided or degree > 2 or (degree == 2 and model.projected):
+        return None
+    off, better = "5 % or more", 'use volumetric = "projected" in [cover]'
+    if degree < 2:
+        off, better = "45 to 75 %", 'use degree 2 and volumetric = "projected" in [cover]'
+    return (
+        f"sub-blocks of degree {degree} lock in plane strain at a Poisson ratio of {poisson:.7g}: "
+        f"displacements are {off} too small; {better}"
+    )
 
 
 def _crowded(model: "Model", poisson: float) -> str | None:
