@@ -110,8 +110,8 @@ def _panels(
 
     wide = WIDTH * max(1.0, columns / 3)
     ratio = float((extent[1, 1] - extent[0, 1]) / (extent[1, 0] - extent[0, 0]))
-    # A colour bar lies below each picture.
-    high = float(np.clip(wide / columns * ratio, 0.6, 4.5)) + 0.75
+    # Coordinates and a colour bar lie below each picture.
+    high = float(np.clip(wide / columns * ratio, 0.6, 4.5)) + 1.1
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(wide, rows * high + 2.6 * curves + 0.4), layout="constrained")
         ratios = [high] * rows + [2.6] * curves
@@ -153,10 +153,20 @@ def _images(
         bar = axes.figure.colorbar(drawn, ax=axes, orientation="horizontal", shrink=0.9, pad=0.03)
         bar.set_label(f"{words}  ({unit_text}){share}", fontsize=SMALL - 1)
         bar.ax.tick_params(labelsize=SMALL - 1.5)
-        axes.set(xticks=[], yticks=[])
-        for spine in axes.spines.values():
-            spine.set_visible(False)
+    _label_places(row)
     return limit
+
+
+def _label_places(row: "Sequence[Axes]") -> None:
+    """Say where things are: coordinates below each picture, and left of the first of a row."""
+    for number, axes in enumerate(row):
+        axes.tick_params(labelsize=SMALL - 1.5)
+        axes.locator_params(nbins=4)
+        axes.set_xlabel("x  (m)", fontsize=SMALL - 1)
+        if not number:
+            axes.set_ylabel("y  (m)", fontsize=SMALL - 1)
+        for side in ("top", "right"):
+            axes.spines[side].set_visible(False)
 
 
 def _contacts(
@@ -180,13 +190,15 @@ def _contacts(
                 linewidths=WIDEST * size[kept] / largest,
             )
         )
-        axes.set_xlabel(
+        axes.set_title(
             f"contact forces, largest {factor * float(size.max(initial=0.0)):.3g} {unit}",
+            loc="left",
             fontsize=SMALL - 1,
         )
+    _label_places(row)
     for number, axes in enumerate(row):
         axes.set_aspect("equal")
-        axes.set(xlim=extent[:, 0], ylim=extent[:, 1], xticks=[], yticks=[])
+        axes.set(xlim=extent[:, 0], ylim=extent[:, 1])
         axes.set_visible(number < len(runs))
 
 

@@ -154,9 +154,15 @@ def history(
     x_values, x_text = _readable(run, x or _clock(run))
     values = [_column(run, name) for name in columns]
     factor, unit = prefixed(np.concatenate(values), units.pop())
-    for name, one, colour in zip(columns, values, CYCLE * len(columns), strict=False):
+    # Later curves are thinner and every other one is dashed, so that none hides those below it.
+    widths = np.linspace(max(1.2, min(0.8 + 0.8 * len(columns), 3.2)), 1.2, len(columns))
+    looks = zip(columns, values, CYCLE * len(columns), widths, strict=False)
+    for number, (name, one, colour, width) in enumerate(looks):
         shown = factor * (np.where(one > 0, one, np.nan) if log else one)
-        axes.plot(x_values, shown, color=colour, linewidth=1.2, label=words_of(name))
+        dashes = (0, (4, 2)) if number % 2 else "-"
+        axes.plot(
+            x_values, shown, color=colour, linewidth=width, linestyle=dashes, label=words_of(name)
+        )
     if log:
         axes.set_yscale("log")
     counted = set(columns) <= set(STATES)

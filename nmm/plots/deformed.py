@@ -65,7 +65,7 @@ def deformed(
     polygons = magnified(shown, topology, factor)
     extent = extent_of(polygons.points, topology.elements.points)
     axes = ax or axes_grid(1, 1, 4.0)[0]
-    draw_blocks(axes, topology, polygons)
+    draw_blocks(axes, topology, polygons, shown)
     marked = _draw_marks(axes, run, shown, topology, polygons)
     frame_plane(axes, extent, f"{title}, {moment(shown)}, displacements ×{factor:g}")
     legend_below(axes, [*material_handles(topology), *marked])

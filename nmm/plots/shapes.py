@@ -4,9 +4,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
-from nmm.results.frame import Topology
+from nmm.plots.edges import cracks, outlines, segments
+from nmm.results.frame import Frame, Topology
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,33 +54,25 @@ def paths(polygons: Polygons) -> list[Any]:
     return [Path(points, code) for points, code in vertices]  # one object a polygon by nature
 
 
-def outlines(topology: Topology) -> Ints:
-    """(n,) points at which an edge starts that two elements of one region do not share.
+def draw_lines(
+    axes: "Axes", topology: Topology, polygons: Polygons, frame: Frame | None, **style: Any
+) -> None:
+    """Draw the outlines of regions, and cracks, which have opened in a frame, twice as wide."""
+    from matplotlib.collections import LineCollection
 
-    What is left is the outline of each region and of the cracks in it.
-    """
-    elements = topology.elements
-    points = elements.points
-    size = float(np.ptp(points, axis=0).max())
-    rounded = np.round((points - points.min(axis=0)) / (1e-9 * size)).astype(np.int64)
-    ends = np.stack([rounded, rounded[elements.next_point]], axis=1)
-    first_is_less = (ends[:, 0, 0] < ends[:, 1, 0]) | (
-        (ends[:, 0, 0] == ends[:, 1, 0]) & (ends[:, 0, 1] < ends[:, 1, 1])
-    )
-    ends[~first_is_less] = ends[~first_is_less, ::-1]
-    region = topology.element_region[elements.polygon_of_point]
-    keys = np.column_stack([region, ends.reshape(-1, 4)])
-    _, index, count = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
-    return np.flatnonzero(count[index.ravel()] == 1)
+    width = style.pop("linewidths", line_width(topology))
+    lines = segments(polygons, outlines(topology))
+    axes.add_collection(LineCollection(list(lines), linewidths=width, **style))
+    if frame is not None and len(opened := segments(polygons, cracks(topology, frame))):
+        axes.add_collection(
+            LineCollection(list(opened), linewidths=2 * width, capstyle="round", **style)
+        )
 
 
-def segments(polygons: Polygons, start: Ints) -> Floats:
-    """(n, 2, 2) edges that start at the given points."""
-    return np.stack([polygons.points[start], polygons.points[polygons.next_point[start]]], axis=1)
-
-
-def draw_blocks(axes: "Axes", topology: Topology, polygons: Polygons, **style: Any) -> None:
-    """Draw elements filled by material, with faint element edges and full region outlines.
+def draw_blocks(
+    axes: "Axes", topology: Topology, polygons: Polygons, frame: Frame | None = None, **style: Any
+) -> None:
+    """Draw elements filled by material, with faint element edges, full region outlines and cracks.
 
     Parameters
     ----------
@@ -90,11 +82,11 @@ def draw_blocks(axes: "Axes", topology: Topology, polygons: Polygons, **style: A
         What the polygons are.
     polygons
         The elements where they are drawn.
+    frame
+        When given, cracks that have opened in it are drawn.
     style
         Overrides of matplotlib's collection properties of the filling.
     """
-    from matplotlib.collections import LineCollection
-
     width = line_width(topology)
     whole = len(topology.elements) == len(topology.region_material)
     colours = [material_colour(int(number)) for number in topology.element_material]
@@ -106,5 +98,4 @@ def draw_blocks(axes: "Axes", topology: Topology, polygons: Polygons, **style: A
     }
     fill(axes, polygons, **(filling | style))
     if not whole:
-        lines = segments(polygons, outlines(topology))
-        axes.add_collection(LineCollection(list(lines), colors=EDGE, linewidths=width))
+        draw_lines(axes, topology, polygons, frame, colors=EDGE)

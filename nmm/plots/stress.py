@@ -8,7 +8,7 @@ from integration.arrays import Floats
 from nmm.errors import NmmError
 from nmm.plots.canvas import BESIDE, PathLike, axes_grid, extent_of, fit_height, frame_plane, save
 from nmm.plots.deformed import magnified, moment
-from nmm.plots.shapes import fill, line_width, outlines, segments
+from nmm.plots.shapes import draw_lines, fill, line_width
 from nmm.plots.units import label, prefixed
 from nmm.results.sink import RunData
 
@@ -23,6 +23,9 @@ NAMES = {
     "major": "major principal stress",
     "minor": "minor principal stress",
 }
+
+SHARE, PEAK = 0.995, 1.5
+"""Share of the area that the colours hold, and how far beyond stress may go without being cut."""
 
 SHORT = {"mises": "von Mises", "major": "major principal", "minor": "minor principal"}
 """Names that fit beside a colour bar."""
@@ -59,8 +62,6 @@ def stress(
     NmmError
         When the component is none of these.
     """
-    from matplotlib.collections import LineCollection
-
     shown = run.frames[frame]
     topology = run.topologies[shown.topology]
     values = measure(shown.stress, component)
@@ -70,26 +71,50 @@ def stress(
     axes = ax or axes_grid(1, 1, 4.0)[0]
     values = factor * values
     signed = component != "mises"
-    limit = float(np.abs(values).max(initial=0.0)) or 1.0
+    areas = topology.elements.areas
+    limit, beyond = scale_end(values, areas)
     drawn = fill(
         axes, polygons, edgecolors="face", linewidths=0.1, cmap="RdBu_r" if signed else "viridis"
     )
     drawn.set_array(values)
     drawn.set_clim(-limit if signed else 0.0, limit)
-    lines = segments(polygons, outlines(topology))
-    axes.add_collection(
-        LineCollection(list(lines), colors="#00000066", linewidths=0.7 * line_width(topology))
+    draw_lines(
+        axes, topology, polygons, shown, colors="#00000066", linewidths=0.7 * line_width(topology)
     )
     text = f", displacements ×{magnification:g}" if magnification != 1.0 else ""
     frame_plane(axes, extent, f"{NAMES[component]}, {moment(shown)}{text}")
-    bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02, fraction=0.05, aspect=15)
-    bar.set_label(label(SHORT.get(component, NAMES[component]), unit), fontsize=9.0)
+    above = bool(beyond and (values > limit).any())
+    below = bool(beyond and signed and (values < -limit).any())
+    arrows = ("neither", "max", "min", "both")[above + 2 * below]
+    bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02, fraction=0.05, aspect=15, extend=arrows)
+    words = label(SHORT.get(component, NAMES[component]), unit)
+    if beyond:
+        words += f"\n{100 * beyond:.2g} % of the area beyond, up to {np.abs(values).max():.3g}"
+    bar.set_label(words, fontsize=9.0)
     bar.ax.tick_params(labelsize=9.0, width=0.6)
     bar.outline.set_visible(False)
     if ax is None:
         fit_height([axes], beside=BESIDE + 0.9)
     save(axes, path)
     return axes
+
+
+def scale_end(values: Floats, areas: Floats) -> tuple[float, float]:
+    """Return where a colour scale of sizes ends, and the share of the area that lies beyond.
+
+    It holds `SHARE` of the area, and all of it unless what is beyond is `PEAK` times as large: a
+    sliver would else take the colours from all else.
+    """
+    sizes = np.abs(values)
+    largest = float(sizes.max(initial=0.0))
+    if not largest:
+        return 1.0, 0.0
+    order = np.argsort(sizes)
+    within = np.cumsum(areas[order]) / areas.sum()
+    end = float(sizes[order][min(int(np.searchsorted(within, SHARE)), len(sizes) - 1)])
+    if not end or largest <= PEAK * end:
+        return largest, 0.0
+    return end, float(areas[sizes > end].sum() / areas.sum())
 
 
 def measure(stresses: Floats, component: str) -> Floats:

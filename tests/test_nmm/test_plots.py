@@ -11,8 +11,9 @@ from nmm import parse_scene, plots
 from nmm.errors import NmmError
 from nmm.plots.broken import broken_parts, edge_parts
 from nmm.plots.deformed import BROKEN, visible
-from nmm.plots.shapes import fill, outlines
-from nmm.plots.stress import measure
+from nmm.plots.edges import cracks, outlines
+from nmm.plots.shapes import fill
+from nmm.plots.stress import measure, scale_end
 from nmm.plots.units import prefixed, words_of
 from nmm.results import MemorySink, Topology
 from nmm.results.frame import ContactState
@@ -237,6 +238,71 @@ def test_outlines_leave_out_the_edges_inside_a_region():
     one = Topology(elements, np.array([0, 0]), material[:1], ("rock",))
     two = Topology(elements, np.array([0, 1]), material, ("rock",))
     assert (len(outlines(one)), len(outlines(two))) == (6, 8)
+
+
+# Two squares side by side, and a triangle above both, whose lower edge their common corner divides:
+# where the squares come apart, that corner is the tip of a crack.
+TIP = Polygons.from_vertices(
+    [[[0, 0], [1, 0], [1, 1], [0, 1]], [[1, 0], [2, 0], [2, 1], [1, 1]], [[0, 1], [2, 1], [1, 2]]]
+)
+
+
+def at_a_tip(memory_run, jump):
+    """Topology of one region, and a frame in which the two lower elements are apart by a jump."""
+    topology = Topology(TIP, np.zeros(3, int), np.zeros(1, int), ("rock",))
+    move = np.zeros_like(TIP.points)
+    move[:, 1] = 0.3 * TIP.points[:, 0]
+    move[4:8, 0] += jump * (1 - TIP.points[4:8, 1])  # nothing at the upper end, the tip
+    return topology, replace(memory_run.frames[0], points=TIP.points + move, displacement=move)
+
+
+def test_an_edge_that_the_tip_of_a_crack_divides_is_no_outline(memory_run):
+    topology, _ = at_a_tip(memory_run, 0.1)
+    drawn = {tuple(TIP.points[n]) for n in outlines(topology)}
+    # Five outer edges and the two slopes above remain; the line y = 1 and the crack are inside.
+    assert len(outlines(topology)) == 6 + 2 - 2
+    assert drawn == {(0, 0), (1, 0), (2, 0), (0, 1), (2, 1), (1, 2)}
+
+
+@pytest.mark.parametrize(("jump", "faces"), [(0.1, 2), (1e-4, 2), (0.0, 0)])
+def test_a_crack_is_told_by_the_jump_across_its_faces(memory_run, jump, faces):
+    topology, frame = at_a_tip(memory_run, jump)
+    found = cracks(topology, frame)
+    assert len(found) == faces
+    assert all(TIP.points[n][0] == 1 for n in found)
+
+
+def test_one_sliver_does_not_set_the_colours():
+    areas = np.array([1.0] * 100 + [1e-6])
+    even = np.linspace(1, 2, 101)
+    assert scale_end(even, areas) == (2.0, 0.0)
+    peaked = np.append(even[:100], 500.0)
+    end, beyond = scale_end(peaked, areas)
+    assert 1.9 < end < 2  # what the hundred cells need
+    assert beyond == pytest.approx(1e-8, rel=0.01)
+    assert scale_end(np.append(even[:99], [500.0, 1.0]), areas)[0] == 500  # 1 % of the area counts
+    assert scale_end(np.zeros(101), areas) == (1.0, 0.0)
+
+
+def test_a_scale_that_is_cut_says_so_and_how_much(memory_run):
+    cells = Polygons.from_vertices([[[0, 0], [1, 0], [1, 1], [0, 1]], [[1, 0], [1.002, 0], [1, 1]]])
+    still = np.zeros_like(cells.points)
+    sink = MemorySink()
+    sink.topologies = [Topology(cells, np.zeros(2, int), np.zeros(1, int), ("rock",))]
+    stress = np.array([[1.0, 0, 0], [-50.0, 0, 0]])
+    frame = replace(memory_run.frames[1], points=cells.points, displacement=still, stress=stress)
+    sink.frames = [frame]
+    axes = plots.stress(sink, "xx")
+    (bar,) = [one for one in axes.figure.axes if one is not axes]
+    assert bar.get_ylabel().endswith("\n0.1 % of the area beyond, up to 50")
+    assert axes.collections[0].get_clim() == (-1.0, 1.0)
+
+
+def test_no_curve_of_a_page_hides_another(memory_run):
+    axes = plots.history(memory_run, ["bonded", "broken"])
+    one, other = axes.get_lines()
+    assert one.get_linewidth() > other.get_linewidth()
+    assert one.get_linestyle() != other.get_linestyle()
 
 
 def test_stress_measures_of_known_states():
