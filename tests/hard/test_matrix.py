@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from nmm.contact.enforcement import ENFORCEMENTS
 from nmm.contact.penalty import Penalty
@@ -42,6 +44,14 @@ def share():
 def test_a_share_of_the_hard_matrix_passes(group, case):
     found = judged(group, case)
     assert found.passed, found.words
+
+
+@given(st.integers(0, 10**6), st.sampled_from(["triangles degree 1", "bspline degree 1"]))
+@settings(max_examples=15)
+def test_any_network_of_cracks_leaves_the_pieces_of_polygon_arithmetic(seed, cover):
+    for group, case in chosen_cases(["pieces"], [seed], parts=[cover]):
+        found = judged(group, case)
+        assert found.passed, f"{case.label}: {found.words}"
 
 
 @pytest.mark.slow

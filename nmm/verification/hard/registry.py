@@ -24,6 +24,8 @@ HARD = Registry[type[HardClass]](
         "motions": f"{_HOME}.motions:Motions",
         "steps": f"{_HOME}.halving:Steps",
         "agreement": f"{_HOME}.halving:Agreement",
+        "ratios": f"{_HOME}.ratios:Ratios",
+        "events": f"{_HOME}.events:Events",
         "solids": f"{_HOME}.random_solids:Solids",
     },
 )

@@ -1,7 +1,10 @@
 """Run hard cases and keep what came out."""
 
+import signal
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from threading import current_thread, main_thread
 from time import process_time
 
 from nmm.errors import NmmError
@@ -57,18 +60,42 @@ class Finding:
         return "; ".join(f"{name} {self.checks[name].shown}" for name in told)
 
 
+LONGEST = 120.0
+"""Seconds of processor time after which a case is given up: that is a finding too."""
+
+
 def judged(group: str, case: HardCase) -> Finding:
     """Run one case; whatever ends it is what is found."""
     started = process_time()
     checks: Checks = {}
     fault, crashed = "", False
     try:
-        checks = case.judge(case.scene)
+        with _no_longer_than(LONGEST):
+            checks = case.judge(case.scene)
     except NmmError as error:
         fault = str(error)
     except Exception as error:  # a traceback is a finding
         fault, crashed = f"{type(error).__name__}: {error}", True
     return Finding(group, case, checks, fault, crashed, process_time() - started)
+
+
+@contextmanager
+def _no_longer_than(seconds: float) -> Iterator[None]:
+    """Raise `TimeoutError` in what takes longer; where timers are not to be had nothing is done."""
+    if not hasattr(signal, "setitimer") or current_thread() is not main_thread():
+        yield
+        return
+
+    def late(*_: object) -> None:
+        raise TimeoutError(f"no end within {seconds:g} s of processor time")
+
+    before = signal.signal(signal.SIGVTALRM, late)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+        signal.signal(signal.SIGVTALRM, before)
 
 
 def smallest(finding: Finding) -> tuple[Document, str]:
