@@ -17,6 +17,7 @@ from nmm.effects.base import Instant
 from nmm.stepping.attempt import Attempt
 from nmm.stepping.integrators import Shi
 from nmm.stepping.loose import block_name, largest_mover
+from nmm.stepping.static_theorem import carried
 from nmm.stepping.step import Stepper
 
 # Motions in sizes of the domain: of the first step, up to which the next step is lengthened, and
@@ -25,6 +26,9 @@ FIRST, SLOW, STILL = 1e-3, 5e-3, 1e-5
 # A structure that gathers speed, its acceleration grown by this factor, over this way in sizes of
 # the domain, is a mechanism: relaxation would only follow its fall.
 GATHERS, GATHERED = 4.0, 0.03
+# Over this way one that cannot stand where it starts, by the static theorem, has fallen, though it
+# might come to lie on something further on.
+FALLEN = 0.25
 # Up to this way the motion that is told of a block that moves freely is looked for.
 FREE_WAY = 0.01
 # A step is lengthened and cut by these; so many steps, cuts in a row, and sizes of the domain
@@ -74,25 +78,36 @@ def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) ->
     moving.budget = stepper.budget
     size = stepper.size
     length = _first_length(heavy, stepper.plan.force(state, end), size)
-    way, cuts, attempt, start = 0.0, 0, None, None
+    proof = carried(stepper, state, end.load_factor)
+    way, cuts, attempt, start, stands = 0.0, 0, None, None, True
+
+    def fallen(first: Attempt | None) -> str:
+        assert proof is not None
+        return f"{proof.sentence}; {_who(moving, first, names)}"
+
     for steps in range(1, STEPS + 1):
         found = moving.attempt(state, end, length)
         if not found.converged:
             cuts += 1
             length *= SHORTER
             if cuts > CUTS:
-                return Relaxed(state, steps, False, f"a step failed: {found.sentence}")
+                said = f"a step failed: {found.sentence}"
+                return Relaxed(state, steps, False, said if stands else fallen(attempt), not stands)
             continue
         moving.accept(found)
         rest = np.zeros_like(state.velocity)
         state = replace(found.state, velocity=rest, acceleration=rest)
         cuts, way = 0, way + found.motion
+        if attempt is None and proof is not None and proof.fails:
+            stands = not _touched(model, found, largest_mover(model, state, found.increment)[0])
         # What moves first tells what is free, not what it hits later.
         attempt = found if attempt is None or way - found.motion < FREE_WAY * size else attempt
         start = found.motion / length**2 if start is None else start
         if found.motion > GATHERS * start * length**2 and way > GATHERED * size:
             who = _who(moving, attempt, names)
             return Relaxed(state, steps, False, f"it gathers speed: {who}", True)
+        if not stands and way > FALLEN * size:
+            return Relaxed(state, steps, False, fallen(attempt), True)
         if found.motion < STILL * size and _holds(stepper, state, end):
             return Relaxed(state, steps, True, "", way=way)
         if way > size:
