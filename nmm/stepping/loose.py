@@ -39,13 +39,15 @@ def anchors(model: Model) -> csc_array:
 def neutral(stepper: "Stepper", state: State, names: Sequence[str]) -> list[str]:
     """Say which blocks could move though no load moves them, and how.
 
-    Anchors drag a motion of all bodies along where nothing else holds them, and only there.
+    Anchors drag a motion of all bodies along where nothing else holds them, and only there. A
+    solver may leave a part without load where it stands, so they are asked where none were used.
     """
     model, contact = stepper.model, stepper.plan.contact
     matrix = None if contact is None else contact.acting()
     if matrix is None:
         return []
-    factor, soft = stepper.solver.factorise(matrix), anchors(model)
+    soft = anchors(model)
+    factor = stepper.solver.factorise(matrix if stepper.anchored else csc_array(matrix + soft))
     modes = model.manifold.rigid_modes
     found: dict[int, str] = {}
     radius = np.sqrt(model.manifold.body_area)

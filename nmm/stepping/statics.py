@@ -158,12 +158,11 @@ def _breaking(fine: bool) -> "Breaking":
 def _with_neutral(
     verdict: RunVerdict, stepper: Stepper, state: State, names: Sequence[str]
 ) -> RunVerdict:
-    """Add which blocks only anchors hold."""
-    if not stepper.anchored:
-        return verdict
-    found = neutral(stepper, state, names)
-    held = f"anchors of {ANCHOR:.0e} of the blocks' stiffness were used and carry nothing"
-    return replace(verdict, sentence="; ".join([verdict.sentence, *found, held]))
+    """Add which blocks nothing but anchors would hold, and whether anchors were used."""
+    said = [verdict.sentence, *neutral(stepper, state, names)]
+    if stepper.anchored:
+        said.append(f"anchors of {ANCHOR:.0e} of the blocks' stiffness were used and carry nothing")
+    return replace(verdict, sentence="; ".join(said))
 
 
 def _may_be_loose(stepper: Stepper, found: "Settled") -> bool:
