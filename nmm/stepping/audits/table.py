@@ -79,7 +79,7 @@ THRESHOLDS: dict[str, Threshold] = {
     "angular_momentum": Threshold(
         "change of the angular momentum, over the sum of all bodies'",
         1e-8,
-        1e-4,
+        1e-3,
         "dynamics without supports, loads and weight, unless axes stay",
     ),
     "contact_duration": Threshold(
