@@ -187,7 +187,7 @@ def test_sub_blocks_with_the_strength_of_the_interface_break_at_it() -> None:
     ("options", "said"),
     [
         ({"mesh": "hexagons"}, "mesh: 'hexagons': expected one of triangles"),
-        ({"strength": "high"}, "strength: expected one of bond, glue, mesh"),
+        ({"strength": "high"}, "strength: expected one of mesh, bond, glue"),
         ({"glue": "strong"}, "glue: 'strong': expected one of springs, nitsche"),
         ({"stiffness": -1.0}, "stiffness: -1.0: expected a number > 0"),
     ],

@@ -169,8 +169,9 @@ def test_blocks_have_no_regions() -> None:
 def test_the_formulations_of_the_manual_are_read() -> None:
     page = (Path(__file__).parents[2] / "docs" / "covers.md").read_text()
     parts = [part.split("```")[0] for part in page.split("```toml\n")[1:]]
-    assert len(parts) == 3
-    regions, tips, mass = (parse_formulation(part) for part in parts)
+    assert len(parts) == 4
+    regions, volumes, tips, mass = (parse_formulation(part) for part in parts)
     assert [item.degree for item in regions.cover.regions or ()] == [2, 0]
+    assert volumes.cover.volumetric == "projected"
     assert tips.cover.enrichment is not None
     assert mass.integrator.mass == "lumped"

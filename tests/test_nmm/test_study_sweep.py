@@ -18,6 +18,7 @@ from nmm.study.record import Record
 from nmm.study.store import Store
 from nmm.study.sweep import Sweep, run_study
 from nmm.study.sweep_report import groups, sweep_page
+from nmm.trust import allowing
 
 STUDY = """
 title = "stiffness"
@@ -30,18 +31,22 @@ over = ["materials.m.young_modulus"]
 """
 
 
-def faulty(**constants):
+class Faulty(Elastic):
     """An elastic law that breaks."""
-    if constants["young_modulus"] == 4.0:
-        raise RuntimeError("no such stiffness")
-    return Elastic(**constants)
+
+    def stiffness(self, plane):
+        if self.young_modulus == 4.0:
+            raise RuntimeError("no such stiffness")
+        return super().stiffness(plane)
 
 
-def deadly(**constants):
+class Deadly(Elastic):
     """An elastic law that takes its process with it."""
-    if constants["young_modulus"] == 4.0:
-        os._exit(9)
-    return Elastic(**constants)
+
+    def stiffness(self, plane):
+        if self.young_modulus == 4.0:
+            os._exit(9)
+        return super().stiffness(plane)
 
 
 @pytest.fixture
@@ -158,15 +163,16 @@ def laws(study, monkeypatch, bar_text):
     monkeypatch.syspath_prepend(os.path.dirname(__file__))
 
     def use(name):
-        law = f"{__name__.split('.')[-1]}:{name}"
-        (study.parent / "bar.toml").write_text(bar_text(poisson=0.0, law=law))
-        return read_plan(study)
+        module = __name__.split(".")[-1]
+        (study.parent / "bar.toml").write_text(bar_text(poisson=0.0, law=f"{module}:{name}"))
+        with allowing(module):
+            return read_plan(study)
 
     return use
 
 
 def test_a_case_that_breaks_is_recorded_and_run_again_when_asked(laws, tmp_path):
-    plan, cases = laws("faulty")
+    plan, cases = laws("Faulty")
     cases = [one for one in cases if one.settings["materials.m.young_modulus"] == 4.0]
     done = run_study(plan, cases, tmp_path / "out", processes=1)
     assert [one.status for one in done.records] == ["error", "error"]
@@ -176,7 +182,7 @@ def test_a_case_that_breaks_is_recorded_and_run_again_when_asked(laws, tmp_path)
 
 
 def test_a_process_that_dies_costs_its_own_case_only(laws):
-    plan, cases = laws("deadly")
+    plan, cases = laws("Deadly")
     cases = [one for one in cases if one.name == "DDA"]
     records = {one.key: one for one in run_here(cases, plan.quantities, 1, 1)}
     status = [records[case.key].status for case in cases]

@@ -34,7 +34,10 @@ class Clockwork:
         self.times.append(attempt.state.time)
         return ""
 
-    def frame(self, state, stage, contacts):
+    def takes(self, state):
+        return False
+
+    def last(self, state, stage, contacts):
         pass
 
 
@@ -43,7 +46,7 @@ class Clockwork:
 )
 def test_a_duration_of_whole_steps_takes_as_many(step, count):
     seen = Clockwork()
-    schedule = Schedule(duration=count * step, step=step, frames=10)
+    schedule = Schedule(duration=count * step, step=step)
     run_in_time(seen, seen, SimpleNamespace(time=0.0), schedule, lambda share, text: None)
     assert len(seen.times) == count
     # Steps are equal but for the rounding of a sum.

@@ -45,7 +45,9 @@ def _momentum(run: Ended) -> Findings:
     mass *= run.stepper.model.thickness
     fall = np.zeros(2) if gravity is None else np.array(gravity.acceleration)
     impulse = mass * fall * (run.state.time - run.start.time)
-    size = max(np.hypot(*part.T).sum() for part in (first, last))
+    # A body that spins has no momentum to measure a change by, one that flies no spin.
+    typical = np.maximum(*(_typical(run.stepper, state) for state in (run.start, run.state)))
+    size = max(typical[0], *(np.hypot(*part.T).sum() for part in (first, last)))
     if size > 0:
         change = last.sum(axis=0) - first.sum(axis=0) - impulse
         share = float(np.hypot(*change)) / size
@@ -55,7 +57,7 @@ def _momentum(run: Ended) -> Findings:
             f"momentum changed by ({change[0]:.3g}, {change[1]:.3g}) N s without a force",
             "take smaller steps and compare",
         )
-    turns = max(np.abs(part).sum() for part in (spun, spins))
+    turns = max(typical[1], *(np.abs(part).sum() for part in (spun, spins)))
     if gravity is None and turns > 0 and run.formulation.rotation.update != "small":
         gained = float(spins.sum() - spun.sum())
         yield Finding(
@@ -64,6 +66,13 @@ def _momentum(run: Ended) -> Findings:
             f"angular momentum changed by {gained:.3g} N m s without a moment",
             "take smaller steps and compare",
         )
+
+
+def _typical(stepper: Stepper, state: State) -> Floats:
+    """Momentum (N s) and angular momentum (N m s) if all motion went one way, or were spin."""
+    model, modes = stepper.model, stepper.model.manifold.rigid_modes
+    inertia = (modes.T @ (model.mass @ modes)).diagonal().reshape(-1, 3).sum(axis=0)
+    return np.sqrt(inertia[[0, 2]] * float(state.velocity @ (model.mass @ state.velocity)))
 
 
 def _of_bodies(stepper: Stepper, state: State) -> tuple[Floats, Floats]:

@@ -71,13 +71,15 @@ THRESHOLDS: dict[str, Threshold] = {
         "change of the bodies' total area", 1e-6, None, '`[rotation] update = "linear"`'
     ),
     "momentum": Threshold(
-        "change of the momentum less the impulse of weight, over the sum of all bodies'",
+        "change of the momentum less the impulse of weight, over the larger of the sum of all "
+        "bodies' and what they would have if all motion went one way",
         1e-8,
         1e-4,
         "dynamics without supports and loads",
     ),
     "angular_momentum": Threshold(
-        "change of the angular momentum, over the sum of all bodies'",
+        "change of the angular momentum, over the larger of the sum of all bodies' and what they "
+        "would have if all motion were spin",
         1e-8,
         1e-3,
         "dynamics without supports, loads and weight, unless axes stay",
