@@ -43,9 +43,12 @@ class Cover(ABC):
         cells of one number are translations of one another; -1 where nothing is known.
     coordinates
         options of ``regular`` that are points, in the axes of ``bounds``.
+    even
+        Whether all cells are of about the size that ``regular`` is given.
     """
 
     coordinates: ClassVar[tuple[str, ...]] = ()
+    even: ClassVar[bool] = True
     vertices: Floats
     cell_vertices: Ints
     cell_patches: Ints

@@ -25,6 +25,7 @@ class Graded(Triangles):
     """
 
     coordinates: ClassVar[tuple[str, ...]] = ("focus",)
+    even: ClassVar[bool] = False
 
     @classmethod
     def regular(

@@ -42,8 +42,11 @@ def refuse_many_blocks(scene: Scene, outlines: Polygons) -> None:
         _refuse_dense_joints(scene, outlines.points)
 
 
-def refuse_many_cells(regions: Regions, cover: Cover, place: str) -> None:
+def refuse_many_cells(regions: Regions, cover: Cover, place: str, even: bool = True) -> None:
     """Refuse nets whose cells take more memory than there is.
+
+    Cells that are not ``even``, as of a graded net that grow away from its foci, are counted where
+    they are laid.
 
     Raises
     ------
@@ -57,22 +60,21 @@ def refuse_many_cells(regions: Regions, cover: Cover, place: str) -> None:
     for block, size in nets.items():
         own = regions.polygons.take(regions.select(block))
         if len(own):
-            _refuse_cells(own.points, own.areas, size, cover, place)
+            _refuse_cells(own.points, own.areas, size, cover, place, even)
     if cover.size is not None:
-        _refuse_cells(points, regions.polygons.areas, cover.size, cover, place)
+        _refuse_cells(points, regions.polygons.areas, cover.size, cover, place, even)
 
 
-def _refuse_cells(points: Floats, areas: Floats, size: float, cover: Cover, place: str) -> None:
-    """A regular net is laid over the box of the material before it is cut by it.
-
-    Sizes of a graded net grow away from its foci; its lines are counted where they are laid.
-    """
+def _refuse_cells(
+    points: Floats, areas: Floats, size: float, cover: Cover, place: str, even: bool
+) -> None:
+    """A regular net is laid over the box of the material before it is cut by it."""
     box = np.ptp(points, axis=0)
     if size > COARSEST * box.max():
         value = f"{size:g} m, for blocks of {box.max():g} m"
         expected = "a size nearer to that of the blocks"
         raise FormulationError(Fault(place, value, expected, "check its unit"))
-    if cover.type == "graded":
+    if not even:
         return
     longest = size * 1e6  # cells along a side: beyond it their number is no longer exact
     cells = float(np.prod(np.minimum(box, longest) / size + 1))

@@ -32,6 +32,7 @@ from nmm.stepping.cures import cures, solver_for, warnings
 from nmm.stepping.dynamics import Schedule, run_in_time
 from nmm.stepping.integrators import make_integrator
 from nmm.stepping.ledger import Ledger
+from nmm.stepping.nets import net_class
 from nmm.stepping.origin import MovedBack, own_origin, shifted, shifted_regions
 from nmm.stepping.output import (
     FRAMES_AFTER_FAILURE,
@@ -254,7 +255,9 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     regions = build_regions(scene)
     check_together(scene, formulation)
     check_parts(scene, formulation)
-    refuse_many_cells(regions, formulation.cover, formulation.source.place("cover", "size"))
+    cover = formulation.cover
+    even = cover.of_blocks or net_class(cover).even
+    refuse_many_cells(regions, cover, formulation.source.place("cover", "size"), even)
     asked, origin = (scene, formulation), own_origin(regions.polygons.points)
     if origin.any():
         regions = shifted_regions(regions, -origin)

@@ -1,6 +1,6 @@
 """Rectangles between the lines of graded triangles: a net for benchmarks on quads."""
 
-from typing import Any, Self, cast
+from typing import Any, ClassVar, Self, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,8 @@ from covers.quads import Quads
 
 class GradedQuads(Quads):
     """`covers.graded.Graded` without the diagonals of its rectangles."""
+
+    even: ClassVar[bool] = False
 
     @classmethod
     def regular(cls, bounds: npt.ArrayLike, size: Any, **options: Any) -> Self:

@@ -72,7 +72,7 @@ def _typical(stepper: Stepper, state: State) -> Floats:
     """Momentum (N s) and angular momentum (N m s) if all motion went one way, or were spin."""
     model, modes = stepper.model, stepper.model.manifold.rigid_modes
     inertia = (modes.T @ (model.mass @ modes)).diagonal().reshape(-1, 3).sum(axis=0)
-    return np.sqrt(inertia[[0, 2]] * float(state.velocity @ (model.mass @ state.velocity)))
+    return np.asarray(np.sqrt(inertia[[0, 2]] * (state.velocity @ (model.mass @ state.velocity))))
 
 
 def _of_bodies(stepper: Stepper, state: State) -> tuple[Floats, Floats]:
