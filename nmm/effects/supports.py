@@ -155,6 +155,24 @@ class Supports(Effect):
             shared.before = shared.values
         return total
 
+    def first_work(self, before: State, after: State) -> float:
+        """Work (J) that `work` lacks in the first step of statics; to be asked ahead of it.
+
+        What is driven at the start of statics is driven there from nothing in the first step, and
+        the reaction grows with it.
+        """
+        start, end = (Instant(one.time, one.load_factor) for one in (before, after))
+        total = 0.0
+        for i, support in enumerate(self._supports):
+            stood = np.atleast_2d(support.displacement(start)).mean(axis=0)
+            if stood.any():
+                way = np.atleast_2d(support.displacement(end)).mean(axis=0)
+                last = support.reaction(after, self._lag(i, after, end))
+                total += float(last @ way) / 2
+                first = self._first(support, i, before, last)
+                total -= float((first + last) / 2 @ (way - stood))
+        return total
+
     def _first(self, support: Support, number: int, before: State, last: Floats) -> Floats:
         """Return the reaction (2,) in N as the step began.
 

@@ -33,7 +33,8 @@ class Ledger:
     """Totals over accepted steps (J).
 
     In statics nothing acts before the first step: what acts at its start (weight, initial stress,
-    loads that are not scaled) grows from nothing in it, and so does its work.
+    loads and displacements of supports that are not scaled) grows from nothing in it, and so does
+    its work.
 
     Attributes
     ----------
@@ -76,8 +77,12 @@ class Ledger:
             self.stored_first = sum(earlier.values()) - earlier["contact_energy"]
         self.steps += 1
         after = attempt.state
+        grows = first and plan.inertia is None
+        if grows and plan.supports is not None:
+            self.stored_first -= plan.energy("supports", before)
+            self.work += plan.supports.first_work(before, after)
         self.work += plan.work(before, after)
-        if first and plan.inertia is None:
+        if grows:
             self.work -= standing(plan, before, after)
         self.energies = stored(plan, model, stands)
         loss = 0.0 if attempt.solved is None else attempt.solved.loss

@@ -53,15 +53,34 @@ def test_a_column_under_its_weight_stores_the_work_of_the_weight(load, method):
     assert found["external_work"][-1] == pytest.approx(stored(found)[-1], rel=ROUNDED)
 
 
+@pytest.mark.parametrize("loading", ["[loading]\n", ""])
 @pytest.mark.parametrize("method", MESHES)
-def test_a_driven_support_does_the_work_that_the_bar_stores(method):
-    drive = HEAD + "displacement = [0, 0.01]\n[loading]\n"
+def test_a_driven_support_does_the_work_that_the_bar_stores(method, loading):
+    # Without [loading] the displacement stands at the start, and the first step drives it there.
+    drive = HEAD + "displacement = [0, 0.01]\n" + loading
     found = run(COLUMN + FOOT + drive, cover=QUADS, supports=method)
     right = MODULUS * 0.01**2 / (2 * HEIGHT)
     # Springs at both ends, some hundred E over the size of a cell, give a little.
     tolerance = 5e-3 if method == "penalty" else 1e-8
     assert found.history["external_work"][-1] == pytest.approx(right, rel=tolerance)
     assert found.summary.energy_balance == pytest.approx(0.0, abs=ROUNDED)
+    assert found.summary.status == "converged"
+
+
+@pytest.mark.parametrize("method", MESHES)
+def test_a_block_that_a_support_moves_without_strain_is_not_out_of_balance(method):
+    drive = FOOT + "displacement = [0.003, 0.01]\n"
+    found = run(COLUMN + drive, cover=QUADS, supports=method)
+    assert (found.summary.status, list(found.summary.warnings)) == ("converged", [])
+    # Rounding of E t u^2 = 1e3 J, and nothing else, by springs of 1e2 to 1e3 E as well.
+    assert abs(found.history["strain_energy"][-1]) < 1e-9
+    assert abs(found.history["external_work"][-1]) < 1e-9
+
+
+def test_work_of_a_driven_support_that_is_not_booked_is_told(monkeypatch):
+    monkeypatch.setattr("nmm.effects.supports.Supports.first_work", lambda *_: 0.0)
+    found = run(COLUMN + FOOT + HEAD + "displacement = [0, 0.01]\n", cover=QUADS)
+    assert found.summary.status == "unbalanced"
 
 
 @pytest.mark.parametrize("method", MESHES)

@@ -40,7 +40,7 @@ THRESHOLDS: dict[str, Threshold] = {
         "dynamics without asked-for damping (`kinetic_factor` below 1)",
     ),
     "work_not_stored": Threshold(
-        "difference of work and stored energy, over the larger of both",
+        "difference of work and stored energy beyond rounding, over the larger of both",
         1e-6,
         1e-2,
         "statics of small displacements without contact",
