@@ -40,13 +40,15 @@ def energy(run: Ended) -> Findings:
 
 
 def _rounding(run: Ended) -> float:
-    """Energy (J) of nothing but rounding: ``eps |q| |K| |q|``, a bound on that of ``q K q``.
+    """Energy (J) of nothing but rounding: ``n eps |q| |K| |q|``, with n entries in a row of K.
 
-    A body that is moved without strain stores and takes no more than this.
+    It bounds that of products with K (Higham, Accuracy and Stability, 3.5): a body that is moved
+    without strain stores and takes no more than this.
     """
     stepper, way = run.stepper, np.abs(run.state.deformation)
     matrix = stepper.plan.matrix(run.state, stepper.model.stiffness)
-    return float(np.finfo(float).eps * (way @ (abs(matrix) @ way)))
+    entries = int(np.diff(matrix.indptr).max())
+    return float(entries * np.finfo(float).eps * (way @ (abs(matrix) @ way)))
 
 
 def _made(run: Ended) -> Findings:
