@@ -34,12 +34,15 @@ def flight(steps, formulation):
 def test_a_body_in_free_flight_neither_drifts_nor_gains(steps, formulation):
     found = flight(steps, formulation)
     time = steps * 0.01
-    # Rounding of 1e-16 a step in rates of 5, summed without sign: 1e-9 in 1e5 steps.
-    assert rates(found)[0] == pytest.approx([3, 4, OMEGA], abs=1e-13 * steps)
+    # Rounding of 1e-16 a step in rates of 5, summed without sign: 1e-9 in 1e5 steps. With degree 2
+    # the rounding of elastic forces turns the body too, by what the linear algebra in use makes
+    # of it: 1e-9 to 4.4e-9 in 1e4 steps.
+    rounding = 1e-12 if formulation == "degree 2" else 1e-13
+    assert rates(found)[0] == pytest.approx([3, 4, OMEGA], abs=rounding * steps)
     assert last_way(found, "middle") == pytest.approx([3 * time, 4 * time], rel=1e-10)
     assert found.state.frames.angle[0] == pytest.approx(OMEGA * time, rel=1e-9)
     kinetic = found.history["kinetic_energy"]
-    assert kinetic[-1] <= kinetic[0] * (1 + 1e-14 * steps)
+    assert kinetic[-1] <= kinetic[0] * (1 + rounding / 10 * steps)
     # 37 turns in a hundred seconds: the long side lies along x again; rho omega^2 a^2 / 12. Shi's
     # rule hardly damps a sawtooth of 4 / Omega^2, 1e-4, and Newmark's not even the breathing.
     centrifugal = 1000 * OMEGA**2 * np.array([4, 1]) / 12
