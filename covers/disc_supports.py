@@ -20,17 +20,16 @@ from covers.moving_least_squares import MovingLeastSquares
 from integration.arrays import Bools, Floats
 from integration.rules import polygon_rule
 
-# A disc is left out when its share is below this part of the best about it.
-POOR = 0.05
+# A disc is left out when its share is below this part of the best about it, by degree of the basis:
+# each one less makes a coarse net stiffer, but functions on weights of Shepard's kind need more.
+POOR = {0: 0.05, 1: 1e-3, 2: 1e-3, 3: 1e-3}
 # Degree of polynomials to which shares are integrated.
 ORDER = 8
 # Points whose kernels are held in memory at once.
 CHUNK = 20_000
 
 
-def fitted_discs(
-    cover: MovingLeastSquares, cut: CutCells, poor: float = POOR
-) -> tuple[MovingLeastSquares, CutCells]:
+def fitted_discs(cover: MovingLeastSquares, cut: CutCells) -> tuple[MovingLeastSquares, CutCells]:
     """Return cover and cut without the discs that reach too little of the material.
 
     Elements of one cell that have lost different discs are given cells of their own.
@@ -40,7 +39,7 @@ def fitted_discs(
     best = known[cut.covers].max(axis=1)
     around = np.zeros(len(share) + 1)
     np.maximum.at(around, cut.covers, np.broadcast_to(best[:, None], cut.covers.shape))
-    lost = share < poor * around[:-1]
+    lost = share < POOR[cover.degree] * around[:-1]
     if not lost.any():
         return cover, cut
     gone = (cut.covers >= 0) & np.append(lost, False)[cut.covers]

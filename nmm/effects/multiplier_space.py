@@ -171,7 +171,7 @@ def _chains(pieces: Pieces, size: float) -> list[Ints]:
 
 
 def _parts(pieces: Pieces, chain: Ints, wanted: float) -> list[Ints]:
-    """Parts of a chain at least as long as wanted: of its straight runs, or of short ones joined.
+    """Parts of a chain as long as wanted, or about: of its straight runs, or of short ones joined.
 
     A part ends where the chain has a kink if it is long enough by then.
     """
@@ -194,7 +194,8 @@ def _parts(pieces: Pieces, chain: Ints, wanted: float) -> list[Ints]:
     for places in joined:
         run = np.array(places, dtype=np.int64)
         reach = np.cumsum(length[run])
-        number = max(int(reach[-1] / wanted + 1e-9), 1)
+        # The nearest number: rounded down, what ends at a body would be up to twice as coarse.
+        number = max(int(reach[-1] / wanted + 0.5), 1)
         at = (reach - length[run] / 2) * number / reach[-1]
         interval = np.minimum(at.astype(int), number - 1)
         parts += [chain[run[interval == i]] for i in range(number)]
