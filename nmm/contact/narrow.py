@@ -14,9 +14,14 @@ One contact a pair of vertices
     Parallel edges make two contacts, at the two ends of their overlap; as the overlap shrinks
     below `FLUSH` the two become one.
 Flush neighbours
-    A stretch of edge that a third body covers up to the edge's end is no entrance, and a vertex
-    whose sides are covered is seen together with the coverers as long as their union is convex. So
-    the vertices inside a floor of several blocks catch nothing.
+    A stretch of edge that a third body covers up to the edge's end is no entrance, as far as the
+    two are closed to within `FLUSH`, and a vertex whose sides are covered is seen together with the
+    coverers as long as their union is convex. So the vertices inside a floor of several blocks
+    catch nothing, and a wedge between faces that open meets both.
+
+What these rules overlook is found afterwards: a step that lets a vertex through an edge is solved
+again with that pair (`with_pairs`), and what still overlaps as it appears stores no energy
+(`nmm.contact.reference_gap`).
 
 `ANGLE`, `DEPTH` and `FLUSH` stand in `rules`; the last two are fractions of the thickness (twice
 the area over the perimeter) of the thinner of the two bodies.
