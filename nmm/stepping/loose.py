@@ -44,7 +44,8 @@ def neutral(stepper: "Stepper", state: State, names: Sequence[str]) -> list[str]
     """
     model, contact = stepper.model, stepper.plan.contact
     matrix = None if contact is None else contact.acting()
-    if matrix is None:
+    # Conditions held by multipliers leave a system of fewer unknowns, which is not judged.
+    if matrix is None or matrix.shape[0] != model.manifold.n_unknowns:
         return []
     soft = anchors(model)
     factor = stepper.solver.factorise(matrix if stepper.anchored else csc_array(matrix + soft))
