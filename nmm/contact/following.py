@@ -58,8 +58,14 @@ class JointBook:
 
     def edges(self, n: int) -> Ints:
         """Pairs of edges that followed joints carry, ``a * n + b`` with ``a < b``, sorted."""
-        a, b = self.points.edge_a, self.points.edge_b
-        return np.unique(np.minimum(a, b) * n + np.maximum(a, b))
+        return np.unique(_edge_pair(self.points.edge_a, self.points.edge_b, n))
+
+    def holds(self, surface: Surface, vertex: Ints, edge: Ints) -> Bools:
+        """Which pairs (m,) are of an edge that ends at the vertex and one held to it by a joint."""
+        n = len(surface)
+        ends = vertex, surface.previous[vertex]
+        beside = np.stack([_edge_pair(own, edge, n) for own in ends])
+        return np.asarray(np.isin(beside, self.edges(n)).any(axis=0))
 
     def now(self, surface: Surface, apart_of: Apart) -> ContactPoints:
         """Return the points with gap, slip and normal of the moved surface."""
@@ -229,6 +235,11 @@ def answered(
         slid=points.slid + np.where(points.is_joint, sliding, 0.0),
         worn=points.worn + np.abs(sliding),
     )
+
+
+def _edge_pair(one: Ints, other: Ints, n: int) -> Ints:
+    """Identity (m,) of pairs of edges, of ``n`` in all, in either order."""
+    return np.minimum(one, other) * n + np.maximum(one, other)
 
 
 def _turned(points: ContactPoints, surface: Surface, apart_of: Apart) -> ContactPoints:

@@ -156,6 +156,17 @@ class Contact(Effect):
         ``step`` is its length (s), None in statics: bodies in flight meet where they fly to.
         ``crossed`` are pairs of a vertex and an edge that are contacts in any case (`overlooked`).
         """
+        self._last, points = self._sought(state, reach, step, crossed)
+        return points
+
+    def _sought(
+        self,
+        state: State,
+        reach: float,
+        step: float | None = None,
+        crossed: tuple[Ints, Ints] | None = None,
+    ) -> tuple[Contacts, ContactPoints]:
+        """Return what search finds and the contact points it makes with joints; keep nothing."""
         surface = self._partners.surface(state)
         record = self.record
         joints = record.book.now(surface, self._apart(state))
@@ -168,9 +179,7 @@ class Contact(Effect):
         if self._bends:
             apart = Stations.at(self._sides, new).apart(new, state.frames, state.deformation)
             new = replace(new, gap=np.einsum("ij,ij->i", apart, new.normal))
-        self._last = found
-        new = self._followed(new, found)
-        return concatenate([joints, new])
+        return found, concatenate([joints, self._followed(new, found)])
 
     def _followed(self, new: ContactPoints, found: Contacts) -> ContactPoints:
         """Return found points with what the last accepted step left, and gaps as they count."""
@@ -339,7 +348,7 @@ class Contact(Effect):
             np.concatenate([pair_key(surface, known.edge_a, known.edge_b), book.pairs]),
         )
         new &= self._partners.interfaces(found.vertex, found.edge) >= 0
-        new &= ~_between_joints(surface, book, found.vertex, found.edge)
+        new &= ~book.holds(surface, found.vertex, found.edge)
         return (found.vertex[new], found.edge[new]) if new.any() else None
 
     def passage(self, motion: Motion) -> str:
@@ -386,9 +395,7 @@ class Contact(Effect):
 
     def near(self, state: State, reach: float) -> tuple[tuple[csr_array, csr_array], Limits]:
         """Return rows and strength of contacts that bonds hold or that are open by ``reach``."""
-        last = self._last
-        contacts = self.candidates(state, reach)
-        self._last = last
+        _, contacts = self._sought(state, reach)
         held = contacts.is_joint & (contacts.damage < 1)
         contacts = contacts.take(held | (contacts.gap <= reach))
         through = self._rows(contacts, state, None)
@@ -455,13 +462,3 @@ class Contact(Effect):
         share = far_a / (far_a + far_b)
         mixed = share * softness[a] + (1 - share) * softness[b]
         return np.asarray(apart * np.where(softness[a] == softness[b], softness[a], mixed))
-
-
-def _between_joints(surface: Surface, book: JointBook, vertex: Ints, edge: Ints) -> Bools:
-    """Which pairs belong to edges that a followed joint holds together."""
-    n, held = len(surface), book.edges(len(surface))
-    beside = [
-        np.minimum(own, edge) * n + np.maximum(own, edge)
-        for own in (vertex, surface.previous[vertex])
-    ]
-    return np.asarray(np.isin(beside[0], held) | np.isin(beside[1], held))
