@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse import block_diag, csc_array, csr_array
 from scipy.spatial import Voronoi
 
-from nmm.contact.problem import STICK, Limits, StepAnswer, StepProblem
+from nmm.contact.problem.step_problem import STICK, Limits, StepAnswer, StepProblem
 
 YOUNG, POISSON, DENSITY, FRICTION, GRAVITY = 1e9, 0.2, 2000.0, 0.6, 9.81
 

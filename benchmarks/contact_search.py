@@ -25,11 +25,11 @@ import numpy as np
 import shapely
 
 from integration.polygons import Polygons
-from nmm.contact.crossing import find_crossings
-from nmm.contact.joints import find_joints
-from nmm.contact.narrow import find_contacts, follow, remeasure
-from nmm.contact.search import NeighbourList, near_pairs, near_pairs_by_tree
-from nmm.contact.surface import Surface, polygon_surface
+from nmm.contact.detection.crossing import find_crossings
+from nmm.contact.detection.joints import find_joints
+from nmm.contact.detection.narrow_phase import find_contacts, follow, remeasure
+from nmm.contact.detection.neighbour_list import NeighbourList, near_pairs, near_pairs_by_tree
+from nmm.contact.detection.surface import Surface, polygon_surface
 
 SKIN, REACH = 0.02, 0.01
 

@@ -15,13 +15,13 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike
 
-from covers.base import Cover
-from covers.bspline import BSplines
-from covers.cut_cells import CutCells
-from covers.cutting import cut
-from covers.moving_least_squares import MovingLeastSquares
-from covers.quads import Quads
-from covers.triangles import Triangles
+from covers.cutting.cut import cut
+from covers.cutting.cut_cells import CutCells
+from covers.mathematical.base import Cover
+from covers.mathematical.bspline import BSplines
+from covers.mathematical.moving_least_squares import MovingLeastSquares
+from covers.mathematical.quads import Quads
+from covers.mathematical.triangles import Triangles
 from integration.polygons import Polygons
 
 BOUNDS = [[0.0, 0.0], [1.0, 1.0]]

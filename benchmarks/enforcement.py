@@ -35,12 +35,12 @@ from records import Row as Measurement
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.contact.enforcement import Enforcement, make_enforcement
-from nmm.contact.memory import Memory
-from nmm.contact.pattern import SpringPattern
-from nmm.contact.problem import StepAnswer, StepProblem
-from nmm.contact.rounds import compliances
-from nmm.contact.springs import CutSprings
+from nmm.contact.enforcement.base import Enforcement, make_enforcement
+from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.multiplier_rounds import compliances
+from nmm.contact.problem.cut_springs import CutSprings
+from nmm.contact.problem.matrix_pattern import SpringPattern
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.solvers.linear import make_solver
 
 PATH = RECORDS / "enforcement.jsonl"

@@ -20,14 +20,14 @@ from scipy.sparse import csc_array
 from skfem.models.elasticity import linear_elasticity
 from smooth_costs import LAW, TRIANGLE, Clock, Cost, D, solutions
 
-from covers.corner_functions import corner_functions
-from covers.crack_tip_functions import crack_tip_functions
-from covers.cutting import cut
-from covers.enrichment import Enrichment, singular_fields
-from covers.local_functions import Monomials
-from covers.mesh_manifold import mesh_manifold
-from covers.singular_functions import SingularFunctions
-from covers.triangles import Triangles
+from covers.approximation.enrichment import Enrichment, singular_fields
+from covers.approximation.mesh_manifold import mesh_manifold
+from covers.cutting.cut import cut
+from covers.local_functions.corner_functions import corner_functions
+from covers.local_functions.crack_tip_functions import crack_tip_functions
+from covers.local_functions.polynomials import Monomials
+from covers.local_functions.singular_functions import SingularFunctions
+from covers.mathematical.triangles import Triangles
 from integration.arrays import Bools, Floats
 from integration.polygons import Polygons, diameters
 from integration.rules import PointRule, polygon_rule
@@ -36,11 +36,11 @@ from nmm.assembly.errors import field_errors
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import on_edges
-from nmm.effects.edge_supports import Method
+from nmm.constraints.edge_supports import Method
 from nmm.formulation import Solver
+from nmm.model.solver_settings import solver_for
 from nmm.solvers.linear import make_solver
-from nmm.stepping.cures import solver_for
-from nmm.stepping.equilibrium import END, hold
+from nmm.stepping.drive.linear_statics import END, hold
 
 KAPPA, SHEAR = LAW.kolosov("stress"), float(D[2, 2])
 RADIUS = 0.35

@@ -17,24 +17,24 @@ import skfem
 from scipy.sparse import csc_array
 from skfem.models.elasticity import linear_elasticity
 
-from covers.block_cover import block_manifold
-from covers.cutting import cut
-from covers.local_functions import Monomials, RigidStrain
-from covers.mesh_manifold import mesh_manifold
-from covers.triangles import Triangles
+from covers.approximation.block_manifold import block_manifold
+from covers.approximation.mesh_manifold import mesh_manifold
+from covers.cutting.cut import cut
+from covers.local_functions.polynomials import Monomials, RigidStrain
+from covers.mathematical.triangles import Triangles
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.errors import field_errors
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import on_edges
-from nmm.effects.edge_supports import Method
+from nmm.constraints.edge_supports import Method
 from nmm.formulation import Solver
 from nmm.materials.elastic import Elastic
-from nmm.solvers import plans
+from nmm.model.solver_settings import solver_for
+from nmm.solvers.frontal import symbolic as plans
 from nmm.solvers.linear import LinearSolver, make_solver
-from nmm.stepping.cures import solver_for
-from nmm.stepping.equilibrium import END, body_force, hold
+from nmm.stepping.drive.linear_statics import END, body_force, hold
 
 SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])])
 LAW = Elastic(1.0, 0.3)

@@ -33,8 +33,8 @@ from whole_scenes import SCENES
 
 from nmm.formulation import Formulation
 from nmm.results.sink import MemorySink
+from nmm.stepping.drive.verdict import FAILED
 from nmm.stepping.simulation import Simulation, prepare
-from nmm.stepping.verdict import FAILED
 
 PATH = RECORDS / "steps.jsonl"
 SIZES = (100, 1000, 10_000, 100_000)

@@ -7,7 +7,7 @@ import shapely
 from shapely.affinity import scale
 
 from integration.polygons import Polygons
-from nmm.geometry.voronoi import tessellate
+from nmm.geometry.tessellation.voronoi import tessellate
 from nmm.scene.model import Scene
 
 FRICTION = 0.6

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from nmm.stepping.audits.table import markdown
-from nmm.stepping.verdict import EXIT_CODES, MEANT
+from nmm.stepping.drive.verdict import EXIT_CODES, MEANT
 
 PAGE = Path(__file__).parent / "audits.md"
 

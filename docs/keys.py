@@ -107,9 +107,9 @@ def _example(info: FieldInfo) -> str:
 
 def parts() -> str:
     """Return the table of the options of enforcements, integrators and solvers."""
-    from nmm.contact.enforcement import ENFORCEMENTS
+    from nmm.contact.enforcement.base import ENFORCEMENTS
+    from nmm.integrators.base import INTEGRATORS
     from nmm.solvers.linear import SOLVERS
-    from nmm.stepping.integrators import INTEGRATORS
 
     rows = [PARTS]
     kinds: list[tuple[str, Registry[Any]]] = [

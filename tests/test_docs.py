@@ -81,7 +81,7 @@ def test_pages_of_keys_are_those_of_the_models_that_read_the_files():
 
 
 def test_the_keys_of_parts_name_all_that_are_built_in():
-    from covers.registry import COVERS
+    from covers.mathematical.registry import COVERS
     from nmm.interfaces.base import INTERFACE_LAWS
 
     page = (ROOT / "docs/formulation.md").read_text() + (ROOT / "docs/scene.md").read_text()

@@ -232,7 +232,7 @@ def test_forces_are_held_to_nothing_that_did_not_converge():
     from block_scenes import Motion, pile
     from enforcement import _error
 
-    from nmm.contact.enforcement import make_enforcement
+    from nmm.contact.enforcement.base import make_enforcement
     from nmm.solvers.linear import make_solver
 
     problem = Motion(pile(20, 1.0)).problem

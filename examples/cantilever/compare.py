@@ -8,13 +8,13 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.errors import field_errors
 from nmm.assembly.places import on_segment
-from nmm.effects.edge_supports import Method
+from nmm.constraints.edge_supports import Method
 from nmm.formulation import Cover, read_formulation
 from nmm.geometry import regions
+from nmm.model.build import material_law
+from nmm.model.from_polygons import solid
 from nmm.scene import read_scene
-from nmm.stepping.build import material_law
-from nmm.stepping.equilibrium import equilibrium, hold, traction
-from nmm.stepping.solid import solid
+from nmm.stepping.drive.linear_statics import equilibrium, hold, traction
 
 HERE = Path(__file__).parent
 LENGTH, DEPTH, FORCE, INERTIA = 48.0, 12.0, 1000.0, 144.0

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from nmm.fracture.stress_intensity import StressIntensity, stress_intensity
+from nmm.model.build import material_law
 from nmm.scene import read_scene
-from nmm.stepping.build import material_law
 from nmm.stepping.run import run
 
 

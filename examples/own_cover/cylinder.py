@@ -7,11 +7,11 @@ import numpy as np
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.places import at_point, on_edges
-from nmm.effects.edge_supports import Method
+from nmm.constraints.edge_supports import Method
 from nmm.formulation import Cover, read_formulation
 from nmm.materials.elastic import Elastic
-from nmm.stepping.equilibrium import equilibrium, hold, traction
-from nmm.stepping.solid import solid
+from nmm.model.from_polygons import solid
+from nmm.stepping.drive.linear_statics import equilibrium, hold, traction
 from nmm.trust import allowing
 
 HERE = Path(__file__).parent

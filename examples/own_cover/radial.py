@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from skfem import MeshTri
 
-from covers.triangles import Triangles
+from covers.mathematical.triangles import Triangles
 
 
 class Radial(Triangles):

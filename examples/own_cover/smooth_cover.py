@@ -7,7 +7,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from covers.quads import Quads
+from covers.mathematical.quads import Quads
 from integration.monomials import count, multiply
 
 # 1 - s and s with s = 3 t^2 - 2 t^3, whose slope vanishes at both ends of a cell.

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from nmm.study.threads import one_thread
+from nmm.study.cases.threads import one_thread
 
 one_thread()  # before numpy is imported
 
@@ -127,10 +127,10 @@ def measured(
 ) -> list[Path]:
     """Measure one study and write its page into a folder; what is given replaces its values."""
     import nmm
-    from nmm.study.cost import cost_study, yardsticks
-    from nmm.study.cost_report import write_cost_report
-    from nmm.study.reference import Reference
-    from nmm.study.variants import read_formulations
+    from nmm.study.cases.variants import read_formulations
+    from nmm.study.cost.cost_study import cost_study, yardsticks
+    from nmm.study.cost.reference import Reference
+    from nmm.study.cost.report import write_cost_report
 
     plan = STUDIES[name]
     files = [HERE / "formulations" / f"{one}.toml" for one in plan.formulations]
@@ -152,9 +152,9 @@ def measured(
 def summary(out: Path) -> list[Path]:
     """Write one table over all bodies: the cheapest of each family at equal error."""
     import nmm
-    from nmm.study.cost import read_records
-    from nmm.study.front import costs_at_levels
-    from nmm.study.reference import by_name, stated_reference
+    from nmm.study.cost.cost_study import read_records
+    from nmm.study.cost.front import costs_at_levels
+    from nmm.study.cost.reference import by_name, stated_reference
 
     lines = [
         "# The cheapest of each family",
@@ -200,9 +200,9 @@ def summary(out: Path) -> list[Path]:
 
 def seeds(out: Path, cases: int | None = None) -> list[Path]:
     """Break the beam over its tessellations."""
-    from nmm.study.plan import read_plan
-    from nmm.study.sweep import run_study
-    from nmm.study.sweep_report import write_sweep
+    from nmm.study.sweep.report import write_sweep
+    from nmm.study.sweep.runs import run_study
+    from nmm.study.sweep.study_file import read_plan
 
     plan, found = read_plan(HERE / "kitoh_seeds/study.toml")
     return write_sweep(run_study(plan, found[:cases], out, processes=1), out)

@@ -7,9 +7,9 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
-from covers.cut_cells import CutCells
-from covers.element_groups import ElementGroup
-from covers.manifold import Manifold
+from covers.approximation.element_groups import ElementGroup
+from covers.approximation.manifold import Manifold
+from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats, Ints
 from integration.polygons import areas
 from nmm.assembly import element_matrices
@@ -72,8 +72,9 @@ class Model:
     def pressures(self) -> Pressures | None:
         """Pressures of materials that resist volume much more than shear; None without any.
 
-        Where the volume is resisted in every point they serve edges alone (`nmm.effects.lift`) and
-        are of the degree of the strains, which are held exactly where they are polynomials.
+        Where the volume is resisted in every point they serve edges alone
+        (`nmm.constraints.volume_lift`) and are of the degree of the strains, which are held exactly
+        where they are polynomials.
 
         Raises
         ------

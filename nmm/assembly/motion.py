@@ -11,8 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from covers.manifold import Manifold
-from covers.rows import Rows
+from covers.approximation.manifold import Manifold
+from covers.approximation.rows import Rows
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 
-from covers.element_groups import ElementGroup
-from covers.manifold import Manifold
+from covers.approximation.element_groups import ElementGroup
+from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
 from integration.monomials import count
 from nmm.assembly.patch_inverse import inverse_roots

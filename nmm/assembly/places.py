@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from covers.manifold import Manifold
+from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
 from integration.segments import segment_rule
 from nmm.assembly.motion import MaterialPoints, material_points

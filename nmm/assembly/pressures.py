@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 
-from covers.manifold import Manifold
+from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
 
 

@@ -18,13 +18,29 @@ from integration.arrays import Bools, Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.contact.balance import with_springs
-from nmm.contact.bonds import Laws, break_bonds
-from nmm.contact.crossing import Motion, crossings_in
-from nmm.contact.dashpots import Dashpots, meeting_mass
-from nmm.contact.enforcement import Enforcement, make_enforcement
-from nmm.contact.evenly import solved_evenly
-from nmm.contact.following import (
+from nmm.contact.detection.crossing import Motion, crossings_in
+from nmm.contact.detection.joints import Joints, find_joints
+from nmm.contact.detection.narrow_phase import Contacts, follow, pair_key
+from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import FLUSH
+from nmm.contact.enforcement.base import Enforcement, make_enforcement
+from nmm.contact.enforcement.null_space import Conditioned, Held
+from nmm.contact.enforcement.rebalanced import solved_evenly
+from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.record import Breaking, ContactRecord, Solved
+from nmm.contact.laws.bonds import Laws, break_bonds
+from nmm.contact.laws.compliance import Softness
+from nmm.contact.laws.damage_iteration import Turns, slid_under_load
+from nmm.contact.laws.dashpots import Dashpots, meeting_mass
+from nmm.contact.laws.time_weighting import MeanSprings, end_shares
+from nmm.contact.mortar.face_means import WeakFaces
+from nmm.contact.mortar.segments import face_points
+from nmm.contact.mortar.trace_space import Traces
+from nmm.contact.points.contact_points import ContactPoints, concatenate, rows
+from nmm.contact.points.joint_points import Stations
+from nmm.contact.points.midpoint import Rows, halfway_rows
+from nmm.contact.points.reference_gap import counted
+from nmm.contact.points.tracking import (
     Apart,
     JointBook,
     answered,
@@ -33,24 +49,8 @@ from nmm.contact.following import (
     remember,
     searched_points,
 )
-from nmm.contact.halfway import Rows, halfway_rows
-from nmm.contact.held import Conditioned, Held
-from nmm.contact.joints import Joints, find_joints
-from nmm.contact.mean_springs import MeanSprings, end_shares
-from nmm.contact.memory import Memory
-from nmm.contact.narrow import Contacts, follow, pair_key
-from nmm.contact.overlaps import face_points
-from nmm.contact.points import ContactPoints, concatenate, rows
-from nmm.contact.problem import SLIDE, Limits, StepAnswer, StepProblem
-from nmm.contact.record import Breaking, ContactRecord, Solved
-from nmm.contact.reference_gap import counted
-from nmm.contact.rules import FLUSH
-from nmm.contact.softness import Softness
-from nmm.contact.stations import Stations
-from nmm.contact.surface import Surface
-from nmm.contact.traces import Traces
-from nmm.contact.turns import Turns, slid_under_load
-from nmm.contact.weak import WeakFaces
+from nmm.contact.problem.balance import with_springs
+from nmm.contact.problem.step_problem import SLIDE, Limits, StepAnswer, StepProblem
 from nmm.effects.base import Effect, Setup
 from nmm.effects.contact_momentum import Momentum
 from nmm.effects.contact_pairs import held_bodies, interface_law, pairs_of
@@ -211,10 +211,10 @@ class Contact(Effect):
 
         ``breaking`` says which break at a time: "all", the "worst" alone, or "stop": none, the step
         ends there and is no equilibrium. ``step`` is its length (s), None in statics; ``weight``
-        the share of its end in the stretch of springs (`nmm.contact.mean_springs`). ``halfway`` is
-        where forces act; at the start of the step when None. ``held`` are conditions on the
-        unknowns besides. ``near`` says whether an increment (n,) moves no further than contacts
-        were sought: no bond is judged by one that does.
+        the share of its end in the stretch of springs (`nmm.contact.laws.time_weighting`).
+        ``halfway`` is where forces act; at the start of the step when None. ``held`` are conditions
+        on the unknowns besides. ``near`` says whether an increment (n,) moves no further than
+        contacts were sought: no bond is judged by one that does.
         """
         enforcement = self._enforcement if held is None else Conditioned(self._enforcement, held)
         self._memory.moving = step is not None

@@ -8,9 +8,9 @@ from scipy.sparse import csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.contact.halfway import middle, missing_moments
-from nmm.contact.record import Solved
-from nmm.contact.sides import Sides
+from nmm.contact.iteration.record import Solved
+from nmm.contact.points.boundary_points import Sides
+from nmm.contact.points.midpoint import middle, missing_moments
 
 # Share of the penetrations by which gaps may be off for the turn of bodies within a step.
 HALFWAY = 1e-4

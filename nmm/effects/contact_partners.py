@@ -6,14 +6,14 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.contact.crossing import Motion, crossings_in, motion_of
-from nmm.contact.following import JointBook
-from nmm.contact.narrow import Contacts, find_contacts, with_pairs
-from nmm.contact.overlaps import faced
-from nmm.contact.rules import DEPTH, FLUSH
-from nmm.contact.search import NeighbourList
-from nmm.contact.sides import sides
-from nmm.contact.surface import Surface
+from nmm.contact.detection.crossing import Motion, crossings_in, motion_of
+from nmm.contact.detection.narrow_phase import Contacts, find_contacts, with_pairs
+from nmm.contact.detection.neighbour_list import NeighbourList
+from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import DEPTH, FLUSH
+from nmm.contact.mortar.segments import faced
+from nmm.contact.points.boundary_points import sides
+from nmm.contact.points.tracking import JointBook
 from nmm.effects.contact_pairs import GLUED, MISSING, Pairs, no_interface
 from nmm.errors import SceneError, SolveError
 
@@ -37,7 +37,8 @@ class Partners:
     face_points
         Points a stretch of faces that lie on each other; 0 where contact is at corners.
     whole_faces
-        Whether such faces count beyond the reach of the search (`nmm.contact.overlaps.faced`).
+        Whether such faces count beyond the reach of the search
+        (`nmm.contact.mortar.segments.faced`).
     origin
         (2,) where the axes lie in those of the scene (m), for messages.
     """

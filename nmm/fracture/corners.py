@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from covers.boundary import BoundaryEdges
+from covers.cutting.boundary import BoundaryEdges
 from integration.arrays import Floats
 from nmm.errors import FormulationError
 

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from covers.crack_tip_functions import crack_tip_functions
-from covers.cut_cells import CutCells
-from covers.enrichment import Enrichment, singular_fields
+from covers.approximation.enrichment import Enrichment, singular_fields
+from covers.cutting.cut_cells import CutCells
+from covers.local_functions.crack_tip_functions import crack_tip_functions
 from integration.arrays import Floats, Ints
 from integration.rules import polygon_rule
 from integration.segments import segment_rule

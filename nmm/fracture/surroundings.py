@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from covers.cut_cells import CutCells
+from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats
 
 # Faces that lie off the line behind the tip by more than this part of their distance are bent: a

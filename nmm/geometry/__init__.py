@@ -2,9 +2,9 @@
 
 # Eager, as the module `regions` would else hide the function of the same name.
 from nmm.geometry.blocks import Regions
-from nmm.geometry.cutting import cut
-from nmm.geometry.joint_sets import Joints
 from nmm.geometry.regions import regions
-from nmm.geometry.voronoi import tessellate
+from nmm.geometry.tessellation.cutting import cut
+from nmm.geometry.tessellation.joint_sets import Joints
+from nmm.geometry.tessellation.voronoi import tessellate
 
 __all__ = ["Joints", "Regions", "cut", "regions", "tessellate"]

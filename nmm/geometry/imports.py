@@ -21,7 +21,7 @@ import shapely
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.errors import Fault, GeometryError
-from nmm.geometry.faces import faces
+from nmm.geometry.tessellation.faces import faces
 
 _LINES = (shapely.GeometryType.LINESTRING, shapely.GeometryType.LINEARRING)
 _Entry = tuple[Any, str]  # geometry, layer

@@ -11,14 +11,14 @@ import shapely
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.errors import Fault, GeometryError, NmmError
-from nmm.geometry.amounts import refuse_many_blocks
 from nmm.geometry.blocks import Regions, joined
-from nmm.geometry.checks import outline_faults, overlap_faults
-from nmm.geometry.jointing import jointed
-from nmm.geometry.place_checks import place_faults
+from nmm.geometry.checks.amounts import refuse_many_blocks
+from nmm.geometry.checks.places import place_faults
+from nmm.geometry.checks.rings import outline_faults, overlap_faults
 from nmm.geometry.places import edge_distances, tolerance
-from nmm.geometry.seeds import seed_of
-from nmm.geometry.voronoi import tessellate
+from nmm.geometry.tessellation.jointing import jointed
+from nmm.geometry.tessellation.seeds import seed_of
+from nmm.geometry.tessellation.voronoi import tessellate
 from nmm.scene.model import Scene
 
 

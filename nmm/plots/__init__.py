@@ -4,13 +4,13 @@ Each function takes a run in memory or a stored one, draws into `ax` or a figure
 it when `path` is given and returns the axes.
 """
 
-from nmm.plots.blocks import blocks
-from nmm.plots.contact_forces import contact_forces
-from nmm.plots.covers import covers
-from nmm.plots.curves import curve, history, load_displacement, overview
-from nmm.plots.deformed import deformed, failure_mode
 from nmm.plots.gallery import draw_all
-from nmm.plots.stress import stress
+from nmm.plots.results.blocks import blocks
+from nmm.plots.results.contact_forces import contact_forces
+from nmm.plots.results.covers import covers
+from nmm.plots.results.curves import curve, history, load_displacement, overview
+from nmm.plots.results.deformed import deformed, failure_mode
+from nmm.plots.results.stress import stress
 
 __all__ = [
     "blocks",

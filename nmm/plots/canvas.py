@@ -10,7 +10,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import Polygons
-from nmm.results.writing import told, write_bytes
+from nmm.results.storage.writing import told, write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,11 +10,11 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import DamageError, FormulationError, SceneError
-from nmm.plots.contact_forces import contact_forces
-from nmm.plots.covers import covers
-from nmm.plots.curves import load_displacement, overview
-from nmm.plots.deformed import deformed, failure_mode
-from nmm.plots.stress import stress
+from nmm.plots.results.contact_forces import contact_forces
+from nmm.plots.results.covers import covers
+from nmm.plots.results.curves import load_displacement, overview
+from nmm.plots.results.deformed import deformed, failure_mode
+from nmm.plots.results.stress import stress
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
 
@@ -136,7 +136,7 @@ def _covers(run: RunData, scene: "Scene", path: Path) -> bool:
     """Lay the covers of a stored run again and draw them; blocks have none to draw."""
     from nmm.formulation import parse_formulation
     from nmm.geometry import regions
-    from nmm.stepping.covering import cover_regions
+    from nmm.model.covering import cover_regions
 
     text: str = getattr(run, "formulation", "")
     cover = parse_formulation(text).cover.model_copy(update={"enrichment": None})

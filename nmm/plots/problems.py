@@ -7,16 +7,16 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import Polygons
-from nmm.plots.blocks import blocks
 from nmm.plots.canvas import PathLike, axes_grid, extent_of
-from nmm.plots.conditions import LOAD, SUPPORT
+from nmm.plots.results.blocks import blocks
+from nmm.plots.results.conditions import LOAD, SUPPORT
 from nmm.plots.shapes import EDGE, fill
 from nmm.plots.small import save_small
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from covers.cut_cells import CutCells
+    from covers.cutting.cut_cells import CutCells
     from nmm.results.sink import RunData
     from nmm.scene import Scene
 

@@ -1,9 +1,9 @@
 """Run folders, frames, summaries and ParaView files."""
 
 from nmm.results.frame import ContactState, Frame, Topology
-from nmm.results.run_folder import RunFolder
 from nmm.results.sink import MemorySink, RunData, Sink
-from nmm.results.stored_run import StoredRun, read_run
+from nmm.results.storage.run_folder import RunFolder
+from nmm.results.storage.stored_run import StoredRun, read_run
 from nmm.results.summary import Summary
 
 __all__ = [

@@ -43,8 +43,8 @@ class Summary:
     Attributes
     ----------
     status, sentence
-        Code of the verdict, "running" or a key of `nmm.stepping.verdict.MEANT`, and the sentence
-        that explains it.
+        Code of the verdict, "running" or a key of `nmm.stepping.drive.verdict.MEANT`, and the
+        sentence that explains it.
     blocks, elements, covers, unknowns, steps, passes, frames
         Counts; covers are physical covers, passes are contact passes summed over steps, frames are
         those stored, of the motion after failure too.

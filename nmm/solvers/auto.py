@@ -22,7 +22,7 @@ class Auto(LinearSolver):
     def decompose(self, matrix: csc_array) -> Decomposition:
         """Factorise a scaled matrix; `RankDeficientError` at a zero pivot."""
         if _compiled(matrix):
-            from nmm.solvers.cholesky import Cholesky
+            from nmm.solvers.frontal.cholesky import Cholesky
 
             return Cholesky(self.refinements, self.shift).decompose(matrix)
         return SuperLU(self.refinements, self.shift).decompose(matrix)
@@ -45,7 +45,7 @@ class AutoLU(LinearSolver):
     def decompose(self, matrix: csc_array) -> Decomposition:
         """Factorise a scaled matrix; `RankDeficientError` at a zero pivot."""
         if _compiled(matrix):
-            from nmm.solvers.lu import FrontalLU
+            from nmm.solvers.frontal.lu import FrontalLU
 
             return FrontalLU(self.refinements, self.shift).decompose(matrix)
         return SuperLU(self.refinements, self.shift).unsymmetric().decompose(matrix)

@@ -314,8 +314,8 @@ SOLVERS: Registry[type[LinearSolver]] = Registry(
     LinearSolver,
     {
         "auto": "nmm.solvers.auto:Auto",
-        "cholesky": "nmm.solvers.cholesky:Cholesky",
-        "lu": "nmm.solvers.lu:FrontalLU",
+        "cholesky": "nmm.solvers.frontal.cholesky:Cholesky",
+        "lu": "nmm.solvers.frontal.lu:FrontalLU",
         "superlu": "nmm.solvers.superlu:SuperLU",
         "qdldl": "nmm.solvers.qdldl:Qdldl",
     },

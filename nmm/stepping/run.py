@@ -13,11 +13,11 @@ from nmm.results.sink import MemorySink, Sink
 from nmm.results.summary import Summary
 from nmm.solvers.threads import one_thread
 from nmm.stepping.simulation import Progress, prepare
-from nmm.stepping.step import Stepper
+from nmm.stepping.step.stepper import Stepper
 from nmm.trust import allowing, beside, given
 
 if TYPE_CHECKING:
-    from covers.manifold import Manifold
+    from covers.approximation.manifold import Manifold
     from nmm.scene.model import Scene
 
 
@@ -108,7 +108,7 @@ def run(
         When something else than a scene or a formulation is given, such as the name of a file.
     NmmError
         When scene or formulation cannot be run at all. A run that starts ends with a summary whose
-        status is a key of `nmm.stepping.verdict.MEANT` and whose sentence says why.
+        status is a key of `nmm.stepping.drive.verdict.MEANT` and whose sentence says why.
     StorageError
         When the folder cannot be written, for one as the disk is full; what was written before
         stays, and the summary there says what stopped the run.

@@ -9,32 +9,37 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from covers.block_cover import block_manifold
+from covers.approximation.block_manifold import block_manifold
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, initial_state
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 from nmm.formulation import Formulation, formulation_hash
-from nmm.geometry.amounts import refuse_many_cells
+from nmm.geometry.checks.amounts import refuse_many_cells
 from nmm.geometry.regions import regions as build_regions
+from nmm.integrators.base import make_integrator
+from nmm.model.build import block_functions, build_model
+from nmm.model.consistency import check_together
+from nmm.model.fault_places import placed
+from nmm.model.origin import MovedBack, own_origin, shifted, shifted_regions
+from nmm.model.parts import check_parts
+from nmm.model.plan import Plan, compile_plan
+from nmm.model.several_meshes import net_class
+from nmm.model.solver_settings import cures, solver_for, warnings
 from nmm.results.frame import Topology
-from nmm.results.run_folder import RunFolder
 from nmm.results.sink import Sink
+from nmm.results.storage.run_folder import RunFolder
 from nmm.results.summary import Summary
 from nmm.results.tee import Frames, Tee
 from nmm.scene import scene_hash
 from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
-from nmm.stepping.budget import Budget
-from nmm.stepping.build import block_functions, build_model
-from nmm.stepping.cures import cures, solver_for, warnings
-from nmm.stepping.dynamics import Schedule, run_in_time
-from nmm.stepping.integrators import make_integrator
-from nmm.stepping.ledger import Ledger
-from nmm.stepping.nets import net_class
-from nmm.stepping.origin import MovedBack, own_origin, shifted, shifted_regions
-from nmm.stepping.output import (
+from nmm.stepping.drive.dynamics import Schedule, run_in_time
+from nmm.stepping.drive.statics import LoadSchedule, run_load
+from nmm.stepping.drive.verdict import FAILURE, RunVerdict
+from nmm.stepping.reports.ledger import Ledger
+from nmm.stepping.reports.output import (
     FRAMES_AFTER_FAILURE,
     Choice,
     Storage,
@@ -42,15 +47,10 @@ from nmm.stepping.output import (
     choice_under_loads,
     storage,
 )
-from nmm.stepping.parts import check_parts
-from nmm.stepping.plan import Plan, compile_plan
-from nmm.stepping.recorder import Monitor, Recorder, monitors
-from nmm.stepping.relay import Lay, check_relay
-from nmm.stepping.statics import LoadSchedule, run_load
-from nmm.stepping.step import Stepper, scaled_load
-from nmm.stepping.telling import placed
-from nmm.stepping.together import check_together
-from nmm.stepping.verdict import FAILURE, RunVerdict
+from nmm.stepping.reports.recorder import Monitor, Recorder, monitors
+from nmm.stepping.step.budget import Budget
+from nmm.stepping.step.remap import Lay, check_relay
+from nmm.stepping.step.stepper import Stepper, scaled_load
 
 if TYPE_CHECKING:
     from nmm.geometry.blocks import Regions

@@ -11,13 +11,13 @@ from integration.arrays import Floats
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
 from nmm.results.frame import Frame
-from nmm.results.writing import told, write_text
+from nmm.results.storage.writing import told, write_text
 from nmm.scene import Scene
 from nmm.stepping.run import Run, run
-from nmm.study.measure import Progress, machine, method_of
-from nmm.study.memory import added_memory
+from nmm.study.cases.measure import Progress, machine, method_of
+from nmm.study.cases.memory import added_memory
+from nmm.study.cases.variants import Case
 from nmm.study.samples import Fields, Raster, fields, raster
-from nmm.study.variants import Case
 
 
 @dataclass(frozen=True)
@@ -111,8 +111,8 @@ def write_comparison(study: Comparison, out: Path) -> list[Path]:
 
 def draw(study: Comparison, path: Path) -> None:
     """Draw the page's figure."""
-    from nmm.plots.comparison import Shown, comparison
-    from nmm.results.paraview import contact_vectors
+    from nmm.plots.results.comparison import Shown, comparison
+    from nmm.results.viewing.paraview import contact_vectors
 
     made, image = study.made, study.raster.image
     x, y = curve_columns(made[0][1])

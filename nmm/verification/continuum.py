@@ -14,9 +14,9 @@ from nmm.assembly.errors import Field, FieldErrors, field_errors, stresses
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, at_point, on_edges
-from nmm.effects.edge_supports import Method
-from nmm.effects.support_methods import Springs, Support
-from nmm.effects.supports import Supports
+from nmm.constraints.edge_supports import Method
+from nmm.constraints.support_methods import Springs, Support
+from nmm.constraints.supports import Supports
 from nmm.formulation import Formulation
 from nmm.verification.base import Case
 from nmm.verification.formulations import chosen
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from nmm.effects.base import Effect
     from nmm.effects.loads import Load
     from nmm.formulation import Solver
-    from nmm.stepping.equilibrium import Equilibrium
+    from nmm.stepping.drive.linear_statics import Equilibrium
 
 POSITIONS = ((0.2, (0.3, 0.1)), (0.5, (0.61, 0.83)), (0.8, (0.42, 0.05)))
 """Angles (rad) and displacements (in cells) of meshes that follow no edge of a body."""
@@ -78,7 +78,7 @@ class Problem:
     def solve(self, solver: "Solver | None" = None) -> "Equilibrium":
         """Solve in small displacements."""
         from nmm.effects.loads import Loads
-        from nmm.stepping.equilibrium import equilibrium
+        from nmm.stepping.drive.linear_statics import equilibrium
 
         n = self.model.manifold.n_unknowns
         effects: list[Effect] = list(self.forces)
@@ -192,7 +192,7 @@ def pin(model: Model, point: npt.ArrayLike, axes: tuple[bool, bool] = (True, Tru
 
 def load(model: Model, place: Place, field: Tractions) -> "Load":
     """Load Gauss points by tractions ``field(points, normals)`` (m, 2)."""
-    from nmm.stepping.equilibrium import traction
+    from nmm.stepping.drive.linear_statics import traction
 
     return traction(model, place, field).loads[0]
 

@@ -5,18 +5,18 @@ from typing import Any, ClassVar, Self, cast
 import numpy as np
 import numpy.typing as npt
 
-from covers.graded import Graded
-from covers.quads import Quads
+from covers.mathematical.graded import Graded
+from covers.mathematical.quads import Quads
 
 
 class GradedQuads(Quads):
-    """`covers.graded.Graded` without the diagonals of its rectangles."""
+    """`covers.mathematical.graded.Graded` without the diagonals of its rectangles."""
 
     even: ClassVar[bool] = False
 
     @classmethod
     def regular(cls, bounds: npt.ArrayLike, size: Any, **options: Any) -> Self:
-        """Return a net over a box; parameters as of `covers.graded.Graded.regular`."""
+        """Return a net over a box; parameters as of `covers.mathematical.graded.Graded.regular`."""
         from skfem import MeshQuad
 
         net = Graded.regular(bounds, size, **options)

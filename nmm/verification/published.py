@@ -19,7 +19,7 @@ from nmm.scene import read_scene
 from nmm.scene.document import parse, read_text
 from nmm.scene.fields import Frozen, Number, Prose, Text
 from nmm.stepping.run import run
-from nmm.study.quantities import quantity
+from nmm.study.cases.quantities import quantity
 from nmm.verification.base import Case, Check, Checks
 
 SCENE, FORMULATION, EXPECTED = "scene.toml", "formulation.toml", "expected.toml"

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from nmm.study.orders import Order, observed_order
+from nmm.study.cost.orders import Order, observed_order
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,10 @@ from integration.arrays import Floats
 from nmm.results.frame import Frame, Topology
 
 if TYPE_CHECKING:
-    from covers.cut_cells import CutCells
+    from covers.cutting.cut_cells import CutCells
     from integration.polygons import Polygons
+    from nmm.constraints.support_methods import Support
     from nmm.effects.loads import Load
-    from nmm.effects.support_methods import Support
     from nmm.scene import Scene
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nmm
-from covers.cutting import cut
+from covers.cutting.cut import cut
 from integration.polygons import Polygons
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

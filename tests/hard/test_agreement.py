@@ -17,8 +17,8 @@ import pytest
 import tomli_w
 
 import nmm
-from nmm.results.cells import cells
-from nmm.results.paraview import output_times, write_paraview
+from nmm.results.viewing.cells import cells
+from nmm.results.viewing.paraview import output_times, write_paraview
 
 SEEDS = [*range(6), *(pytest.param(n, marks=pytest.mark.slow) for n in range(6, 60))]
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from nmm.contact.dashpots import Dashpots
-from nmm.contact.mean_springs import MeanSprings
-from nmm.contact.points import PARTS, ContactPoints
+from nmm.contact.laws.dashpots import Dashpots
+from nmm.contact.laws.time_weighting import MeanSprings
+from nmm.contact.points.contact_points import PARTS, ContactPoints
 from nmm.scene import parse_scene
 from nmm.stepping.run import run
 from nmm.verification import text

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from pydantic import BaseModel
 
-from covers.base import Cover
-from covers.registry import COVERS, cover_class
+from covers.mathematical.base import Cover
+from covers.mathematical.registry import COVERS, cover_class
 from nmm.formulation import Formulation, parse_formulation
+from nmm.model.origin import coordinate_fields, shifted
 from nmm.scene import parse_scene, read_scene
 from nmm.scene.model import Scene
-from nmm.stepping.origin import coordinate_fields, shifted
 from nmm.stepping.run import run
 
 # Pairs in metres that are no places: ways.

@@ -23,7 +23,7 @@ import pytest
 from nmm.errors import DamageError, NmmWarning, StorageError
 from nmm.plots import draw_all
 from nmm.results import Frame, MemorySink, RunFolder, read_run
-from nmm.results.paraview import write_paraview
+from nmm.results.viewing.paraview import write_paraview
 
 TESTS = Path(__file__).resolve().parents[1]
 KILLS = [*range(4), *(pytest.param(n, marks=pytest.mark.slow) for n in range(4, 40))]
@@ -268,7 +268,7 @@ def limit_files():
 
 def test_a_run_whose_files_grow_too_large_ends_in_one_line(tmp_path):
     (tmp_path / "drop.toml").write_text(SCENE)
-    script = "from nmm.cli import app; app()"
+    script = "from nmm.cli.app import app; app()"
     words = ("run", tmp_path / "drop.toml", "--out", tmp_path / "run", "-q")
     done = process(script, *words, preexec_fn=limit_files)
     assert done.returncode == 1

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nmm.contact.enforcement import ENFORCEMENTS
-from nmm.contact.penalty import Penalty
+from nmm.contact.enforcement.base import ENFORCEMENTS
+from nmm.contact.enforcement.penalty import Penalty
 from nmm.verification.hard.base import HardCase
 from nmm.verification.hard.motion import overlap, prepared, ran
 from nmm.verification.hard.page import write_page

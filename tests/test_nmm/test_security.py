@@ -12,11 +12,11 @@ from pydantic import BaseModel
 from typer.testing import CliRunner
 
 import nmm
-from nmm.cli import app
+from nmm.cli.app import app
 from nmm.formulation import Formulation, parse_formulation
 from nmm.scene import Scene, parse_scene
 from nmm.stepping.simulation import prepare
-from nmm.study.plan import Plan
+from nmm.study.sweep.study_file import Plan
 from nmm.trust import allowing
 from nmm.verification.published import Expected
 
@@ -168,7 +168,7 @@ def use(kind: str, text: str, folder: Any) -> bool:
     elif kind == "formulation":
         prepare(parse_scene(tomli_w.dumps(SCENE)), parse_formulation(text))
     elif kind == "study":
-        from nmm.study.plan import read_plan
+        from nmm.study.sweep.study_file import read_plan
 
         (folder / "study.toml").write_text(text)
         read_plan(folder / "study.toml")
@@ -220,8 +220,8 @@ def test_a_file_that_is_called_like_a_benchmark_is_no_word_of_the_user(watched):
 
 
 def test_a_study_whose_values_name_code_runs_none(watched):
-    from nmm.study.plan import read_plan
-    from nmm.study.sweep import run_study
+    from nmm.study.sweep.runs import run_study
+    from nmm.study.sweep.study_file import read_plan
 
     (watched / "scene.toml").write_text(tomli_w.dumps({**SCENE, "duration": 1e-3}))
     (watched / "study.toml").write_text(

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from nmm.assembly.motion import State
     from nmm.formulation import Formulation
     from nmm.scene.model import Scene
-    from nmm.stepping.recorder import Recorder
-    from nmm.stepping.step import Stepper
-    from nmm.stepping.verdict import RunVerdict
+    from nmm.stepping.drive.verdict import RunVerdict
+    from nmm.stepping.reports.recorder import Recorder
+    from nmm.stepping.step.stepper import Stepper
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from integration.arrays import Floats
 from integration.polygons import areas
 from nmm.assembly.motion import State
 from nmm.stepping.audits.base import Ended, Finding, Findings, percent
-from nmm.stepping.step import Stepper
+from nmm.stepping.step.stepper import Stepper
 
 
 def bodies(run: Ended) -> Findings:

@@ -5,7 +5,7 @@ import numpy as np
 from nmm.stepping.audits.base import Ended, Finding, Findings, percent
 from nmm.stepping.audits.steps import impact_lasts
 from nmm.stepping.audits.table import THRESHOLDS
-from nmm.stepping.ledger import Rise
+from nmm.stepping.reports.ledger import Rise
 
 # A rise over the run that is less than this times that of one step is the same rise.
 SAME = 1.5

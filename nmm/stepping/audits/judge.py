@@ -8,7 +8,7 @@ from nmm.stepping.audits.bodies import bodies
 from nmm.stepping.audits.energy import energy
 from nmm.stepping.audits.equations import equations
 from nmm.stepping.audits.steps import steps
-from nmm.stepping.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdict
+from nmm.stepping.drive.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdict
 
 AUDITS: tuple[Callable[[Ended], Findings], ...] = (energy, equations, bodies, steps)
 

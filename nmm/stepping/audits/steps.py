@@ -3,7 +3,7 @@
 import numpy as np
 
 from nmm.stepping.audits.base import Ended, Finding, Findings, percent
-from nmm.stepping.verdict import FAILURE
+from nmm.stepping.drive.verdict import FAILURE
 
 # Share of the turnover lost by contact from which on its duration counts.
 LOST = 0.01

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from covers.base import Cover
-from covers.registry import cover_class
+from covers.mathematical.base import Cover
+from covers.mathematical.registry import cover_class
 from integration.arrays import Floats
 from nmm.verification.base import Check, Checks
 from nmm.verification.hard.base import Document, HardCase, HardClass

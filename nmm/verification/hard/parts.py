@@ -4,11 +4,11 @@ from collections.abc import Iterator, Mapping
 from copy import deepcopy
 from typing import Any, get_args
 
-from covers.registry import COVERS
-from nmm.contact.enforcement import ENFORCEMENTS
+from covers.mathematical.registry import COVERS
+from nmm.contact.enforcement.base import ENFORCEMENTS
 from nmm.formulation import Formulation
+from nmm.integrators.base import INTEGRATORS
 from nmm.solvers.linear import SOLVERS
-from nmm.stepping.integrators import INTEGRATORS
 from nmm.verification.hard.base import Document, HardCase, Judge
 
 BLOCKS: dict[str, Document] = {

@@ -142,7 +142,7 @@ def _farthest_crack(frame: "Frame") -> float:
 
     Infinite where there is none.
     """
-    from nmm.contact.problem import BROKEN
+    from nmm.contact.problem.step_problem import BROKEN
 
     x, y = frame.contact_position.T
     across = np.abs(frame.contact_normal[:, 0]) > 0.7

@@ -64,7 +64,7 @@ class Beam(ContinuumCase):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the beam of 48 m x 12 m."""
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
 
         region = polygon([[0, -6], [48, -6], [48, 6], [0, 6]])
         model = solid(region, formulation.cover, [BEAM], "stress")
@@ -167,7 +167,7 @@ class Membrane(ContinuumCase):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the panel under a total shear of 1 N."""
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
 
         region = polygon([[0, 0], [48, 44], [48, 60], [0, 44]])
         model = solid(region, formulation.cover, [Elastic(1.0, 1 / 3)], "stress")

@@ -24,7 +24,7 @@ from nmm.verification.continuum import (
 from nmm.verification.series import Series
 
 if TYPE_CHECKING:
-    from covers.singular_functions import SingularFunctions
+    from covers.local_functions.singular_functions import SingularFunctions
 
 LAW = Elastic(1.0, 0.3)
 POWER, RATIO = 0.5444837367824639, 0.5430755788367365
@@ -35,7 +35,7 @@ RING = np.array([[0, 0], [-A, -A], [0, -B], [B, 0], [0, B], [-A, A]])
 
 def williams() -> "SingularFunctions":
     """Return the functions of a corner of 270 degrees."""
-    from covers.corner_functions import corner_functions
+    from covers.local_functions.corner_functions import corner_functions
 
     return corner_functions(1.5 * np.pi, LAW.kolosov("strain"), 1.0)
 
@@ -59,7 +59,7 @@ class Corner(ContinuumCase):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the body with exact tractions and three pins."""
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
 
         cover = formulation.cover
         if self.radius is not None:
@@ -85,7 +85,7 @@ class Exponents(Corner):
 
     def checks(self, formulation: str) -> Checks:
         """Compare the exponents and ratios of the corner functions."""
-        from covers.corner_functions import corner_functions
+        from covers.local_functions.corner_functions import corner_functions
 
         corner = williams()
         crack = corner_functions(2 * np.pi, LAW.kolosov("strain"), 1.0)

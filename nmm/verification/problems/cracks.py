@@ -50,7 +50,7 @@ class CrackedBody(ContinuumCase):
 
     def cracked(self, formulation: Formulation, ring: Floats, crack: Line) -> "Model":
         """Return the body with tip functions."""
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
 
         cover = formulation.cover.model_copy(
             update={"enrichment": Enrichment(radius=self.enriched)}

@@ -61,7 +61,7 @@ class Cylinder(ContinuumCase):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return a quarter with rollers on its axes of symmetry."""
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
 
         inner = quarter(1.0, SEGMENTS)
         region = polygon([*inner, *(2 * inner[::-1])])

@@ -6,10 +6,10 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from covers.cutting import cut
-from covers.local_functions import Monomials
-from covers.mesh_manifold import mesh_manifold
-from covers.triangles import Triangles
+from covers.approximation.mesh_manifold import mesh_manifold
+from covers.cutting.cut import cut
+from covers.local_functions.polynomials import Monomials
+from covers.mathematical.triangles import Triangles
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.model import Model
@@ -92,7 +92,7 @@ class OneField(ContinuumCase):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return a body under displacements (y^4, x^3) all around."""
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
 
         def field(p: Floats) -> Floats:
             return np.stack([p[:, 1] ** 4, p[:, 0] ** 3], axis=1)

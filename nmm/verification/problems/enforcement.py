@@ -166,8 +166,8 @@ class Rounds(Case):
         """Push on a body on a spring of 1 N/m that 1 N presses against a wall."""
         from scipy.sparse import csc_array, csr_array
 
-        from nmm.contact.augmented import Augmented
-        from nmm.contact.problem import Limits, StepProblem
+        from nmm.contact.enforcement.augmented import Augmented
+        from nmm.contact.problem.step_problem import Limits, StepProblem
         from nmm.solvers.linear import make_solver
 
         one, none = np.ones(1), np.zeros(1)

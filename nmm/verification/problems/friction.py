@@ -100,8 +100,8 @@ def driven_contact(formulation: str, path: Floats) -> tuple[Floats, Floats]:
     """
     from scipy.sparse import csc_array, csr_array
 
-    from nmm.contact.enforcement import make_enforcement
-    from nmm.contact.problem import Limits, StepProblem
+    from nmm.contact.enforcement.base import make_enforcement
+    from nmm.contact.problem.step_problem import Limits, StepProblem
     from nmm.solvers.linear import make_solver
     from nmm.verification.formulations import chosen
 
@@ -146,8 +146,8 @@ class Cone(Case):
 
     def checks(self, formulation: str) -> Checks:
         """Compare a handful of forces with the law by hand."""
-        from nmm.contact.law import project
-        from nmm.contact.problem import Limits
+        from nmm.contact.problem.coulomb import project
+        from nmm.contact.problem.step_problem import Limits
 
         # Trial N, T; tension, cohesion, friction; admissible N, T.
         table = np.array(

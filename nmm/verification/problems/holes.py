@@ -66,7 +66,7 @@ class HoledPlate(ContinuumCase):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the quarter with rollers on its axes of symmetry."""
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
 
         region = polygon([*quarter(1.0, SEGMENTS), [4, 0], [4, 4], [0, 4]])
         model = solid(region, formulation.cover, [LAW], self.plane)

@@ -96,8 +96,8 @@ class NoDivergence(ContinuumCase):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the unit square, held all around."""
-        from nmm.stepping.equilibrium import body_force
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
+        from nmm.stepping.drive.linear_statics import body_force
 
         region = polygon([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
         law = Elastic(1.0, self.poisson)

@@ -70,8 +70,8 @@ class Waves(ContinuumCase):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the square, turned with the mesh's position, held all around."""
-        from nmm.stepping.equilibrium import body_force
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
+        from nmm.stepping.drive.linear_statics import body_force
 
         position = [angle for angle, _ in POSITIONS].index(formulation.cover.angle)
         c, s = np.cos(TURNS[position]), np.sin(TURNS[position])

@@ -29,7 +29,7 @@ class FreeSquare(ContinuumCase):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Return the unit square of E = 1, nu = 0.3, density 1."""
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
 
         square = polygon([[0, 0], [1, 0], [1, 1], [0, 1]])
         law = Elastic(1.0, 0.3)
@@ -37,7 +37,7 @@ class FreeSquare(ContinuumCase):
 
     def checks(self, formulation: str) -> Checks:
         """Compare the lowest nine frequencies, and that modes are orthonormal in the mass."""
-        from nmm.stepping.modes import lowest_modes
+        from nmm.stepping.drive.modes import lowest_modes
 
         model = self.problem(on_mesh(formulation, self.size)).model
         modes = lowest_modes(model, 9)

@@ -62,7 +62,7 @@ class HoledPatch(ContinuumCase):
 
     def body(self, formulation: Formulation) -> Problem:
         """Return the body, free."""
-        from nmm.stepping.solid import solid
+        from nmm.model.from_polygons import solid
 
         return Problem(solid(HOLED, formulation.cover, [LAW], "stress"))
 
@@ -182,7 +182,7 @@ class QuadraticPatch(HoledPatch):
 
     def problem(self, formulation: Formulation) -> Problem:
         """Hold the whole boundary under the body force."""
-        from nmm.stepping.equilibrium import body_force
+        from nmm.stepping.drive.linear_statics import body_force
 
         model, d = self.body(formulation).model, LAW.stiffness("stress")
         # sxx_x + sxy_y and sxy_x + syy_y.

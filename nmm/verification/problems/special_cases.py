@@ -6,14 +6,14 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from covers.base import Cover
-from covers.block_cover import block_manifold
-from covers.cutting import cut
-from covers.local_functions import Monomials, RigidStrain
-from covers.manifold import Manifold
-from covers.mesh_manifold import mesh_manifold
-from covers.quads import Quads
-from covers.triangles import Triangles
+from covers.approximation.block_manifold import block_manifold
+from covers.approximation.manifold import Manifold
+from covers.approximation.mesh_manifold import mesh_manifold
+from covers.cutting.cut import cut
+from covers.local_functions.polynomials import Monomials, RigidStrain
+from covers.mathematical.base import Cover
+from covers.mathematical.quads import Quads
+from covers.mathematical.triangles import Triangles
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from integration.rules import polygon_rule

@@ -1,0 +1,151 @@
+"""The manifold: elements, physical covers, unknowns, boundary: the one approximation.
+
+Displacement is ``u(x) = sum_i w_i(x) sum_j f_ij(x) d_ij`` over physical covers ``i``
+(Shi 1991, 1997). DDA, finite elements, manifold and meshless formulations are manifolds made by
+different covers.
+"""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from covers.approximation.element_groups import ElementGroup
+from covers.approximation.rows import Rows, stack_groups
+from covers.cutting.boundary import BoundaryEdges
+from covers.cutting.shared_edges import shared_edges
+from integration.arrays import Floats, Ints
+from integration.polygons import Polygons
+
+
+@dataclass(frozen=True)
+class Manifold:
+    """An approximation on a cut domain, in reference coordinates.
+
+    Attributes
+    ----------
+    elements
+        E polygons: the integration domains.
+    element_body
+        (E,) connected piece of material each element belongs to.
+    element_region
+        (E,) input region each element comes from; its material hangs on it.
+    groups
+        Element groups; together they hold every element once.
+    cover_offset
+        (C + 1,) first unknown of each physical cover.
+    cover_patch, cover_body
+        (C,) mathematical patch and body of each physical cover.
+    boundary
+        Edges of the bodies.
+    rigid_modes
+        (n_unknowns, 3 B) unknowns of unit translations along x and y and of the unit linear
+        rotation about the body's centroid, three columns a body.
+    stretch_modes
+        (n_unknowns, B) unknowns of the field ``X - Xc`` of each body.
+    body_centroid, body_area
+        (B, 2) and (B,).
+    dependent
+        Number of functions known to depend on the others; above zero the system is singular and
+        displacements are unique all the same (`covers.approximation.dependence`).
+    dependent_covers
+        Number of covers whose polynomials take part in them.
+    reproduction
+        Highest degree of the polynomials that displacements across elements hold everywhere; None
+        where every block has covers of its own.
+    richest
+        The same where local functions are of the highest degree.
+    fitted, enriched
+        Number of covers whose coordinates fit what a cut has left of them, and of those that
+        carry singular functions.
+    mended
+        What was done to patches that reach the material too little, in words, and to how many.
+    singular
+        (k, 2) points whose singular functions covers carry (m).
+    """
+
+    elements: Polygons
+    element_body: Ints
+    element_region: Ints
+    groups: tuple[ElementGroup, ...]
+    cover_offset: Ints
+    cover_patch: Ints
+    cover_body: Ints
+    boundary: BoundaryEdges
+    rigid_modes: csc_array
+    stretch_modes: csc_array
+    body_centroid: Floats
+    body_area: Floats
+    dependent: int = 0
+    dependent_covers: int = 0
+    reproduction: int | None = None
+    richest: int | None = None
+    fitted: int = 0
+    enriched: int = 0
+    mended: dict[str, int] = field(default_factory=dict)
+    singular: Floats = field(default_factory=lambda: np.empty((0, 2)))
+
+    @property
+    def n_unknowns(self) -> int:
+        """Number of unknowns."""
+        return int(self.cover_offset[-1])
+
+    @property
+    def n_bodies(self) -> int:
+        """Number of connected pieces of material."""
+        return len(self.body_area)
+
+    @property
+    def n_covers(self) -> int:
+        """Number of physical covers."""
+        return len(self.cover_patch)
+
+    @cached_property
+    def _place(self) -> tuple[Ints, Ints]:
+        group = np.empty(len(self.elements), dtype=np.int64)
+        index = np.empty(len(self.elements), dtype=np.int64)
+        for number, part in enumerate(self.groups):  # a handful of groups
+            group[part.elements] = number
+            index[part.elements] = np.arange(len(part.elements))
+        return group, index
+
+    @cached_property
+    def shared_edges(self) -> tuple[Ints, Ints]:
+        """The two elements (p,) of each edge inside a body."""
+        return shared_edges(self.elements, self.element_body, self.boundary)
+
+    def rows(self, elements: Ints, points: Floats) -> Rows:
+        """Evaluation rows of the displacement at ``points`` (m, 2) in ``elements`` (m,)."""
+        return Rows(*self._stack(elements, points, "displacement_rows"))
+
+    def scalar_rows(self, elements: Ints, points: Floats) -> tuple[Ints, Floats]:
+        """Numbers (m, S) of the scalar functions at ``points`` and their values (m, S).
+
+        Function ``k`` goes with the unknowns ``2 k`` of x and ``2 k + 1`` of y. Only where no
+        group combines its functions.
+        """
+        unknowns, values = self._stack(elements, points, "values")
+        return unknowns[:, ::2] // 2, values[:, : unknowns.shape[1] // 2]
+
+    def gradient_rows(self, elements: Ints, points: Floats) -> tuple[Ints, Floats]:
+        """Unknowns (m, L) and rows (m, 2, 2, L) of ``d u_c / d x_j`` at reference points."""
+        return self._stack(elements, points, "gradient_rows")
+
+    def _stack(self, elements: Ints, points: Floats, what: str) -> tuple[Ints, Floats]:
+        group, index = self._place
+        wanted = group[elements]
+        parts = []
+        for number in np.unique(wanted):  # a handful of groups
+            position = np.flatnonzero(wanted == number)
+            inside = index[elements[position]]
+            part = self.groups[number]
+            parts.append(
+                (position, part.unknowns[inside], getattr(part, what)(inside, points[position]))
+            )
+        return stack_groups(parts, len(elements))
+
+    @cached_property
+    def vertex_rows(self) -> Rows:
+        """Evaluation rows of the elements' vertices (``elements.points``)."""
+        return self.rows(self.elements.polygon_of_point, self.elements.points)

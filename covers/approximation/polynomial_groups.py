@@ -1,0 +1,173 @@
+"""Element groups from polynomial weights: weight times local function, in element coordinates."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.approximation.element_groups import PolynomialGroup
+from covers.local_functions.polynomials import LocalFunctions
+from covers.small_matrices import inverses
+from integration.arrays import Floats, Ints
+from integration.moments import moments
+from integration.monomials import affine, count, multiply
+from integration.polygons import Polygons
+
+
+@dataclass(frozen=True)
+class PhysicalCovers:
+    """Physical covers as arrays.
+
+    Attributes
+    ----------
+    patch, body
+        (C,) mathematical patch and body.
+    centre, matrix
+        (C, 2) and (C, 2, 2) local coordinates ``matrix (x - centre)`` of the local functions.
+    first_unknown
+        (C,) first unknown of each.
+    """
+
+    patch: Ints
+    body: Ints
+    centre: Floats
+    matrix: Floats
+    first_unknown: Ints
+
+
+@dataclass(frozen=True)
+class Weights:
+    """Polynomial weights on elements: coefficients (d, k, K) in the elements' coordinates."""
+
+    degree: int
+    table: Floats
+
+
+@dataclass(frozen=True)
+class Shapes:
+    """Elements of a group and the distinct shapes among them.
+
+    Attributes
+    ----------
+    elements
+        (n,) indices into the manifold's elements.
+    shape
+        (n,) shape of each.
+    first
+        (d,) for each shape the first element of the group that has it.
+    origin
+        (n, 2) origin of the elements' coordinates.
+    matrix
+        (d, 2, 2) their matrix, of one element of the shape for all.
+    """
+
+    elements: Ints
+    shape: Ints
+    first: Ints
+    origin: Floats
+    matrix: Floats
+
+
+def polynomial_group(
+    shapes: Shapes,
+    polygons: Polygons,
+    active: Ints,
+    weights: Weights,
+    functions: Sequence[LocalFunctions],
+    covers: PhysicalCovers,
+) -> PolynomialGroup:
+    """Build the group of elements on which ``k`` covers are active.
+
+    Parameters
+    ----------
+    shapes
+        The elements.
+    polygons
+        One polygon a shape, that of its first element.
+    active
+        (n, k) physical covers of each element.
+    weights
+        The covers' weights on the first element of each shape.
+    functions
+        Local functions of the k covers, the same for all elements.
+    covers
+        All physical covers.
+    """
+    highest = max(item.degree for item in functions)
+    degree = weights.degree + highest
+    parts, plain = [], []
+    for slot, item in enumerate(functions):  # three or four covers
+        local = _local_functions(item, covers, active[shapes.first, slot], shapes)
+        weight = weights.table[:, slot, None]
+        table = multiply(weight, weights.degree, local, item.degree)
+        parts.append(np.pad(table, ((0, 0), (0, 0), (0, count(degree) - table.shape[2]))))
+        plain.append(np.pad(local, ((0, 0), (0, 0), (0, count(highest) - local.shape[2]))))
+    return PolynomialGroup(
+        elements=shapes.elements,
+        unknowns=unknowns_of(functions, covers, active),
+        combination=combined(functions),
+        shape=shapes.shape,
+        degree=degree,
+        table=np.concatenate(parts, axis=1),
+        local_degree=highest,
+        local=np.concatenate(plain, axis=1),
+        cover=covers_of(functions),
+        origin=shapes.origin,
+        matrix=shapes.matrix,
+        moments=_moments(polygons, 2 * degree, shapes),
+    )
+
+
+def unknowns_of(functions: Sequence[LocalFunctions], covers: PhysicalCovers, active: Ints) -> Ints:
+    """Unknowns (n, L) of elements, cover after cover."""
+    first = covers.first_unknown[active]
+    return np.concatenate(
+        [first[:, [k]] + np.arange(item.n_unknowns) for k, item in enumerate(functions)], axis=1
+    )
+
+
+def covers_of(functions: Sequence[LocalFunctions]) -> Ints:
+    """Place (S,) of the cover of each scalar function."""
+    return np.repeat(np.arange(len(functions)), [item.n_functions for item in functions])
+
+
+def combined(functions: Sequence[LocalFunctions]) -> Floats | None:
+    """Combination (2S, L) of all covers of an element; None is the identity."""
+    if all(item.combination is None for item in functions):
+        return None
+    size = sum(2 * item.n_functions for item in functions)
+    out = np.zeros((size, sum(item.n_unknowns for item in functions)))
+    row = column = 0
+    for item in functions:  # three or four covers
+        part = item.combination
+        block = np.eye(item.n_unknowns) if part is None else part
+        out[row : row + len(block), column : column + block.shape[1]] = block
+        row, column = row + len(block), column + block.shape[1]
+    return out
+
+
+def _moments(polygons: Polygons, degree: int, shapes: Shapes) -> Floats:
+    """Moments in the elements' coordinates, in which needles are as well shaped as squares."""
+    owner = polygons.polygon_of_point
+    origin = shapes.origin[shapes.first]
+    local = np.einsum("pij,pj->pi", shapes.matrix[owner], polygons.points - origin[owner])
+    found = moments(polygons.with_points(local), degree, np.zeros(2))
+    return np.asarray(found / np.abs(np.linalg.det(shapes.matrix))[:, None])
+
+
+def _local_functions(
+    functions: LocalFunctions, covers: PhysicalCovers, cover: Ints, shapes: Shapes
+) -> Floats:
+    """Monomials of covers (d,) as polynomials (d, S, K) of the elements' coordinates."""
+    d, n_functions, size = len(cover), functions.n_functions, count(functions.degree)
+    matrix = covers.matrix[cover] @ inverses(shapes.matrix)
+    away = shapes.origin[shapes.first] - covers.centre[cover]
+    shift = np.einsum("nij,nj->ni", covers.matrix[cover], away)
+    monomials = np.tile(np.eye(n_functions, size), (d, 1))
+    moved = affine(
+        monomials,
+        functions.degree,
+        np.repeat(matrix, n_functions, axis=0),
+        np.repeat(shift, n_functions, axis=0),
+    )
+    return moved.reshape(d, n_functions, size)

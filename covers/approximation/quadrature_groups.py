@@ -1,0 +1,166 @@
+"""Element groups integrated by point rules: weights or local functions that are no polynomials."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from covers.approximation.element_groups import ElementGroup, one_cover
+from integration.arrays import Floats, Ints
+from integration.rules import PointRule
+
+# Points whose functions are held in memory at once.
+CHUNK = 40_000
+
+
+class Fields(ABC):
+    """Scalar functions ``phi_s`` on elements, given at points."""
+
+    @property
+    def extends(self) -> bool:
+        """Whether they have values beyond the element."""
+        return False
+
+    @property
+    def degree(self) -> int:
+        """Degree of polynomials that come near to them on an element."""
+        return 2
+
+    @property
+    @abstractmethod
+    def cover(self) -> Ints:
+        """(S,) place of the cover of each function among those of an element."""
+
+    @property
+    def monomial_slots(self) -> Ints:
+        """(S,) the same of weighted monomials; -1 for functions that are none."""
+        return self.cover
+
+    @abstractmethod
+    def local_values(self, index: Ints, points: Floats) -> Floats:
+        """Values (m, S) of the functions without their weights."""
+
+    @abstractmethod
+    def evaluate(self, index: Ints, points: Floats) -> tuple[Floats, Floats]:
+        """Values (m, S) and gradients (m, S, 2) at points (m, 2) in elements ``index`` (m,)."""
+
+
+@dataclass(frozen=True)
+class QuadratureGroup(ElementGroup):
+    """Elements whose functions are known at points.
+
+    Attributes
+    ----------
+    fields
+        The functions.
+    rule
+        Points and weights; ``owner`` counts within the group.
+    """
+
+    fields: Fields
+    rule: PointRule
+
+    @property
+    def degree(self) -> int:
+        """See `Fields.degree`."""
+        return self.fields.degree
+
+    @property
+    def extends(self) -> bool:
+        """See `ElementGroup.extends`."""
+        return self.fields.extends
+
+    @property
+    def slots(self) -> Ints:
+        """See `ElementGroup.slots`."""
+        return self.fields.monomial_slots
+
+    def values(self, index: Ints, points: Floats) -> Floats:
+        """See `ElementGroup.values`."""
+        return self.fields.evaluate(index, points)[0]
+
+    def gradients(self, index: Ints, points: Floats) -> Floats:
+        """See `ElementGroup.gradients`."""
+        return self.fields.evaluate(index, points)[1]
+
+    def products(self) -> Floats:
+        """See `ElementGroup.products`."""
+        return self._integrals[0]
+
+    def lumped_products(self) -> Floats:
+        """See `ElementGroup.lumped_products`."""
+        found = np.zeros((len(self.elements), self._size, self._size))
+        for some, points in self._batches():
+            value, _, weight = self._at(some, points)
+            flat = np.repeat(some, points.shape[1])
+            local = self.fields.local_values(flat, self.rule.points[points.ravel()])
+            heavy = weight[:, :, None] * value
+            found[some] = np.swapaxes(heavy, 1, 2) @ local.reshape(value.shape)
+        return one_cover(found, self.fields.cover)
+
+    def gradient_products(self) -> Floats:
+        """See `ElementGroup.gradient_products`."""
+        return self._integrals[1]
+
+    def value_gradients(self, of: Ints) -> Floats:
+        """See `ElementGroup.value_gradients`."""
+        found = np.zeros((len(self.elements), len(of), self._size, 2))
+        for some, points in self._batches():
+            value, slope, weight = self._at(some, points)
+            heavy = np.swapaxes(weight[:, :, None] * value[:, :, of], 1, 2)
+            found[some] = np.stack([heavy @ slope[..., 0], heavy @ slope[..., 1]], axis=-1)
+        return found
+
+    def integrals(self) -> Floats:
+        """See `ElementGroup.integrals`."""
+        return self._integrals[2]
+
+    def gradient_integrals(self) -> Floats:
+        """See `ElementGroup.gradient_integrals`."""
+        return self._integrals[3]
+
+    @cached_property
+    def _integrals(self) -> tuple[Floats, Floats, Floats, Floats]:
+        n, size = len(self.elements), self._size
+        products, gradient_products = np.zeros((n, size, size)), np.zeros((n, 3, size, size))
+        integrals, gradient_integrals = np.zeros((n, size)), np.zeros((n, size, 2))
+        for some, points in self._batches():
+            value, slope, weight = self._at(some, points)
+            heavy = weight[:, :, None] * value
+            products[some] = np.swapaxes(heavy, 1, 2) @ value
+            x, y = slope[..., 0], slope[..., 1]
+            wx, wy = (np.swapaxes(weight[:, :, None] * g, 1, 2) for g in (x, y))
+            gradient_products[some] = np.stack([wx @ x, wx @ y, wy @ y], axis=1)
+            integrals[some] = heavy.sum(axis=1)
+            gradient_integrals[some] = np.einsum("nq,nqsj->nsj", weight, slope)
+        return products, gradient_products, integrals, gradient_integrals
+
+    def _batches(self) -> Iterator[tuple[Ints, Ints]]:
+        """Elements (k,) and their points (k, q), in batches of equal numbers of points."""
+        counts = np.bincount(self.rule.owner, minlength=len(self.elements))
+        begin = np.cumsum(counts) - counts
+        for number in np.unique(counts[counts > 0]):  # elements of equal numbers of points
+            alike = np.flatnonzero(counts == number)
+            most = max(CHUNK // int(number), 1)
+            for first in range(0, len(alike), most):
+                some = alike[first : first + most]
+                yield some, begin[some, None] + np.arange(number)
+
+    def _at(self, elements: Ints, points: Ints) -> tuple[Floats, Floats, Floats]:
+        n, q = points.shape
+        flat = points.ravel()
+        value, slope = self.fields.evaluate(np.repeat(elements, q), self.rule.points[flat])
+        size = value.shape[1]
+        return (
+            value.reshape(n, q, size),
+            slope.reshape(n, q, size, 2),
+            self.rule.weights[flat].reshape(n, q),
+        )
+
+    @property
+    def _size(self) -> int:
+        if self.combination is None:
+            return int(self.unknowns.shape[1]) // 2
+        return int(self.combination.shape[0]) // 2

@@ -1,0 +1,137 @@
+"""Boundaries of cut bodies: outer edges, interfaces, both faces of cracks; and crack tips."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.cutting.boundary import BoundaryEdges
+from covers.cutting.faces import Faces
+from covers.cutting.pieces import Pieces, joined_sides, neighbours
+from integration.arrays import Bools, Floats, Ints
+
+MAX_TURNS = 10_000
+
+
+@dataclass(frozen=True)
+class CutBoundary(BoundaryEdges):
+    """Boundary edges of cut bodies.
+
+    Attributes
+    ----------
+    crack
+        (n,) crack whose face the edge is, or -1 on the boundary of the region.
+    opposite
+        (n,) the edge with the same ends on the other side of a crack or of the interface with
+        another region, or -1.
+    """
+
+    crack: Ints
+    opposite: Ints
+
+
+@dataclass(frozen=True)
+class CrackTips:
+    """Ends of cracks inside bodies.
+
+    Attributes
+    ----------
+    point
+        (n, 2) tips, m.
+    direction
+        (n, 2) unit vectors along which the cracks would go on.
+    element
+        (n,) element ahead of each tip.
+    crack
+        (n,) crack that ends there.
+    """
+
+    point: Floats
+    direction: Floats
+    element: Ints
+    crack: Ints
+
+    def __len__(self) -> int:
+        return len(self.element)
+
+
+def boundary_of(faces: Faces, pieces: Pieces, group: Ints) -> tuple[CutBoundary, CrackTips]:
+    """Return the boundary edges of a layer, bodies still to be filled in, and its crack tips.
+
+    Raises
+    ------
+    ValueError
+        A boundary that cannot be followed.
+    """
+    half = faces.half
+    element = pieces.of_loop[half.loop]
+    across = neighbours(faces, pieces, element)
+    joined = joined_sides(faces, pieces, element, across, group)
+    is_rim = (element >= 0) & ~joined
+    rim = np.flatnonzero(is_rim)
+    number = np.full(len(element), -1, dtype=np.int64)
+    number[rim] = np.arange(len(rim))
+    following = number[_next_on_rim(faces, rim, is_rim)]
+    previous = np.empty_like(following)
+    previous[following] = np.arange(len(rim))
+    parted = (across >= 0) & (group[pieces.region[element]] == group[pieces.region[across]])
+    crack = np.where(parted, np.repeat(faces.crack, 2), -1)
+    boundary = CutBoundary(
+        start=faces.points[half.origin[rim]],
+        end=faces.points[half.head[rim]],
+        element=element[rim],
+        body=np.full(len(rim), -1, dtype=np.int64),
+        next=following,
+        previous=previous,
+        crack=crack[rim],
+        opposite=number[rim ^ 1],
+    )
+    return boundary, _tips(faces, element, rim, crack)
+
+
+def _next_on_rim(faces: Faces, rim: Ints, is_rim: Bools) -> Ints:
+    """Following edge of the boundary: turn about the head through joined faces."""
+    following = faces.half.next[rim]
+    for _ in range(MAX_TURNS):  # passes over all edges at once, as many as faces about a point
+        inner = np.flatnonzero(~is_rim[following])
+        if not len(inner):
+            return following
+        following[inner] = faces.half.next[following[inner] ^ 1]
+    raise ValueError(
+        f"boundary: no following edge at {faces.points[faces.half.head[rim[inner[0]]]].tolist()}: "
+        "a closed boundary expected: report the regions and cracks that lead here"
+    )
+
+
+def _tips(faces: Faces, element: Ints, rim: Ints, crack: Ints) -> CrackTips:
+    """Points where one crack face edge ends and no other boundary passes."""
+    half, n = faces.half, len(faces.steps)
+    cracked = rim[crack[rim] >= 0]
+    once = cracked[cracked % 2 == 0]
+    ends = np.bincount(faces.edges[once // 2].ravel(), minlength=n)
+    outer = np.zeros(n, dtype=bool)
+    outer[faces.edges[rim[crack[rim] < 0] // 2]] = True
+    back = np.flatnonzero(
+        ((ends == 1) & ~outer)[half.origin] & np.isin(np.arange(2 * len(faces.edges)), cracked)
+    )
+    tip = half.origin[back]
+    ahead = faces.steps[tip] - faces.steps[half.head[back]]
+    direction = ahead / np.hypot(*ahead.T)[:, None]
+    return CrackTips(
+        faces.points[tip], direction, element[_sectors(faces, tip, direction)], crack[back]
+    )
+
+
+def _sectors(faces: Faces, points: Ints, direction: Floats) -> Ints:
+    """Half-edge out of each point whose face holds the direction."""
+    half = faces.half
+    row = np.full(len(faces.steps), -1, dtype=np.int64)
+    row[points] = np.arange(len(points))
+    out = np.flatnonzero(row[half.origin] >= 0)
+    tip = row[half.origin[out]]
+    wanted = np.arctan2(direction[tip, 1], direction[tip, 0])
+    # A closure ahead of the tip has the direction itself up to rounding: count it as before.
+    turn = np.mod(wanted - half.angle[out] + 1e-9, 2 * np.pi)
+    order = np.lexsort((turn, tip))
+    return out[order[np.unique(tip[order], return_index=True)[1]]]

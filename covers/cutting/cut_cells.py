@@ -1,0 +1,173 @@
+"""The result of a cut: elements, physical covers, boundary and tips over all layers of regions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+
+from covers.cutting.connectivity import Joins, bodies, physical_covers
+from covers.cutting.cut_boundary import CrackTips, CutBoundary
+from covers.cutting.domain import Domain
+from covers.cutting.pieces import Pieces
+from covers.cutting.resolution import Resolution
+from covers.mathematical.base import Cover
+from integration.arrays import Bools, Ints
+from integration.polygons import Polygons
+
+# Part of a region's area, and strip along its boundary in steps, that may stay uncovered.
+UNCOVERED = 1e-9
+RIM = 8
+
+
+@dataclass(frozen=True, eq=False)
+class CutCells:
+    """Elements and physical covers of a cut cover.
+
+    Attributes
+    ----------
+    elements : Polygons
+        E elements, one simple counter-clockwise ring each, in the cover's coordinates. Elements of
+        one cell with equal covers are parts of one manifold element, divided by a closure.
+    element_cell, element_region, element_body : (E,)
+        cell, region, and connected piece of material of each element. Bodies are numbered in the
+        order of regions: without cracks body b is region b when every region is connected.
+    element_whole : (E,)
+        whether the element is its cell, corner by corner in the cell's order: with
+        ``cover.cell_shape`` this says which elements are congruent.
+    covers : (E, k)
+        physical covers of each element in the order of ``cover.cell_patches``; -1 fills up rows of
+        meshless covers.
+    cover_patch, cover_region, cover_body : (P,)
+        patch, region (of the first element) and body of each physical cover, ordered by patch.
+    boundary : CutBoundary
+        edges of all bodies, faces of cracks included, the material on the left hand.
+    tips : CrackTips
+        ends of cracks inside bodies.
+    step : float
+        resolution: points and lines nearer than this are one, m.
+    crack_tolerance : float
+        greatest distance by which cracks were moved onto vertices and lines, m.
+    slivers, sliver_area
+        number and total area (m2) of faces below the smallest area, left out.
+    """
+
+    elements: Polygons
+    element_cell: Ints
+    element_region: Ints
+    element_body: Ints
+    element_whole: Bools
+    covers: Ints
+    cover_patch: Ints
+    cover_region: Ints
+    cover_body: Ints
+    boundary: CutBoundary
+    tips: CrackTips
+    step: float
+    crack_tolerance: float
+    slivers: int
+    sliver_area: float
+
+    @property
+    def n_covers(self) -> int:
+        """Number of physical covers."""
+        return len(self.cover_patch)
+
+    @property
+    def n_bodies(self) -> int:
+        """Number of connected pieces of material."""
+        return int(self.element_body.max(initial=-1)) + 1
+
+
+@dataclass(frozen=True)
+class Layer:
+    """What the cut of one layer of regions gives; elements are numbered within it."""
+
+    pieces: Pieces
+    joins: Joins
+    boundary: CutBoundary
+    tips: CrackTips
+    touched: Bools
+
+
+def assembled(
+    cover: Cover, domain: Domain, layers: list[Layer], resolution: Resolution, moved: float
+) -> CutCells:
+    """All layers as one: elements one after the other, then covers and bodies over all."""
+    pieces = [layer.pieces for layer in layers]
+    elements = Polygons.concatenate([part.elements for part in pieces])
+    cell = np.concatenate([part.cell for part in pieces])
+    region = np.concatenate([part.region for part in pieces])
+    _check_covered(domain, elements, region, pieces, resolution)
+    first = np.cumsum([0] + [len(part.cell) for part in pieces])[:-1]
+    joins = Joins(
+        np.concatenate([layer.joins.first + n for layer, n in zip(layers, first, strict=True)]),
+        np.concatenate([layer.joins.second + n for layer, n in zip(layers, first, strict=True)]),
+        np.concatenate([layer.joins.start for layer in layers]),
+        np.concatenate([layer.joins.end for layer in layers]),
+    )
+    body = bodies(len(cell), region, joins)
+    touched = np.logical_or.reduce([layer.touched for layer in layers])
+    parts = physical_covers(cover, elements, cell, region, joins, touched)
+    return CutCells(
+        elements=elements,
+        element_cell=cell,
+        element_region=region,
+        element_body=body,
+        element_whole=np.concatenate([part.whole for part in pieces]),
+        covers=parts.of_element,
+        cover_patch=parts.patch,
+        cover_region=region[parts.first],
+        cover_body=body[parts.first],
+        boundary=_one_boundary([layer.boundary for layer in layers], first, body),
+        tips=_all_tips([layer.tips for layer in layers], first),
+        step=resolution.step,
+        crack_tolerance=moved,
+        slivers=sum(part.lost for part in pieces),
+        sliver_area=sum(part.lost_area for part in pieces),
+    )
+
+
+def _check_covered(
+    domain: Domain, elements: Polygons, region: Ints, pieces: list[Pieces], resolution: Resolution
+) -> None:
+    wanted = domain.regions.areas
+    found = np.bincount(region, elements.areas, minlength=len(domain))
+    lost = sum(part.lost_area for part in pieces)
+    rounding = RIM * resolution.step * np.asarray(shapely.length(domain.shapes))
+    short = np.abs(found - wanted) > UNCOVERED * wanted + rounding + lost
+    if short.any():
+        n = int(np.flatnonzero(short)[0])
+        raise ValueError(
+            f"region {n}: cells cover an area of {found[n]:.12g} of {wanted[n]:.12g}: a cover that "
+            "reaches around it expected: make the cover over larger bounds"
+        )
+
+
+def _one_boundary(parts: list[CutBoundary], first_element: Ints, body: Ints) -> CutBoundary:
+    first = np.cumsum([0] + [len(part) for part in parts])[:-1]
+    shifted = [
+        replace(
+            part,
+            element=part.element + element,
+            next=part.next + edge,
+            previous=part.previous + edge,
+            opposite=np.where(part.opposite >= 0, part.opposite + edge, -1),
+        )
+        for part, element, edge in zip(parts, first_element, first, strict=True)
+    ]
+    names = ("start", "end", "element", "body", "next", "previous", "crack", "opposite")
+    whole = CutBoundary(
+        **{name: np.concatenate([getattr(part, name) for part in shifted]) for name in names}
+    )
+    return replace(whole, body=body[whole.element])
+
+
+def _all_tips(parts: list[CrackTips], first_element: Ints) -> CrackTips:
+    return CrackTips(
+        np.concatenate([part.point for part in parts]),
+        np.concatenate([part.direction for part in parts]),
+        np.concatenate([part.element + n for part, n in zip(parts, first_element, strict=True)]),
+        np.concatenate([part.crack for part in parts]),
+    )

@@ -1,0 +1,73 @@
+"""Faces of a plane graph: half-edges with the face on their left hand (Muller, Preparata 1978)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.cutting.components import components
+from integration.arrays import Floats, Ints
+
+
+@dataclass(frozen=True)
+class HalfEdges:
+    """Half-edges ``2 e`` (first to second point of edge ``e``) and ``2 e + 1`` (back).
+
+    Attributes
+    ----------
+    origin, head : (2 n,)
+        points each half-edge leads from and to.
+    next, previous : (2 n,)
+        half-edges that follow and precede it around the face on its left hand.
+    loop : (2 n,)
+        number of the closed walk it belongs to.
+    angle : (2 n,)
+        direction, rad.
+    """
+
+    origin: Ints
+    head: Ints
+    next: Ints
+    previous: Ints
+    loop: Ints
+    angle: Floats
+
+    @property
+    def n_loops(self) -> int:
+        """Number of closed walks."""
+        return int(self.loop.max(initial=-1)) + 1
+
+
+def half_edges(steps: Floats, edges: Ints) -> HalfEdges:
+    """Return the half-edges of noded edges (n, 2) between points ``steps`` (V, 2)."""
+    origin, head = edges.ravel(), edges[:, ::-1].ravel()
+    away = steps[head] - steps[origin]
+    angle = np.arctan2(away[:, 1], away[:, 0])
+    order = np.lexsort((angle, origin))
+    ordered = origin[order]
+    begins = np.ones(len(order), dtype=bool)
+    begins[1:] = ordered[1:] != ordered[:-1]
+    start = np.flatnonzero(begins)
+    clockwise = np.empty_like(order)
+    clockwise[order] = np.roll(order, 1)
+    last = np.append(start[1:], len(order)) - 1
+    clockwise[order[start]] = order[last]
+    following = clockwise[np.arange(len(origin)) ^ 1]
+    previous = np.empty_like(following)
+    previous[following] = np.arange(len(following))
+    loop = components(len(origin), np.arange(len(origin)), following)
+    return HalfEdges(origin, head, following, previous, loop, angle)
+
+
+def walks(following: Ints, start: Ints, length: Ints) -> Ints:
+    """Members of closed walks (k,), one after the other, each from its ``start`` (k,)."""
+    begin = np.cumsum(length) - length
+    out = np.empty(int(length.sum()), dtype=np.int64)
+    current, active, step = start.copy(), np.arange(len(start)), 0
+    while len(active):  # one pass for each place in the longest walk, over all walks at once
+        out[begin[active] + step] = current
+        step += 1
+        active = active[length[active] > step]
+        current = following[out[begin[active] + step - 1]]
+    return out

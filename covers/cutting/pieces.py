@@ -1,0 +1,172 @@
+"""Elements of one layer of regions: whole cells, and the faces of cells that lines touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.cutting.connectivity import Joins
+from covers.cutting.faces import Cells, Faces
+from covers.cutting.half_edges import walks
+from covers.mathematical.base import Cover
+from integration.arrays import Bools, Floats, Ints
+from integration.polygons import Polygons
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """Elements of a layer.
+
+    Attributes
+    ----------
+    elements : Polygons
+        one simple counter-clockwise ring each, in the order of cells.
+    cell, region : (E,)
+        cell and region of each element.
+    whole : (E,)
+        whether the element is its cell, corner by corner in the cell's order.
+    of_loop : (loops,)
+        element of each face, or -1.
+    of_cell : (C,)
+        element of each cell that no line touches, or -1.
+    lost_area : float
+        area of the slivers left out, m2.
+    lost : int
+        number of them.
+    """
+
+    elements: Polygons
+    cell: Ints
+    region: Ints
+    whole: Bools
+    of_loop: Ints
+    of_cell: Ints
+    lost_area: float
+    lost: int
+
+
+# Faces less than about twice this many steps of the resolution wide are rounding.
+THIN = 1.0
+
+
+def pieces_of(cover: Cover, cells: Cells, faces: Faces, smallest: float, step: float) -> Pieces:
+    """Return the elements.
+
+    Parameters
+    ----------
+    smallest : float
+        faces of less than this part of their cell's area are left out.
+    step : float
+        resolution, m: faces of this width are left out too.
+    """
+    half = faces.half
+    area, perimeter = _loop_sizes(faces)
+    divided = np.zeros(half.n_loops, dtype=bool)
+    divided[half.loop[np.repeat(faces.closure, 2)]] = True
+    material = (faces.cell >= 0) & (faces.region >= 0)
+    cell_area = np.where(material, cover.cells.areas[faces.cell], np.inf)
+    # A sliver beside a closure is part of its neighbour's covers and does no harm.
+    least = np.maximum(smallest * cell_area, THIN * step * perimeter)
+    sliver = material & ~divided & (area < least)
+
+    loops, whole_cells = np.flatnonzero(material & ~sliver), np.flatnonzero(cells.whole)
+    cell = np.concatenate([faces.cell[loops], whole_cells])
+    region = np.concatenate([faces.region[loops], cells.region[whole_cells]])
+    order = np.lexsort((region, cell))
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    of_loop = np.full(half.n_loops, -1, dtype=np.int64)
+    of_loop[loops] = rank[: len(loops)]
+    of_cell = np.full(len(cells.touched), -1, dtype=np.int64)
+    of_cell[whole_cells] = rank[len(loops) :]
+    elements, whole = _rings(cover, faces, of_loop, of_cell)
+    return Pieces(
+        elements, cell[order], region[order], whole, of_loop, of_cell,
+        float(area[sliver].sum()), int(sliver.sum()),
+    )  # fmt: skip
+
+
+def joins_of(cover: Cover, cells: Cells, faces: Faces, pieces: Pieces, group: Ints) -> Joins:
+    """Return the pairs of elements joined across edges.
+
+    Parameters
+    ----------
+    group : (R,)
+        regions of one number are joined across common boundaries.
+    """
+    half = faces.half
+    element = pieces.of_loop[half.loop]
+    across = neighbours(faces, pieces, element)
+    joined = np.flatnonzero(joined_sides(faces, pieces, element, across, group))
+    # Edges between two faces are seen from both sides, those to a whole cell from one.
+    once = joined[(pieces.of_loop[half.loop[joined ^ 1]] < 0) | (joined % 2 == 0)]
+    edges = cells.edges
+    left, right = pieces.of_cell[edges.left], pieces.of_cell[edges.right]
+    inner = np.flatnonzero((edges.left >= 0) & (edges.right >= 0) & (left >= 0) & (right >= 0))
+    return Joins(
+        np.concatenate([element[once], left[inner]]),
+        np.concatenate([across[once], right[inner]]),
+        np.concatenate([faces.points[half.origin[once]], cover.vertices[edges.start[inner]]]),
+        np.concatenate([faces.points[half.head[once]], cover.vertices[edges.end[inner]]]),
+    )
+
+
+def neighbours(faces: Faces, pieces: Pieces, element: Ints) -> Ints:
+    """Element (2 n,) on the other side of each half-edge, -1 where there is none."""
+    opposite = np.arange(len(element)) ^ 1
+    other = faces.side[opposite]
+    whole = np.where(other >= 0, pieces.of_cell[other], -1)
+    return np.where(element[opposite] >= 0, element[opposite], whole)
+
+
+def joined_sides(faces: Faces, pieces: Pieces, element: Ints, across: Ints, group: Ints) -> Bools:
+    """Half-edges (2 n,) of an element with nothing that parts it from the one across.
+
+    ``element`` and ``across`` (2 n,) are on either side, -1 outside; ``group`` (N,) of regions.
+    """
+    both = (element >= 0) & (across >= 0)
+    same = group[pieces.region[element]] == group[pieces.region[across]]
+    return np.asarray(both & same & (np.repeat(faces.crack, 2) < 0))
+
+
+def _loop_sizes(faces: Faces) -> tuple[Floats, Floats]:
+    """Area of each face, positive when it lies on the left hand, m2, and perimeter, m."""
+    half = faces.half
+    first = np.unique(half.loop, return_index=True)[1]
+    anchor = faces.points[half.origin[first]][half.loop]
+    one, two = faces.points[half.origin] - anchor, faces.points[half.head] - anchor
+    doubled = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    length = np.hypot(*(two - one).T)
+    area = 0.5 * np.bincount(half.loop, doubled, minlength=half.n_loops)
+    perimeter = np.bincount(half.loop, length, minlength=half.n_loops)
+    return np.asarray(area, dtype=float), np.asarray(perimeter, dtype=float)
+
+
+def _rings(cover: Cover, faces: Faces, of_loop: Ints, of_cell: Ints) -> tuple[Polygons, Bools]:
+    """Rings of all elements and whether each is its whole cell."""
+    half, corners = faces.half, cover.cell_vertices.shape[1]
+    member = np.flatnonzero(of_loop[half.loop] >= 0)
+    length = np.bincount(half.loop[member], minlength=half.n_loops)
+    uncut = np.bincount(half.loop[member[faces.on_mesh[member // 2]]], minlength=half.n_loops)
+    # A cell's corner 0 comes first in its rings, so that whole cells keep the cell's order.
+    zero = cover.vertices[cover.cell_vertices[faces.cell[half.loop[member]], 0]]
+    begins = (faces.points[half.origin[member]] == zero).all(axis=1)
+    order = np.lexsort((member, ~begins, half.loop[member]))
+    loops, first = np.unique(half.loop[member[order]], return_index=True)
+    walk = walks(half.next, member[order][first], length[loops])
+
+    n = int((of_loop >= 0).sum() + (of_cell >= 0).sum())
+    number = np.full(n, corners, dtype=np.int64)
+    number[of_loop[loops]] = length[loops]
+    offset = np.concatenate([[0], np.cumsum(number)])
+    whole = np.ones(n, dtype=bool)
+    whole[of_loop[loops]] = (length[loops] == corners) & (uncut[loops] == corners)
+    points = np.empty((int(offset[-1]), 2))
+    begin = np.cumsum(length[loops]) - length[loops]
+    shift = np.repeat(offset[of_loop[loops]] - begin, length[loops])
+    points[np.arange(len(walk)) + shift] = faces.points[half.origin[walk]]
+    cells = np.flatnonzero(of_cell >= 0)
+    places = offset[of_cell[cells]][:, None] + np.arange(corners)
+    points[places] = cover.vertices[cover.cell_vertices[cells]]
+    return Polygons(points, offset, np.arange(n + 1)), whole

@@ -1,0 +1,101 @@
+"""Which cells lines touch, and in which region the others lie."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+import shapely
+
+from covers.cutting.components import components
+from covers.cutting.domain import Segments
+from covers.mathematical.base import Cover
+from integration.arrays import Bools, Floats, Ints
+
+
+def touched_cells(cover: Cover, lines: Segments, distance: float, size: float) -> Bools:
+    """Cells (C,) nearer than ``distance`` (m) to any of the lines.
+
+    Parameters
+    ----------
+    size : float
+        length to which lines are chopped before the search, about the size of a cell, m.
+    """
+    touched = np.zeros(len(cover.cell_vertices), dtype=bool)
+    if not len(lines):
+        return touched
+    pieces = _chopped(lines, size)
+    low = np.minimum(pieces[:, 0], pieces[:, 1]) - distance
+    high = np.maximum(pieces[:, 0], pieces[:, 1]) + distance
+    corners = cover.vertices[cover.cell_vertices]
+    first, last = corners.min(axis=1), corners.max(axis=1)
+    candidates = np.flatnonzero(_near_bins(first, last, low, high, size))
+    if not len(candidates):
+        return touched
+    boxes = shapely.STRtree(_boxes(first[candidates], last[candidates]))
+    piece, row = boxes.query(_boxes(low, high))
+    shapes = np.asarray(shapely.polygons(corners[candidates]))
+    chopped = np.asarray(shapely.linestrings(pieces))
+    near = np.asarray(shapely.dwithin(chopped[piece], shapes[row], distance))
+    touched[candidates[row[near]]] = True
+    return touched
+
+
+def _boxes(low: Floats, high: Floats) -> npt.NDArray[np.object_]:
+    return np.asarray(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+
+
+def _near_bins(first: Floats, last: Floats, low: Floats, high: Floats, size: float) -> Bools:
+    """Boxes (C,) from ``first`` to ``last`` that share a bin of a grid with a box of the others.
+
+    Far cheaper than a search tree of all boxes: bins that hold something are counted by sums over
+    rectangles of the grid.
+    """
+    origin, end = first.min(axis=0), last.max(axis=0)
+    # No more bins than about four a cell, however uneven the cells are.
+    least = np.sqrt(float(np.prod(end - origin)) / (4 * len(first)))
+    step = max(size, least, float((end - origin).max()) / (4 * len(first) + 1))
+    shape = np.floor((end - origin) / step).astype(np.int64) + 1
+
+    def bins(points: Floats) -> Ints:
+        found = np.floor((points - origin) / step)
+        return np.asarray(np.clip(found, 0, shape - 1).astype(np.int64))
+
+    filled = np.zeros(shape + 1, dtype=np.int64)
+    (i, j), (k, m) = bins(low).T, bins(high).T + 1
+    for row, column, sign in ((i, j, 1), (k, j, -1), (i, m, -1), (k, m, 1)):
+        np.add.at(filled, (row, column), sign)
+    held = filled.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0
+    total = np.zeros(shape + 1, dtype=np.int64)
+    total[1:, 1:] = held.cumsum(axis=0).cumsum(axis=1)
+    (i, j), (k, m) = bins(first).T, bins(last).T + 1
+    return np.asarray(total[k, m] - total[i, m] - total[k, j] + total[i, j] > 0)
+
+
+def region_of_cells(
+    cover: Cover, shapes: npt.NDArray[np.object_], regions: Ints, touched: Bools
+) -> Ints:
+    """Region (C,) that holds the middle of each cell, -1 outside all ``regions``.
+
+    Cells that share an edge lie in the same region when no line touches them, so that one is looked
+    up for all that hang together.
+    """
+    left, right = cover.edges.left, cover.edges.right
+    free = (left >= 0) & (right >= 0)
+    free &= ~touched[left] & ~touched[right]
+    group = components(len(touched), left[free], right[free])
+    first = np.unique(group, return_index=True)[1]
+    middle = cover.vertices[cover.cell_vertices[first]].mean(axis=1)
+    found = np.full(len(first), -1, dtype=np.int64)
+    row, cell = shapely.STRtree(shapely.points(middle)).query(shapes[regions], predicate="contains")
+    found[cell] = regions[row]
+    return np.asarray(found[group])
+
+
+def _chopped(lines: Segments, size: float) -> Floats:
+    """Pieces (n, 2, 2) of lines not longer than ``size``."""
+    along = lines.end - lines.start
+    number = np.ceil(np.hypot(*along.T) / size).astype(np.int64).clip(1)
+    line = np.repeat(np.arange(len(lines)), number)
+    place = np.arange(len(line)) - np.repeat(np.cumsum(number) - number, number)
+    share = np.stack([place, place + 1], axis=1) / number[line, None]
+    return np.asarray(lines.start[line, None] + share[..., None] * along[line, None])

@@ -1,0 +1,105 @@
+"""Discs that reach the material too little carry nothing: they are left out, others reach farther.
+
+A disc of whose kernel only a rim lies in the material has a function that integration hardly
+sees: its stiffness is rounding, and a load on it moves it by kilometres. Weights by least squares
+are made of whichever discs are there, so such a disc is left out, piece by piece where cracks part
+it, and the fit goes on with the others. Where these do not determine it well they are enlarged.
+
+What is measured of a disc is its *share*: the integral of its squared kernel over the material by
+that over the disc. It is poor below `POOR` of the largest share among the discs that it overlaps,
+so that a body thinner than the discs keeps those that lie on it best.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from covers.mathematical.kernels import kernel
+from integration.arrays import Bools, Floats
+from integration.rules import polygon_rule
+
+if TYPE_CHECKING:
+    from covers.cutting.cut_cells import CutCells
+    from covers.mathematical.moving_least_squares import MovingLeastSquares
+
+# A disc is left out when its share is below this part of the best about it, by degree of the basis:
+# each one less makes a coarse net stiffer, but functions on weights of Shepard's kind need more.
+POOR = {0: 0.05, 1: 1e-3, 2: 1e-3, 3: 1e-3}
+# Degree of polynomials to which shares are integrated.
+ORDER = 8
+# Points whose kernels are held in memory at once.
+CHUNK = 20_000
+
+
+def fitted_discs(cover: MovingLeastSquares, cut: CutCells) -> tuple[MovingLeastSquares, CutCells]:
+    """Return cover and cut without the discs that reach too little of the material.
+
+    Elements of one cell that have lost different discs are given cells of their own.
+    """
+    share = shares(cover, cut)
+    known = np.append(share, -1.0)
+    best = known[cut.covers].max(axis=1)
+    around = np.zeros(len(share) + 1)
+    np.maximum.at(around, cut.covers, np.broadcast_to(best[:, None], cut.covers.shape))
+    lost = share < POOR[cover.degree] * around[:-1]
+    if not lost.any():
+        return cover, cut
+    gone = (cut.covers >= 0) & np.append(lost, False)[cut.covers]
+    key = np.column_stack([cut.element_cell, gone])
+    _, first, cell = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    source = cut.element_cell[first]
+    patches = np.where(gone[first], -1, cover.cell_patches[source])
+    number = np.append(np.where(lost, -1, np.cumsum(~lost) - 1), -1)
+    kept = replace(
+        cover,
+        cell_vertices=cover.cell_vertices[source],
+        cell_patches=patches,
+        cell_shape=np.full(len(source), -1),
+        left_out=int(lost.sum()),
+    )
+    return kept, replace(
+        cut,
+        element_cell=cell.ravel(),
+        covers=number[cut.covers],
+        cover_patch=cut.cover_patch[~lost],
+        cover_region=cut.cover_region[~lost],
+        cover_body=cut.cover_body[~lost],
+    )
+
+
+def shares(cover: MovingLeastSquares, cut: CutCells) -> Floats:
+    """Integral (P,) of the squared kernel over the material by that over the whole disc."""
+    total = np.zeros(cut.n_covers + 1)
+    rule = polygon_rule(cut.elements, ORDER)
+    for first in range(0, len(rule.points), CHUNK):  # so many points in memory
+        part = slice(first, first + CHUNK)
+        element = rule.owner[part]
+        values = cover.kernels(cut.element_cell[element], rule.points[part])
+        np.add.at(total, cut.covers[element], rule.weights[part, None] * values**2)
+    return np.asarray(total[:-1] / (cover.radius[cut.cover_patch] ** 2 * _disc(cover.kernel)))
+
+
+def _disc(name: str) -> float:
+    """Integral of the squared kernel over a disc of radius one."""
+    at, weight = np.polynomial.legendre.leggauss(20)
+    total = 0.0
+    for low in (0.0, 0.5):  # splines change at half the radius
+        r = low + (at + 1) / 4
+        total += float(np.sum(weight / 4 * 2 * np.pi * r * kernel(name)(r)[0] ** 2))
+    return total
+
+
+def loose_discs(cover: MovingLeastSquares, cut: CutCells) -> Bools:
+    """Discs (N,) of fits that the points of an element do not determine well."""
+    found = np.zeros(cover.n_patches + 1, dtype=bool)
+    rule = polygon_rule(cut.elements, ORDER)
+    points = np.concatenate([rule.points, cut.elements.points])
+    owner = np.concatenate([rule.owner, cut.elements.polygon_of_point])
+    for first in range(0, len(points), CHUNK):  # so many points in memory
+        part = slice(first, first + CHUNK)
+        cells = cut.element_cell[owner[part]]
+        found[cover.cell_patches[cells[~cover.determined(cells, points[part])]]] = True
+    return np.asarray(found[:-1])

@@ -1,0 +1,117 @@
+"""Triangles that grow with the distance from points where much happens."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar, Self
+
+import numpy as np
+import numpy.typing as npt
+
+from covers.mathematical.regular_grids import grid_cells, regular_net
+from covers.mathematical.stars import star_sizes
+from covers.mathematical.triangles import Triangles
+from integration.arrays import Floats
+
+# Most lines of one direction.
+MOST = 20_000
+
+
+class Graded(Triangles):
+    """Rectangles halved by a diagonal, between lines that draw apart with the distance from foci.
+
+    Lines run through the whole net, so that rectangles are slender beside a focus: the angles stay
+    at most right ones, which is what linear interpolation needs (Babuska and Aziz 1976).
+    """
+
+    coordinates: ClassVar[tuple[str, ...]] = ("focus",)
+    even: ClassVar[bool] = False
+
+    @classmethod
+    def regular(
+        cls,
+        bounds: npt.ArrayLike,
+        size: float,
+        *,
+        angle: float = 0.0,
+        shift: tuple[float, float] = (0.0, 0.0),
+        focus: Sequence[Sequence[float]] = (),
+        radius: float = 0.0,
+        growth: float = 0.2,
+        coarsest: float | None = None,
+    ) -> Self:
+        """Return a net over a box, fine near foci.
+
+        Parameters
+        ----------
+        bounds : (2, 2)
+            lower and upper corner of the box, m.
+        size : float
+            distance of lines at the foci, m.
+        angle, shift
+            turn of the net, rad, and its displacement in fractions of a step at the foci.
+        focus : (n, 2)
+            points about which the net is fine; without any it is even.
+        radius : float
+            the distance of lines is ``size`` as far as this from a focus, m.
+        growth : float
+            increase of the distance of lines over their distance from the focus.
+        coarsest : float, optional
+            largest distance of lines, m.
+
+        Raises
+        ------
+        ValueError
+            Sizes that cannot be, or more than 20 000 lines.
+        """
+        net = regular_net(bounds, (size, size), angle, shift)
+        if not (growth >= 0 and radius >= 0 and (coarsest is None or coarsest >= size)):
+            raise ValueError(
+                f"growth {growth}, radius {radius}, coarsest {coarsest}: numbers >= 0 and a "
+                f"coarsest size of at least {size} expected: correct the options of the cover"
+            )
+        frame = net.axes / size
+        points = np.array(focus, dtype=float).reshape(-1, 2)
+        at = (points - net.origin) @ frame.T
+        most = np.inf if coarsest is None else coarsest
+        x, y = (
+            _lines(steps * size, at[:, axis], (size, most), radius, growth)
+            for axis, steps in enumerate((net.columns, net.rows))
+        )
+        grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+        a, b, c, d = grid_cells(len(x) - 1, len(y) - 1).T
+        cells = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+        vertices = net.origin + grid @ frame
+        # Without foci the cells are translations of two.
+        half = np.repeat(np.arange(2), len(a))
+        shapes = np.full_like(half, -1) if len(points) else half
+        return cls._of(vertices, cells, star_sizes(vertices, cells), shapes)
+
+
+def _lines(
+    length: float, focus: Floats, sizes: tuple[float, float], radius: float, growth: float
+) -> Floats:
+    """Places from 0 to ``length`` whose distances follow the wanted size: even steps of 1 / size.
+
+    The number of lines is the integral of ``1 / size``; each place is where it reaches a whole.
+    """
+    if not len(focus):
+        focus, growth = np.zeros(1), 0.0
+    # The size has kinks at the foci, at their radius and where it stops to grow, half way between
+    # them and at the ends; it is linear or constant between, and so fine a sum that it is smooth.
+    least, most = sizes
+    reach = np.concatenate([[0.0], np.geomspace(min(least, length), length, 4000)])
+    around = np.concatenate([focus[:, None] + reach, focus[:, None] - reach]).ravel()
+    even = np.linspace(0.0, length, 1 + min(int(4 * length / least) + 1, MOST))
+    place = np.unique(np.clip(np.concatenate([around, even]), 0.0, length))
+    off = np.maximum(np.abs(place[:, None] - focus).min(axis=1) - radius, 0.0)
+    density = 1.0 / np.minimum(least + growth * off, most)
+    steps = np.diff(place) * (density[1:] + density[:-1]) / 2
+    count = np.concatenate([[0.0], np.cumsum(steps)])
+    number = max(int(np.ceil(count[-1] * (1 - 1e-9))), 1)
+    if number > MOST:
+        raise ValueError(
+            f"size {least}: {number} lines over {length} m: at most {MOST} expected: let the size "
+            "grow away from a focus"
+        )
+    return np.asarray(np.interp(np.linspace(0.0, count[-1], number + 1), count, place))

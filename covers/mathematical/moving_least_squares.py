@@ -1,0 +1,301 @@
+"""Meshless covers: discs about nodes with weights by moving least squares or after Shepard."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+import numpy.typing as npt
+
+from covers.mathematical.base import Cover
+from covers.mathematical.discs import discs_of_cells
+from covers.mathematical.kernels import kernel
+from covers.mathematical.regular_grids import grid_cells, grid_vertices, regular_net
+from integration.arrays import Floats, Ints
+from integration.monomials import count, differentiate, evaluate
+
+if TYPE_CHECKING:
+    from covers.cutting.cut_cells import CutCells
+    from covers.mathematical.base import Recut
+
+# Default radius of the discs in spacings of a regular net of nodes, by degree of the basis.
+RADII = {0: 1.5, 1: 2.0, 2: 3.0, 3: 4.0}
+# Weights that miss the sum one by more come from a singular fit.
+UNDETERMINED = 1e-6
+# Least sum of kernels at a point, and least eigenvalue of scaled moments by degree of the basis.
+HELD = 0.02
+FIXED = {0: 0.0, 1: 1e-2, 2: 1e-3, 3: 1e-4}
+# Discs that are wanted beyond their reach grow by this factor, at most so many times.
+GROWTH, ROUNDS = 1.25, 8
+
+
+@dataclass(frozen=True, eq=False)
+class MovingLeastSquares(Cover):
+    """Shape functions of a weighted least-squares fit by polynomials at every point.
+
+    With the basis p, kernels phi_i and A = sum phi_i p(x_i) p(x_i)^T the weights are
+    w_i(x) = phi_i(x) p(x)^T A(x)^-1 p(x_i) (Nayroles, Touzot and Villon 1992; Belytschko, Lu and
+    Gu 1994). Degree 0 is Shepard's formula phi_i / sum phi_j (1968). Rows of inactive patches hold
+    -1 in `cell_patches` and zero weights. Cells are the grid on which integrals are taken.
+
+    Attributes
+    ----------
+    radius : (N,)
+        radii of the discs, m.
+    degree : int
+        degree of the basis.
+    kernel : str
+        one of `covers.mathematical.kernels.KERNELS`.
+    left_out, enlarged : int
+        pieces of discs that reach the material too little to carry functions, and discs whose
+        radius has grown in their place (`covers.mathematical.disc_supports`).
+    """
+
+    radius: Floats
+    degree: int
+    kernel: str
+    left_out: int = 0
+    enlarged: int = 0
+
+    @property
+    def precision(self) -> int:
+        """All polynomials of the basis, by their values at the nodes."""
+        return self.degree
+
+    @property
+    def disc_radius(self) -> Floats:
+        """Radii (N,) of the discs, m."""
+        return self.radius
+
+    @property
+    def mended(self) -> dict[str, int]:
+        """See `Cover.mended`."""
+        said = {
+            "pieces of discs left out that hardly reach the material": self.left_out,
+            "discs enlarged where others hardly reach": self.enlarged,
+        }
+        return {words: number for words, number in said.items() if number}
+
+    @classmethod
+    def regular(
+        cls,
+        bounds: npt.ArrayLike,
+        size: float,
+        *,
+        degree: int = 1,
+        kernel: str = "cubic_spline",
+        radius: float | None = None,
+        angle: float = 0.0,
+        shift: tuple[float, float] = (0.0, 0.0),
+    ) -> Self:
+        """Return discs about the nodes of a square net over a box and as far beyond as they reach.
+
+        Parameters
+        ----------
+        bounds : (2, 2)
+            lower and upper corner of the box, m.
+        size : float
+            spacing of the nodes and edge of a background cell, m.
+        degree, kernel
+            basis, 0 (Shepard) to 3, and kernel.
+        radius : float, optional
+            radius of the discs in spacings; `RADII` of the degree when omitted.
+        angle, shift
+            turn of the net, rad, and its displacement in fractions of a spacing.
+        """
+        reach = RADII.get(degree, degree + 1.0) if radius is None else radius
+        net = regular_net(bounds, (size, size), angle, shift)
+        beyond = int(np.ceil(reach))
+        i, j = np.meshgrid(
+            np.arange(-beyond, net.columns + beyond + 1), np.arange(-beyond, net.rows + beyond + 1)
+        )
+        nodes = net.points(i.ravel(), j.ravel())
+        vertices, cells = grid_vertices(net), grid_cells(net.columns, net.rows)
+        return cls.on_cells(
+            nodes,
+            np.full(len(nodes), reach * size),
+            vertices,
+            cells,
+            degree=degree,
+            kernel=kernel,
+            cell_shape=np.zeros(len(cells), dtype=np.int64),
+        )
+
+    @classmethod
+    def on_cells(
+        cls,
+        nodes: Floats,
+        radius: Floats,
+        vertices: Floats,
+        cell_vertices: Ints,
+        *,
+        degree: int = 1,
+        kernel: str = "cubic_spline",
+        cell_shape: Ints | None = None,
+    ) -> Self:
+        """Return discs of given nodes (N, 2) and radii (N,) over any mesh of convex cells.
+
+        Raises
+        ------
+        ValueError
+            A degree out of 0 to 3, an unknown kernel, a cell whose middle is held by fewer discs
+            than the basis has functions.
+        """
+        _check_options(degree, kernel)
+        patches = discs_of_cells(nodes, radius, vertices[cell_vertices])
+        middle = vertices[cell_vertices].mean(axis=1)
+        away = np.linalg.norm(nodes[patches] - middle[:, None], axis=2)
+        held = ((away < radius[patches]) & (patches >= 0)).sum(axis=1)
+        if (held < count(degree)).any():
+            cell = int(np.argmin(held))
+            raise ValueError(
+                f"cell {cell} at {middle[cell].tolist()}: {held[cell]} discs: at least "
+                f"{count(degree)} expected for a basis of degree {degree}: enlarge the radius"
+            )
+        used = patches[patches >= 0]
+        kept = np.unique(used)
+        patches = np.where(patches >= 0, np.searchsorted(kept, patches), -1)
+        shape = np.full(len(cell_vertices), -1) if cell_shape is None else cell_shape
+        return cls(
+            vertices=vertices,
+            cell_vertices=cell_vertices,
+            cell_patches=patches,
+            patch_centre=nodes[kept],
+            patch_size=radius[kept],
+            cell_shape=shape,
+            radius=radius[kept],
+            degree=degree,
+            kernel=kernel,
+        )
+
+    def evaluate(self, cells: Ints, points: Floats) -> tuple[Floats, Floats]:
+        """Weights (m, k) and gradients (m, k, 2), 1/m.
+
+        Raises
+        ------
+        ValueError
+            A point where the discs do not determine the fit.
+        """
+        patches = self.cell_patches[cells]
+        away = points[:, None] - self.patch_centre[patches]
+        radius = self.radius[patches]
+        value, slope = self._kernel(away, radius, patches >= 0)
+        length = radius.max(axis=1, initial=0.0)
+        basis, steps = self._basis(-away / length[:, None, None], length)
+        return _fit(basis, steps, value, slope, points)
+
+    def kernels(self, cells: Ints, points: Floats) -> Floats:
+        """Kernels (m, k) of the patches of ``cells`` (m,) at points; zero where there is none."""
+        patches = self.cell_patches[cells]
+        away = points[:, None] - self.patch_centre[patches]
+        return self._kernel(away, self.radius[patches], patches >= 0)[0]
+
+    def determined(self, cells: Ints, points: Floats) -> npt.NDArray[np.bool_]:
+        """Whether (m,) the discs of ``cells`` hold at least `HELD` of a point and fix its fit well.
+
+        The fit is well fixed when the moments of the basis, scaled to a diagonal of ones, have no
+        eigenvalue below `FIXED` of the degree.
+        """
+        patches = self.cell_patches[cells]
+        away = points[:, None] - self.patch_centre[patches]
+        radius = self.radius[patches]
+        value = self._kernel(away, radius, patches >= 0)[0]
+        length = radius.max(axis=1, initial=0.0)
+        basis = evaluate(-away / length[:, None, None], self.degree)
+        moment = np.einsum("mk,mka,mkb->mab", value, basis, basis)
+        scale = 1 / np.sqrt(np.maximum(np.einsum("maa->ma", moment), 1e-300))
+        least = np.linalg.eigvalsh(moment * scale[:, :, None] * scale[:, None, :])[:, 0]
+        return np.asarray((value.sum(axis=1) >= HELD) & (least >= FIXED[self.degree]))
+
+    def settled(self, cut: CutCells, again: Recut) -> tuple[MovingLeastSquares, CutCells]:
+        """See `Cover.settled`: leave out discs that reach too little, enlarge the others there.
+
+        Raises
+        ------
+        ValueError
+            Points whose fit no enlarged disc determines.
+        """
+        from covers.mathematical.disc_supports import fitted_discs, loose_discs
+
+        cover, radius = self, self.radius
+        for _ in range(ROUNDS):  # each lets the discs that are wanted reach farther
+            kept, pieces = fitted_discs(cover, cut)
+            loose = loose_discs(kept, pieces)
+            if not loose.any():
+                return replace(kept, enlarged=int((radius > self.radius).sum())), pieces
+            radius = np.where(loose, GROWTH * radius, radius)
+            cover = self._wider(radius)
+            cut = again(cover)
+        at = self.patch_centre[np.flatnonzero(loose)[0]]
+        raise ValueError(
+            f"moving least squares: {int(loose.sum())} discs, the first about {at.tolist()}: do "
+            f"not determine a fit of degree {self.degree} though enlarged {GROWTH**ROUNDS:.3g} "
+            "times: use a smaller size, a lower degree of the basis or a cover of triangles"
+        )
+
+    def _wider(self, radius: Floats) -> MovingLeastSquares:
+        """Return the cover with other radii (N,)."""
+        cells = discs_of_cells(self.patch_centre, radius, self.vertices[self.cell_vertices])
+        return replace(self, cell_patches=cells, patch_size=radius, radius=radius)
+
+    def _kernel(
+        self, away: Floats, radius: Floats, active: npt.NDArray[np.bool_]
+    ) -> tuple[Floats, Floats]:
+        """Kernel (m, k) and its gradient (m, k, 2); zero where the patch is not active."""
+        distance = np.linalg.norm(away, axis=2)
+        value, slope = kernel(self.kernel)(distance / radius)
+        inside = active & (distance < radius)
+        direction = away / np.where(distance > 0, distance, 1.0)[..., None]
+        gradient = (np.where(inside, slope, 0.0) / radius)[..., None] * direction
+        return np.where(inside, value, 0.0), gradient
+
+    def _basis(self, xi: Floats, length: Floats) -> tuple[Floats, Floats]:
+        """Basis (m, k, K) about the point and its derivative (m, k, K, 2) when the point moves."""
+        basis = evaluate(xi, self.degree)
+        lower = evaluate(xi, max(self.degree - 1, 0))
+        unit = np.eye(basis.shape[-1])
+        steps = [lower @ differentiate(unit, self.degree, axis).T for axis in (0, 1)]
+        return basis, -np.stack(steps, axis=-1) / length[:, None, None, None]
+
+
+def _fit(
+    basis: Floats, steps: Floats, value: Floats, slope: Floats, points: Floats
+) -> tuple[Floats, Floats]:
+    """Weights c . p_i phi_i with A c = e_1, and their gradients by the product rule."""
+    moment = np.einsum("mk,mka,mkb->mab", value, basis, basis)
+    turned = np.einsum("mk,mkai,mkb->miab", value, steps, basis)
+    change = turned + turned.swapaxes(2, 3)
+    change += np.einsum("mki,mka,mkb->miab", slope, basis, basis)
+    c, c_slope = _solve(moment, change)
+    share = np.einsum("mka,ma->mk", basis, c)
+    lost = ~(np.abs((share * value).sum(axis=1) - 1) < UNDETERMINED)
+    if lost.any():
+        rows = np.flatnonzero(lost)
+        row = int(rows[np.argmin(np.linalg.matrix_rank(moment[rows]))])
+        raise ValueError(
+            f"point {points[row].tolist()}: {(value[row] > 0).sum()} discs do not determine a fit: "
+            f"at least {basis.shape[2]} in general position expected: enlarge the radius"
+        )
+    share_slope = np.einsum("mkai,ma->mki", steps, c) + np.einsum("mka,mai->mki", basis, c_slope)
+    return share * value, share_slope * value[..., None] + share[..., None] * slope
+
+
+def _solve(moment: Floats, change: Floats) -> tuple[Floats, Floats]:
+    """Solution c of A c = e_1 and its derivative; not numbers when any A is singular."""
+    first = np.zeros((*moment.shape[:2], 1))
+    first[:, 0] = 1.0
+    try:
+        c = np.asarray(np.linalg.solve(moment, first)[..., 0], dtype=float)
+        right = -np.einsum("miab,mb->mai", change, c)
+        return c, np.asarray(np.linalg.solve(moment, right), dtype=float)
+    except np.linalg.LinAlgError:
+        return np.full(moment.shape[:2], np.nan), np.zeros((*moment.shape[:2], 2))
+
+
+def _check_options(degree: int, name: str) -> None:
+    if degree not in range(4):
+        raise ValueError(
+            f"moving least squares: degree = {degree}: expected 0 (Shepard) to 3: choose one"
+        )
+    kernel(name)

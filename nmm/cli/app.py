@@ -1,0 +1,225 @@
+"""The verbs of the command line. What they need is imported inside them, so that help is fast."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from nmm.cli import scene_verbs, study_verbs, verification_verbs
+from nmm.cli.scene_verbs import AllowCode, FormulationFile, SceneFile, allowed, read_formulation
+from nmm.cli.terminal import (
+    console,
+    faults_told,
+    progress_bar,
+    tell_faults,
+    tell_files,
+    tell_next,
+    tell_run,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from nmm.results import StoredRun
+    from nmm.results.sink import RunData
+    from nmm.scene import Scene
+
+app = typer.Typer(
+    help="Numerical manifold method in 2D: blocks, joints, contact and fracture.",
+    no_args_is_help=True,
+    add_completion=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    pretty_exceptions_enable=False,
+)
+
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", "-o", help="Folder of the run; else one of its name in runs/."),
+]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print the verdict only.")]
+
+DEMO = "kitoh_beam/kitoh_130.toml"
+RUNS = Path("runs")
+
+
+@app.callback(invoke_without_command=True)
+def main(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and exit.", is_eager=True)
+    ] = False,
+) -> None:
+    """Numerical manifold method in 2D: blocks, joints, contact and fracture."""
+    if version:
+        import nmm
+
+        typer.echo(f"nmm {nmm.__version__}")
+        raise typer.Exit
+
+
+scene_verbs.register(app)
+
+
+@app.command()
+def run(
+    scene: SceneFile,
+    formulation: FormulationFile = None,
+    out: Out = None,
+    quiet: Quiet = False,
+    steps: Annotated[
+        bool, typer.Option("--steps", help="A line after each step: passes, states of contacts.")
+    ] = False,
+    budget: Annotated[
+        float | None,
+        typer.Option(min=0, help="Seconds after which the run ends with what it has."),
+    ] = None,
+    allow_code: AllowCode = None,
+) -> None:
+    """Run a scene; write its folder with pictures and ParaView files.
+
+    Exit code 2 when a step could not be solved, 3 when the budget was spent, 4 when the structure
+    collapsed, 5 when an audit of energy, momentum or balance failed; what was written stays.
+    """
+    with faults_told(), allowed(scene, allow_code):
+        _run(scene, formulation, out or _free(RUNS / scene.stem), quiet, steps, budget)
+
+
+@app.command()
+def demo(out: Out = None, quiet: Quiet = False) -> None:
+    """Break a concrete beam in four-point bending and draw it."""
+    from nmm.shipped import example
+
+    with faults_told():
+        _run(example(DEMO), None, out or RUNS / "demo", quiet)
+
+
+@app.command()
+def plot(
+    run: Annotated[Path, typer.Argument(help="Folder of a run.", metavar="RUN")],
+    frame: Annotated[
+        int | None, typer.Option(help="Number of the frame, from the end when negative.")
+    ] = None,
+    magnification: Annotated[
+        float | None, typer.Option(min=0, help="Factor on displacements.")
+    ] = None,
+    component: Annotated[
+        str, typer.Option(help="Stress drawn: mises, xx, yy, xy, major, minor.")
+    ] = "mises",
+    paraview: Annotated[
+        bool, typer.Option("--paraview", help="Write the ParaView files anew too.")
+    ] = False,
+    allow_code: AllowCode = None,
+) -> None:
+    """Draw a run again, whole or one frame of it; a run that was stopped can be drawn too.
+
+    Exit code 1 when the folder is damaged so that a picture or file could not be made.
+    """
+    from nmm.results import read_run
+
+    missed: list[str] = []
+    with faults_told(), allowed(run / "scene.toml", allow_code):
+        stored = read_run(run)
+        _frame_exists(frame, len(stored.frames))
+        scene = _scene_of(stored, missed.append)
+        drawn = _draw(stored, run, scene, frame, magnification, component, missed.append)
+        tell_files([*drawn, *(_paraview(stored, run, missed.append) if paraview else ())])
+        if not drawn:
+            missed.append(f"{run}: nothing to draw: expected frames or a history: run it again")
+    tell_faults(missed)
+    if missed:
+        raise typer.Exit(1)
+
+
+study_verbs.register(app)
+verification_verbs.register(app)
+
+
+def _run(
+    place: Path,
+    formulation: Path | None,
+    out: Path,
+    quiet: bool,
+    steps: bool = False,
+    budget: float | None = None,
+) -> None:
+    import nmm
+    from nmm.results.summary import render
+    from nmm.stepping.drive.verdict import EXIT_CODES
+
+    scene = nmm.read_scene(place)
+    chosen = read_formulation(formulation)
+    try:
+        with progress_bar(quiet, steps) as progress:
+            done = nmm.run(scene, chosen, out=out, progress=progress, budget=budget)
+    except KeyboardInterrupt:
+        typer.secho(f"stopped; what was written can be drawn: nmm plot {out}", err=True)
+        raise typer.Exit(130) from None
+    # Drawn from the folder, as `nmm plot` does, which knows the covers too.
+    files = [*_draw(nmm.read_run(out), out, scene), *_paraview(done, out)]
+    tell_run(scene, done)
+    if not quiet:
+        console().print(render(done.summary))
+        tell_files([out, *files])
+        tell_next(f"nmm plot {out} --frame 0", f"paraview {out / 'paraview' / 'blocks.pvd'}")
+    if code := EXIT_CODES.get(done.summary.status, 2):
+        raise typer.Exit(code)
+
+
+def _draw(
+    run: "RunData",
+    folder: Path,
+    scene: "Scene | None",
+    frame: int | None = None,
+    magnification: float | None = None,
+    component: str = "mises",
+    tell: "Callable[[str], None] | None" = None,
+) -> list[Path]:
+    from nmm.plots import draw_all
+    from nmm.results.storage.files import PICTURES
+
+    return draw_all(
+        run,
+        folder / PICTURES,
+        scene=scene,
+        frame=frame,
+        magnification=magnification,
+        component=component,
+        tell=tell,
+    )
+
+
+def _scene_of(stored: "StoredRun", tell: "Callable[[str], None]") -> "Scene | None":
+    """Read the scene of a run again; a run is drawn without one that cannot be read."""
+    from nmm.errors import NmmError
+    from nmm.results.storage.files import SCENE
+    from nmm.scene import parse_scene
+
+    try:
+        return parse_scene(stored.scene, str(stored.folder / SCENE)) if stored.scene else None
+    except NmmError as error:
+        tell(f"{error.faults[0]}; supports, loads and covers are not drawn")
+        return None
+
+
+def _paraview(
+    run: "RunData", folder: Path, tell: "Callable[[str], None] | None" = None
+) -> list[Path]:
+    from nmm.results.storage.files import PARAVIEW
+    from nmm.results.viewing.paraview import write_paraview
+
+    return write_paraview(run, folder / PARAVIEW, tell)
+
+
+def _frame_exists(frame: int | None, count: int) -> None:
+    from nmm.errors import NmmError
+
+    if frame is not None and not -count <= frame < count:
+        raise NmmError(f"--frame {frame}: expected {-count} to {count - 1}: the run has {count}")
+
+
+def _free(path: Path) -> Path:
+    """Return the path, with a number behind it when there is something of that name."""
+    number, free = 1, path
+    while free.exists():
+        number += 1
+        free = path.with_name(f"{path.name}-{number}")
+    return free

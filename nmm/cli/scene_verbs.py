@@ -1,0 +1,223 @@
+"""The verbs of files before a run: check, explain, new. What they need they import."""
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeVar
+
+import typer
+
+from nmm.cli.terminal import console, faults_told, tell_faults, tell_next
+
+if TYPE_CHECKING:
+    from nmm.formulation import Formulation
+    from nmm.scene import Scene
+    from nmm.stepping.simulation import Simulation
+
+SceneFile = Annotated[Path, typer.Argument(help="Scene file, TOML.", metavar="SCENE")]
+FormulationFile = Annotated[
+    Path | None,
+    typer.Option("--formulation", "-f", help="Formulation file, TOML; else the scene's own."),
+]
+AllowCode = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--allow-code",
+        metavar="MODULE",
+        help="Let parts named MODULE:Class run, code beside the scene or installed; repeatable.",
+    ),
+]
+Read = TypeVar("Read")
+
+CALLED_BY = {
+    "loads": "[[loads]]",
+    "body loads": '[[loads]] of kind "body"',
+    "supports": "[[supports]]",
+    "seams": "bonded interface without contact",
+    "initial velocity": "[[initial_velocities]]",
+    "initial stress": "[[initial_stresses]]",
+}
+"""How a scene names an effect, where that is not `[effect]`."""
+
+
+def check(
+    scene: SceneFile, formulation: FormulationFile = None, allow_code: AllowCode = None
+) -> None:
+    """Name every fault of the files, and what a run would refuse; exit code 1 if there is one."""
+    with faults_told(), allowed(scene, allow_code):
+        faults = _faults(scene, formulation)
+    tell_faults(faults)
+    if faults:
+        typer.echo(f"{len(faults)} fault{'s' * (len(faults) > 1)}", err=True)
+        raise typer.Exit(1)
+    typer.secho("no faults", fg="green")
+    tell_next(f"nmm explain {scene}", f"nmm run {scene}")
+
+
+def explain(
+    scene: SceneFile,
+    formulation: FormulationFile = None,
+    cost: Annotated[bool, typer.Option("--cost", help="Also seconds and memory.")] = False,
+    allow_code: AllowCode = None,
+) -> None:
+    """Say what a scene simulates and what it does not, and how large it is."""
+    with faults_told(), allowed(scene, allow_code):
+        _explain(scene, formulation, cost)
+
+
+def new(
+    name: Annotated[str, typer.Argument(help="Name of the scene; NAME.toml is written.")],
+) -> None:
+    """Write a commented scene to start from."""
+    from nmm.errors import NmmError
+    from nmm.shipped import starter
+
+    path = Path(name if name.endswith(".toml") else f"{name}.toml")
+    with faults_told():
+        if path.stem in ("", ".", "..", ".toml"):
+            raise NmmError(f"name: {name!r}: expected the name of a file: nmm new slope")
+        if path.exists():
+            raise NmmError(f"{path}: exists: expected a new name: choose another one")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(starter(), encoding="utf-8")
+    typer.echo(path)
+    tell_next(f"nmm check {path}", f"nmm run {path}")
+
+
+VERBS = (new, check, explain)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the verbs to the command line."""
+    for verb in VERBS:
+        app.command()(verb)
+
+
+def read_formulation(place: Path | None) -> "Formulation | None":
+    """Read the formulation of a file, where one is named."""
+    if place is None:
+        return None
+    import nmm
+
+    return nmm.read_formulation(place)
+
+
+def allowed(scene: Path, modules: list[str] | None) -> AbstractContextManager[None]:
+    """Let parts of the modules that the user names be imported, from the scene's folder too."""
+    from nmm.trust import allowing
+
+    return allowing(*(modules or ()), folder=scene.resolve().parent if modules else None)
+
+
+def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    import nmm
+    from nmm.formulation import Formulation
+    from nmm.model.plan import called_for
+    from nmm.model.tips import tip_lines
+    from nmm.stepping.simulation import prepare
+
+    scene = nmm.read_scene(place)
+    chosen = read_formulation(formulation) or scene.formulation or Formulation()
+    prepared = prepare(scene, chosen)
+    manifold = prepared.stepper.model.manifold
+    effects = Table(title=escape(scene.title), title_justify="left", show_header=False)
+    for name, named in called_for(scene).items():
+        key = CALLED_BY.get(name, f"[{name}]")
+        effects.add_row(
+            name,
+            "simulated" if named else f"not simulated: the scene has no {escape(key)}",
+            style=None if named else "dim",
+        )
+    out = console()
+    out.print(effects)
+    for line in _sizes(scene, chosen, len(prepared.regions), len(manifold.elements)):
+        out.print(line, highlight=False)
+    for effect in prepared.stepper.plan.effects.values():
+        if effect.about:
+            out.print(f"{effect.name}: {effect.about}", highlight=False)
+    for line in tip_lines(prepared.stepper.model):
+        out.print(line, highlight=False, markup=False)
+    out.print(f"unknowns: {manifold.n_unknowns:,}", highlight=False)
+    for warning in prepared.identity().warnings:
+        out.print(f"warning: {warning}", style="yellow", highlight=False, markup=False)
+    out.print(str(prepared.storage), highlight=False)
+    if cost:
+        _tell_cost(prepared)
+    tell_next(f"nmm run {place}")
+
+
+def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) -> Iterator[str]:
+    """Yield the lines that say what kind of run it is."""
+    dynamic = scene.inertia is not None
+    yield f"run: {'dynamic' if dynamic else 'static'}, plane {scene.plane}"
+    if dynamic:
+        yield f"integrator: {chosen.integrator.type}, step {chosen.integrator.step:g} s"
+        yield f"duration: {scene.duration:g} s"
+    elif scene.loading is not None:
+        yield f"loading: until {scene.loading.until}, increment {chosen.loading.increment:g}"
+    if scene.contact is not None:
+        yield f"contact: {chosen.contact.enforcement}"
+    yield f"cover: {chosen.cover.type}, {chosen.cover.functions}"
+    yield f"blocks: {blocks:,}"
+    yield f"elements: {elements:,}"
+
+
+def _faults(place: Path, formulation: Path | None) -> list[str]:
+    """Lines about keys and values of both files, then about blocks and parts that they name."""
+    import nmm
+    from nmm.errors import NmmError
+    from nmm.formulation import Formulation
+    from nmm.geometry import regions
+    from nmm.model.consistency import check_together
+    from nmm.model.parts import check_parts
+
+    faults: list[str] = []
+
+    def tried(read: Callable[..., Read], *given: object) -> Read | None:
+        try:
+            return read(*given)
+        except NmmError as error:
+            faults.extend(str(fault) for fault in error.faults)
+            return None
+
+    scene = tried(nmm.read_scene, place)
+    chosen = tried(read_formulation, formulation)
+    if scene is not None:
+        tried(regions, scene)
+    if scene is not None and not (formulation and chosen is None):
+        whole = chosen or scene.formulation or Formulation()
+        tried(check_together, scene, whole)
+        tried(check_parts, scene, whole)
+        if not faults:
+            tried(_prepared, scene, whole)
+    return faults
+
+
+def _prepared(scene: "Scene", formulation: "Formulation") -> None:
+    """Build all that a run needs: what it would refuse is refused here."""
+    from nmm.stepping.simulation import prepare
+
+    prepare(scene, formulation).identity()
+
+
+def _tell_cost(simulation: "Simulation") -> None:
+    """Print what a compiled scene will cost on this machine."""
+    from nmm.study.cost.cost_model import load_model, size_of, steps_of
+
+    model = load_model()
+    if model is None:
+        typer.echo("cost: not known on this machine; measure it once: nmm calibrate")
+        return
+    steps = steps_of(simulation)
+    one, two = (model.seconds(size_of(simulation, n)) for n in (1.0, 2.0))
+    size = size_of(simulation, steps or 1.0)
+    if steps is None:
+        text = f"{one:.2g} s and {two - one:.2g} s for each further step, failure decides how many"
+    else:
+        text = f"{model.seconds(size):.2g} s of {steps:,.0f} steps"
+    typer.echo(f"cost: about {text}; {model.bytes(size) / 2**20:.0f} MiB more memory")
+    if size.unknowns > 5 * model.largest[size.kind]:
+        typer.echo(f"cost: fitted up to {model.largest[size.kind]:,} unknowns: read it as a guess")

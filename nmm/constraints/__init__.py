@@ -1,0 +1,4 @@
+"""Supports and tied interfaces: held or joined by springs, Nitsche's method or multipliers.
+
+No contact.
+"""

@@ -1,0 +1,187 @@
+"""No body passes through another: vertices that went through an edge within a step, and when."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.neighbour_list import near_pairs
+from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import DEPTH, cross
+
+ROUNDING = 1e-9
+"""Share of the depth by which another edge must be nearer: a corner lies as far from both."""
+
+
+@dataclass(frozen=True, eq=False)
+class Crossings:
+    """Vertices that end a step further inside another body than contact looks.
+
+    Attributes
+    ----------
+    vertex, edge
+        (m,) the vertex and the edge that it went through.
+    fraction
+        (m,) of the step, when the vertex touched the edge; for one that began inside, when it came
+        too deep.
+    """
+
+    vertex: Ints
+    edge: Ints
+    fraction: Floats
+
+    def __len__(self) -> int:
+        return len(self.vertex)
+
+    @property
+    def free_fraction(self) -> float:
+        """Largest fraction of the step that holds no crossing; 1 for a step without any."""
+        return float(self.fraction.min(initial=1.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A step of all edges.
+
+    Attributes
+    ----------
+    before, after
+        The edges at its start and end.
+    pairs
+        Vertex and edge (m,) of all that can meet.
+    near
+        (k,) rows of the pairs that need a closer look.
+    """
+
+    before: Surface
+    after: Surface
+    pairs: tuple[Ints, Ints]
+    near: Ints
+
+
+def find_crossings(
+    before: Surface,
+    after: Surface,
+    candidates: tuple[Ints, Ints] | None = None,
+    within_bodies: bool = False,
+    share: float = DEPTH,
+) -> Crossings:
+    """Find the vertices that crossed an edge while all points moved straight and evenly.
+
+    A vertex crosses an edge where it comes deeper than a share of the thinner body's thickness,
+    over the edge itself: less than `rules.DEPTH` is the penetration that enforcement allows and
+    search finds again. A vertex that leaves over the end of the edge has not crossed, nor has one
+    that began inside and slides into the depth close below the surface of another edge.
+
+    Parameters
+    ----------
+    before, after
+        The same edges at the start and at the end of a step.
+    candidates
+        Vertex and edge of the pairs to be tested, complete for all that can meet in the step; by
+        default those that the motion lets meet are searched.
+    within_bodies
+        See `search.near_pairs`.
+    share
+        Of the thickness of the thinner body, which is too deep.
+
+    Notes
+    -----
+    The signed area of vertex and edge is a quadratic in time, so that the test is exact for a thin
+    body that is left on its far side within the step (Provot 1997, for triangles in space).
+    """
+    pairs = _meeting(before, after, within_bodies) if candidates is None else candidates
+    return crossings_in(motion_of(before, after, pairs, share), share)
+
+
+def motion_of(before: Surface, after: Surface, pairs: tuple[Ints, Ints], share: float) -> Motion:
+    """Return a step with the pairs that can come deeper in it than ``share``, or begin so."""
+    # Compiled code is loaded by the first search, not by whoever names this module.
+    from nmm.contact.detection.crossing_kernel import can_meet
+
+    edges = before.start, before.end, after.start, before.next, before.body
+    return Motion(before, after, pairs, can_meet(*edges, *pairs, share))
+
+
+def crossings_in(motion: Motion, share: float) -> Crossings:
+    """Find the crossings deeper than ``share``, which is not less than the motion was made for."""
+    before, after, pairs = motion.before, motion.after, motion.pairs
+    v, e = pairs[0][motion.near], pairs[1][motion.near]
+    if not len(v):
+        return Crossings(v, e, np.empty(0))
+    edge0, edge1 = before.end[e] - before.start[e], after.end[e] - after.start[e]
+    offset0, offset1 = before.start[v] - before.start[e], after.start[v] - after.start[e]
+    # Twice the area, positive inside: c0 + c1 t + c2 t^2.
+    c0, both = cross(edge0, offset0), cross(edge1 - edge0, offset1 - offset0)
+    c1 = cross(edge0, offset1 - offset0) + cross(edge1 - edge0, offset0)
+    allowed = share * np.minimum(before.thickness[v], before.thickness[e]) * before.length[e]
+    deep = _first_root(c0 - allowed, c1, both)
+    touch = np.where(c0 < 0.0, _first_root(c0, c1, both), deep)
+
+    t = np.where(deep <= 1.0, deep, 0.0)[:, None]
+    edge, offset = edge0 + t * (edge1 - edge0), offset0 + t * (offset1 - offset0)
+    along, square = (edge * offset).sum(axis=1), (edge * edge).sum(axis=1)
+    hit = np.flatnonzero((deep <= 1.0) & (along >= 0.0) & (along <= square) & (square > 0.0))
+    if len(hit):
+        length = before.length[e[hit]]
+        depth = np.column_stack([c0[hit], allowed[hit]]) / length[:, None]
+        hit = hit[~_along_another(before, after, pairs, v[hit], e[hit], deep[hit], depth)]
+    return Crossings(v[hit], e[hit], np.minimum(touch, deep)[hit])
+
+
+def _along_another(
+    before: Surface,
+    after: Surface,
+    pairs: tuple[Ints, Ints],
+    v: Ints,
+    e: Ints,
+    time: Floats,
+    depth: Floats,
+) -> Bools:
+    """Vertices (m,) nearer to another edge of the body than ``depth``, at 0 and at ``time``."""
+    first, last = np.searchsorted(pairs[0], v), np.searchsorted(pairs[0], v, side="right")
+    hit = np.repeat(np.arange(len(v)), last - first)
+    within = np.arange(len(hit)) - np.repeat(np.cumsum(last - first) - (last - first), last - first)
+    other = pairs[1][first[hit] + within]
+    keep = (other != e[hit]) & (before.body[other] == before.body[e[hit]])
+    hit, other = hit[keep], other[keep]
+    near = np.ones(len(hit), dtype=bool)
+    for t, below in zip((np.zeros_like(time), time), depth.T, strict=True):  # two moments
+        distance = _distance(before, after, v[hit], other, t[hit, None])
+        near &= distance < below[hit] * (1.0 - ROUNDING)
+    along = np.zeros(len(v), dtype=bool)
+    along[hit[near]] = True
+    return along
+
+
+def _distance(before: Surface, after: Surface, v: Ints, e: Ints, t: Floats) -> Floats:
+    """Distance (m,) of vertices from segments at the times ``t`` (m, 1)."""
+    start = (1.0 - t) * before.start[e] + t * after.start[e]
+    edge = (1.0 - t) * before.end[e] + t * after.end[e] - start
+    offset = (1.0 - t) * before.start[v] + t * after.start[v] - start
+    foot = np.clip((offset * edge).sum(axis=1) / (edge * edge).sum(axis=1), 0.0, 1.0)
+    return np.asarray(np.linalg.norm(offset - foot[:, None] * edge, axis=1))
+
+
+def _meeting(before: Surface, after: Surface, within_bodies: bool) -> tuple[Ints, Ints]:
+    """Pairs whose distance is not more than two points can move apart."""
+    if not len(before):
+        return np.empty(0, np.int64), np.empty(0, np.int64)
+    moved = after.start - before.start
+    return near_pairs(before, float(np.hypot(*np.ptp(moved, axis=0))), within_bodies)
+
+
+def _first_root(c0: Floats, c1: Floats, c2: Floats) -> Floats:
+    """When ``c0 + c1 t + c2 t^2`` rises through zero first, for t > 0; infinite if it never does.
+
+    Of the two forms of the root, the one that adds terms of one sign loses no digits (Press et
+    al., section 5.6).
+    """
+    root = np.sqrt(np.maximum(c1 * c1 - 4.0 * c2 * c0, 0.0))
+    falling = c1 < 0.0
+    above = np.where(falling, root - c1, -2.0 * c0)
+    below = np.where(falling, 2.0 * c2, c1 + root)
+    good = (c0 < 0.0) & (c1 * c1 >= 4.0 * c2 * c0) & (below > 0.0)
+    return np.divide(above, below, out=np.full_like(c0, np.inf), where=good)

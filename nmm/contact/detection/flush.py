@@ -1,0 +1,168 @@
+"""What flush neighbours hide: stretches of edges, and corners inside an even face.
+
+Bodies that stand beside each other form one face, a floor or a course of a wall. A body that slides
+along it must meet neither the edges in the joints nor the corners as those of one body alone. A
+*ray* is the direction in which one of the two edges at a vertex leaves it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import (
+    Rules,
+    convex_vertices,
+    cross,
+    dot,
+    flush_distance,
+    thinner,
+)
+
+# Bodies around one point that a vertex may be merged with, on either side.
+WALK = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Covers:
+    """Edges of other bodies that lie flush on the two edges of each vertex, next to it; or -1."""
+
+    own: Ints
+    before: Ints
+
+
+def find_covers(
+    surface: Surface, v: Ints, e: Ints, along: Floats, gap: Floats, rules: Rules
+) -> Covers:
+    """Find, for both edges at each vertex, the flush opposite edge that runs along them furthest.
+
+    A corner pressed into the joint between two bodies is flush with both for its own depth only.
+    """
+    cosine = np.sqrt(1.0 - rules.sine**2)
+    other = surface.body[v] != surface.body[e]
+    flush = flush_distance(surface, v, e, rules)
+    found = []
+    for side, inward in ((v, 1.0), (surface.previous[v], -1.0)):
+        opposite = dot(surface.direction[side], surface.direction[e]) <= -cosine
+        # Length of the edge that lies beside the side, counted from the vertex.
+        beside = along if inward > 0.0 else surface.length[e] - along
+        close = other & opposite & (np.abs(gap) <= flush)
+        close &= (beside > flush) & (beside <= surface.length[e] + flush)
+        rows = np.flatnonzero(close)
+        rows = rows[np.lexsort((e[rows], -beside[rows], v[rows]))]
+        vertex, first = np.unique(v[rows], return_index=True)
+        cover = np.full(len(surface), -1, dtype=np.int64)
+        cover[vertex] = e[rows[first]]
+        found.append(cover)
+    return Covers(*found)
+
+
+def rays(
+    surface: Surface, covers: Covers, v: Ints, partner: Ints, rules: Rules
+) -> tuple[Floats, Floats]:
+    """Rays of the vertices ``v`` as bodies other than the flush neighbours meet them.
+
+    A vertex is merged with the bodies that lie flush on its sides, the partner apart, as long as
+    the union is convex; else its own rays stand.
+    """
+    own, before = surface.direction[v], -surface.direction[surface.previous[v]]
+    ray_own, walked = _walk(surface, covers, v, partner, own, before, True, rules)
+    ray_before, also = _walk(surface, covers, v, partner, before, ray_own, False, rules)
+    good = (walked & also)[:, None]
+    return np.where(good, ray_own, own), np.where(good, ray_before, before)
+
+
+def _walk(
+    surface: Surface,
+    covers: Covers,
+    v: Ints,
+    partner: Ints,
+    ray: Floats,
+    across: Floats,
+    forward: bool,
+    rules: Rules,
+) -> tuple[Floats, Bools]:
+    """Turn one ray of each vertex over its flush neighbours; tell where the union stays convex."""
+    convex = convex_vertices(surface, rules)
+    cover = covers.own if forward else covers.before
+    at, ray, good = v.copy(), ray.copy(), np.ones(len(v), dtype=bool)
+    going = np.ones(len(v), dtype=bool)
+    for _ in range(WALK):
+        x = np.where(going, cover[at], -1)
+        body = surface.body[x]
+        going = (x >= 0) & (body != partner) & (body != surface.body[v])
+        rows = np.flatnonzero(going & good)
+        if not len(rows):
+            break
+        edge, here = x[rows], at[rows]
+        corner = surface.next[edge] if forward else edge
+        offset = surface.start[corner] - surface.start[here]
+        meets = np.hypot(*offset.T) <= 2.0 * flush_distance(surface, here, edge, rules)
+        turned = (
+            surface.direction[corner] if forward else -surface.direction[surface.previous[corner]]
+        )
+        turn = cross(turned, across[rows]) if forward else cross(across[rows], turned)
+        flat_or_less = turn >= -rules.sine
+        full = (turn <= rules.sine) & (dot(turned, across[rows]) > 0.0)
+        good[rows] = meets & convex[corner] & flat_or_less & ~full
+        at[rows], ray[rows] = corner, turned
+    return ray, good
+
+
+def leaves(surface: Surface, covers: Covers, v: Ints, e: Ints, rules: Rules) -> Bools:
+    """First-order entrance condition, for the vertex alone and with its flush neighbours."""
+    own, before = surface.direction[v], -surface.direction[surface.previous[v]]
+    alone = _outward(surface, e, own, before, rules)
+    merged = rays(surface, covers, v, surface.body[e], rules)
+    return alone & _outward(surface, e, *merged, rules)
+
+
+def _outward(surface: Surface, e: Ints, own: Floats, before: Floats, rules: Rules) -> Bools:
+    """Whether both rays leave the edge's solid, and so does all between them."""
+    normal = surface.normal[e]
+    out_own, out_before = dot(own, normal), dot(before, normal)
+    # Of two rays along the edge, those of a vertex of the far side run the other way about.
+    flat = np.maximum(out_own, out_before) <= rules.sine
+    back = flat & (dot(own, surface.direction[e]) > 0.0)
+    return np.asarray((np.minimum(out_own, out_before) >= -rules.sine) & ~back)
+
+
+def _closed(opening: Floats, aside: Floats, flush: Floats) -> Floats:
+    """How far (m,) from its touching end an edge that opens from another is still flush (m)."""
+    left = np.maximum(flush - aside, 0.0)
+    return np.divide(left, opening, out=np.full_like(left, np.inf), where=opening > 0.0)
+
+
+def shielded(
+    surface: Surface, covers: Covers, v: Ints, e: Ints, along: Floats, rules: Rules
+) -> Bools:
+    """Feet of vertices on a stretch of edge, next to one of its ends, that a third body covers.
+
+    The third body must leave less room than the vertex' own body needs: what is squeezed between
+    two bodies that are flush for their size is no less there.
+    """
+    length, partner = surface.length[e], surface.body[v]
+    room = rules.depth * surface.thickness[v] + rules.rounding
+    foot = np.clip(along, 0.0, length)
+    hidden = np.zeros(len(e), dtype=bool)
+    total = np.zeros(len(e))
+    for x, corner, far, distance, sense in (
+        (covers.own[e], surface.start[e], surface.start, foot, 1.0),
+        (covers.before[surface.next[e]], surface.end[e], surface.end, length - foot, -1.0),
+    ):
+        third = (x >= 0) & (surface.body[x] != partner)
+        aside = np.abs(cross(surface.direction[x], corner - surface.start[x]))
+        third &= aside <= room
+        beside = np.abs(dot(far[x] - corner, surface.direction[e]))
+        opening = sense * cross(surface.direction[e], surface.direction[x])
+        beside = np.minimum(beside, _closed(opening, aside, flush_distance(surface, e, x, rules)))
+        covered = np.where(third, beside, 0.0)
+        whole = covered >= length - flush_distance(surface, e, x, rules)
+        margin = np.minimum(rules.depth * thinner(surface, e, x), 0.5 * covered)
+        inside = distance <= covered - margin
+        hidden |= third & (inside | whole)
+        total += covered
+    return np.asarray(hidden | (total >= length - rules.flush * surface.thickness[e]))

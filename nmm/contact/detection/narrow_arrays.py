@@ -1,0 +1,226 @@
+"""Narrow phase over whole arrays: the slower form that the compiled one is tested against.
+
+The rules are told in `narrow`. A *row* is a candidate pair of a vertex and an edge.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.flush import Covers, find_covers, leaves, rays, shielded
+from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import (
+    Rules,
+    convex_vertices,
+    cross,
+    dot,
+    flush_distance,
+    measure,
+    thinner,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Candidate rows, sorted by vertex, then edge; those of ``v`` begin at ``offset[v]``."""
+
+    vertex: Ints
+    edge: Ints
+    offset: Ints
+
+    def __len__(self) -> int:
+        return len(self.vertex)
+
+    @property
+    def key(self) -> Ints:
+        """(m,) rising numbers of the rows."""
+        return self.vertex * (len(self.offset) - 1) + self.edge
+
+
+def select(
+    surface: Surface, pairs: Pairs, rules: Rules, last: Bools, motion: Floats
+) -> tuple[Ints, Floats, Floats]:
+    """Return kept (m,), along (m,) and gap (m,) of all rows.
+
+    ``kept`` is 0 for no contact, 1 for a vertex over an edge, 2 for a vertex beyond its end;
+    ``along`` the foot's distance from the start of the edge. ``last`` marks rows that were
+    contacts before, ``motion`` (n, 2) is what each vertex is expected to move.
+    """
+    v, e = pairs.vertex, pairs.edge
+    along, gap = measure(surface, v, e)
+    covers = find_covers(surface, v, e, along, gap, rules)
+    length = surface.length[e]
+    # A contact stays a little beyond the end of its edge, lest two vertices take turns.
+    slop = np.where(last, flush_distance(surface, v, e, rules), 1e-9 * length + rules.rounding)
+    interior = (along >= -slop) & (along <= length + slop)
+    # In one body the far face of a thin neck looks like a face that is overlapped.
+    trusted = last | (surface.body[v] != surface.body[e])
+    depth = np.where(trusted, rules.depth, rules.flush) * thinner(surface, v, e)
+    usable = (length > 0.0) & convex_vertices(surface, rules)[v]
+    usable &= (gap >= -depth) & (gap <= rules.reach)
+    usable &= leaves(surface, covers, v, e, rules)
+    usable &= ~shielded(surface, covers, v, e, along, rules)
+    rank = _rank(surface, v, e, along, gap, last, motion, rules)
+    kept = np.where(interior & usable, 1, 0)
+    kept[_dominated(surface, pairs, kept == 1, interior, along, gap, rank, rules)] = -1
+    _pair_rule(surface, pairs, covers, kept, usable, rank, rules)
+    return np.maximum(kept, 0), along, gap
+
+
+def _rank(
+    surface: Surface,
+    v: Ints,
+    e: Ints,
+    along: Floats,
+    gap: Floats,
+    last: Bools,
+    motion: Floats,
+    rules: Rules,
+) -> Floats:
+    """Smallest gap over the step in whole grains, so that rounding does not choose."""
+    s = np.clip(along / np.where(surface.length[e] > 0.0, surface.length[e], 1.0), 0.0, 1.0)
+    of_edge = motion[e] + s[:, None] * (motion[surface.next[e]] - motion[e])
+    ahead = gap + dot(motion[v] - of_edge, surface.normal[e])
+    hold = rules.flush * thinner(surface, v, e)
+    rank = np.minimum(gap, ahead) + np.where(last, hold, 0.0)
+    return np.asarray(np.floor(rank / rules.grain + 0.5))
+
+
+def _dominated(
+    surface: Surface,
+    pairs: Pairs,
+    tentative: Bools,
+    interior: Bools,
+    along: Floats,
+    gap: Floats,
+    rank: Floats,
+    rules: Rules,
+) -> Bools:
+    """Rows over which another edge of the same body stands, seen from the same vertex.
+
+    Of edges that bound a convex part of the body the one least penetrated is the entrance; and a
+    vertex outside one of them has not entered through another, unless its own edges do pass there.
+    """
+    e = pairs.edge
+    i, j = _same_vertex(pairs, np.flatnonzero(tentative))
+    keep = interior[j] & (i != j) & (surface.body[e[i]] == surface.body[e[j]])
+    i, j = i[keep], j[keep]
+    mutual = _inside(surface, e[i], e[j], rules) & _inside(surface, e[j], e[i], rules)
+    i, j = i[mutual], j[mutual]
+    better = (rank[j] > rank[i]) | ((rank[j] == rank[i]) & (e[j] < e[i]))
+    outside = ~tentative[j] & (gap[j] > rules.grain) & (gap[i] < 0.0)
+    some = np.flatnonzero(outside)
+    row = j[some]
+    outside[some] = ~_passes(surface, pairs.vertex[row], e[row], along[row], gap[row])
+    dominated = np.zeros(len(e), dtype=bool)
+    dominated[i[(tentative[j] & better) | outside]] = True
+    return dominated
+
+
+def _same_vertex(pairs: Pairs, rows: Ints) -> tuple[Ints, Ints]:
+    """All (row, other row) with the same vertex."""
+    low, high = pairs.offset[pairs.vertex[rows]], pairs.offset[pairs.vertex[rows] + 1]
+    count = high - low
+    i = np.repeat(rows, count)
+    j = np.arange(count.sum()) + np.repeat(low - (np.cumsum(count) - count), count)
+    return i, j
+
+
+def _passes(surface: Surface, v: Ints, e: Ints, along: Floats, gap: Floats) -> Bools:
+    """Whether one of the edges at a vertex outside an edge passes through it."""
+    found = np.zeros(len(v), dtype=bool)
+    before = surface.previous[v]
+    for ray, length in (
+        (surface.direction[v], surface.length[v]),
+        (-surface.direction[before], surface.length[before]),
+    ):
+        down = -dot(ray, surface.normal[e])
+        there = (down > 0.0) & (gap <= down * length)
+        way = np.divide(gap, down, out=np.zeros_like(gap), where=there)
+        at = along + way * dot(ray, surface.direction[e])
+        found |= there & (at > 0.0) & (at < surface.length[e])
+    return found
+
+
+def _inside(surface: Surface, one: Ints, other: Ints, rules: Rules) -> Bools:
+    """Whether the middle of one edge is not outside the line of the other."""
+    middle = 0.5 * (surface.start[one] + surface.end[one]) - surface.start[other]
+    allowed = 0.5 * rules.sine * (surface.length[one] + surface.length[other])
+    return np.asarray(dot(middle, surface.normal[other]) <= allowed)
+
+
+def _pair_rule(
+    surface: Surface,
+    pairs: Pairs,
+    covers: Covers,
+    kept: Ints,
+    usable: Bools,
+    rank: Floats,
+    rules: Rules,
+) -> None:
+    """Judge the four lines at each pair of near vertices as a whole; change ``kept`` in place."""
+    convex = convex_vertices(surface, rules)
+    rows = np.flatnonzero((pairs.vertex < pairs.edge) & convex[pairs.vertex] & convex[pairs.edge])
+    v, w = pairs.vertex[rows], pairs.edge[rows]
+    offset = surface.start[v] - surface.start[w]
+    radius = np.maximum(rules.reach, rules.depth * thinner(surface, v, w))
+    near = np.hypot(*offset.T) <= radius
+    v, w, offset = v[near], w[near], offset[near]
+    before = surface.previous
+    four = ((v, w), (v, before[w]), (w, v), (w, before[v]))
+    lines = np.stack([_find(pairs, vertex, edge) for vertex, edge in four])
+    exists = lines >= 0
+    normal = surface.normal[pairs.edge[lines]] * np.array([1.0, 1.0, -1.0, -1.0])[:, None, None]
+    standing = exists & (kept[lines] == 1)
+    entered = (exists & (kept[lines] != 0)).any(axis=0)
+
+    best = _best(pairs, lines, standing, rank)
+    picked = lines[best, np.arange(len(v))]
+    chosen = normal[best, np.arange(len(v))]
+    agree = np.einsum("kij,ij->ki", normal, chosen) >= 1.0 - 2.0 * rules.sine**2
+    # Contacts that are one above the other are one, however wide the gap.
+    beside = np.abs(cross(chosen, offset))
+    merged = beside <= flush_distance(surface, v, w, rules)
+    drop = standing & (~agree | merged) & (lines != picked)
+
+    longest = np.stack([surface.length[k] for k in (v, before[v], w, before[w])]).max(axis=0)
+    slop = 1e-9 * longest + rules.rounding
+    apart = _beyond(surface, covers, w, surface.body[v], offset, slop, rules)
+    apart &= _beyond(surface, covers, v, surface.body[w], -offset, slop, rules)
+    free = exists & usable[lines]
+    corner = apart & ~entered & free.any(axis=0)
+    best = _best(pairs, lines, free, rank)
+    kept[lines[drop]] = -1
+    kept[lines[best, np.arange(len(v))][corner]] = 2
+
+
+def _beyond(
+    surface: Surface,
+    covers: Covers,
+    w: Ints,
+    partner: Ints,
+    offset: Floats,
+    slop: Floats,
+    rules: Rules,
+) -> Bools:
+    """Whether a point at ``offset`` from the vertex has its foot on neither of the rays."""
+    own, before = rays(surface, covers, w, partner, rules)
+    return np.asarray((dot(offset, own) <= slop) & (dot(offset, before) <= slop))
+
+
+def _best(pairs: Pairs, lines: Ints, among: Bools, rank: Floats) -> Ints:
+    """Index of the line of highest rank, the smallest (vertex, edge) among equals."""
+    value = np.where(among, rank[lines], -np.inf)
+    top = among & (value == value.max(axis=0))
+    return np.asarray(np.where(top, lines, len(pairs)).argmin(axis=0))
+
+
+def _find(pairs: Pairs, vertex: Ints, edge: Ints) -> Ints:
+    """Rows of (vertex, edge), -1 where the pair is no candidate."""
+    key = pairs.key
+    wanted = vertex * (len(pairs.offset) - 1) + edge
+    row = np.minimum(np.searchsorted(key, wanted), max(len(key) - 1, 0))
+    return np.where(key[row] == wanted, row, -1).astype(np.int64)

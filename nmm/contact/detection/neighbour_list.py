@@ -1,0 +1,118 @@
+"""Broad phase: which vertices are near which edges, kept while nothing moves far."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import DEPTH
+
+
+def near_pairs(
+    surface: Surface, distance: float | Floats, within_bodies: bool = False
+) -> tuple[Ints, Ints]:
+    """Vertex and edge (m,) of all near pairs, sorted by vertex, then edge; by a compiled grid.
+
+    Parameters
+    ----------
+    surface
+        The edges.
+    distance
+        The largest distance (m) of a vertex from the segment; an array (n,) gives one to each
+        vertex and edge, and the smaller of the two counts.
+    within_bodies
+        Also pairs of one body, as the faces of a crack in it: all but the edges at the vertex, and
+        those that share an end with them at a corner that is not reentrant.
+    """
+    # Compiled code is loaded by the first search, not by whoever names this module.
+    from nmm.contact.detection.grid import pairs_by_grid
+
+    return pairs_by_grid(
+        surface.start,
+        surface.end,
+        surface.body,
+        surface.next,
+        surface.previous,
+        np.broadcast_to(np.asarray(distance, dtype=float), len(surface)).copy(),
+        within_bodies,
+    )
+
+
+def near_pairs_by_tree(
+    surface: Surface, distance: float, within_bodies: bool = False
+) -> tuple[Ints, Ints]:
+    """As `near_pairs`, by shapely's tree: the slower form that the grid is tested against."""
+    lines = shapely.linestrings(np.stack([surface.start, surface.end], axis=1))
+    tree = shapely.STRtree(np.atleast_1d(np.asarray(lines, dtype=object)))
+    points = np.atleast_1d(np.asarray(shapely.points(surface.start), dtype=object))
+    vertex, edge = tree.query(points, predicate="dwithin", distance=distance).astype(np.int64)
+    keep = surface.body[vertex] != surface.body[edge]
+    if within_bodies:
+        keep |= _apart(surface, vertex, edge)
+    order = np.lexsort((edge[keep], vertex[keep]))
+    return vertex[keep][order], edge[keep][order]
+
+
+def _apart(surface: Surface, vertex: Ints, edge: Ints) -> Bools:
+    """Pairs of which vertex and edge can meet: across a reentrant corner at the nearest."""
+    before, after = surface.previous, surface.next
+    u = surface.direction[before]
+    turn = u[:, 0] * surface.direction[:, 1] - u[:, 1] * surface.direction[:, 0]
+    back = (u * surface.direction).sum(axis=1) < 0.0
+    reentrant = (turn <= 1e-9) & ((turn < 0.0) | back)
+    close = (edge == vertex) | (edge == before[vertex])
+    close |= (edge == after[vertex]) & ~reentrant[after[vertex]]
+    close |= (edge == before[before[vertex]]) & ~reentrant[before[vertex]]
+    return np.asarray(~close)
+
+
+class NeighbourList:
+    """Candidate pairs of a moving surface, searched anew only when something has moved far.
+
+    Built, the list holds all pairs of a vertex and an edge within the skin; it is built anew once
+    two points may have moved apart by half the skin (Verlet 1967). So `update` misses no gap up to
+    half the skin, and no vertex that is in another body by less than `rules.DEPTH` of the thinner
+    body's thickness.
+
+    Parameters
+    ----------
+    skin
+        m. A wider skin makes longer lists and fewer searches.
+    within_bodies
+        See `near_pairs`.
+
+    Attributes
+    ----------
+    rebuilds
+        How often the pairs were searched.
+    """
+
+    def __init__(self, skin: float, within_bodies: bool = False) -> None:
+        self.skin = skin
+        self.within_bodies = within_bodies
+        self.rebuilds = 0
+        self._built: Surface | None = None
+        self._pairs = (np.empty(0, np.int64), np.empty(0, np.int64))
+
+    def update(self, surface: Surface) -> tuple[Ints, Ints]:
+        """Return vertex and edge (m,) of the candidates, sorted by vertex, then edge."""
+        if self._built is None or not self._stands(self._built, surface):
+            depth = DEPTH * surface.thickness + 0.5 * self.skin
+            distance = np.maximum(self.skin, depth)
+            self._pairs = near_pairs(surface, distance, self.within_bodies)
+            self._built = surface
+            self.rebuilds += 1
+        return self._pairs
+
+    def _stands(self, built: Surface, now: Surface) -> bool:
+        """Whether the bodies are the same and no two points can have met by their motion."""
+        from nmm.contact.detection.grid import spread
+
+        same = _equal(built.body, now.body) and _equal(built.next, now.next)
+        return same and spread(now.start, built.start) <= 0.5 * self.skin
+
+
+def _equal(one: Ints, other: Ints) -> bool:
+    return one is other or np.array_equal(one, other)

@@ -1,0 +1,1 @@
+"""Contact enforcements, one file each, and those that wrap any of them."""

@@ -1,0 +1,131 @@
+"""Incremental potential contact on the linearised gaps of a step."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from nmm.contact.barrier.potential import Potential
+from nmm.contact.barrier.search import Search
+from nmm.contact.enforcement.base import Enforcement
+from nmm.contact.iteration.alternation import Budget
+from nmm.contact.iteration.answers import free_part, singular_answer, worst_contacts
+from nmm.contact.iteration.cut_spring_solver import settle
+from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.multiplier_rounds import compliances, stiff_springs
+from nmm.contact.problem.coulomb import label
+from nmm.contact.problem.cut_springs import Settled
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
+from nmm.errors import SolveError
+from nmm.registry import above_zero
+from nmm.solvers.linear import LinearSolver
+
+TOO_THIN = 1e-2
+"""A kept width below this part of the one that fits a step is given up for it."""
+
+
+@dataclass(frozen=True)
+class Barrier(Enforcement):
+    """A smooth barrier in place of the constraint (Li et al. 2020, equations 5, 6, 11, 14).
+
+    Normal forces follow ``b(x) = -(x - w)^2 ln(x / w)``, ``x = gap + w/2``: they act within
+    half a width ``w`` of touching and grow without bound at ``gap = -w/2``, which no step reaches.
+    Friction is a smooth function of the slip that meets Coulomb's bound at a slip of ``w/2``.
+    Three methods are tried in turn (`Search`): Newton's on unknowns and forces together, the same
+    after an interior point has found most states, and descent inside the walls.
+
+    Gaps are wrong by up to ``w/2`` and sticking slips by up to ``w/2``: these are the numbers to
+    choose ``w`` by. Contacts with a tension limit or a stiffness of their own are springs.
+
+    Attributes
+    ----------
+    width
+        ``w`` (m); None takes a thousandth of what the largest contact force of the first step
+        with contact would press in (compliance times force); before, of the largest motion; and
+        anew where that turns out a hundred times as large.
+    max_passes
+        Most Newton steps of each method; in the descent, for one friction bound and of bounds.
+    tolerance
+        Largest relative out-of-balance force (-).
+    """
+
+    name: ClassVar[str] = "barrier"
+    width: float | None = None
+    max_passes: int = above_zero(100)
+    tolerance: float = above_zero(1e-7)
+
+    def solve(
+        self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
+    ) -> StepAnswer:
+        """Balance the step from roughly settled springs, or in the end from no motion."""
+        problem.check()
+        memory = memory or Memory()
+        springs = stiff_springs(problem, 1.0)
+        try:
+            rough = settle(springs, linear_solver, memory, 1e-2, budget=Budget(20, 2, 0))
+        except SolveError as fault:
+            return singular_answer(springs, linear_solver, fault)
+        force = max(float(np.abs(f).max(initial=0.0)) for f in springs.forces(rough.increment))
+        ease = float(np.mean(compliances(problem)[0])) if problem.n_contacts else 1.0
+        moved = float(np.abs(problem.normal_rows @ rough.increment).max(initial=0.0))
+        fit = 1e-3 * (force * ease or moved or ease)
+        # A first touch that hardly presses says little of what is to come.
+        kept = memory.barrier_width if (memory.barrier_width or 0.0) > TOO_THIN * fit else None
+        width = self.width or kept or fit
+        if force > 0:  # blocks that fly do not yet say how hard they will meet
+            memory.barrier_width = width
+        well = Potential(problem, width, max(force, width / ease) / width)
+        search = Search(well, memory.pattern_of(problem), linear_solver, self.tolerance)
+        found = search.run(rough, self.max_passes, memory.again(problem))
+        return _Outcome(self, well, linear_solver, found).answer(memory)
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """Where the search ended."""
+
+    options: Barrier
+    well: Potential
+    linear: LinearSolver
+    found: Settled
+
+    def answer(self, memory: Memory) -> StepAnswer:
+        """Forces under the bound of their own normal force, and the verdict on them."""
+        well, problem = self.well, self.well.problem
+        gap, slip = problem.gaps(self.found.increment), problem.slips(self.found.increment)
+        pull = well.pull(gap, slip)
+        bound = well.bound(pull.normal)
+        reach = np.where(well.spring, bound / problem.shear_stiffness, well.width / 2)
+        is_open = np.where(well.spring, gap > well.stretch, well.distance(gap) >= 1)
+        loose = is_open & (problem.limits.tension <= 0)
+        return StepAnswer(
+            increment=self.found.increment,
+            normal_force=pull.normal,
+            shear_force=pull.shear,
+            gap=gap,
+            slip=np.where(loose, 0.0, np.clip(slip, -reach, reach)),
+            state=label(problem, is_open, np.abs(slip) > reach),
+            passes=self.found.solves,
+            residual=self.found.size,
+            verdict=self._verdict(memory),
+            factorisations=self.found.factorisations,
+            solver=self.linear.name,
+        )
+
+    def _verdict(self, memory: Memory) -> Verdict:
+        how = self.found.story
+        half = self.well.width / 2
+        if self.found.size <= self.options.tolerance:
+            deep = f"; {self.well.deep} contacts began deeper than that" if self.well.deep else ""
+            sentence = f"settled by {how}, gaps and slips within {half:.1e} m{deep}"
+            return Verdict(True, "converged", sentence)
+        free = free_part(self.found, self.linear, memory)
+        if free is not None:
+            return free
+        worst = worst_contacts(self.found.springs, self.found.increment)
+        named = ", ".join(str(i) for i in worst[:5])
+        sentence = (
+            f"out of balance by {self.found.size:.1e} after {how}, most at contacts {named}; "
+            "shorten the step or widen the barrier"
+        )
+        return Verdict(False, "stalled", sentence, worst)

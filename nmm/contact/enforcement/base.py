@@ -1,0 +1,82 @@
+"""What a contact enforcement is, and the names of the built-in ones."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+from nmm.registry import Registry
+
+if TYPE_CHECKING:
+    from nmm.contact.iteration.memory import Memory
+    from nmm.solvers.linear import LinearSolver
+
+
+@dataclass(frozen=True)
+class Enforcement(ABC):
+    """Base of contact enforcements; a frozen set of options.
+
+    Attributes
+    ----------
+    name
+        Its name in files.
+    multipliers
+        Whether forces are whatever exact conditions need: on faces of meshes these are then held
+        in the mean (`nmm.contact.mortar.face_means`).
+    """
+
+    name: ClassVar[str]
+    multipliers: ClassVar[bool] = False
+
+    @abstractmethod
+    def solve(
+        self, problem: StepProblem, linear_solver: "LinearSolver", memory: "Memory | None" = None
+    ) -> StepAnswer:
+        """Find unknowns and contact forces of one step.
+
+        Parameters
+        ----------
+        problem
+            The step.
+        linear_solver
+            Factorises the matrices.
+        memory
+            What may be kept from step to step (patterns, factors); made once by the step loop and
+            handed to every call. It changes the cost, not the answer beyond the tolerance.
+
+        Returns
+        -------
+        StepAnswer
+            Its verdict says whether the forces may be used.
+
+        Raises
+        ------
+        SolveError
+            When the problem itself is malformed (shapes, numbers that are not finite).
+        """
+
+
+ENFORCEMENTS: Registry[type[Enforcement]] = Registry(
+    "enforcement",
+    Enforcement,
+    {
+        "penalty": "nmm.contact.enforcement.penalty:Penalty",
+        "augmented": "nmm.contact.enforcement.augmented:Augmented",
+        "lagrange": "nmm.contact.enforcement.lagrange:Lagrange",
+        "cone": "nmm.contact.enforcement.cone:Cone",
+        "barrier": "nmm.contact.enforcement.barrier:Barrier",
+    },
+)
+
+
+def make_enforcement(name: str, options: Mapping[str, Any] | None = None) -> Enforcement:
+    """Return the enforcement ``name`` ("penalty", ... or "module:Class") with ``options`` set.
+
+    Raises
+    ------
+    FormulationError
+        When the name or an option is not known.
+    """
+    made: Enforcement = ENFORCEMENTS.make(name, options)
+    return made

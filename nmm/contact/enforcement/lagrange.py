@@ -1,0 +1,205 @@
+"""Lagrange multipliers on an active set."""
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+from scipy.sparse import block_array, csc_array, diags_array
+
+from integration.arrays import Bools, Floats
+from nmm.contact.enforcement.base import Enforcement
+from nmm.contact.iteration.answers import answer, singular_answer
+from nmm.contact.iteration.exact import START, exact_round
+from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.multiplier_rounds import (
+    Round,
+    compliances,
+    exact_goal,
+    measured,
+    rounds_verdict,
+    stiff_springs,
+)
+from nmm.contact.iteration.open_close import Springs, changes, first_springs
+from nmm.contact.problem.coulomb import shear_bound
+from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+from nmm.errors import SolveError
+from nmm.registry import above_zero
+from nmm.solvers.linear import LinearSolver
+
+SOFT = 1e-10
+"""Compliance in the (2,2) block, as a part of the contact's; refinement removes its effect."""
+REFINEMENTS = 10
+"""Most refinements with the matrix without that compliance."""
+
+
+@dataclass(frozen=True)
+class Lagrange(Enforcement):
+    """Contact forces as unknowns: ``[K G; G^T 0] [d; lambda] = [F; -gap]`` (Cai, Liang, Ma 2000).
+
+    A pass solves the system of the closed contacts, with a shear multiplier where they stick and
+    the friction of the unknown normal force where they slide; the set is corrected until it
+    stands. Gaps of closed contacts are zero to rounding.
+
+    More contacts than unknowns make the matrix singular: a (2,2) block ``-1e-10 c`` with ``c`` the
+    contact's compliance keeps it regular, and refinement with the matrix without that block removes
+    its effect when the constraints agree with one another. When they do not (a wall whose blocks
+    have more contacts than unknowns), when the set cycles, or when it sets a part free, the
+    way of `Cone` finds the same exact conditions, and the verdict says so.
+
+    Attributes
+    ----------
+    max_passes
+        Most corrections of the active set.
+    rescue
+        Most factorisations of the interior point.
+    tolerance
+        Largest relative out-of-balance force (-).
+    gap_tolerance
+        Largest gap or slip that should not be, over the compliance times the largest force (-);
+        ``tolerance`` stands in for it in problems of up to 120 unknowns.
+    """
+
+    name: ClassVar[str] = "lagrange"
+    multipliers: ClassVar[bool] = True
+    max_passes: int = above_zero(20)
+    rescue: int = 100
+    tolerance: float = above_zero(1e-8)
+    gap_tolerance: float = above_zero(1e-7)
+
+    def solve(
+        self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
+    ) -> StepAnswer:
+        """Correct the active set until it stands."""
+        problem.check()
+        memory = memory or Memory()
+        goal = exact_goal(problem, self.tolerance, self.gap_tolerance)
+        at, how = self._active_set(stiff_springs(problem, 1.0), linear_solver)
+        if at is None or not at.meets(goal):
+            try:
+                at, rest = exact_round(problem, linear_solver, memory, goal, self.rescue)
+            except SolveError as fault:
+                return singular_answer(stiff_springs(problem, START), linear_solver, fault)
+            how = f"{how}, then {rest}"
+        verdict = rounds_verdict(at, linear_solver, memory, goal, how)
+        return answer(at.settled, linear_solver, verdict)
+
+    def _active_set(self, springs: CutSprings, linear: LinearSolver) -> tuple[Round | None, str]:
+        problem = springs.problem
+        active, seen = first_springs(problem), set[bytes]()
+        for passes in range(1, self.max_passes + 1):
+            seen.add(active.code)
+            if _constraints(problem, active) > len(problem.force):
+                return None, "more contacts than unknowns"
+            try:
+                increment, normal, shear = _saddle(problem, active, linear)
+            except SolveError:
+                if passes == 1 and not active.closed.all():
+                    active = replace(active, closed=np.ones_like(active.closed))
+                    continue
+                return None, f"a singular active set in pass {passes}"
+            found = _corrected(problem, active, increment, normal, shear)
+            if not changes(problem, active, found).any():
+                shifted = springs.shifted(
+                    np.where(problem.own_stiffness, 0.0, normal),
+                    np.where(problem.own_stiffness, 0.0, shear),
+                )
+                size = shifted.defect(increment).size
+                settled = Settled(shifted, increment, size, passes, passes, "")
+                return measured(settled, passes), f"{passes} active sets"
+            if found.code in seen:
+                return None, f"an active set that cycled after {passes} passes"
+            active = found
+        return None, f"{self.max_passes} active sets"
+
+
+def _constraints(problem: StepProblem, active: Springs) -> int:
+    sharp = active.closed & ~problem.own_stiffness
+    return int(sharp.sum() + (sharp & ~active.sliding).sum())
+
+
+def _saddle(
+    problem: StepProblem, active: Springs, linear: LinearSolver
+) -> tuple[Floats, Floats, Floats]:
+    """Unknowns, normal and shear forces of an active set."""
+    limits, own = problem.limits, problem.own_stiffness
+    closed = np.flatnonzero(active.closed)
+    carries = ~active.sliding & (active.closed | (limits.tension > 0))
+    stuck = np.flatnonzero(carries)
+    normal_rows, shear_rows = problem.normal_rows[closed], problem.tangent_rows[stuck]
+    drag = np.where(active.sliding, active.sign * limits.friction, 0.0)[closed]
+    pressing = normal_rows.T - problem.tangent_rows[closed].T @ diags_array(drag)
+    soft = [np.where(own, 1 / k, 0.0) for k in (problem.normal_stiffness, problem.shear_stiffness)]
+    compliance = np.concatenate([soft[0][closed], soft[1][stuck]])
+    ease = compliances(problem)
+    regular = compliance + SOFT * np.concatenate([ease[0][closed], ease[1][stuck]])
+
+    pull = np.where(active.closed, 0.0, limits.tension)
+    finite = np.where(active.sliding, limits.cohesion, 0.0)
+    constant = active.sign * finite
+    constant = np.where(active.closed | (limits.tension > 0), constant, 0.0)
+    load = problem.force - problem.normal_rows.T @ pull - problem.tangent_rows.T @ constant
+    rhs = np.concatenate([load, -problem.gap[closed], -problem.slip[stuck]])
+
+    def matrix(block: Floats) -> csc_array:
+        n, s = len(closed), len(stuck)
+        corner = diags_array(-block)
+        return csc_array(
+            block_array(
+                [
+                    [problem.matrix, pressing, shear_rows.T],
+                    [normal_rows, corner.tocsr()[:n, :n], None],
+                    [shear_rows, None, corner.tocsr()[n : n + s, n:]],
+                ]
+            )
+        )
+
+    x = _refined(linear, matrix(regular), matrix(compliance), rhs)
+    size = len(problem.force)
+    normal, shear = pull.copy(), constant.copy()
+    normal[closed] = x[size : size + len(closed)]
+    shear[closed] -= drag * normal[closed]
+    shear[stuck] = x[size + len(closed) :]
+    return x[:size], normal, shear
+
+
+def _refined(linear: LinearSolver, regular: csc_array, exact: csc_array, rhs: Floats) -> Floats:
+    factor = linear.indefinite().factorise(regular)
+    x = factor.solve(rhs)
+    best, least = x, np.inf
+    for _ in range(REFINEMENTS):
+        rest = rhs - exact @ x
+        size = float(np.linalg.norm(factor.scale * rest))
+        if not size < 0.5 * least:
+            break
+        best, least = x, size
+        x = x + factor.apply(rest)
+    return best
+
+
+def _corrected(
+    problem: StepProblem, active: Springs, increment: Floats, normal: Floats, shear: Floats
+) -> Springs:
+    limits, own = problem.limits, problem.own_stiffness
+    gap, slip = problem.gaps(increment), problem.slips(increment)
+    force = max(float(np.abs(normal).max(initial=0.0)), float(np.abs(shear).max(initial=0.0)))
+    ease = compliances(problem)
+    near_force, near_gap, near_slip = (
+        1e-12 * force,
+        1e-10 * force * ease[0],
+        1e-10 * force * ease[1],
+    )
+    stretch = np.where(own, limits.tension / problem.normal_stiffness, 0.0)
+    stretch = np.where(np.isfinite(stretch), stretch, 0.0)
+    opens = normal > limits.tension + near_force
+    closes = gap < stretch - near_gap
+    is_open = np.where(active.closed, opens, ~closes)
+    bound = shear_bound(np.minimum(normal, limits.tension), is_open, limits)
+    smooth: Bools = (limits.friction == 0) & (limits.cohesion == 0)
+    elastic = np.where(own, shear / problem.shear_stiffness, 0.0)
+    stays = active.sliding & (active.sign * (slip - elastic) >= -near_slip)
+    held = active.closed | (limits.tension > 0)
+    turned = ~active.sliding & held & (np.abs(shear) > bound + near_force)
+    sliding = stays | turned | smooth
+    sign = np.where(stays, active.sign, np.sign(shear))
+    return Springs(~is_open, sliding, np.where(smooth, 0.0, sign) * sliding)

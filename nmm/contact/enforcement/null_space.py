@@ -1,0 +1,157 @@
+"""Conditions held by multipliers in a step with contact: unknowns that follow from the others.
+
+A condition ``C d = g`` gives as many unknowns as there are conditions by the others,
+``d = Z y + z`` with ``C Z = 0``. The step in ``y`` is an ordinary contact problem, which every
+enforcement solves; the multipliers are what is left of the balance of the unknowns that were given.
+"""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array
+
+from integration.arrays import Floats, Ints
+from nmm.contact.enforcement.base import Enforcement
+from nmm.contact.iteration.memory import Memory
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+from nmm.solvers.linear import LinearSolver
+
+# Conditions that others imply up to this share of the largest are left out.
+IMPLIED = 1e-10
+
+
+@dataclass(frozen=True)
+class Held:
+    """Conditions ``rows @ d = sides``.
+
+    Attributes
+    ----------
+    rows, sides
+        (k, n) and (k,).
+    given
+        (r,) unknowns that follow from the others.
+    factor, turn
+        (r, r) and (k, r): ``factor @ d[given] = turn.T @ sides - ...`` of the other unknowns.
+    basis
+        (n, n - r) ``Z``.
+    start
+        (n,) ``z``.
+    """
+
+    rows: csr_array
+    sides: Floats
+    given: Ints
+    factor: Floats
+    turn: Floats
+    basis: csc_array
+    start: Floats
+    _kept: dict[str, tuple[csc_array, csc_array]] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, rows: csr_array, sides: Floats, last: "Held | None" = None) -> "Held":
+        """Choose the unknowns; the choice of the ``last`` step stands as long as the rows do."""
+        if last is not None and _same(rows, last.rows):
+            return replace(last, sides=sides, start=last._start(sides))
+        from scipy.linalg import qr, solve_triangular
+
+        n = rows.shape[1]
+        touched = np.unique(rows.indices)
+        q, r, order = qr(rows[:, touched].toarray(), mode="economic", pivoting=True)
+        size = np.abs(r.diagonal())
+        rank = int((size > IMPLIED * size.max(initial=0.0)).sum())
+        given, others = touched[order[:rank]], touched[order[rank:]]
+        share = solve_triangular(r[:rank, :rank], r[:rank, rank:])
+        free = np.setdiff1d(np.arange(n), given)
+        at = np.searchsorted(free, others)
+        entries = np.concatenate([np.ones(len(free)), -share.ravel()])
+        row = np.concatenate([free, np.repeat(given, len(others))])
+        column = np.concatenate([np.arange(len(free)), np.tile(at, rank)])
+        basis = csc_array((entries, (row, column)), shape=(n, len(free)))
+        made = cls(rows, sides, given, r[:rank, :rank], q[:, :rank], basis, np.zeros(n))
+        return replace(made, start=made._start(sides))
+
+    def reduced(self, problem: StepProblem) -> StepProblem:
+        """Return the problem in the other unknowns."""
+        matrix, basis, start = self._matrix(problem.matrix), self.basis, self.start
+        normal, tangent = (
+            csr_array(part @ basis) for part in (problem.normal_rows, problem.tangent_rows)
+        )
+        for part in (normal, tangent):
+            part.sort_indices()
+        return replace(
+            problem,
+            matrix=matrix,
+            force=basis.T @ (problem.force - problem.matrix @ start),
+            normal_rows=normal,
+            tangent_rows=tangent,
+            gap=problem.gap + problem.normal_rows @ start,
+            slip=problem.slip + problem.tangent_rows @ start,
+        )
+
+    def others(self, unknowns: Floats) -> Floats:
+        """Return the unknowns (n - r,) that are not given."""
+        kept = np.ones(len(unknowns), dtype=bool)
+        kept[self.given] = False
+        return np.asarray(unknowns[kept])
+
+    def whole(self, unknowns: Floats) -> Floats:
+        """Return all unknowns (n,) from those that are not given."""
+        return np.asarray(self.basis @ unknowns + self.start)
+
+    def multipliers(self, rest: Floats) -> Floats:
+        """Multipliers (k,) with ``rows.T @ m = rest`` (n,), what is left of the balance."""
+        from scipy.linalg import solve_triangular
+
+        found = solve_triangular(self.factor, rest[self.given], trans="T")
+        return np.asarray(self.turn @ found)
+
+    def _start(self, sides: Floats) -> Floats:
+        from scipy.linalg import solve_triangular
+
+        start = np.zeros(self.rows.shape[1])
+        start[self.given] = solve_triangular(self.factor, self.turn.T @ sides)
+        return start
+
+    def _matrix(self, matrix: csc_array) -> csc_array:
+        """``Z^T matrix Z``, the same object of the same matrix."""
+        kept = self._kept.get("matrix")
+        if kept is None or kept[0] is not matrix:
+            small = csc_array(self.basis.T @ (matrix @ self.basis))
+            small = csc_array((small + small.T) / 2)
+            small.sort_indices()
+            kept = self._kept["matrix"] = matrix, small
+        return kept[1]
+
+
+@dataclass(frozen=True)
+class Conditioned(Enforcement):
+    """An enforcement under conditions.
+
+    Attributes
+    ----------
+    inner
+        Solves the problem in the unknowns that are not given.
+    held
+        The conditions.
+    """
+
+    inner: Enforcement
+    held: Held
+
+    def solve(
+        self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
+    ) -> StepAnswer:
+        """See `Enforcement.solve`."""
+        if memory is not None and memory.start is not None:
+            memory.start = self.held.others(memory.start)
+        found = self.inner.solve(self.held.reduced(problem), linear_solver, memory)
+        return replace(found, increment=self.held.whole(found.increment))
+
+
+def _same(a: csr_array, b: csr_array) -> bool:
+    return (
+        a.shape == b.shape
+        and np.array_equal(a.data, b.data)
+        and np.array_equal(a.indices, b.indices)
+        and np.array_equal(a.indptr, b.indptr)
+    )

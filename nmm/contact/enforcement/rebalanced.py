@@ -1,0 +1,72 @@
+"""Every part in balance by its own forces, not only beside the largest force of the scene."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.contact.enforcement.base import Enforcement
+from nmm.contact.iteration.cut_spring_solver import SMALL
+from nmm.contact.iteration.memory import Memory
+from nmm.contact.problem.balance import length, weights
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+from nmm.solvers.linear import LinearSolver
+
+UNEVEN = 1e-3
+"""Share of its own forces by which an unknown may be out of balance."""
+UNEVEN_SMALL = 1e-6
+"""The same in problems of up to `SMALL` unknowns, where more costs nothing."""
+FINE = 1e-11
+"""Tolerance of the second solution."""
+
+
+def solved_evenly(
+    enforcement: Enforcement,
+    problem: StepProblem,
+    linear: LinearSolver,
+    memory: Memory,
+    body: Ints,
+) -> StepAnswer:
+    """Solve a step, and again with a tolerance of `FINE` where the first answer is uneven.
+
+    A tolerance relative to the largest force says nothing of a part whose own forces are as
+    small as that: a block of 0.1 mm on one of 1 m has 1e-8 of its weight.
+    """
+    answer = enforcement.solve(problem, linear, memory)
+    allowed = UNEVEN_SMALL if len(problem.force) <= SMALL else UNEVEN
+    if not answer.verdict.converged or unevenness(problem, answer, body) <= allowed:
+        return answer
+    if not getattr(enforcement, "tolerance", 0.0) > FINE:
+        return answer
+    memory.answered = (problem, answer)
+    finer = replace(enforcement, **{"tolerance": FINE}).solve(
+        memory.started(problem), linear, memory
+    )
+    passes = answer.passes + finer.passes
+    return replace(finer if finer.verdict.converged else answer, passes=passes)
+
+
+def unevenness(problem: StepProblem, answer: StepAnswer, body: Ints) -> float:
+    """Largest out-of-balance force of an unknown over the forces that meet in its ``body`` (n,).
+
+    These are ``|F| + |K| |d| + (|N| + |T|)`` through both rows of each contact, so that a block
+    pressed from above alone is not asked for rest aside to the last digit (componentwise backward
+    error: Oettli, Prager 1964), weighted so that unknowns compare, the largest of its body: a
+    brick that falls upright is not asked for rest aside. What is in balance beside the whole
+    scene to `FINE` does not count.
+    """
+    n, increment = len(problem.force), np.abs(answer.increment)
+    column = np.repeat(np.arange(n), np.diff(problem.matrix.indptr))
+    entries = np.abs(problem.matrix.data) * increment[column]
+    whole: Floats = np.abs(problem.force) + np.bincount(problem.matrix.indices, entries, n)
+    pressed = np.abs(answer.normal_force) + np.abs(answer.shear_force)
+    for rows in (problem.normal_rows, problem.tangent_rows):
+        push = np.repeat(pressed, np.diff(rows.indptr))
+        whole += np.bincount(rows.indices, np.abs(rows.data) * push, n)
+    rest = np.abs(problem.out_of_balance(answer.increment, answer.normal_force, answer.shear_force))
+    weight = weights(problem)
+    whole, rest = weight * whole, weight * rest
+    largest = np.zeros(body.max() + 1)
+    np.maximum.at(largest, body, whole)
+    counts = rest > FINE * length(whole)
+    return float((rest[counts] / largest[body[counts]]).max(initial=0.0))

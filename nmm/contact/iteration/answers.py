@@ -1,0 +1,108 @@
+"""Answers and verdicts of the enforcements that settle cut springs."""
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.iteration.cut_spring_solver import settle
+from nmm.contact.iteration.memory import Memory
+from nmm.contact.problem.coulomb import label
+from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.rounding import rounding
+from nmm.contact.problem.step_problem import StepAnswer, Verdict
+from nmm.errors import SolveError
+from nmm.solvers.linear import LinearSolver
+
+PASSES = 3
+"""Open-close passes after a failure, to see whether a part came free."""
+
+
+def settled_answer(
+    springs: CutSprings, linear: LinearSolver, memory: Memory, tolerance: float
+) -> StepAnswer:
+    """Settle ``springs`` and judge the outcome."""
+    try:
+        found = settle(springs, linear, memory, tolerance)
+    except SolveError as fault:
+        return singular_answer(springs, linear, fault)
+    return answer(found, linear, judge(found, linear, memory, tolerance))
+
+
+def answer(found: Settled, linear: LinearSolver, verdict: Verdict) -> StepAnswer:
+    """Answer with the forces of the springs at what was found."""
+    springs, problem = found.springs, found.springs.problem
+    gap, slip = problem.gaps(found.increment), problem.slips(found.increment)
+    trial = springs.stretched(gap, slip)
+    normal, shear = springs.cut(*trial)
+    is_open, sliding = springs.states_of(*trial)
+    return StepAnswer(
+        increment=found.increment,
+        normal_force=normal,
+        shear_force=shear,
+        gap=gap,
+        slip=kept_slip(found, shear),
+        state=label(problem, is_open, sliding),
+        passes=found.solves,
+        residual=found.size,
+        verdict=verdict,
+        factorisations=found.factorisations,
+        solver=linear.name,
+    )
+
+
+def kept_slip(found: Settled, shear: Floats) -> Floats:
+    """(m,) slip that the shear springs carry (m): what remains of the slip of exact contacts."""
+    return (shear - found.springs.shear_shift) / found.springs.shear_stiffness
+
+
+def judge(found: Settled, linear: LinearSolver, memory: Memory, tolerance: float) -> Verdict:
+    """Verdict on unknowns whose forces are admissible by construction."""
+    springs = found.springs
+    if found.size <= tolerance or found.size <= rounding(springs, found.increment):
+        return Verdict(True, "converged", f"settled by {found.story}")
+    free = free_part(found, linear, memory)
+    if free is not None:
+        return free
+    worst = worst_contacts(springs, found.increment)
+    named = ", ".join(str(i) for i in worst[:5])
+    sentence = (
+        f"out of balance by {found.size:.1e} after {found.story}, most at contacts {named}; "
+        "shorten the step or soften the contacts"
+    )
+    return Verdict(False, "stalled", sentence, worst)
+
+
+def worst_contacts(springs: CutSprings, increment: Floats) -> tuple[int, ...]:
+    """Up to ten contacts on whose unknowns the out-of-balance force is largest."""
+    problem = springs.problem
+    rest = np.abs(springs.weight**2 * springs.defect(increment).force)
+    felt = abs(problem.normal_rows) @ rest + abs(problem.tangent_rows) @ rest
+    return tuple(int(i) for i in np.argsort(-felt)[:10])
+
+
+def singular_answer(springs: CutSprings, linear: LinearSolver, fault: SolveError) -> StepAnswer:
+    """Answer to a step in which a part is free to move."""
+    problem = springs.problem
+    found = Settled(springs, np.zeros_like(problem.force), 1.0, 0, 1, "")
+    sentence = f"with all {problem.n_contacts} contacts acting: {fault}"
+    return answer(found, linear, Verdict(False, "singular", sentence))
+
+
+def free_part(found: Settled, linear: LinearSolver, memory: Memory) -> Verdict | None:
+    """Verdict "singular" when open-close passes from what was found set a part free."""
+    springs, increment = found.springs, found.increment
+    problem = springs.problem
+    pattern = memory.pattern_of(problem)
+    for _ in range(PASSES):
+        is_open, sliding = springs.states(increment)
+        normal = np.where(is_open, 0.0, springs.normal_stiffness)
+        shear = np.where(is_open | sliding, 0.0, springs.shear_stiffness)
+        try:
+            factor = linear.factorise(pattern.matrix(problem, normal, shear))
+            increment = increment - factor.solve(springs.defect(increment).force)
+        except SolveError as fault:
+            sentence = (
+                f"{int(is_open.sum())} of {problem.n_contacts} contacts open, "
+                f"{int((sliding & ~is_open).sum())} slide and nothing else holds a part: {fault}"
+            )
+            return Verdict(False, "singular", sentence)
+    return None

@@ -1,0 +1,164 @@
+"""The sides of Coulomb's law at a contact, as the interior point sees them.
+
+The normal force lacks ``p`` to the tension limit, the shear force ``a`` and ``b`` to its two
+bounds (the *slack*); where one is used up the contact opens by ``w``, slides by ``u`` or back by
+``v`` (the *flow*).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Bools, Floats
+from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.row_products import stretched
+
+SOFT = 1e-7
+"""Compliance left to exact contacts in the matrix, as a part of their own: redundant contacts do
+no harm then (Friedlander, Orban 2012)."""
+WITHIN = 0.7
+"""Part of its bound that a shear force may take up at the start."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """Unknowns of the method, or a step of them.
+
+    Attributes
+    ----------
+    increment
+        (n,) unknowns of the step.
+    normal, shear
+        (m,) forces (N).
+    slack, flow
+        (3, m) ``p, a, b`` (N) and ``w, u, v`` (m).
+    """
+
+    increment: Floats
+    normal: Floats
+    shear: Floats
+    slack: Floats
+    flow: Floats
+
+    def moved(self, step: "Point", length: float) -> "Point":
+        """Point at ``length`` along ``step``."""
+        pairs = zip(vars(self).values(), vars(step).values(), strict=True)
+        return Point(*(mine + length * other for mine, other in pairs))
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Which sides contacts have, and how much they give way before.
+
+    Attributes
+    ----------
+    springs
+        The law. Contacts marked ``exact`` obey ``gap >= 0`` and a sharp bound instead of their
+        spring, which then is far softer than the blocks and carries what forces are found.
+    exact
+        (m,) contacts without compliance.
+    ease
+        (2, m) normal and tangential compliance ``c`` (m/N) of what each exact contact joins, and
+        of the other springs: by it forces and lengths compare.
+    active
+        (3, m) sides that exist: what has no tension limit cannot open, what has no bound or no
+        shear force at all does not slide.
+    """
+
+    springs: CutSprings
+    exact: Bools
+    ease: Floats
+    active: Bools
+
+    @classmethod
+    def of(cls, springs: CutSprings, exact: Bools, ease: Floats) -> "Sides":
+        """Sides of the contacts of ``springs``."""
+        limits = springs.problem.limits
+        bounded = np.isfinite(limits.cohesion) & ~_smooth(springs)
+        return cls(springs, exact, ease, np.stack([np.isfinite(limits.tension), bounded, bounded]))
+
+    @property
+    def smooth(self) -> Bools:
+        """(m,) contacts that carry no shear force."""
+        return _smooth(self.springs)
+
+    @property
+    def compliance(self) -> Floats:
+        """(2, m) compliance (m/N) of springs; 0 of exact contacts."""
+        return np.where(self.exact, 0.0, self.ease)
+
+    def mean(self, point: Point) -> float:
+        """Mean product of slack and flow (J)."""
+        count = int(self.active.sum())
+        return float((point.slack * point.flow)[self.active].sum() / max(count, 1))
+
+    def length(self, point: Point, step: Point) -> float:
+        """Largest part of a step, up to 1, that leaves slack and flow positive."""
+        longest = 1.0
+        for value, change in ((point.slack, step.slack), (point.flow, step.flow)):
+            falls = self.active & (change < 0)
+            if falls.any():
+                longest = min(longest, float((-value[falls] / change[falls]).min()))
+        return longest
+
+    def bound(self, normal: Floats, slack: Floats, flow: Floats) -> Floats:
+        """Bound of the shear force; the cohesion of an unbonded contact counts while it closes.
+
+        ``slack`` and ``flow`` are those of the normal force.
+        """
+        limits = self.springs.problem.limits
+        closes = (limits.tension > 0) | (slack * self.ease[0] > flow)
+        bound = np.where(closes, limits.cohesion, 0.0) + limits.friction * np.maximum(-normal, 0.0)
+        return np.where(self.active[1], bound, 0.0)
+
+    def start(self, increment: Floats, trial: Floats) -> Point:
+        """Point well inside all sides.
+
+        Parameters
+        ----------
+        increment
+            (n,) unknowns as if every contact were a spring about as stiff as what it joins.
+        trial
+            (2, m) forces of these springs (N). Their root mean square tells how large forces
+            are; all slack and flow is at least of that order.
+        """
+        springs, scale, limits = self.springs, self.ease, self.springs.problem.limits
+        normal, shear = trial
+        typical = float(np.sqrt(np.mean(normal**2))) if len(normal) else 0.0
+        typical = typical or 1.0
+        pull = np.where(self.active[0], limits.tension, 0.0)
+        p = np.maximum(pull - normal, typical)
+        stretch = (normal - springs.normal_shift) * self.compliance[0]
+        w = np.maximum(springs.problem.gaps(increment) - stretch, typical**2 * scale[0] / p)
+        normal = np.where(self.active[0], pull - p, normal)
+        bound = self.bound(normal, p, w)
+        shear = np.where(self.active[1], np.clip(shear, -WITHIN * bound, WITHIN * bound), shear)
+        shear = np.where(self.smooth, 0.0, shear)
+        stretch = (shear - springs.shear_shift) * self.compliance[1]
+        slip = springs.problem.slips(increment) - stretch
+        a, b = (np.maximum(bound - side * shear, 1e-3 * typical) for side in (1, -1))
+        u = np.maximum(slip, 0) + typical**2 * scale[1] / a
+        v = np.maximum(-slip, 0) + typical**2 * scale[1] / b
+        return Point(increment, normal, shear, np.stack([p, a, b]), np.stack([w, u, v]))
+
+    def judged(self, point: Point) -> Settled:
+        """The admissible forces of a point as springs that carry them, and what they lack."""
+        springs, increment = self.springs, point.increment
+        if not self.exact.any():
+            return Settled(springs, increment, springs.defect(increment).size, 0, 0, "")
+        forces = np.stack(springs.cut(point.normal, point.shear))
+        problem = springs.problem
+        rows = problem.normal_rows, problem.tangent_rows
+        moved = np.stack([problem.gap, problem.slip]) + stretched(*rows, increment)
+        meant = np.stack(springs.cut(*(forces + moved / self.ease)))
+        largest = float(np.abs(forces).max(initial=0.0))
+        lacks = float(np.abs(np.where(self.exact, meant - forces, 0.0)).max(initial=0.0))
+        shifts = np.stack([springs.normal_shift, springs.shear_shift])
+        carried = springs.shifted(*np.where(self.exact, forces, shifts))
+        error = lacks / largest if largest > 0 else 0.0
+        return Settled(carried, increment, carried.defect(increment).size, 0, 0, "", error)
+
+
+def _smooth(springs: CutSprings) -> Bools:
+    limits = springs.problem.limits
+    return np.asarray((limits.friction == 0) & (limits.cohesion == 0))

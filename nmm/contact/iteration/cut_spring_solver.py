@@ -1,0 +1,129 @@
+"""Solve cut springs: by chord steps with two factors and, by rule, with the interior point.
+
+The interior point finds most states in ten factorisations whatever the stiffness, and takes many
+more over the last few; chord steps are quick where most states are right, and lost where not.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.iteration.alternation import Alternation, Budget
+from nmm.contact.iteration.complementarity import Point, Sides
+from nmm.contact.iteration.interior_point import Goal, InteriorPoint
+from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.semismooth_newton import polish
+from nmm.contact.iteration.warm_start import start_from
+from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.solvers.linear import LinearSolver
+
+SMALL = 120
+"""Unknowns up to which Newton's method is tried first."""
+FEW = 200
+"""Contacts up to which it is tried first from a start that is near."""
+FINE = 1e-13
+"""Relative out-of-balance force at which Newton's method need not go on."""
+
+FIRST = 6
+"""Factors of acting springs after which the interior point is asked where they are."""
+
+LOOSE = 1e-4
+"""Out-of-balance force at which the interior point has found most states."""
+
+
+def settle(
+    springs: CutSprings,
+    linear: LinearSolver,
+    memory: Memory,
+    tolerance: float,
+    start: Floats | None = None,
+    budget: Budget | None = None,
+) -> Settled:
+    """Return unknowns whose cut spring forces balance the step within ``tolerance``, or the best.
+
+    Raises
+    ------
+    SolveError
+        When even with all springs acting the load moves a free part.
+    """
+    budget = budget or Budget()
+    near, memory.start = memory.start, None
+    given = near if start is None else start
+    increment = start_from(springs, memory.found, memory.moving) if given is None else given
+    small = len(increment) <= SMALL
+    if small or (near is not None and springs.problem.n_contacts <= FEW):
+        quick = _polished(springs, linear, memory, increment)
+        if quick.size <= tolerance:
+            return _kept(quick, memory)
+    first = replace(budget, factors=min(budget.factors, FIRST)) if budget.interior else budget
+    found = Alternation(springs, linear, memory, tolerance, increment).run(first)
+    if found.size <= tolerance and small:
+        end = _polished(springs, linear, memory, found.increment)
+        found = replace(found, increment=end.increment, size=end.size)
+    elif not found.size <= tolerance and budget.interior > 0:
+        found = _inside(found, linear, memory, tolerance, budget)
+    return _kept(found, memory)
+
+
+def _inside(
+    found: Settled, linear: LinearSolver, memory: Memory, tolerance: float, budget: Budget
+) -> Settled:
+    """Best of the interior point, broken off near the end for chord steps, and gone on with."""
+    springs, problem, best = found.springs, found.springs.problem, found
+    stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
+    sides = Sides.of(springs, np.zeros(problem.n_contacts, dtype=bool), 1 / stiffness)
+    start = inside_start(sides, linear, memory)
+    for balance in (LOOSE, tolerance):
+        method = InteriorPoint(sides, memory.pattern_of(problem), linear)
+        if best.size > balance:
+            best = _joined(best, method.run(start, budget.interior, Goal(max(balance, tolerance))))
+        if best.size <= tolerance:
+            break
+        rest = replace(budget, factors=FIRST)
+        best = _joined(
+            best, Alternation(springs, linear, memory, tolerance, best.increment).run(rest)
+        )
+        if best.size <= tolerance:
+            break
+    return best
+
+
+def inside_start(sides: Sides, linear: LinearSolver, memory: Memory) -> Point:
+    """Start of the interior point: as if all contacts were springs that pull and push.
+
+    Exact ones are as stiff there as what they join. Raises `SolveError` when the load moves a
+    free part even so.
+    """
+    springs, exact = sides.springs, sides.exact
+    stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
+    normal, shear = np.where(exact, 1 / sides.ease, stiffness)
+    shifts = np.stack([springs.normal_shift, springs.shear_shift])
+    alike = replace(springs, normal_stiffness=normal, shear_stiffness=shear).shifted(
+        *np.where(exact, 0.0, shifts)
+    )
+    kept, _ = memory.factor_of(alike, linear)
+    increment = kept.factor.solve(springs.problem.force)
+    return sides.start(increment, np.stack(alike.forces(increment)))
+
+
+def _joined(before: Settled, then: Settled) -> Settled:
+    """The better of two, with the cost of both."""
+    return replace(
+        then if then.size < before.size else before,
+        solves=before.solves + then.solves,
+        factorisations=before.factorisations + then.factorisations,
+        story=f"{before.story}, then {then.story}",
+    )
+
+
+def _polished(
+    springs: CutSprings, linear: LinearSolver, memory: Memory, increment: Floats
+) -> Settled:
+    pattern = memory.pattern_of(springs.problem)
+    return polish(springs, pattern, linear.unsymmetric(), increment, FINE)
+
+
+def _kept(found: Settled, memory: Memory) -> Settled:
+    memory.keep(found.increment, found.springs.problem.force)
+    return found

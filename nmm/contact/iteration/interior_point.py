@@ -1,0 +1,127 @@
+"""Interior point on Coulomb's law: fifteen to thirty factorisations, whatever the contacts do.
+
+Slack and flow of every side of every contact (`nmm.contact.iteration.complementarity`) are kept
+positive with the same product,
+
+    p w = a u = b v = kappa,   gap = N / k + w,   slip = T / k + u - v,
+
+and ``kappa -> 0`` is followed by Mehrotra's predictor and corrector (1992) with Gondzio's
+corrections of centrality (1996). The bound moves with the normal force inside the linearisation,
+so there is no dilatancy; the matrix is then unsymmetric.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nmm.contact.iteration.complementarity import Point, Sides
+from nmm.contact.iteration.interior_equations import Linearised
+from nmm.contact.iteration.semismooth_newton import polish
+from nmm.contact.problem.cut_springs import Settled
+from nmm.contact.problem.matrix_pattern import SpringPattern
+from nmm.solvers.linear import LinearSolver
+
+NEAR = 0.995
+"""Part of the way to the boundary that a step may take."""
+JAM = 0.1
+"""Length of a step after which the next one only recentres, with bounds that do not move."""
+CORRECTIONS = 2
+"""Most corrections a step, each the price of a solve."""
+REACH, GAIN = 0.3, 0.03
+"""How much longer a corrected step is meant to become, and must become to be taken."""
+SPREAD = 10.0
+"""Products within this factor of their mean are not corrected."""
+PATIENCE = 8
+"""Steps without halving the mean product after which a path is left."""
+DISTANCES = (1.0, 10.0, 0.1, 3.0)
+"""Starts, as multiples of the usual slack and flow. Without dilatancy a path can turn back; one
+from elsewhere mostly leads past that place."""
+
+
+@dataclass(frozen=True)
+class Goal:
+    """Tolerances: relative out-of-balance force, and `Settled.error` of exact contacts."""
+
+    balance: float
+    error: float = np.inf
+
+    def distance(self, found: Settled) -> float:
+        """How many times the tolerances are exceeded; up to 1 they are met."""
+        return max(found.size / self.balance, found.error / self.error)
+
+
+class InteriorPoint:
+    """One search for forces on the springs and sharp contacts of ``sides``."""
+
+    def __init__(self, sides: Sides, pattern: SpringPattern, linear: LinearSolver) -> None:
+        self.sides, self.pattern, self.linear = sides, pattern, linear.unsymmetric()
+        self.factorisations = self.solves = 0
+
+    def run(self, start: Point, budget: int, goal: Goal) -> Settled:
+        """Follow paths with at most ``budget`` factorisations in all; return the best found."""
+        best = self.sides.judged(start)
+        for distance in DISTANCES:
+            slack, flow = distance * start.slack, distance * start.flow
+            at = replace(start, slack=slack, flow=flow)
+            best = self._followed(at, best, budget, goal)
+            if goal.distance(best) <= 1 or self.factorisations >= budget:
+                break
+        return replace(
+            best,
+            solves=self.solves,
+            factorisations=self.factorisations,
+            story=f"interior point with {self.factorisations} factorisations",
+        )
+
+    def _followed(self, point: Point, best: Settled, budget: int, goal: Goal) -> Settled:
+        """Best of what is known and of the path from ``point``."""
+        length, tried, mark, idle = 1.0, 1e-3, np.inf, 0
+        while self.factorisations < budget and goal.distance(best) > 1 and idle <= PATIENCE:
+            kappa = self.sides.mean(point)
+            # Contacts that can neither open nor slide leave a linear step: there is no path.
+            if kappa <= 0:
+                break
+            idle, mark = (0, kappa) if kappa < 0.5 * mark else (idle + 1, mark)
+            point, length = self._moved(point, kappa, length < JAM)
+            if not np.isfinite(point.increment).all():
+                break
+            found = self.sides.judged(point)
+            if found.size < tried and not self.sides.exact.any():
+                tried, found = 0.1 * found.size, self._polished(found, goal)
+            best = found if goal.distance(found) < goal.distance(best) else best
+        return best
+
+    def _polished(self, found: Settled, goal: Goal) -> Settled:
+        """Newton's method on springs from a point that may be near enough for it."""
+        end = polish(found.springs, self.pattern, self.linear, found.increment, goal.balance)
+        self.factorisations += end.factorisations
+        self.solves += end.solves
+        return end if end.size < found.size else found
+
+    def _moved(self, point: Point, kappa: float, jammed: bool) -> tuple[Point, float]:
+        """Point after predictor, corrector and corrections of centrality, and how far it went."""
+        sides, products = self.sides, point.slack * point.flow
+        system = Linearised(sides, self.pattern, self.linear, point, coupled=not jammed)
+        affine = system.step(-products)
+        if not np.isfinite(affine.increment).all():
+            return affine, 0.0
+        ahead = sides.length(point, affine)
+        shrink = (sides.mean(point.moved(affine, ahead)) / kappa) ** 3
+        centre = kappa * (1.0 if jammed else min(max(shrink, 1e-8), 1.0))
+        along = affine.slack * affine.flow if ahead > JAM and not jammed else 0.0
+        targets = centre - along - products
+        step = system.step(targets)
+        length = min(1.0, NEAR * sides.length(point, step))
+        for _ in range(CORRECTIONS):
+            tried = point.moved(step, min(1.0, length + REACH))
+            off = tried.slack * tried.flow
+            wanted = np.clip(off, centre / SPREAD, centre * SPREAD) - off
+            targets = targets + np.maximum(wanted, -SPREAD * centre)
+            longer = system.step(targets)
+            reached = min(1.0, NEAR * sides.length(point, longer))
+            if reached < length + GAIN:
+                break
+            step, length = longer, reached
+        self.factorisations += 1
+        self.solves += system.solves
+        return point.moved(step, length), length

@@ -1,0 +1,172 @@
+"""What the contact solution keeps from step to step."""
+
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.problem.cut_springs import CutSprings
+from nmm.contact.problem.matrix_pattern import SpringPattern
+from nmm.contact.problem.step_problem import Limits, StepAnswer, StepProblem
+from nmm.solvers.linear import Factor, LinearSolver
+
+DRIFT = 1.25
+"""A kept factor serves while no diagonal entry of the matrix has changed by more than this."""
+KEPT = 4
+"""Factors kept."""
+TURN = 1e-3
+"""A kept factor is as good as new while the rows have changed by less than this part."""
+
+STEPS = 2
+"""Last steps from which the next one may start."""
+
+STEP = ("force", "gap", "slip")
+"""What stays from solution to solution of one step."""
+
+
+@dataclass
+class KeptFactor:
+    """Factor of the matrix with all springs acting, and what it was made of.
+
+    It goes on serving when contacts come and go, as long as the diagonal hardly changes: two
+    contacts that take turns at one corner stiffen the same unknowns.
+    """
+
+    factor: Factor
+    solver: LinearSolver
+    springs: CutSprings
+    diagonal: Floats
+
+    def serves(self, springs: CutSprings, solver: LinearSolver) -> bool:
+        """Whether it is near enough to the matrix of ``springs``."""
+        if solver != self.solver or len(springs.weight) != len(self.diagonal):
+            return False
+        now = springs.weight**-2
+        return bool(np.all(now <= DRIFT * self.diagonal) and np.all(self.diagonal <= DRIFT * now))
+
+    def as_new(self, problem: StepProblem) -> bool:
+        """Whether a new factor would hardly differ."""
+        old = self.springs.problem
+        pairs = (
+            (old.matrix.data, problem.matrix.data),
+            (old.normal_rows.data, problem.normal_rows.data),
+            (old.tangent_rows.data, problem.tangent_rows.data),
+        )
+        return all(
+            a is b or (len(a) == len(b) and bool(np.linalg.norm(a - b) <= TURN * np.linalg.norm(b)))
+            for a, b in pairs
+        )
+
+
+@dataclass
+class Memory:
+    """Pattern and factor of the last step; owned by the step loop, filled by enforcements.
+
+    One memory belongs to one run. Its contents are used only where the problem handed in still
+    has the same unknowns at its contacts, and are replaced otherwise.
+
+    Attributes
+    ----------
+    pattern
+        Pattern of matrix and springs.
+    start
+        Unknowns to start the next solution from, of the same step.
+    found
+        Unknowns found for the last steps, latest first, from which the next one may start.
+    moving
+        Whether inertia determines the motion of every body (`nmm.contact.iteration.warm_start`).
+    kept
+        Last factors with all springs acting: rounds of multipliers use springs of several
+        stiffnesses in one step.
+    answered
+        The problem solved last and its answer: a step that finds no other contacts when it looks
+        further asks the same again.
+    barrier_width
+        Width of the barrier chosen in the first step (m).
+    """
+
+    pattern: SpringPattern | None = None
+    start: Floats | None = None
+    found: list[Floats] = field(default_factory=list)
+    moving: bool = False
+    kept: list[KeptFactor] = field(default_factory=list)
+    answered: tuple[StepProblem, StepAnswer] | None = None
+    barrier_width: float | None = None
+    _load: Floats | None = None
+
+    def known(self, problem: StepProblem) -> StepAnswer | None:
+        """Answer of the last solution if it was of the same problem; it took no passes."""
+        if self.answered is None or not _same(self.answered[0], problem):
+            return None
+        return replace(self.answered[1], passes=0, factorisations=0)
+
+    def pattern_of(self, problem: StepProblem) -> SpringPattern:
+        """Pattern of ``problem``, laid out anew when it changed."""
+        if self.pattern is None or not self.pattern.fits(problem):
+            self.pattern = SpringPattern.of(problem)
+        return self.pattern
+
+    def factor_of(self, springs: CutSprings, solver: LinearSolver) -> tuple[KeptFactor, bool]:
+        """Factor with all springs acting, and whether it was made just now."""
+        for kept in self.kept:
+            if kept.serves(springs, solver):
+                return kept, False
+        pattern = self.pattern_of(springs.problem)
+        normal, shear = springs.normal_stiffness, springs.shear_stiffness
+        factor = solver.factorise(pattern.matrix(springs.problem, normal, shear))
+        kept = KeptFactor(factor, solver, springs, springs.weight**-2)
+        self.kept = [kept, *self.kept[: KEPT - 1]]
+        return kept, True
+
+    def forget(self, kept: KeptFactor) -> None:
+        """Drop a factor that no longer serves."""
+        self.kept = [other for other in self.kept if other is not kept]
+
+    def forget_answers(self) -> None:
+        """Drop all that was found: after a step that failed none of it is near the next answer."""
+        self.start, self.found, self.answered = None, [], None
+
+    def keep(self, increment: Floats, load: Floats) -> None:
+        """Keep the unknowns found under a load, in place of what was found under it before."""
+        if not np.isfinite(increment).all():
+            return
+        again = self._load is not None and _equal(self._load, load)
+        before = [old for old in self.found[int(again) :] if len(old) == len(increment)]
+        self.found = [increment, *before[: STEPS - 1]]
+        self._load = load
+
+    def again(self, problem: StepProblem) -> tuple[StepProblem, StepAnswer] | None:
+        """The last problem and its answer, if only the rows have turned since."""
+        if self.answered is None:
+            return None
+        last, answer = self.answered
+        same = all(_equal(getattr(last, name), getattr(problem, name)) for name in STEP)
+        return self.answered if same and answer.verdict.converged else None
+
+    def started(self, problem: StepProblem) -> StepProblem:
+        """The problem with the forces of its last solution, where only its rows have turned."""
+        found = self.again(problem)
+        if found is None:
+            return problem
+        _, last = found
+        return replace(problem, normal_force=last.normal_force, shear_force=last.shear_force)
+
+
+def _same(a: StepProblem, b: StepProblem) -> bool:
+    return a.n_contacts == b.n_contacts and all(
+        _equal(getattr(a, item.name), getattr(b, item.name)) for item in fields(a)
+    )
+
+
+def _equal(a: Any, b: Any) -> bool:
+    if a is b:
+        return True
+    if a is None or b is None:
+        return False
+    if isinstance(a, Limits):
+        return all(_equal(x, getattr(b, name)) for name, x in vars(a).items())
+    if isinstance(a, np.ndarray):
+        return np.array_equal(a, b)
+    parts = ("data", "indices", "indptr")
+    return all(np.array_equal(getattr(a, part), getattr(b, part)) for part in parts)

@@ -1,0 +1,225 @@
+"""Rounds of multipliers: springs that give way until they carry no more than the multipliers."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Floats
+from nmm.contact.iteration.alternation import Budget
+from nmm.contact.iteration.answers import judge
+from nmm.contact.iteration.cut_spring_solver import SMALL, settle
+from nmm.contact.iteration.interior_point import Goal
+from nmm.contact.iteration.memory import Memory
+from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.step_problem import StepProblem, Verdict
+from nmm.solvers.linear import LinearSolver
+
+STIFFEST = 100.0
+"""Largest factor by which rounds may stiffen springs: beyond, a round costs more than it gains."""
+GAIN = 0.02
+"""Part of the error that a round must leave at most for its springs to stay as they are."""
+NEAR = 3.0
+"""Errors this many times the tolerance are likely within it after the next round."""
+UNHELD = 1e13
+"""Compliance times stiffness of a contact from which an unknown is held by rounding alone."""
+FAILURES = 2
+"""Rounds that may miss their own tolerance before the iteration is given up."""
+
+
+@dataclass(frozen=True)
+class Round:
+    """Where the rounds stand.
+
+    Attributes
+    ----------
+    settled
+        Springs shifted by the multipliers of this round, unknowns, out-of-balance force.
+    count
+        Rounds so far.
+    change
+        Largest change of a multiplier in this round over the largest force.
+    gap
+        The same as a length (m): the largest gap, slip or opening that should not be.
+    error
+        ``gap`` over what the largest force would press into the contact alone (its compliance
+        times the force): the part of a force that is still missing where forces are determined.
+    """
+
+    settled: Settled
+    count: int = 0
+    change: float = np.inf
+    gap: float = np.inf
+    error: float = np.inf
+
+    def meets(self, goal: Goal) -> bool:
+        """Whether balance and error are within their tolerances."""
+        return self.settled.size <= goal.balance and self.error <= goal.error
+
+
+def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
+    """(m,) compliance ``c = g^T diag(K)^-1 g`` (m/N) of normal and tangent rows ``g``.
+
+    Only unknowns that the matrix holds count, against the problem's stiffness ``k`` at the contact.
+    Where there are none or their hold is weak ``k`` stands in, so that ``c <= 1e4 / k``; where that
+    is the joint's own, ``c = 1 / k``.
+    """
+    diagonal = problem.matrix.diagonal()
+    ease = np.divide(1.0, diagonal, out=np.zeros_like(diagonal), where=diagonal > 0)
+    normal = _held_ease(problem.normal_rows, ease, problem.normal_stiffness)
+    shear = _held_ease(problem.tangent_rows, ease, problem.shear_stiffness)
+    own = problem.own_stiffness
+    found = []
+    for compliance, stiffness in (
+        (normal, problem.normal_stiffness),
+        (shear, problem.shear_stiffness),
+    ):
+        largest = np.where(compliance > 0, np.minimum(compliance, 1e4 / stiffness), 1 / stiffness)
+        found.append(np.where(own, 1 / stiffness, largest))
+    return found[0], found[1]
+
+
+def _held_ease(rows: csr_array, ease: Floats, stiffness: Floats) -> Floats:
+    """Sum ``g^2 / K`` (m,) over the unknowns that are held by more than rounding, `UNHELD`."""
+    owner = np.repeat(np.arange(len(stiffness)), np.diff(rows.indptr))
+    each = rows.data**2 * ease[rows.indices]
+    each[each * stiffness[owner] > UNHELD] = 0.0
+    return np.bincount(owner, each, len(stiffness)).astype(float)
+
+
+def stiff_springs(problem: StepProblem, scale: float | None) -> CutSprings:
+    """Springs of stiffness ``scale / c``, shifted by the forces of the step before.
+
+    Contacts whose stiffness is the joint's own keep it, without shift. With ``scale`` None all
+    stiffnesses are the problem's.
+    """
+    exact = ~problem.own_stiffness
+    normal, shear = problem.normal_stiffness, problem.shear_stiffness
+    if scale is not None:
+        c_normal, c_shear = compliances(problem)
+        normal = np.where(exact, scale / c_normal, normal)
+        shear = np.where(exact, scale / c_shear, shear)
+    shifts = (np.where(exact, f, 0.0) for f in (problem.normal_force, problem.shear_force))
+    return CutSprings(problem, normal, shear, *shifts)
+
+
+def stiffened(springs: CutSprings, factor: float) -> CutSprings:
+    """The same springs, ``factor`` times as stiff where stiffness is not the joint's own."""
+    times = np.where(springs.problem.own_stiffness, 1.0, factor)
+    return replace(
+        springs,
+        normal_stiffness=times * springs.normal_stiffness,
+        shear_stiffness=times * springs.shear_stiffness,
+    )
+
+
+def exact_goal(problem: StepProblem, tolerance: float, gap_tolerance: float) -> Goal:
+    """Goal with the tolerance of balance for gaps where a small problem makes it cost nothing."""
+    small = len(problem.force) <= SMALL
+    return Goal(tolerance, min(tolerance, gap_tolerance) if small else gap_tolerance)
+
+
+def first_round(springs: CutSprings) -> Round:
+    """Round zero: no unknowns yet."""
+    return Round(Settled(springs, np.zeros_like(springs.problem.force), 1.0, 0, 0, ""))
+
+
+def multiplier_round(
+    last: Round,
+    linear: LinearSolver,
+    memory: Memory,
+    tolerance: float,
+    budget: Budget | None = None,
+) -> Round:
+    """Settle the springs and measure by how much their forces differ from the multipliers."""
+    before = last.settled
+    start = before.increment if last.count else None
+    found = settle(before.springs, linear, memory, tolerance, start, budget)
+    total = replace(
+        found,
+        solves=before.solves + found.solves,
+        factorisations=before.factorisations + found.factorisations,
+    )
+    return measured(total, last.count + 1)
+
+
+def measured(found: Settled, count: int) -> Round:
+    """Round whose springs were settled, with what its multipliers lack."""
+    springs = found.springs
+    forces = np.stack(springs.forces(found.increment))
+    shifts = np.stack([springs.normal_shift, springs.shear_shift])
+    jump = np.abs(np.where(springs.problem.own_stiffness, 0.0, forces - shifts))
+    gap = jump / np.stack([springs.normal_stiffness, springs.shear_stiffness])
+    part = gap / np.stack(compliances(springs.problem))
+    size = float(np.abs(forces).max(initial=0.0))
+    largest = [float(quantity.max(initial=0.0)) for quantity in (jump, gap, part)]
+    over = 1.0 / size if size > 0 else 0.0
+    return Round(found, count, largest[0] * over, largest[1], largest[2] * over)
+
+
+def updated(last: Round, growth: float = 1.0) -> Round:
+    """Springs of the next round, ``growth`` times as stiff.
+
+    ``lambda <- lambda + p d``, cut at the limits.
+    """
+    exact = ~last.settled.springs.problem.own_stiffness
+    normal, shear = last.settled.springs.forces(last.settled.increment)
+    springs = last.settled.springs.shifted(np.where(exact, normal, 0), np.where(exact, shear, 0))
+    if growth != 1.0:
+        springs = stiffened(springs, growth)
+    return replace(last, settled=replace(last.settled, springs=springs))
+
+
+def converged_rounds(
+    at: Round,
+    linear: LinearSolver,
+    memory: Memory,
+    goal: Goal,
+    max_rounds: int,
+    growth: float,
+    budget: Budget | None = None,
+) -> Round:
+    """Repeat rounds until balance and error meet their tolerances; return the last.
+
+    Balance is sought no finer than the error allows, and to its tolerance in the end.
+
+    Raises
+    ------
+    SolveError
+        When even with all springs acting the load moves a free part.
+    """
+    inner, stiffness, failures = max(1e-4, goal.balance), 1.0, 0
+    while at.count < max_rounds:
+        last, at = at, multiplier_round(at, linear, memory, inner, budget)
+        failures += at.settled.size > inner
+        if at.meets(goal) or failures > FAILURES or at.count == max_rounds:
+            break
+        fine = at.error <= NEAR * goal.error
+        inner = goal.balance if fine else float(np.clip(0.1 * at.error, goal.balance, inner))
+        if at.error <= goal.error:
+            continue
+        times = min(growth, STIFFEST / stiffness) if at.error > GAIN * last.error else 1.0
+        at = updated(at, times)
+        stiffness *= times
+    return at
+
+
+def rounds_verdict(
+    at: Round,
+    linear: LinearSolver,
+    memory: Memory,
+    goal: Goal,
+    how: str,
+) -> Verdict:
+    """Verdict on balance and on what the multipliers still lack; ``how`` they were found."""
+    found = replace(at.settled, story=f"{how}, {at.settled.solves} solves")
+    verdict = judge(found, linear, memory, goal.balance)
+    if not verdict.converged:
+        return verdict
+    if at.error > goal.error:
+        sentence = (
+            f"gaps of {at.gap:.1e} m left after {how}, {at.error:.1e} of what the largest force "
+            "would press in: allow more rounds, raise the scale or shorten the step"
+        )
+        return Verdict(False, "passes", sentence)
+    return replace(verdict, sentence=f"{verdict.sentence}, gaps within {at.gap:.1e} m")

@@ -1,0 +1,92 @@
+"""Which contact springs act in a pass, and how their states change between passes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Bools, Floats
+from nmm.contact.problem.coulomb import shear_bound
+from nmm.contact.problem.step_problem import BONDED, SLIDE, STICK, StepProblem
+
+
+@dataclass(frozen=True)
+class Springs:
+    """States of all contacts in a pass.
+
+    Attributes
+    ----------
+    closed
+        (m,) the normal spring acts; otherwise the normal force is the tension limit (0 as a rule).
+    sliding
+        (m,) the shear force is at its bound; otherwise the shear spring acts.
+    sign
+        (m,) direction of the shear force of sliding contacts, -1, 0 or 1.
+    """
+
+    closed: Bools
+    sliding: Bools
+    sign: Floats
+
+    @property
+    def code(self) -> bytes:
+        """The states as bytes: equal states, equal codes."""
+        return (self.closed + 2 * self.sliding * (2 + self.sign)).astype(np.uint8).tobytes()
+
+
+def first_springs(problem: StepProblem) -> Springs:
+    """Springs of the first pass: the states given, and what penetrates is closed."""
+    held = np.isin(problem.state, (STICK, SLIDE, BONDED))
+    closed = held | (problem.gap <= 0)
+    smooth = (problem.limits.friction == 0) & (problem.limits.cohesion == 0)
+    sign = np.sign(np.where(problem.shear_force != 0, problem.shear_force, problem.slip))
+    sliding = smooth | ((problem.state == SLIDE) & (sign != 0))
+    return Springs(closed, sliding, np.where(smooth, 0.0, sign) * sliding)
+
+
+def next_springs(problem: StepProblem, springs: Springs, gap: Floats, slip: Floats) -> Springs:
+    """States after a pass that ended in ``gap`` and ``slip`` (Shi 1988, open-close iteration).
+
+    Open contacts close when they penetrate, closed ones open when their pull exceeds the tension
+    limit; sticking ones slide when the shear force exceeds its bound, sliding ones stick when the
+    spring, unloaded from the bound, carries less.
+    """
+    limits = problem.limits
+    normal = problem.normal_stiffness * gap
+    shear = problem.shear_stiffness * slip
+    opens = np.where(springs.closed, normal > limits.tension, normal >= limits.tension)
+    bound = shear_bound(np.minimum(normal, limits.tension), opens, limits)
+    smooth = (limits.friction == 0) & (limits.cohesion == 0)
+    stays = springs.sliding & (springs.sign * shear >= bound)
+    held = springs.closed | (limits.tension > 0)
+    turned = held & (np.abs(shear) > bound)
+    sliding = stays | turned | smooth
+    return Springs(~opens, sliding, np.where(smooth, 0.0, np.sign(shear)) * sliding)
+
+
+def forces(
+    problem: StepProblem, springs: Springs, gap: Floats, slip: Floats
+) -> tuple[Floats, Floats]:
+    """Normal and shear force that the springs carry at ``gap`` and ``slip``."""
+    limits = problem.limits
+    normal = np.where(springs.closed, problem.normal_stiffness * gap, limits.tension)
+    bound = shear_bound(normal, ~springs.closed, limits)
+    at_bound = springs.sign * np.where(springs.sliding, bound, 0.0)
+    carries = ~springs.sliding & (springs.closed | (limits.tension > 0))
+    return normal, np.where(carries, problem.shear_stiffness * slip, at_bound)
+
+
+def changes(problem: StepProblem, old: Springs, new: Springs) -> Bools:
+    """(m,) contacts whose state differs; the shear state of lost contacts does not count."""
+    shear = (old.sliding != new.sliding) | (old.sign != new.sign)
+    bond = problem.limits.tension > 0
+    held = (old.closed | bond) & (new.closed | bond)
+    return np.asarray((old.closed != new.closed) | (shear & held))
+
+
+def words(springs: Springs, contact: int) -> str:
+    """State of one contact in words."""
+    if not springs.closed[contact]:
+        return "open"
+    if not springs.sliding[contact]:
+        return "stick"
+    return {1: "slide+", -1: "slide-"}.get(int(springs.sign[contact]), "slide")

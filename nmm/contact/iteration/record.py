@@ -1,0 +1,64 @@
+"""What contact hands from step to step: a solved step, and what is kept of an accepted one."""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.detection.narrow_phase import Contacts
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.midpoint import Rows
+from nmm.contact.points.tracking import JointBook
+from nmm.contact.problem.step_problem import StepAnswer
+
+Breaking = Literal["all", "worst", "stop"]
+"""Which bonds that cannot hold break at a time; at "stop" none, and the step is given up."""
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Contact points of a step with the forces found.
+
+    Attributes
+    ----------
+    contacts
+        As they entered the last solution, bonds that broke on the way marked.
+    answer
+        Unknowns and forces.
+    passes
+        Linear systems solved.
+    loss
+        Energy lost to friction and broken springs (J).
+    stopped
+        Whether a bond could not hold and the step was given up for it.
+    sliding
+        (m,) how far contacts slid under load (m); empty when the step is not accepted.
+    rows
+        What the forces acted through.
+    """
+
+    contacts: ContactPoints
+    answer: StepAnswer
+    passes: int
+    loss: float
+    stopped: bool = False
+    sliding: Floats = field(default_factory=lambda: np.zeros(0))
+    rows: Rows | None = None
+
+
+@dataclass(frozen=True)
+class ContactRecord:
+    """What contact keeps from accepted step to accepted step.
+
+    Attributes
+    ----------
+    book
+        Joints.
+    found, known
+        Contacts of the last search, and the same as points with forces and slip.
+    """
+
+    book: JointBook
+    found: Contacts | None = None
+    known: ContactPoints | None = None

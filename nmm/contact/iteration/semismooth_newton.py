@@ -1,0 +1,50 @@
+"""Semismooth Newton on Coulomb's law: fast near a solution, not safe far from it."""
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.matrix_pattern import SpringPattern
+from nmm.solvers.linear import LinearSolver
+
+
+def polish(
+    springs: CutSprings,
+    pattern: SpringPattern,
+    linear: LinearSolver,
+    increment: Floats,
+    tolerance: float,
+    budget: int = 8,
+) -> Settled:
+    """Take full Newton steps while each halves the out-of-balance force.
+
+    The tangent of a sliding contact follows the bound: its shear force changes with the normal
+    force by the friction coefficient (Alart, Curnier 1991), so the matrix is unsymmetric and
+    ``linear`` must be a solver for such.
+    """
+    problem = springs.problem
+    defect = springs.defect(increment)
+    taken = solves = 0
+    while taken < budget and defect.size > tolerance:
+        _, shear = springs.trial(increment)
+        is_open, sliding = springs.states(increment)
+        loose = is_open & (problem.limits.tension <= 0)
+        normal_spring = np.where(is_open, 0.0, springs.normal_stiffness)
+        shear_spring = np.where(sliding | loose, 0.0, springs.shear_stiffness)
+        pressed = springs.forces(increment)[0] < 0
+        drag = np.where(sliding & pressed, problem.limits.friction, 0.0) * normal_spring
+        matrix = pattern.matrix(problem, normal_spring, shear_spring, -np.sign(shear) * drag)
+        step = linear.factorise(matrix).refined(defect.force)
+        taken, solves = taken + 1, solves + 1
+        found = springs.defect(increment - step)
+        if not found.size < 0.5 * defect.size:
+            break
+        increment, defect = increment - step, found
+    return Settled(
+        springs,
+        increment,
+        defect.size,
+        solves,
+        taken,
+        f"Newton with {taken} factorisation{'' if taken == 1 else 's'}",
+    )

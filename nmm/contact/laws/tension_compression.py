@@ -1,0 +1,87 @@
+"""Bonds that are softer open than pressed, as two contacts at one place.
+
+A spring of share ``s`` of the stiffness ``k`` that pulls and presses, and one of ``(1 - s) k`` that
+only presses, are ``s k gap`` open and ``k gap`` pressed: a convex law, so that no enforcement has
+to guess which of the two it is. The shear force stays with the first, whose friction is raised by
+``1 / s`` to count the pressure of both.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csr_array, vstack
+
+from integration.arrays import Floats, Ints
+from nmm.contact.problem.step_problem import OPEN, STICK, Limits, StepAnswer, StepProblem
+
+# Shear stiffness of the second contact, which carries no shear: a positive number is expected.
+FAINT = 1e-9
+
+
+@dataclass(frozen=True)
+class Twins:
+    """Which contacts are doubled.
+
+    Attributes
+    ----------
+    index
+        (k,) contacts.
+    share
+        (k,) of their stiffness that is left when they open.
+    """
+
+    index: Ints
+    share: Floats
+
+    def joined(self, problem: StepProblem) -> StepProblem:
+        """Return the problem with the second contacts added at its end."""
+        at = self.index
+        if not len(at):
+            return problem
+        whole = problem.normal_stiffness[at]
+        first = problem.normal_stiffness.copy()
+        first[at] = self.share * whole
+        friction = problem.limits.friction.copy()
+        friction[at] /= self.share
+        none = np.zeros(len(at))
+        pressed = problem.normal_force[at] < 0
+        force = np.where(pressed, problem.normal_force[at], 0.0)
+        normal_force = problem.normal_force.copy()
+        normal_force[at] -= (1 - self.share) * force
+        limits = Limits(
+            tension=np.concatenate([problem.limits.tension, none]),
+            cohesion=np.concatenate([problem.limits.cohesion, none]),
+            friction=np.concatenate([friction, none]),
+        )
+        return replace(
+            problem,
+            normal_rows=csr_array(vstack([problem.normal_rows, problem.normal_rows[at]])),
+            tangent_rows=csr_array(vstack([problem.tangent_rows, problem.tangent_rows[at]])),
+            gap=np.concatenate([problem.gap, problem.gap[at]]),
+            slip=np.concatenate([problem.slip, none]),
+            normal_stiffness=np.concatenate([first, (1 - self.share) * whole]),
+            shear_stiffness=np.concatenate(
+                [problem.shear_stiffness, FAINT * problem.shear_stiffness[at]]
+            ),
+            limits=limits,
+            state=np.concatenate([problem.state, np.where(pressed, STICK, OPEN)]),
+            normal_force=np.concatenate([normal_force, (1 - self.share) * force]),
+            shear_force=np.concatenate([problem.shear_force, none]),
+            compliant=np.concatenate([problem.own_stiffness, np.ones(len(at), dtype=bool)]),
+        )
+
+    def merged(self, answer: StepAnswer) -> StepAnswer:
+        """Return the answer of the contacts that `joined` was given."""
+        if not len(self.index):
+            return answer
+        m = len(answer.gap) - len(self.index)
+        normal = answer.normal_force[:m].copy()
+        normal[self.index] += answer.normal_force[m:]
+        return replace(
+            answer,
+            normal_force=normal,
+            shear_force=answer.shear_force[:m],
+            gap=answer.gap[:m],
+            slip=answer.slip[:m],
+            state=answer.state[:m],
+        )

@@ -1,0 +1,149 @@
+"""Pressures along stretches of faces: which functions of places act at which contact points.
+
+A stretch is a run of points between two faces. Of the two the one gives the places that follows a
+pressure more easily (`nmm.contact.mortar.trace_space`). Inside, the functions are hats along it,
+the first and the last going on to the ends; the end points have functions of their own, so that a
+body that tilts turns about its corner. At every point the functions sum to one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import dot
+from nmm.contact.mortar.trace_space import Traces
+from nmm.contact.points.contact_points import ContactPoints
+
+# Points further apart than this many intervals of places are on stretches of their own.
+APART = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class Entries:
+    """Values of functions at points, one row an entry.
+
+    Attributes
+    ----------
+    point, function
+        (e,) indices.
+    value
+        (e,) above zero.
+    """
+
+    point: Ints
+    function: Ints
+    value: Floats
+
+
+def functions_along(contacts: ContactPoints, surface: Surface, traces: Traces) -> Entries:
+    """Return the functions at the contact points that stand for a length of a face.
+
+    Points of joints and mere vertices have none.
+    """
+    points = np.flatnonzero((contacts.length > 0) & ~contacts.is_joint)
+    if not len(points):  # bodies apart, or at corners alone
+        return Entries(points, points, np.zeros(0))
+    some = contacts.take(points)
+    at, face, other = _sides(some, surface, traces)
+    order = np.lexsort((at, some.interface, other, face))
+    at, who = at[order], np.stack([face, other, some.interface])[:, order]
+    step = np.diff(traces.place)
+    interval = step[np.clip(np.searchsorted(traces.place, at, "right") - 1, 0, len(step) - 1)]
+    new = np.ones(len(at), dtype=bool)
+    new[1:] = (who[:, 1:] != who[:, :-1]).any(axis=0)
+    new[1:] |= np.diff(at) > APART * np.maximum(interval[1:], interval[:-1])
+    found = _hats(at, new, traces.place)
+    return Entries(points[order][found.point], found.function, found.value)
+
+
+def _sides(some: ContactPoints, surface: Surface, traces: Traces) -> tuple[Floats, Ints, Ints]:
+    """Where (m,) points are on the face that gives the places, that face, and the other."""
+    a, b, before = some.edge_a, some.edge_b, traces.previous[some.edge_a]
+    # A corner belongs to the face that looks at the other body.
+    looks = dot(surface.normal[a], some.normal) <= dot(surface.normal[before], some.normal)
+    own = (some.parameter_a > 0) | looks
+    edge_a = np.where(own, a, before)
+    at = np.stack(
+        [traces.on(edge_a, np.where(own, some.parameter_a, 1.0)), traces.on(b, some.parameter_b)]
+    )
+    face = np.stack([traces.face[edge_a], traces.face[b]])
+    soft = np.stack([traces.softness[edge_a], traces.softness[b]])
+    giver = np.where(_first_follows(at, face, soft, traces), 0, 1)
+    m = np.arange(len(giver))
+    return at[giver, m], face[giver, m], face[1 - giver, m]
+
+
+def _first_follows(at: Floats, face: Ints, soft: Floats, traces: Traces) -> Bools:
+    """Whether the first of the sides (2, m) follows a pressure more easily.
+
+    That is the face with more places to its modulus over all points that the two faces share; of
+    two alike the one that comes first on the line.
+    """
+    turned = face[0] > face[1]
+    low, high = (np.where(turned, one, other) for one, other in (face[::-1], face))
+    _, pair = np.unique(np.stack([low, high]), axis=1, return_inverse=True)
+    pair = pair.ravel()
+    n = int(pair.max(initial=-1)) + 1
+    ease = []
+    for side in (0, 1):
+        row = np.where(turned, 1 - side, side)
+        where, give = (np.take_along_axis(part, row[None], axis=0)[0] for part in (at, soft))
+        least, most = np.full(n, np.inf), np.full(n, -np.inf)
+        np.minimum.at(least, pair, where)
+        np.maximum.at(most, pair, where)
+        count = np.subtract(*np.searchsorted(traces.place, np.stack([most, least])))
+        ease.append((1 + count) * np.bincount(pair, give, n) / np.bincount(pair, minlength=n))
+    # Equal but for rounding is equal.
+    return np.asarray((ease[0] >= (1 - 1e-9) * ease[1])[pair] != turned)
+
+
+def _hats(at: Floats, new: Bools, place: Floats) -> Entries:
+    """Functions at points that lie one after another on stretches.
+
+    ``new`` marks the first point of each stretch.
+    """
+    first = np.flatnonzero(new)
+    last = np.append(first[1:], len(at)) - 1
+    low, high = _inner(at[first], at[last], place)
+    count = high - low + 3
+    offset = np.cumsum(count) - count
+
+    inside = np.ones(len(at), dtype=bool)
+    inside[first] = inside[last] = False
+    point, stretch = np.flatnonzero(inside), (np.cumsum(new) - 1)[inside]
+    x = np.clip(at[inside], place[low[stretch]], place[high[stretch]])
+    left = np.searchsorted(place, x, side="right") - 1
+    left = np.clip(left, low[stretch], high[stretch])
+    right = np.minimum(left + 1, high[stretch])
+    wide = place[right] - place[left]
+    share = np.divide(x - place[left], wide, out=np.zeros_like(x), where=wide > 0)
+    hat = offset[stretch] + 1 + left - low[stretch]
+
+    one = np.ones(len(first))
+    ends = last > first
+    parts = [
+        (first, offset, one),
+        (last[ends], (offset + count - 1)[ends], one[ends]),
+        (point, hat, 1 - share),
+        (point, hat + 1, share),
+    ]
+    i, j, value = (np.concatenate(column) for column in zip(*parts, strict=True))
+    acts = value > 0
+    return Entries(i[acts], np.unique(j[acts], return_inverse=True)[1], value[acts])
+
+
+def _inner(begin: Floats, end: Floats, place: Floats) -> tuple[Ints, Ints]:
+    """First and last place inside stretches; the same one place where there is none.
+
+    Places nearer to an end of the stretch than half of their interval there do not count.
+    """
+    low = np.clip(np.searchsorted(place, begin, side="right"), 1, len(place) - 1)
+    low = low + (place[low] - begin < 0.5 * (place[low] - place[low - 1]))
+    high = np.clip(np.searchsorted(place, end, side="left") - 1, 0, len(place) - 2)
+    high = high - (end - place[high] < 0.5 * (place[high + 1] - place[high]))
+    low = np.minimum(low, len(place) - 1)
+    return low, np.maximum(high, low)

@@ -1,0 +1,128 @@
+"""How finely the fields of bodies can follow a pressure along their faces.
+
+A body answers a pressure with the traces of its functions. Points of a face where those are too
+much alike cannot be held one by one: forces on each of them have no unique values (Babuška 1973).
+So *places* are chosen along every face, as on boundaries that cut a mesh (Béchet, Moës and
+Wohlmuth 2009): corner by corner, each the first whose functions differ enough from those of the
+place before. On meshes that fit the face these are its nodes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.points.boundary_points import Sides
+
+# Turn (rad) of a boundary at which one face ends and another begins.
+KINK = 0.5
+# Cosine between the functions at two corners from which on they count as alike. Under Hertz's
+# cylinder pressures of degree 0 are off by 1 % at most with 0.3, by 3 % with 0.1, 13 % with 0.5.
+ALIKE = 0.3
+
+# What covers weigh at a corner, as a vector of length one.
+Weights = dict[int, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Traces:
+    """Faces of all bodies laid on one line, one after another, and the places chosen on them.
+
+    Attributes
+    ----------
+    start, end
+        (n,) where each boundary edge begins and ends on the line (m).
+    face
+        (n,) face of each edge.
+    place
+        (p,) chosen places, rising; among them both ends of every face.
+    softness
+        (n,) one over Young's modulus at each edge (1/Pa).
+    previous
+        (n,) the edge before each in its ring.
+    """
+
+    start: Floats
+    end: Floats
+    face: Ints
+    place: Floats
+    softness: Floats
+    previous: Ints
+
+    @classmethod
+    def of(cls, sides: Sides, modulus: Floats) -> Traces:
+        """Return the places on the boundary of a manifold; ``modulus`` (E,) is of its elements."""
+        edges = sides.manifold.boundary
+        along = edges.end - edges.start
+        length = np.hypot(*along.T)
+        order, first = _faces(along, edges.next, edges.previous)
+        face = np.empty(len(length), dtype=np.int64)
+        face[order] = np.cumsum(first) - 1
+        # Faces lie a mean edge apart.
+        end = np.empty_like(length)
+        end[order] = np.cumsum(length[order] + float(length.mean()) * first)
+        start = end - length
+        weights = _weights(sides)
+        places: list[float] = []
+        for edge in np.split(order, np.flatnonzero(first)[1:]):  # faces, once a run
+            corners = np.append(edge, edges.next[edge[-1]])
+            chosen = _unlike([weights[corner] for corner in corners])
+            on_line = np.append(start[edge], end[edge[-1]])
+            places.extend(on_line[chosen].tolist())
+        return cls(start, end, face, np.array(places), 1 / modulus[edges.element], edges.previous)
+
+    def on(self, edge: Ints, parameter: Floats) -> Floats:
+        """Places (m,) of fractions of edges on the line."""
+        return np.asarray(self.start[edge] + parameter * (self.end[edge] - self.start[edge]))
+
+
+def _faces(along: Floats, after: Ints, before: Ints) -> tuple[Ints, Bools]:
+    """Edges face by face, and which of them is the first of its face."""
+    angle = np.arctan2(along[:, 1], along[:, 0])
+    turn = np.abs((angle - angle[before] + np.pi) % (2 * np.pi) - np.pi)
+    seen = np.zeros(len(along), dtype=bool)
+    order, first = [], []
+    # Rings without a corner begin anywhere.
+    for head in [*np.flatnonzero(turn > KINK).tolist(), *range(len(along))]:  # edges, once a run
+        edge = head
+        while not seen[edge] and (edge == head or turn[edge] <= KINK):
+            seen[edge] = True
+            order.append(edge)
+            first.append(edge == head)
+            edge = int(after[edge])
+    return np.array(order, dtype=np.int64), np.array(first, dtype=bool)
+
+
+def _weights(sides: Sides) -> list[Weights]:
+    """Weights of the covers at the start of every edge.
+
+    All functions of a cover count together: near its middle they are alike.
+    """
+    rows = sides.start.rows
+    cover = np.searchsorted(sides.manifold.cover_offset, rows.unknowns, side="right") - 1
+    square = (rows.values**2).sum(axis=1)
+    square /= square.sum(axis=1, keepdims=True)
+    found = []
+    for names, parts in zip(cover.tolist(), square.tolist(), strict=True):  # corners, once a run
+        total: Weights = {}
+        for name, part in zip(names, parts, strict=True):
+            total[name] = total.get(name, 0.0) + part
+        found.append({name: part**0.5 for name, part in total.items() if part > 0})
+    return found
+
+
+def _unlike(corners: list[Weights]) -> list[int]:
+    """Corners of a face that are places: both ends, and those unlike the place before."""
+    chosen = [0]
+    for k in range(1, len(corners) - 1):  # corners, once a run
+        if _cosine(corners[chosen[-1]], corners[k]) <= ALIKE:
+            chosen.append(k)
+    if len(chosen) > 1 and _cosine(corners[chosen[-1]], corners[-1]) > ALIKE:
+        chosen.pop()
+    return [*chosen, len(corners) - 1]
+
+
+def _cosine(one: Weights, other: Weights) -> float:
+    return sum(value * other.get(name, 0.0) for name, value in one.items())

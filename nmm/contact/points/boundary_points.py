@@ -1,0 +1,71 @@
+"""Points on the edges of bodies, followed with the material: the two sides of a contact.
+
+A side is an edge and a parameter in [0, 1] on it; a vertex is its edge at 0. Between the ends the
+surface is the chord, so a row at a parameter is the mean of the ends' rows and agrees with the
+geometry that the search sees, whatever the degree of the approximation.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.approximation.manifold import Manifold
+from covers.approximation.rows import Rows
+from integration.arrays import Floats, Ints
+from nmm.assembly.motion import Frames, MaterialPoints, material_points
+from nmm.contact.detection.surface import Surface
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Both ends of all boundary edges as material points."""
+
+    manifold: Manifold
+    start: MaterialPoints
+    end: MaterialPoints
+
+    def surface(self, frames: Frames, deformation: Floats) -> Surface:
+        """Return the edges where they are now."""
+        edges = self.manifold.boundary
+        start = self.start.place(frames, deformation)
+        return Surface(
+            start=start,
+            end=start[edges.next],
+            body=edges.body,
+            next=edges.next,
+            previous=edges.previous,
+        )
+
+    @property
+    def repeats(self) -> bool:
+        """Whether one row may name an unknown twice: padded rows, or both sides in one body."""
+        return len(self.manifold.groups) > 1 or len(self.manifold.elements) > self.manifold.n_bodies
+
+    def at(self, edge: Ints, parameter: Floats) -> MaterialPoints:
+        """Return the points (m,) at ``parameter`` on ``edge``."""
+        start, end, s = self.start, self.end, parameter[:, None]
+        if not parameter.any():
+            return start.take(edge)
+        values = start.rows.values[edge] + s[:, :, None] * (
+            end.rows.values[edge] - start.rows.values[edge]
+        )
+        return MaterialPoints(
+            body=start.body[edge],
+            arm=start.arm[edge] + s * (end.arm[edge] - start.arm[edge]),
+            rows=Rows(start.rows.unknowns[edge], values),
+        )
+
+
+def sides(manifold: Manifold) -> Sides:
+    """Return the sides of a manifold's boundary edges."""
+    edges = manifold.boundary
+    return Sides(
+        manifold,
+        material_points(manifold, edges.element, edges.start),
+        material_points(manifold, edges.element, edges.end),
+    )
+
+
+def tangents(normal: Floats) -> Floats:
+    """Return the normals (m, 2) turned clockwise: (0, 1) gives (1, 0)."""
+    return np.stack([normal[:, 1], -normal[:, 0]], axis=1)

@@ -1,0 +1,134 @@
+"""Contact points of a step: where they are, what gap and slip they have, which rows move them."""
+
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.motion import Frames
+from nmm.contact.points.boundary_points import Sides
+
+if TYPE_CHECKING:
+    from nmm.contact.points.joint_points import Stations
+
+
+@dataclass(frozen=True)
+class ContactPoints:
+    """Contact points, one row each; side b's edge gives the normal, from b to a.
+
+    Attributes
+    ----------
+    edge_a, parameter_a, edge_b, parameter_b
+        The two sides.
+    normal
+        (m, 2) at the start of the step.
+    gap
+        (m,) normal distance (m), positive open, counted from the reference.
+    slip
+        (m,) stretch of the shear spring at the start of the step (m).
+    length
+        (m,) tributary length (m); zero where a contact is a mere vertex.
+    slenderness
+        (m,) tributary length over the distance between the middles of the two elements, less by
+        as much as these are softer than the stiffest material: what the penalty is multiplied by.
+        1 for a mere vertex.
+    interface
+        (m,) index among the scene's interfaces.
+    key
+        (m,) identity over steps; joints count -1, -2, ... and the others are not negative.
+    damage
+        (m,) of the bond: 0 intact, 1 broken or never bonded.
+    state, normal_force, shear_force
+        (m,) what the last step left, the warm start of this one.
+    slid
+        (m,) part of the stretch of a bond that is no longer elastic (m).
+    worn
+        (m,) way slid under load, back and forth added (m).
+    reference
+        (m,) overlap that no step has made, as a gap (m), not positive; see
+        `nmm.contact.points.reference_gap`.
+    """
+
+    edge_a: Ints
+    parameter_a: Floats
+    edge_b: Ints
+    parameter_b: Floats
+    normal: Floats
+    gap: Floats
+    slip: Floats
+    length: Floats
+    slenderness: Floats
+    interface: Ints
+    key: Ints
+    damage: Floats
+    state: Ints
+    normal_force: Floats
+    shear_force: Floats
+    slid: Floats
+    worn: Floats
+    reference: Floats
+
+    def __len__(self) -> int:
+        return len(self.gap)
+
+    def take(self, index: Ints | Bools) -> "ContactPoints":
+        """Return some of the contacts."""
+        if index.dtype == bool and index.all():
+            return self
+        return ContactPoints(*(getattr(self, name)[index] for name in PARTS))
+
+    @property
+    def is_joint(self) -> Bools:
+        """Which contacts are points of joints."""
+        return self.key < 0
+
+
+PARTS = tuple(part.name for part in fields(ContactPoints))
+
+
+def concatenate(parts: list[ContactPoints]) -> ContactPoints:
+    """Join contact points."""
+    some = [part for part in parts if len(part)] or parts[:1]
+    if len(some) == 1:
+        return some[0]
+    return ContactPoints(
+        *(np.concatenate([getattr(part, name) for part in some]) for name in PARTS)
+    )
+
+
+def rows(
+    contacts: ContactPoints,
+    sides: Sides,
+    frames: Frames,
+    n_unknowns: int,
+    stations: "Stations | None" = None,
+) -> tuple[csr_array, csr_array]:
+    """Return the normal and tangent rows (m, n_unknowns): ``gap += N d``, ``slip += T d``.
+
+    Both have the same sorted pattern. Joints act at their ``stations``, or on chords without.
+    """
+    from nmm.contact.points.rows import side_rows
+
+    columns, *values = side_rows(
+        sides.start.rows.unknowns if stations is None else stations.unknowns,
+        sides.start.rows.values if stations is None else stations.start,
+        sides.end.rows.values if stations is None else stations.end,
+        frames.rotation,
+        sides.start.body if stations is None else stations.body,
+        (contacts.edge_a, contacts.edge_b) if stations is None else stations.rows_of(contacts),
+        (contacts.parameter_a, contacts.parameter_b),
+        contacts.normal,
+    )
+    offsets = np.arange(len(contacts) + 1, dtype=np.int32) * np.int32(columns.shape[1])
+    shape = (len(contacts), n_unknowns)
+    # Columns and offsets of their own: summing changes both in place.
+    normal, tangent = (
+        csr_array((value.ravel(), columns.flatten(), offsets.copy()), shape=shape)
+        for value in values
+    )
+    if sides.repeats:
+        for part in (normal, tangent):
+            part.sum_duplicates()
+    return normal, tangent

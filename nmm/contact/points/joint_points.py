@@ -1,0 +1,122 @@
+"""Where joints act on bodies whose fields bend along an edge: at points of the material.
+
+The search sees an edge as the chord between its ends (`nmm.contact.points.boundary_points`). A
+joint that pushed on the chord would load the two ends alone, and a field of degree 2 would bend
+under a uniform traction. So the points of joints are followed with the material itself.
+"""
+
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.motion import Frames, MaterialPoints, material_points
+from nmm.contact.points.boundary_points import Sides
+from nmm.contact.points.contact_points import ContactPoints
+
+# Rows of chord and material that differ by less than this share of the largest are the same.
+ALIKE = 1e-12
+
+
+@dataclass(frozen=True)
+class Stations:
+    """Both sides of all points of joints; the point with the key ``-1 - k`` is row ``k``.
+
+    Attributes
+    ----------
+    a, b
+        The two sides.
+    unknowns, start, end, body
+        Rows at the ends of all edges, then those of ``a`` and of ``b`` with both ends the same.
+    whole
+        Whether ``a`` and ``b`` are the sides of all contacts of a step, row by row, and the tables
+        hold nothing else.
+    """
+
+    a: MaterialPoints
+    b: MaterialPoints
+    unknowns: Ints
+    start: Floats
+    end: Floats
+    body: Ints
+    whole: bool = False
+
+    @classmethod
+    def of(cls, sides: Sides, points: ContactPoints) -> Self | None:
+        """Return the stations of joints; None without joints or where fields are linear."""
+        if not len(points):
+            return None
+        both = []
+        bent = False
+        for edge, parameter in (
+            (points.edge_a, points.parameter_a),
+            (points.edge_b, points.parameter_b),
+        ):
+            found = _material(sides, edge, parameter)
+            chord = sides.at(edge, parameter).rows.values
+            # Discs reach other points than ends of edges: their fields bend.
+            bent |= found.rows.values.shape != chord.shape or _differ(found.rows.values, chord)
+            both.append(found)
+        if not bent:
+            return None
+        a, b = both
+        rows = [sides.start.rows, a.rows, b.rows]
+        width = max(part.unknowns.shape[1] for part in (*rows, sides.end.rows))
+        values = [_padded(part.values, width) for part in rows]
+        return cls(
+            a,
+            b,
+            unknowns=np.concatenate([_padded(part.unknowns, width) for part in rows]),
+            start=np.concatenate(values),
+            end=np.concatenate([_padded(sides.end.rows.values, width), *values[1:]]),
+            body=np.concatenate([sides.start.body, a.body, b.body]),
+        )
+
+    @classmethod
+    def at(cls, sides: Sides, contacts: ContactPoints) -> Self:
+        """Return the stations of all contacts of a step, joints or not."""
+        a = _material(sides, contacts.edge_a, contacts.parameter_a)
+        b = _material(sides, contacts.edge_b, contacts.parameter_b)
+        width = max(a.rows.unknowns.shape[1], b.rows.unknowns.shape[1])
+        unknowns = [_padded(part.rows.unknowns, width) for part in (a, b)]
+        values = np.concatenate([_padded(part.rows.values, width) for part in (a, b)])
+        body = np.concatenate([a.body, b.body])
+        return cls(a, b, np.concatenate(unknowns), values, values, body, whole=True)
+
+    def rows_of(self, contacts: ContactPoints) -> tuple[Ints, Ints]:
+        """Rows (m,) of the tables above for both sides of contacts, joints or not."""
+        if self.whole:
+            count = np.arange(len(contacts))
+            return count, len(contacts) + count
+        first = len(self.body) - 2 * len(self.a.body)
+        at_a = first - 1 - contacts.key
+        joint = contacts.is_joint
+        return (
+            np.where(joint, at_a, contacts.edge_a),
+            np.where(joint, at_a + len(self.a.body), contacts.edge_b),
+        )
+
+    def apart(self, points: ContactPoints, frames: Frames, deformation: Floats) -> Floats:
+        """Where sides a of joints are from sides b (m, 2)."""
+        k = np.arange(len(points)) if self.whole else -1 - points.key
+        side_a, side_b = self.a.take(k), self.b.take(k)
+        return np.asarray(side_a.place(frames, deformation) - side_b.place(frames, deformation))
+
+
+def _material(sides: Sides, edge: Ints, parameter: Floats) -> MaterialPoints:
+    """Points of the material that lie at fractions of edges in the reference place."""
+    boundary, s = sides.manifold.boundary, parameter[:, None]
+    place = boundary.start[edge] + s * (boundary.end[edge] - boundary.start[edge])
+    return material_points(sides.manifold, boundary.element[edge], place)
+
+
+def _differ(values: Floats, others: Floats) -> bool:
+    off = np.abs(values - others).max(initial=0.0)
+    return bool(off > ALIKE * np.abs(others).max(initial=0.0))
+
+
+def _padded(values: Any, width: int) -> Any:
+    """Rows of elements with fewer functions, filled up with zeros."""
+    more = width - values.shape[-1]
+    return np.pad(values, [(0, 0)] * (values.ndim - 1) + [(0, more)]) if more else values

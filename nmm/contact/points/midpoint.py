@@ -1,0 +1,150 @@
+"""Contact rows at the middle of a step, and the moments of contact forces about it.
+
+The exact rotation of a step moves a point of a body from ``x0`` to ``x1`` with
+
+    x1 - x0 = R0 u + Rm (r (X + T qm)^perp + T dq) + O(r^3),
+
+``u``, ``r`` the body's mean motion, ``dq`` the rest of the increment, ``Rm`` and ``qm`` half way.
+Rows of this motion along the normal half way give the gap at the end to that order too, so that the
+work of contact forces is what their springs store (Simo and Tarnow 1992; Laursen and Chawla 1997).
+Both sides move as if the force acted at one point, that of side a: it makes no couple.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csr_array, diags_array
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import Frames, State
+from nmm.contact.points.boundary_points import Sides, tangents
+from nmm.contact.points.contact_points import ContactPoints, rows
+from nmm.contact.points.moments import moments
+from nmm.contact.problem.row_products import pushed
+
+
+@dataclass(frozen=True)
+class Rows:
+    """How gap and slip change with the unknowns.
+
+    Attributes
+    ----------
+    normal, tangent
+        (m, n).
+    direction
+        (m, 2) unit normals, from b to a.
+    """
+
+    normal: csr_array
+    tangent: csr_array
+    direction: Floats
+
+    def push(self, normal: Floats, shear: Floats) -> Floats:
+        """Return what forces (m,) of the contacts are on the unknowns (n,)."""
+        return pushed(self.normal, self.tangent, normal, shear)
+
+
+def middle(before: State, after: State) -> State:
+    """Return the place half way between two states."""
+    frames = Frames(
+        (before.frames.centre + after.frames.centre) / 2,
+        (before.frames.angle + after.frames.angle) / 2,
+    )
+    return replace(before, frames=frames, deformation=(before.deformation + after.deformation) / 2)
+
+
+def halfway_rows(
+    contacts: ContactPoints, sides: Sides, model: Model, start: State, half: State
+) -> Rows:
+    """Return the rows of contacts with both sides where they are half way.
+
+    Every body must be one element: the rows of its points then hold all of its unknowns.
+    """
+    surface = sides.surface(half.frames, half.deformation)
+    edge = contacts.edge_b
+    direction, length = surface.normal[edge], surface.length[edge]
+    along = np.stack([-direction[:, 1], direction[:, 0]], axis=1)
+    side_a = sides.at(contacts.edge_a, contacts.parameter_a)
+    place_a = side_a.place(half.frames, half.deformation)
+    foot = np.einsum("ij,ij->i", place_a - surface.start[edge], along) / length
+    contacts = replace(
+        contacts,
+        normal=direction,
+        parameter_b=np.where(contacts.is_joint, contacts.parameter_b, foot),
+    )
+    side_b = sides.at(edge, contacts.parameter_b)
+    apart = place_a - side_b.place(half.frames, half.deformation)
+    n_unknowns = model.manifold.n_unknowns
+    # The rotation of edge b takes the foot's motion to the point of side a.
+    turn = sides.end.rows.values[edge] - sides.start.rows.values[edge]
+    local = half.frames.to_body(side_b.body, direction / length[:, None])
+    unknowns = sides.start.rows.unknowns[edge]
+    turning = _sparse(unknowns, np.einsum("mcl,mc->ml", turn, local), n_unknowns)
+    found = []
+    for part, axis, across in zip(
+        rows(contacts, sides, half.frames, n_unknowns),
+        (direction, tangents(direction)),
+        (tangents(direction), -direction),
+        strict=True,
+    ):
+        lever = np.einsum("ij,ij->i", apart, across)
+        rigid = _rigid_shift(side_a.body, axis, side_a.rows.apply(half.deformation), start, half)
+        rigid = rigid - _rigid_shift(
+            side_b.body, axis, side_b.rows.apply(half.deformation), start, half
+        )
+        whole = part + diags_array(lever) @ turning + rigid @ model.rigid_projection
+        found.append(csr_array(whole))
+    return Rows(found[0], found[1], direction)
+
+
+def _rigid_shift(body: Ints, axis: Floats, bent: Floats, start: State, half: State) -> csr_array:
+    """Rows (m, 3 B): what mean motions do beyond the rows in the axes half way."""
+    back = start.frames.to_body(body, axis)
+    now = half.frames.to_body(body, axis)
+    turned = now[:, 1] * bent[:, 0] - now[:, 0] * bent[:, 1]
+    values = np.column_stack([back - now, turned])
+    return _sparse(3 * body[:, None] + np.arange(3), values, 3 * len(half.frames.angle))
+
+
+def _sparse(columns: Ints, values: Floats, width: int) -> csr_array:
+    m, size = values.shape
+    offsets = np.arange(m + 1) * size
+    return csr_array((values.ravel(), columns.ravel(), offsets), shape=(m, width))
+
+
+def missing_moments(
+    made: Rows,
+    forces: tuple[Floats, Floats],
+    contacts: ContactPoints,
+    sides: Sides,
+    half: State,
+    acted: Floats,
+) -> Floats:
+    """Moments (B,) in N m about the bodies' centres half way that contact forces still owe.
+
+    A force of the step, on two bodies at one point half way, changes the angular momentum of both
+    together by nothing, as the place of a centre changes by the mean of its velocities. What the
+    rows have made of the forces differs by the turn and the strain of the bodies in the step.
+
+    Parameters
+    ----------
+    forces
+        (m,) mean normal and shear forces (N), tension positive.
+    acted
+        (3 B,) what the rows have made of them: forces and moments on the bodies.
+    """
+    half_way = sides.surface(half.frames, half.deformation)
+    owed = moments(
+        half_way.start,
+        half_way.end,
+        half_way.body,
+        half.frames.centre,
+        contacts.edge_a,
+        contacts.parameter_a,
+        contacts.edge_b,
+        made.direction,
+        *forces,
+    )
+    # Forces of the rows act on the bodies with the sign changed.
+    return np.asarray(acted.reshape(-1, 3)[:, 2] - owed)

@@ -1,0 +1,87 @@
+"""The gap from which a contact counts: an overlap that no step has made stores no energy.
+
+Search may find a vertex already inside a body: two corners have passed each other, or the scene
+began so. A spring that entered loaded would push with energy from nowhere. Such a contact counts
+its gap from what it was when it appeared, its *reference*. A contact that continues another one, at
+the corner of a body or on the next body, takes over the stretch of that one's spring, and a stretch
+of two faces that are pressed together already is pressed like its neighbours.
+
+The reference recovers without work: when the contact opens, what is left of the overlap becomes the
+new reference, and it never grows again.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.contact.points.contact_points import ContactPoints
+
+
+def counted(
+    new: ContactPoints,
+    old: ContactPoints | None,
+    predecessor: Ints,
+    stiffness: Callable[[ContactPoints], Floats],
+    body: Ints,
+) -> ContactPoints:
+    """Return new points with gaps counted from their references.
+
+    Parameters
+    ----------
+    new
+        Points as found, their gaps as measured (m).
+    old
+        Points of the last accepted step with gaps as counted (m); None before the first.
+    predecessor
+        (m,) which of the old points each new one continues, -1 where it is new.
+    stiffness
+        Normal stiffness (N/m) of contact points.
+    body
+        (E,) of the boundary edges.
+    """
+    reference = np.minimum(new.gap, 0.0)
+    if old is not None and len(old) and len(new):
+        known = predecessor >= 0
+        source = np.where(known, predecessor, 0)
+        stays = known & (old.key[source] == new.key)
+        # An overlap that has become less is followed.
+        reference = np.where(stays, np.maximum(reference, old.reference[source]), reference)
+        handed = np.flatnonzero(known & ~stays & (new.gap < 0))
+        if len(handed):
+            giver, taker = old.take(source[handed]), new.take(handed)
+            stretch = _passed_on(giver.gap, stiffness(giver) / stiffness(taker))
+            reference[handed] = _from_stretch(taker.gap, stretch)
+        born = np.flatnonzero(~known & (new.length > 0) & (new.gap < 0))
+        if len(born):
+            taker = new.take(born)
+            reference[born] = _from_stretch(taker.gap, _beside(taker, old, body))
+    return replace(new, gap=new.gap - reference, reference=reference)
+
+
+def _from_stretch(gap: Floats, stretch: Floats) -> Floats:
+    """Reference (m,) with which contacts are stretched by so much, or as far as they overlap."""
+    return np.minimum(gap - np.minimum(stretch, 0.0), 0.0)
+
+
+def _passed_on(stretch: Floats, ratio: Floats) -> Floats:
+    """Stretch (m,) that gives a spring neither more force nor more energy than the last one had.
+
+    ``ratio`` (m,) is the stiffness of the last one over that of the new one.
+    """
+    return stretch * np.minimum(ratio, np.sqrt(ratio))
+
+
+def _beside(born: ContactPoints, old: ContactPoints, body: Ints) -> Floats:
+    """Stretch (m,) of the most pressed contact that the same two bodies had on faces."""
+    faces = old.take(old.length > 0)
+    count = int(body.max(initial=0)) + 1
+    pair_old, pair_born = (
+        np.minimum(a, b) * count + np.maximum(a, b)
+        for a, b in ((body[part.edge_a], body[part.edge_b]) for part in (faces, born))
+    )
+    pair, which = np.unique(np.concatenate([pair_old, pair_born]), return_inverse=True)
+    least = np.zeros(len(pair))
+    np.minimum.at(least, which[: len(faces)], faces.gap)
+    return least[which[len(faces) :]]

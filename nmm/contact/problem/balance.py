@@ -1,0 +1,52 @@
+"""How far a step is out of balance, in a norm that mixes no units."""
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+
+from integration.arrays import Floats
+from nmm.contact.problem.residual_kernel import squared
+from nmm.contact.problem.step_problem import StepProblem
+
+
+def weights(
+    problem: StepProblem, normal: Floats | None = None, shear: Floats | None = None
+) -> Floats:
+    """(n,) inverse roots of the diagonal of matrix plus all contact springs.
+
+    Forces on translations, rotations and strains become comparable: ``|weights * r|`` is
+    invariant under a change of the units of single unknowns. ``normal`` and ``shear`` (m,) stand
+    in for the problem's stiffnesses.
+    """
+    normal = problem.normal_stiffness if normal is None else normal
+    shear = problem.shear_stiffness if shear is None else shear
+    diagonal = problem.matrix.diagonal() + _squared(problem.normal_rows, normal)
+    diagonal += _squared(problem.tangent_rows, shear)
+    return np.asarray(1.0 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0)))
+
+
+def relative_residual(
+    problem: StepProblem, weight: Floats, increment: Floats, normal: Floats, shear: Floats
+) -> float:
+    """Out-of-balance force over the largest of load, internal and contact force."""
+    inner = problem.matrix @ increment
+    contact = problem.normal_rows.T @ normal + problem.tangent_rows.T @ shear
+    size = max(length(weight * part) for part in (inner, contact, problem.force))
+    rest = length(weight * (inner + contact - problem.force))
+    return rest / size if size > 0 else 0.0
+
+
+def _squared(rows: csr_array, stiffness: Floats) -> Floats:
+    return np.asarray(squared(rows.indptr, rows.indices, rows.data, stiffness, rows.shape[1]))
+
+
+def length(vector: Floats) -> float:
+    """Euclidean norm, without the threads that BLAS starts for long vectors."""
+    return float(np.sqrt(np.einsum("i,i->", vector, vector)))
+
+
+def with_springs(problem: StepProblem, normal: Floats, shear: Floats) -> csc_array:
+    """``matrix + Gn^T diag(normal) Gn + Gt^T diag(shear) Gt`` by sparse products."""
+    total = problem.matrix
+    for rows, stiffness in ((problem.normal_rows, normal), (problem.tangent_rows, shear)):
+        total = total + rows.T @ (diags_array(stiffness) @ rows)
+    return csc_array(total)

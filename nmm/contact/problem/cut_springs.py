@@ -1,0 +1,139 @@
+"""Contact forces as springs that a law cuts off: the equations every iterative solver works on."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from integration.arrays import Bools, Floats
+from nmm.contact.problem import residual_kernel
+from nmm.contact.problem.balance import weights
+from nmm.contact.problem.coulomb import project, shear_bound
+from nmm.contact.problem.step_problem import StepProblem
+
+
+@dataclass(frozen=True)
+class CutSprings:
+    """Forces ``project(shift + stiffness * (gap, slip))`` of a problem.
+
+    With zero shift and the problem's stiffnesses this is the penalty (or the joint's own law);
+    with the multipliers of the last round as shift it is one round of the augmented Lagrangian.
+
+    Attributes
+    ----------
+    problem
+        The step.
+    normal_stiffness, shear_stiffness
+        (m,) N/m.
+    normal_shift, shear_shift
+        (m,) N.
+    """
+
+    problem: StepProblem
+    normal_stiffness: Floats
+    shear_stiffness: Floats
+    normal_shift: Floats
+    shear_shift: Floats
+
+    @classmethod
+    def of(cls, problem: StepProblem) -> "CutSprings":
+        """Springs with the problem's own stiffnesses."""
+        zero = np.zeros(problem.n_contacts)
+        return cls(problem, problem.normal_stiffness, problem.shear_stiffness, zero, zero)
+
+    def shifted(self, normal: Floats, shear: Floats) -> "CutSprings":
+        """Springs with other shifts."""
+        return replace(self, normal_shift=normal, shear_shift=shear)
+
+    @cached_property
+    def weight(self) -> Floats:
+        """(n,) weights of out-of-balance forces."""
+        return weights(self.problem, self.normal_stiffness, self.shear_stiffness)
+
+    def trial(self, increment: Floats) -> tuple[Floats, Floats]:
+        """Normal and shear force of uncut springs."""
+        return self.stretched(self.problem.gaps(increment), self.problem.slips(increment))
+
+    def stretched(self, gap: Floats, slip: Floats) -> tuple[Floats, Floats]:
+        """The same at gaps and slips (m,) in m."""
+        normal = self.normal_stiffness * gap + self.normal_shift
+        return normal, self.shear_stiffness * slip + self.shear_shift
+
+    def forces(self, increment: Floats) -> tuple[Floats, Floats]:
+        """Admissible forces."""
+        return self.cut(*self.trial(increment))
+
+    def states(self, increment: Floats) -> tuple[Bools, Bools]:
+        """(m,) open contacts, (m,) closed contacts that slide."""
+        return self.states_of(*self.trial(increment))
+
+    def cut(self, normal: Floats, shear: Floats) -> tuple[Floats, Floats]:
+        """Admissible forces of those of uncut springs."""
+        return project(normal, shear, self.problem.limits)
+
+    def states_of(self, normal: Floats, shear: Floats) -> tuple[Bools, Bools]:
+        """The `states` that the forces of uncut springs mean."""
+        is_open = normal > self.problem.limits.tension
+        bounded = np.minimum(normal, self.problem.limits.tension)
+        bound = shear_bound(bounded, is_open, self.problem.limits)
+        return is_open, np.abs(shear) > bound
+
+    def defect(self, increment: Floats) -> "Defect":
+        """Out-of-balance force of ``increment``."""
+        force, size = residual_kernel.defect(increment, *self._columns)
+        return Defect(force, float(size))
+
+    @cached_property
+    def _columns(self) -> tuple[Any, ...]:
+        p = self.problem
+        return (
+            p.force,
+            self.weight,
+            *(p.matrix.indptr, p.matrix.indices, p.matrix.data),
+            *(p.normal_rows.indptr, p.normal_rows.indices, p.normal_rows.data),
+            *(p.tangent_rows.indptr, p.tangent_rows.indices, p.tangent_rows.data),
+            *(p.gap, p.slip, self.normal_stiffness, self.shear_stiffness),
+            *(self.normal_shift, self.shear_shift),
+            *(p.limits.tension, p.limits.cohesion, p.limits.friction),
+        )
+
+
+@dataclass(frozen=True)
+class Defect:
+    """Out-of-balance force (n,) and its relative size."""
+
+    force: Floats
+    size: float
+
+
+@dataclass(frozen=True)
+class Settled:
+    """Where an iterative solver ended.
+
+    Attributes
+    ----------
+    springs
+        The springs whose forces belong to the increment.
+    increment
+        (n,) best unknowns.
+    size
+        Relative out-of-balance force there.
+    solves
+        Linear solves.
+    factorisations
+        Matrices factorised.
+    story
+        How, in words.
+    error
+        What exact contacts lack, where they were sought: the largest gap, slip or force that
+        should not be, over the largest force and what it would press into the contact alone.
+    """
+
+    springs: CutSprings
+    increment: Floats
+    size: float
+    solves: int
+    factorisations: int
+    story: str
+    error: float = 0.0

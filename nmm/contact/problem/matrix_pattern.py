@@ -1,0 +1,250 @@
+"""The matrix of a step with contact springs in it: fixed pattern, new values every pass.
+
+The pattern holds the full square of the unknowns that meet in a contact, zeros included: so it
+stands for every state and every step as long as the same unknowns meet, and a fill-reducing
+ordering sees whole blocks.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numba as nb
+import numpy as np
+import numpy.typing as npt
+from scipy.sparse import csc_array, csr_array
+
+from integration.arrays import Floats
+from nmm.contact.problem.step_problem import StepProblem
+
+Index = npt.NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class SpringPattern:
+    """Places of matrix entries and contact springs in one sparse pattern.
+
+    Attributes
+    ----------
+    sources
+        Index arrays of matrix and rows from which the pattern was built.
+    indices, indptr
+        The pattern, compressed columns.
+    matrix_place
+        Place of every entry of the problem's matrix.
+    unknowns
+        (m, L) unknowns of every contact, ascending, filled up with -1.
+    normal_place, tangent_place
+        Place of every entry of the rows in an array (m, L).
+    run_start
+        (m, L, R) place of the first entry of run ``r`` of unknowns in the column of unknown ``l``;
+        a run is a stretch of consecutive unknowns, which stay neighbours in every column.
+    """
+
+    sources: tuple[npt.NDArray[Any], ...]
+    indices: Index
+    indptr: Index
+    matrix_place: Index
+    unknowns: Index
+    normal_place: Index
+    tangent_place: Index
+    run_start: Index
+
+    @classmethod
+    def of(cls, problem: StepProblem) -> "SpringPattern":
+        """Lay out the pattern of a problem."""
+        matrix = problem.matrix
+        n, m = matrix.shape[0], problem.n_contacts
+        normal, tangent = problem.normal_rows, problem.tangent_rows
+        unknowns = _unknowns(
+            *_index(normal.indptr, normal.indices), *_index(tangent.indptr, tangent.indices)
+        )
+        members = csr_array(
+            (np.ones((unknowns >= 0).sum(), dtype=np.int8), _members(unknowns)), shape=(n, m)
+        )
+        own = _index(matrix.indptr, matrix.indices)
+        indptr, indices = _pattern(n, *own, *_index(members.indptr, members.indices), unknowns)
+        run_start = _run_starts(indptr, indices, unknowns)
+        return cls(
+            _sources(problem),
+            indices,
+            indptr,
+            _places(indptr, indices, *own),
+            unknowns,
+            _row_places(unknowns, *_index(normal.indptr, normal.indices)),
+            _row_places(unknowns, *_index(tangent.indptr, tangent.indices)),
+            run_start,
+        )
+
+    def fits(self, problem: StepProblem) -> bool:
+        """Whether ``problem`` has the matrix and row patterns this one was built from."""
+        pairs = zip(self.sources, _sources(problem), strict=True)
+        return all(old is new or np.array_equal(old, new) for old, new in pairs)
+
+    def matrix(
+        self, problem: StepProblem, normal: Floats, shear: Floats, mixed: Floats | None = None
+    ) -> csc_array:
+        """``matrix + Gn^T diag(normal) Gn + Gt^T diag(shear) Gt + Gt^T diag(mixed) Gn``."""
+        data = np.zeros(len(self.indices))
+        data[self.matrix_place] = problem.matrix.data
+        width = self.unknowns.shape
+        rows = [np.zeros(width), np.zeros(width)]
+        rows[0].ravel()[self.normal_place] = problem.normal_rows.data
+        rows[1].ravel()[self.tangent_place] = problem.tangent_rows.data
+        cross = np.zeros(len(normal)) if mixed is None else mixed
+        _add_springs(data, self.unknowns, self.run_start, rows[0], rows[1], normal, shear, cross)
+        return csc_array((data, self.indices, self.indptr), shape=problem.matrix.shape)
+
+
+def _sources(problem: StepProblem) -> tuple[npt.NDArray[Any], ...]:
+    parts = (problem.matrix, problem.normal_rows, problem.tangent_rows)
+    return tuple(array for part in parts for array in (part.indptr, part.indices))
+
+
+def _index(indptr: npt.NDArray[Any], indices: npt.NDArray[Any]) -> tuple[Index, Index]:
+    return indptr.astype(np.int32, copy=False), indices.astype(np.int32, copy=False)
+
+
+def _members(unknowns: Index) -> tuple[Index, Index]:
+    contact, _ = np.nonzero(unknowns >= 0)
+    return unknowns[unknowns >= 0], contact.astype(np.int32)
+
+
+@nb.njit(cache=True)
+def _unknowns(ptr_a: Index, idx_a: Index, ptr_b: Index, idx_b: Index) -> Index:
+    m = len(ptr_a) - 1
+    width = 0
+    for c in range(m):
+        width = max(width, ptr_a[c + 1] - ptr_a[c] + ptr_b[c + 1] - ptr_b[c])
+    both = np.full((m, width), -1, dtype=np.int32)
+    most = 0
+    for c in range(m):
+        na, nb_ = ptr_a[c + 1] - ptr_a[c], ptr_b[c + 1] - ptr_b[c]
+        merged = np.empty(na + nb_, dtype=np.int32)
+        merged[:na] = idx_a[ptr_a[c] : ptr_a[c + 1]]
+        merged[na:] = idx_b[ptr_b[c] : ptr_b[c + 1]]
+        merged.sort()
+        count = 0
+        for k in range(na + nb_):
+            if k == 0 or merged[k] != merged[k - 1]:
+                both[c, count] = merged[k]
+                count += 1
+        most = max(most, count)
+    return both[:, :most].copy()
+
+
+@nb.njit(cache=True)
+def _pattern(
+    n: int, own_ptr: Index, own_idx: Index, who_ptr: Index, who: Index, unknowns: Index
+) -> tuple[Index, Index]:
+    indptr = np.zeros(n + 1, dtype=np.int32)
+    mark = np.full(n, -1, dtype=np.int32)
+    indices = np.empty(2 * len(own_idx) + 64, dtype=np.int32)
+    total = 0
+    for j in range(n):
+        first = total
+        need = own_ptr[j + 1] - own_ptr[j] + (who_ptr[j + 1] - who_ptr[j]) * unknowns.shape[1] + 1
+        if total + need > len(indices):
+            longer = np.empty(2 * len(indices) + need, dtype=np.int32)
+            longer[:total] = indices[:total]
+            indices = longer
+        mark[j] = j
+        indices[total] = j
+        total += 1
+        for k in range(own_ptr[j], own_ptr[j + 1]):
+            i = own_idx[k]
+            if mark[i] != j:
+                mark[i] = j
+                indices[total] = i
+                total += 1
+        for k in range(who_ptr[j], who_ptr[j + 1]):
+            for i in unknowns[who[k]]:
+                if i >= 0 and mark[i] != j:
+                    mark[i] = j
+                    indices[total] = i
+                    total += 1
+        indices[first:total].sort()
+        indptr[j + 1] = total
+    return indptr, indices[:total].copy()
+
+
+@nb.njit(cache=True)
+def _places(indptr: Index, indices: Index, own_ptr: Index, own_idx: Index) -> Index:
+    place = np.empty(len(own_idx), dtype=np.int32)
+    for j in range(len(own_ptr) - 1):
+        column = indices[indptr[j] : indptr[j + 1]]
+        for k in range(own_ptr[j], own_ptr[j + 1]):
+            place[k] = indptr[j] + np.searchsorted(column, own_idx[k])
+    return place
+
+
+@nb.njit(cache=True)
+def _row_places(unknowns: Index, ptr: Index, idx: Index) -> Index:
+    place = np.empty(len(idx), dtype=np.int32)
+    width = unknowns.shape[1]
+    for c in range(len(ptr) - 1):
+        for k in range(ptr[c], ptr[c + 1]):
+            for spot in range(width):
+                if unknowns[c, spot] == idx[k]:
+                    place[k] = c * width + spot
+                    break
+    return place
+
+
+@nb.njit(cache=True)
+def _run_starts(indptr: Index, indices: Index, unknowns: Index) -> Index:
+    m, width = unknowns.shape
+    most = 0
+    for c in range(m):
+        runs = 0
+        for k in range(width):
+            if unknowns[c, k] >= 0 and (k == 0 or unknowns[c, k] != unknowns[c, k - 1] + 1):
+                runs += 1
+        most = max(most, runs)
+    start = np.zeros((m, width, most), dtype=np.int32)
+    for c in range(m):
+        for spot in range(width):
+            j = unknowns[c, spot]
+            if j < 0:
+                break
+            column = indices[indptr[j] : indptr[j + 1]]
+            run = -1
+            for k in range(width):
+                i = unknowns[c, k]
+                if i < 0:
+                    break
+                if k == 0 or i != unknowns[c, k - 1] + 1:
+                    run += 1
+                    start[c, spot, run] = indptr[j] + np.searchsorted(column, i)
+    return start
+
+
+@nb.njit(cache=True)
+def _add_springs(
+    data: Floats,
+    unknowns: Index,
+    start: Index,
+    normal: Floats,
+    tangent: Floats,
+    kn: Floats,
+    kt: Floats,
+    mixed: Floats,
+) -> None:
+    m, width = unknowns.shape
+    for c in range(m):
+        if kn[c] == 0.0 and kt[c] == 0.0 and mixed[c] == 0.0:
+            continue
+        for spot in range(width):
+            if unknowns[c, spot] < 0:
+                break
+            along_n = kn[c] * normal[c, spot]
+            along_t = kt[c] * tangent[c, spot] + mixed[c] * normal[c, spot]
+            run, at = -1, 0
+            for k in range(width):
+                i = unknowns[c, k]
+                if i < 0:
+                    break
+                if k == 0 or i != unknowns[c, k - 1] + 1:
+                    run += 1
+                    at = start[c, spot, run]
+                data[at] += along_n * normal[c, k] + along_t * tangent[c, k]
+                at += 1

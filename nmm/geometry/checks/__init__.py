@@ -1,0 +1,1 @@
+"""What must hold of rings, blocks, places, supports and amounts before a scene is built."""

@@ -1,0 +1,75 @@
+"""What a scene and a formulation must not be together, and what a run of both could not tell."""
+
+from collections.abc import Iterator
+from dataclasses import fields
+from typing import TYPE_CHECKING
+
+from nmm import capacity
+from nmm.errors import Fault, SceneError
+from nmm.results.summary import Summary
+from nmm.scene.faults import suggestion
+
+if TYPE_CHECKING:
+    from nmm.formulation import Formulation
+    from nmm.scene.model import Scene
+
+COLUMNS = (
+    *("time", "load_factor", "step", "passes", "residual", "external_work"),
+    "integration_loss",
+    *("kinetic_energy", "strain_energy", "contact_energy", "support_energy"),
+)
+CONTACT_COLUMNS = ("penetration", "friction_loss", "contact_loss", "broken")
+
+
+def check_together(scene: "Scene", formulation: "Formulation") -> None:
+    """Refuse steps that the duration does not hold and references that no run can be compared with.
+
+    Raises
+    ------
+    NmmError
+        All faults of this kind, one line each.
+    """
+    faults = [*_steps(scene, formulation), *_references(scene)]
+    if faults:
+        raise SceneError(*faults)
+    if scene.inertia is not None and scene.duration is not None:
+        steps = scene.duration / formulation.integrator.step
+        place = formulation.source.place("integrator", "step")
+        capacity.refuse(place, f"{steps:.3g} steps", steps * capacity.STEP, "take longer steps")
+
+
+def known_quantities(scene: "Scene") -> list[str]:
+    """Return the names of the numbers that a run of a scene gives: of its summary and history."""
+    numbers = [item.name for item in fields(Summary) if _is_number(str(item.type))]
+    columns = [f"monitor:{item.name}:u{axis}" for item in scene.monitors for axis in "xy"]
+    columns += [f"reaction:{item.name}:{axis}" for item in scene.supports for axis in "xy"]
+    if scene.contact is not None:
+        from nmm.contact.problem.step_problem import State
+
+        columns += [*CONTACT_COLUMNS, *(state.name.lower() for state in State)]
+    return [*numbers, *COLUMNS, *columns]
+
+
+def _is_number(annotation: str) -> bool:
+    return any(word in ("int", "float") for word in annotation.split(" | ")) or annotation in (
+        "<class 'int'>",
+        "<class 'float'>",
+    )
+
+
+def _steps(scene: "Scene", formulation: "Formulation") -> Iterator[Fault]:
+    step, duration = formulation.integrator.step, scene.duration
+    if scene.inertia is not None and duration is not None and step > (1 + 1e-9) * duration:
+        place = formulation.source.place("integrator", "step")
+        value = f"{step:g} s, longer than the duration of {duration:g} s"
+        yield Fault(place, value, "a part of the duration", "take shorter steps")
+
+
+def _references(scene: "Scene") -> Iterator[Fault]:
+    known = known_quantities(scene) if scene.references else []
+    for index, item in enumerate(scene.references):
+        if item.quantity not in known:
+            place = scene.source.place("reference", index, "quantity")
+            expected = "a number of the summary or a column of the history"
+            remedy = suggestion(item.quantity, known)
+            yield Fault(place, f'"{item.quantity}"', expected, remedy)

@@ -1,0 +1,137 @@
+"""From the formulation's ``[cover]`` to a manifold: blocks for DDA, meshes for all else."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from covers.approximation.block_manifold import block_manifold
+from covers.approximation.manifold import Manifold
+from covers.local_functions.polynomials import FUNCTIONS, LocalFunctions
+from integration.arrays import Floats
+from nmm.errors import FormulationError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from covers.cutting.cut_cells import CutCells
+    from covers.mathematical.base import Cover as MathematicalCover
+    from nmm.formulation import Cover
+    from nmm.geometry.blocks import Regions
+
+
+@dataclass(frozen=True)
+class Covering:
+    """A manifold and, for covers that are cut, the cover and how the cut left it."""
+
+    manifold: Manifold
+    cut: "CutCells | None" = None
+    laid: "MathematicalCover | None" = None
+
+
+def cover_regions(
+    regions: "Regions",
+    cover: "Cover",
+    cracks: "Sequence[Floats]" = (),
+    kappa: Floats | None = None,
+) -> Covering:
+    """Make the manifold that a formulation's ``[cover]`` names.
+
+    Parameters
+    ----------
+    regions
+        Blocks and the cracks that joint sets leave in them.
+    cover
+        The table.
+    cracks
+        Polylines (n, 2) of the scene.
+    kappa
+        Kolosov's constant of each region, for singular functions.
+
+    Raises
+    ------
+    FormulationError
+        A cover that cannot be made, or one that cannot hold cracks.
+    """
+    lines = [*cracks, *np.asarray(regions.cracks)]
+    functions = local_functions(cover)
+    if cover.regions and (cover.of_blocks or cover.functions != "monomials"):
+        raise FormulationError(
+            f'[[cover.regions]]: with type = "{cover.type}", functions = "{cover.functions}": '
+            'expected a mesh of polynomials: use type = "triangles" and functions = "monomials"'
+        )
+    if cover.nets and cover.of_blocks:
+        raise FormulationError(
+            f'[[cover.nets]]: with type = "{cover.type}" every block has its own cover: expected a '
+            'mesh: use type = "triangles", or remove the nets'
+        )
+    if cover.of_blocks:
+        if lines:
+            raise FormulationError(
+                f'[cover] type: "{cover.type}": {len(lines)} cracks end inside blocks: expected a '
+                'cover that cracks can cut: use type = "triangles" with a size'
+            )
+        blocks, region = regions.polygons, np.arange(len(regions.polygons), dtype=np.int64)
+        if cover.type == "sub_blocks":
+            from nmm.geometry.tessellation.sub_blocks import divided
+
+            blocks, region = divided(blocks, cover)
+        return Covering(block_manifold(blocks, region, functions))
+    return _mesh(regions, cover, functions, lines, kappa)
+
+
+def local_functions(cover: "Cover") -> LocalFunctions:
+    """Return the local functions that ``[cover]`` names."""
+    functions = FUNCTIONS.get(cover.functions)
+    if functions is None:
+        raise FormulationError(
+            f"[cover] functions: {cover.functions}: expected one of {', '.join(FUNCTIONS)}"
+        )
+    if cover.functions == "monomials" and cover.degree is None:
+        raise FormulationError(
+            '[cover] degree: not given: expected 0 to 3 with functions = "monomials": add degree'
+        )
+    if cover.functions != "monomials" and cover.degree not in (None, 1):
+        raise FormulationError(
+            f'[cover] degree: {cover.degree}: expected 1 with functions = "{cover.functions}": use '
+            'functions = "monomials", or leave degree out'
+        )
+    try:
+        return functions(1 if cover.degree is None else cover.degree)
+    except ValueError as fault:
+        raise FormulationError(f"[cover] {fault}") from fault
+
+
+def _mesh(
+    regions: "Regions",
+    cover: "Cover",
+    functions: LocalFunctions,
+    lines: "Sequence[Floats]",
+    kappa: Floats | None,
+) -> Covering:
+    from covers.approximation.mesh_manifold import mesh_manifold
+    from nmm.model.degrees import kinds_by_region
+    from nmm.model.enriching import enrichments
+    from nmm.model.several_meshes import laid_and_cut
+
+    if cover.size is None:
+        raise FormulationError(
+            f'[cover] size: not given: expected the size of a cell in m with type = "{cover.type}"'
+        )
+    try:
+        laid, pieces = laid_and_cut(regions, cover, lines)
+    except (ValueError, TypeError, ImportError) as fault:
+        raise FormulationError(f"[cover] {fault}") from fault
+    try:
+        extra = enrichments(pieces, cover, kappa)
+    except ValueError as fault:
+        raise FormulationError(f"[cover.enrichment] {fault}") from fault
+    kinds = functions if not cover.regions else kinds_by_region(regions, pieces, cover)
+    found = mesh_manifold(laid, pieces, kinds, extra)
+    if found.reproduction == 0:
+        raise FormulationError(
+            f'[cover] degree: 0 with type = "{cover.type}" and options {dict(cover.options)}: '
+            "displacements hold constants only, so that no strain is approached however small the "
+            "cells: expected a linear field: use degree = 1, or weights that hold one"
+        )
+    return Covering(found, pieces, laid)

@@ -1,0 +1,81 @@
+"""Singular functions of a formulation: at tips of cracks, and at corners that it names."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from covers.approximation.enrichment import Enrichment, touching_covers
+from integration.arrays import Floats, Ints
+from nmm.errors import FormulationError
+
+if TYPE_CHECKING:
+    from covers.cutting.cut_cells import CutCells
+    from nmm.formulation import Cover
+
+# Distance from a straight line in parts of the length looked at.
+STRAIGHT = 1e-6
+
+
+def enrichments(cut: "CutCells", cover: "Cover", kappa: Floats | None) -> list[Enrichment]:
+    """Return crack-tip functions and the corner functions that ``[cover.enrichment]`` names.
+
+    Without the table the covers about a tip carry its functions where the crack is straight and
+    alone in them; with it those of all tips do, and those within its radius.
+
+    Raises
+    ------
+    FormulationError
+        Points with different numbers of singular functions.
+    """
+    from covers.local_functions.corner_functions import corner_functions
+    from covers.local_functions.crack_tip_functions import crack_tip_functions
+    from nmm.fracture.corners import corner_at
+
+    table = cover.enrichment
+    assert cover.size is not None
+    constant = np.full(int(cut.element_region.max()) + 1, 2.0) if kappa is None else kappa
+    radius = 0.0 if table is None else table.radius
+    found = []
+    for number in _tips(cut, cover):  # a handful of tips
+        element = cut.tips.element[number]
+        functions = crack_tip_functions(float(constant[cut.element_region[element]]), cover.size)
+        point, ahead = cut.tips.point[number], cut.tips.direction[number]
+        found.append(Enrichment(functions, point, ahead, radius, int(cut.element_body[element])))
+    for place in () if table is None else table.corners:
+        point = np.array(place)
+        corner = corner_at(cut.boundary, point)
+        modulus = float(constant[cut.element_region[corner.element]])
+        functions = corner_functions(corner.angle, modulus, cover.size)
+        body = int(cut.element_body[corner.element])
+        found.append(Enrichment(functions, point, corner.direction, radius, body))
+    if len({item.functions.number for item in found}) > 1:
+        raise FormulationError(
+            "[cover.enrichment]: points with different numbers of singular modes: expected one "
+            "number: enrich crack tips, or corners of one angle"
+        )
+    return found
+
+
+def _tips(cut: "CutCells", cover: "Cover") -> Ints:
+    """Tips whose functions are wanted."""
+    every = np.arange(len(cut.tips))
+    if cover.enrichment is not None:
+        return every if cover.enrichment.tips else every[:0]
+    if cover.functions != "monomials":
+        return every[:0]
+    return np.array([n for n in every.tolist() if _straight_and_alone(cut, n)], dtype=np.int64)
+
+
+def _straight_and_alone(cut: "CutCells", tip: int) -> bool:
+    """Whether all faces of cracks in the covers about a tip lie on the line behind it."""
+    point, ahead = cut.tips.point[tip], cut.tips.direction[tip]
+    mine = np.zeros(cut.n_covers + 1, dtype=bool)
+    mine[touching_covers(cut, point)] = True
+    held = np.asarray(mine[:-1][cut.covers] & (cut.covers >= 0))
+    edges = cut.boundary
+    about = np.asarray(held.any(axis=1))
+    faces = about[edges.element] & (edges.crack >= 0)
+    ends = np.concatenate([edges.start[faces], edges.end[faces]]) - point
+    reach = STRAIGHT * float(np.abs(ends).max(initial=0.0))
+    aside = np.abs(ends[:, 0] * ahead[1] - ends[:, 1] * ahead[0])
+    return bool((aside <= reach).all() and (ends @ ahead <= reach).all())

@@ -1,0 +1,132 @@
+"""The exchangeable parts that scene and formulation name, made once before anything is built.
+
+So a wrong name or option is told with its line in the file, together with all others. A part that
+is not named is a built-in one and is not imported for this.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from nmm.errors import Fault, FormulationError, NmmError
+from nmm.registry import check_values
+from nmm.scene.faults import suggestion
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from nmm.formulation import Formulation
+    from nmm.scene.faults import Source
+    from nmm.scene.model import Scene
+
+# Keys that name a part or change it.
+NAMING = ("law", "type", "functions", "degree", "enforcement", "fracture_energy", "options")
+
+
+def check_parts(scene: "Scene", formulation: "Formulation") -> None:
+    """Make every part that is named.
+
+    Raises
+    ------
+    FormulationError
+        All names that are not known and all options that are refused, one line each.
+    """
+    faults: list[Fault | str] = []
+    for source, path, part, check in _named(scene, formulation):
+        keys = [key for key in NAMING if key in part.model_fields_set]
+        try:
+            if keys:
+                check(part)
+        except NmmError as error:
+            place = source.place(*path, *(keys if len(keys) == 1 else ()))
+            faults += [_placed(fault, place) for fault in error.faults]
+    if faults:
+        raise FormulationError(*faults)
+
+
+def _placed(fault: Fault | str, place: str) -> Fault | str:
+    """Put the place in the file before a fault; what is said there already is not said twice."""
+    if isinstance(fault, Fault) and place.endswith(fault.place):
+        return replace(fault, place=place)
+    return f"{place}: {fault}"
+
+
+def _named(
+    scene: "Scene", formulation: "Formulation"
+) -> "Iterator[tuple[Source, tuple[str, ...], BaseModel, Callable[[Any], object]]]":
+    """Yield the tables of parts: file, key path, table, and what makes the part."""
+    for name, material in scene.materials.items():
+        yield scene.source, ("materials", name), material, _material
+    for name, interface in scene.interfaces.items():
+        yield scene.source, ("interfaces", name), interface, _interface
+    source = formulation.source
+    yield source, ("cover",), formulation.cover, _cover
+    yield source, ("contact",), formulation.contact, _enforcement
+    yield source, ("integrator",), formulation.integrator, _integrator
+    yield source, ("solver",), formulation.solver, _solver
+
+
+def _material(part: Any) -> None:
+    from nmm.model.build import material_law
+
+    material_law(part)
+
+
+def _interface(part: Any) -> None:
+    from nmm.effects.contact_pairs import interface_law
+
+    interface_law(part)
+
+
+def _cover(part: Any) -> None:
+    from covers.local_functions.polynomials import FUNCTIONS
+    from covers.mathematical.registry import COVERS
+    from nmm.geometry.tessellation.sub_blocks import SubBlocks
+    from nmm.model.several_meshes import net_class
+
+    _known("functions", part.functions, [*FUNCTIONS])
+    if part.degree is not None or part.functions == "monomials":
+        from nmm.model.covering import local_functions
+
+        local_functions(part)
+    if part.type == "sub_blocks":
+        SubBlocks.of(part)
+    if part.type == "block":
+        check_values("[cover.options]", {}, part.options)
+        for key in () if part.nets else ("size", "angle", "shift", "enrichment"):
+            if getattr(part, key) != type(part).model_fields[key].default:
+                remedy = f"remove {key}, or choose a net such as triangles"
+                expected = 'no such key: type is "block", and blocks have no net'
+                raise FormulationError(Fault(key, str(getattr(part, key)), expected, remedy))
+    if part.of_blocks:
+        return
+    if ":" not in part.type:
+        _known("cover", part.type, ["block", "sub_blocks", *COVERS])
+    net_class(part)
+    if part.size is None:
+        expected = f'the size of a cell in m, as type is "{part.type}"'
+        raise FormulationError(Fault("size", "missing", expected, "add for example size = 0.1"))
+
+
+def _known(kind: str, name: str, known: list[str]) -> None:
+    if name not in known:
+        expected = f"one of {', '.join(known)}"
+        raise FormulationError(Fault(kind, f'"{name}"', expected, suggestion(name, known)))
+
+
+def _enforcement(part: Any) -> None:
+    from nmm.contact.enforcement.base import make_enforcement
+
+    make_enforcement(part.enforcement, part.options)
+
+
+def _integrator(part: Any) -> None:
+    from nmm.integrators.base import make_integrator
+
+    make_integrator(part)
+
+
+def _solver(part: Any) -> None:
+    from nmm.solvers.linear import make_solver
+
+    make_solver(part.type, part.options)

@@ -1,0 +1,234 @@
+"""The effects of a scene, compiled once: only those it names, only the hooks they have.
+
+What a scene does not name is not imported and has no arrays.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from importlib import import_module
+from time import perf_counter
+from typing import TYPE_CHECKING, TypeVar, cast
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.effects.base import Effect, Instant, Setup, defines
+from nmm.errors import SolveError
+
+if TYPE_CHECKING:
+    from nmm.assembly.model import Model
+    from nmm.constraints.supports import Supports
+    from nmm.effects.contact import Contact
+    from nmm.effects.inertia import Inertia
+    from nmm.effects.initial_stress import InitialStress
+    from nmm.effects.loads import Loads
+    from nmm.scene.model import Scene
+
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Called:
+    """An effect's class and when a scene calls for it."""
+
+    target: str
+    named: Callable[["Scene"], bool]
+
+
+EFFECTS: dict[str, Called] = {
+    "initial velocity": Called(
+        "nmm.effects.initial_velocity:InitialVelocity", lambda s: bool(s.initial_velocities)
+    ),
+    "initial stress": Called(
+        "nmm.effects.initial_stress:InitialStress", lambda s: bool(s.initial_stresses)
+    ),
+    "gravity": Called("nmm.effects.gravity:Gravity", lambda s: s.gravity is not None),
+    "loads": Called(
+        "nmm.effects.loads:Loads", lambda s: any(load.kind != "body" for load in s.loads)
+    ),
+    "body loads": Called(
+        "nmm.effects.body_loads:BodyLoads", lambda s: any(load.kind == "body" for load in s.loads)
+    ),
+    "supports": Called("nmm.constraints.supports:Supports", lambda s: bool(s.supports)),
+    "seams": Called(
+        "nmm.constraints.bonded_interfaces:Seams",
+        lambda s: s.contact is None and any(item.bonded for item in s.interfaces.values()),
+    ),
+    "inertia": Called("nmm.effects.inertia:Inertia", lambda s: s.inertia is not None),
+    "contact": Called("nmm.effects.contact:Contact", lambda s: s.contact is not None),
+}
+
+GLUE = "nmm.constraints.artificial_joints:ArtificialJoints"
+"""Not the scene's but the formulation's: what holds sub-blocks together."""
+
+
+def called_for(scene: "Scene") -> dict[str, bool]:
+    """Say for every effect whether a scene names it."""
+    return {name: called.named(scene) for name, called in EFFECTS.items()}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Effects by name, and the seconds each has cost.
+
+    Attributes
+    ----------
+    effects
+        In the order of the table.
+    seconds
+        Wall-clock seconds by effect.
+    sums
+        The last sum of matrices with its parts: parts that stay need not be added again.
+    """
+
+    effects: dict[str, Effect]
+    seconds: dict[str, float] = field(default_factory=dict)
+    sums: dict[str, tuple[list[csc_array], csc_array]] = field(default_factory=dict)
+
+    def joined(self, effect: Effect) -> "Plan":
+        """Return the plan with one effect more."""
+        return Plan({**self.effects, effect.name: effect})
+
+    def begin(self, state: State) -> State:
+        """Return the state at the start of the run."""
+        for effect in self._with("begin"):
+            state = effect.begin(state)
+        return state
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the sum of all effects' forces (n,)."""
+        total = np.zeros(len(state.deformation))
+        for effect in self._with("force"):
+            part = self._timed(effect.name, partial(effect.force, state, end))
+            total += part
+            if not np.isfinite(part).all():
+                raise SolveError(
+                    f"{effect.name} at {end.time:.6g} s: the force is infinite or no number: "
+                    "expected finite numbers: correct its magnitude, history or place"
+                )
+        return total
+
+    @cached_property
+    def steady(self) -> bool:
+        """Whether no force depends on the instant, in dynamics."""
+        return all(effect.steady for effect in self.effects.values())
+
+    def matrix(self, state: State, base: csc_array) -> csc_array:
+        """Return ``base`` with all effects' matrices added; the same sum of the same parts."""
+        added = (
+            self._timed(effect.name, partial(effect.matrix, state))
+            for effect in self._with("matrix")
+        )
+        parts = [base, *added]
+        kept = self.sums.get("matrix")
+        if kept is None or not _are(kept[0], parts):
+            kept = self.sums["matrix"] = parts, csc_array(sum(parts[1:], start=base))
+        return kept[1]
+
+    def pressure(self, model: "Model", state: State) -> Floats | None:
+        """Return the pressures (k,) on patches of a model; None where volumes are not projected."""
+        if not model.projected or model.pressures is None:
+            return None
+        return model.pressure(state.deformation, self._gaps(len(model.pressures), state))
+
+    def lifted_energy(self, model: "Model", state: State) -> float:
+        """Return the energy (J) of pressures with what lies open at edges, less that without.
+
+        It is stored in the material and part of the energy of what holds the edges.
+        """
+        if not model.projected or model.pressures is None:
+            return 0.0
+        known = model.pressures
+        volume = known.divergence @ state.deformation
+        whole = known.root @ volume
+        left = known.root @ (volume - self._gaps(len(known), state))
+        return model.thickness * float(left @ left - whole @ whole) / 2
+
+    def _gaps(self, k: int, state: State) -> Floats:
+        """Volumes (k,) between edges and where they are held."""
+        gaps = [effect.gap_volume(state, k) for effect in self._with("gap_volume")]
+        return sum(gaps, start=np.zeros(k))
+
+    def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
+        """Return conditions on the step's unknowns that multipliers hold, None without any."""
+        from scipy.sparse import vstack
+
+        found = [effect.border(state, end) for effect in self._with("border")]
+        parts = [part for part in found if part is not None]
+        if not parts:
+            return None
+        rows = csr_array(vstack([part[0] for part in parts]))
+        return rows, np.concatenate([part[1] for part in parts])
+
+    def keep(self, multipliers: Floats) -> None:
+        """Hand the multipliers of a solution to the effects whose conditions they hold."""
+        for effect in self._with("border"):
+            multipliers = effect.keep(multipliers)
+
+    def work(self, before: State, after: State) -> float:
+        """Return the work of all applied forces (J)."""
+        return sum(effect.work(before, after) for effect in self._with("work"))
+
+    def energy(self, name: str, state: State) -> float:
+        """Return the energy of one effect (J), zero when the scene does not name it."""
+        effect = self.effects.get(name)
+        return 0.0 if effect is None else effect.energy(state)
+
+    @property
+    def contact(self) -> "Contact | None":
+        """The contact effect."""
+        return cast("Contact | None", self.effects.get("contact"))
+
+    @property
+    def inertia(self) -> "Inertia | None":
+        """The inertia effect."""
+        return cast("Inertia | None", self.effects.get("inertia"))
+
+    @property
+    def loads(self) -> "Loads | None":
+        """The point and edge loads."""
+        return cast("Loads | None", self.effects.get("loads"))
+
+    @property
+    def supports(self) -> "Supports | None":
+        """The supports."""
+        return cast("Supports | None", self.effects.get("supports"))
+
+    @property
+    def initial_stress(self) -> "InitialStress | None":
+        """The initial stress."""
+        return cast("InitialStress | None", self.effects.get("initial stress"))
+
+    def spend(self, name: str, seconds: float) -> None:
+        """Count seconds for an effect."""
+        self.seconds[name] = self.seconds.get(name, 0.0) + seconds
+
+    def _with(self, hook: str) -> list[Effect]:
+        return [effect for effect in self.effects.values() if defines(effect, hook)]
+
+    def _timed(self, name: str, call: Callable[[], T]) -> T:
+        start = perf_counter()
+        result = call()
+        self.spend(name, perf_counter() - start)
+        return result
+
+
+def _are(some: list[csc_array], others: list[csc_array]) -> bool:
+    return len(some) == len(others) and all(a is b for a, b in zip(some, others, strict=True))
+
+
+def compile_plan(setup: Setup) -> Plan:
+    """Import and build the effects that a scene names."""
+    targets = [EFFECTS[name].target for name, wanted in called_for(setup.scene).items() if wanted]
+    if setup.formulation.cover.glued:
+        targets.append(GLUE)
+    plan = Plan({})
+    for target in targets:
+        module, _, attribute = target.partition(":")
+        kind: type[Effect] = getattr(import_module(module), attribute)
+        plan.effects[kind.name] = plan._timed(kind.name, partial(kind.from_setup, setup))
+    return plan

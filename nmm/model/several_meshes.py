@@ -1,0 +1,110 @@
+"""The nets of a formulation: one over all blocks, and those that blocks have of their own."""
+
+from collections.abc import Sequence
+from inspect import signature
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from covers.cutting.cut import cut
+from covers.cutting.cut_cells import CutCells
+from covers.cutting.several_meshes import joined_cover, joined_cut
+from covers.mathematical.base import Cover as MathematicalCover
+from covers.mathematical.polynomial_cover import PolynomialCover
+from covers.mathematical.registry import COVERS
+from integration.arrays import Floats, Ints
+from nmm.errors import Fault, FormulationError
+from nmm.registry import Registry, check_values
+
+if TYPE_CHECKING:
+    from nmm.formulation import Cover, CoverNet
+    from nmm.geometry.blocks import Regions
+
+NETS = Registry[type[MathematicalCover]]("cover", MathematicalCover, COVERS)
+"""Mathematical covers by name, or a user's own."""
+
+
+def laid_and_cut(
+    regions: "Regions", cover: "Cover", lines: Sequence[Floats]
+) -> tuple[MathematicalCover, CutCells]:
+    """Lay the nets of ``[cover]`` over the blocks and cut them by blocks and lines.
+
+    Raises
+    ------
+    ValueError
+        A net that cannot be laid or cut, or that names no block.
+    """
+    if not cover.nets:
+        whole = _laid(cover, None, regions.polygons.points)
+
+        def again(other: MathematicalCover) -> CutCells:
+            return cut(other, regions.polygons, lines)
+
+        return whole.settled(again(whole), again)
+    members = _members(regions, cover.nets)
+    parts = [(net, own) for net, own in zip([None, *cover.nets], members, strict=True) if len(own)]
+    nets, cuts = [], []
+    for net, own in parts:  # a handful of nets
+        blocks = regions.polygons.take(own)
+        around = regions.polygons.points if net is None else blocks.points
+        laid = _laid(cover, net, around)
+        if not isinstance(laid, PolynomialCover):
+            raise ValueError(
+                f'nets: type "{cover.type}": triangles or quads expected where blocks have nets of '
+                "their own: use one of these, or remove [[cover.nets]]"
+            )
+        nets.append(laid)
+        cuts.append(cut(laid, blocks, lines))
+    return joined_cover(nets), joined_cut(nets, cuts, [own for _, own in parts])
+
+
+def _members(regions: "Regions", nets: "Sequence[CoverNet]") -> list[Ints]:
+    """Blocks of the common net, and of each of the others; the last net that names a block has it.
+
+    Raises
+    ------
+    ValueError
+        A name that no block has.
+    """
+    which = np.zeros(len(regions), dtype=np.int64)
+    for number, net in enumerate(nets, 1):  # a handful of nets
+        chosen = regions.select(net.block)
+        if not len(chosen):
+            raise ValueError(
+                f'nets: block "{net.block}": no block of this name: expected one of '
+                f"{', '.join(regions.name[:8])}: correct the name"
+            )
+        which[chosen] = number
+    return [np.flatnonzero(which == number) for number in range(len(nets) + 1)]
+
+
+def net_class(cover: "Cover") -> Any:
+    """Return the class of a formulation's cover.
+
+    Raises
+    ------
+    FormulationError
+        When it is not known, may not be imported, lays no net, or has no such options.
+    """
+    kind = NETS.load(cover.type)
+    regular = getattr(kind, "regular", None)
+    if regular is None:
+        expected, remedy = "a class method regular(bounds, size, ...)", "define it"
+        raise FormulationError(Fault("cover", f'"{cover.type}"', expected, remedy))
+    parameters = list(signature(regular).parameters.values())
+    if all(one.kind is not one.VAR_KEYWORD for one in parameters):
+        given = ("bounds", "size", "angle", "shift")
+        known = {one.name: one.annotation for one in parameters if one.name not in given}
+        check_values("[cover.options]", known, cover.options)
+    return kind
+
+
+def _laid(cover: "Cover", net: "CoverNet | None", points: Floats) -> MathematicalCover:
+    bounds = np.stack([points.min(axis=0), points.max(axis=0)])
+    chosen: dict[str, Any] = {name: getattr(cover, name) for name in ("size", "angle", "shift")}
+    if net is not None:
+        own = {name: getattr(net, name) for name in chosen}
+        chosen |= {name: value for name, value in own.items() if value is not None}
+    kind = net_class(cover)
+    laid: MathematicalCover = kind.regular(bounds, **chosen, **cover.options)
+    return laid

@@ -1,0 +1,64 @@
+"""What a cover needs of the solver, and what is said about it."""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nmm.model.locking import locking
+from nmm.model.tips import tip_warnings
+from nmm.solvers.linear import LinearSolver, make_solver
+
+if TYPE_CHECKING:
+    from covers.approximation.manifold import Manifold
+    from nmm.assembly.model import Model
+    from nmm.constraints.supports import Supports
+    from nmm.formulation import Solver
+
+
+# Most steps of refinement that take the shift out again. They end when the residual does not fall;
+# springs of 1e6 E make the shift, a share of their diagonal, as stiff as soft motions and want ten.
+REFINEMENTS = 20
+
+
+def solver_for(manifold: "Manifold", solver: "Solver") -> LinearSolver:
+    """Return the linear solver, with a shift when functions of the cover are dependent.
+
+    The shift adds 1e-10 of the diagonal to the decomposition and refinement removes it again; the
+    displacements are unique whatever the shift (Duarte, Babuska and Oden 2000).
+    """
+    made = make_solver(solver.type, solver.options)
+    if not manifold.dependent or made.shift:
+        return made
+    return replace(made.deflated(), refinements=max(made.refinements, REFINEMENTS))
+
+
+def cures(
+    manifold: "Manifold", solver: LinearSolver, supports: "Supports | None" = None
+) -> dict[str, int]:
+    """Return the cures at work, each with the number of functions or covers it acts on."""
+    found = {}
+    if manifold.dependent:
+        found[f"dependent functions, diagonal shift {solver.shift:g}"] = manifold.dependent
+        found["covers that hold dependent functions"] = manifold.dependent_covers
+    if manifold.fitted:
+        found["covers in coordinates fitted to the cut"] = manifold.fitted
+    if manifold.enriched:
+        found["covers with singular functions"] = manifold.enriched
+    found |= manifold.mended
+    tied = 0 if supports is None else _covers(manifold, supports)
+    if tied:
+        found["covers tied to their neighbours beside supports (ghost)"] = tied
+    return found
+
+
+def warnings(model: "Model") -> list[str]:
+    """Return what is known to spoil answers of the model: one sentence each."""
+    locked = locking(model)
+    return [*([] if locked is None else [locked]), *tip_warnings(model)]
+
+
+def _covers(manifold: "Manifold", supports: "Supports") -> int:
+    """Number of covers with unknowns in the ghost terms of supports."""
+    owner = np.repeat(np.arange(manifold.n_covers), np.diff(manifold.cover_offset))
+    return len(np.unique(owner[supports.tied_unknowns()]))

@@ -1,0 +1,143 @@
+"""Mean stress of each element as colours."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.errors import NmmError
+from nmm.plots.canvas import BESIDE, PathLike, axes_grid, extent_of, fit_height, frame_plane, save
+from nmm.plots.results.deformed import magnified, moment
+from nmm.plots.shapes import draw_lines, fill, line_width
+from nmm.plots.units import label, prefixed
+from nmm.results.sink import RunData
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+NAMES = {
+    "mises": "von Mises stress in the plane",
+    "xx": "stress xx",
+    "yy": "stress yy",
+    "xy": "shear stress xy",
+    "major": "major principal stress",
+    "minor": "minor principal stress",
+}
+
+SHARE, PEAK = 0.995, 1.5
+"""Share of the area that the colours hold, and how far beyond stress may go without being cut."""
+
+SHORT = {"mises": "von Mises", "major": "major principal", "minor": "minor principal"}
+"""Names that fit beside a colour bar."""
+
+
+def stress(
+    run: RunData,
+    component: str = "mises",
+    *,
+    frame: int = -1,
+    magnification: float = 1.0,
+    ax: "Axes | None" = None,
+    path: PathLike | None = None,
+) -> "Axes":
+    """Draw one measure of the stress of every element, tension positive.
+
+    Parameters
+    ----------
+    run
+        A run in memory or a stored one.
+    component
+        "mises", "xx", "yy", "xy", "major" or "minor".
+    frame
+        Number of the frame, counted from the end when negative.
+    magnification
+        Factor on displacements.
+    ax
+        Axes to draw into; a new figure when None.
+    path
+        File to save the figure in.
+
+    Raises
+    ------
+    NmmError
+        When the component is none of these.
+    """
+    shown = run.frames[frame]
+    topology = run.topologies[shown.topology]
+    values = measure(shown.stress, component)
+    factor, unit = prefixed(values, "Pa")
+    polygons = magnified(shown, topology, magnification)
+    extent = extent_of(polygons.points)
+    axes = ax or axes_grid(1, 1, 4.0)[0]
+    values = factor * values
+    signed = component != "mises"
+    areas = topology.elements.areas
+    limit, beyond = scale_end(values, areas)
+    drawn = fill(
+        axes, polygons, edgecolors="face", linewidths=0.1, cmap="RdBu_r" if signed else "viridis"
+    )
+    drawn.set_array(values)
+    drawn.set_clim(-limit if signed else 0.0, limit)
+    draw_lines(
+        axes, topology, polygons, shown, colors="#00000066", linewidths=0.7 * line_width(topology)
+    )
+    text = f", displacements ×{magnification:g}" if magnification != 1.0 else ""
+    frame_plane(axes, extent, f"{NAMES[component]}, {moment(shown)}{text}")
+    above = bool(beyond and (values > limit).any())
+    below = bool(beyond and signed and (values < -limit).any())
+    arrows = ("neither", "max", "min", "both")[above + 2 * below]
+    bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02, fraction=0.05, aspect=15, extend=arrows)
+    words = label(SHORT.get(component, NAMES[component]), unit)
+    if beyond:
+        words += f"\n{100 * beyond:.2g} % of the area beyond, up to {np.abs(values).max():.3g}"
+    bar.set_label(words, fontsize=9.0)
+    bar.ax.tick_params(labelsize=9.0, width=0.6)
+    bar.outline.set_visible(False)
+    if ax is None:
+        fit_height([axes], beside=BESIDE + 0.9)
+    save(axes, path)
+    return axes
+
+
+def scale_end(values: Floats, areas: Floats) -> tuple[float, float]:
+    """Return where a colour scale of sizes ends, and the share of the area that lies beyond.
+
+    It holds `SHARE` of the area, and all of it unless what is beyond is `PEAK` times as large: a
+    sliver would else take the colours from all else.
+    """
+    sizes = np.abs(values)
+    largest = float(sizes.max(initial=0.0))
+    if not largest:
+        return 1.0, 0.0
+    order = np.argsort(sizes)
+    within = np.cumsum(areas[order]) / areas.sum()
+    end = float(sizes[order][min(int(np.searchsorted(within, SHARE)), len(sizes) - 1)])
+    if not end or largest <= PEAK * end:
+        return largest, 0.0
+    return end, float(areas[sizes > end].sum() / areas.sum())
+
+
+def measure(stresses: Floats, component: str) -> Floats:
+    """(E,) one number of stresses (E, 3): xx, yy, xy.
+
+    The von Mises stress is sqrt(xx^2 - xx yy + yy^2 + 3 xy^2), exact in plane stress; in plane
+    strain it leaves the stress across the plane out.
+
+    Raises
+    ------
+    NmmError
+        When the component is not known.
+    """
+    xx, yy, xy = stresses.T
+    mean, radius = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+    known: dict[str, Floats] = {
+        "mises": np.sqrt(np.maximum(xx**2 - xx * yy + yy**2 + 3 * xy**2, 0.0)),
+        "xx": xx,
+        "yy": yy,
+        "xy": xy,
+        "major": mean + radius,
+        "minor": mean - radius,
+    }
+    if component not in known:
+        raise NmmError(f"stress plot: component {component!r}: expected one of {', '.join(known)}")
+    return known[component]

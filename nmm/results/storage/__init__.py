@@ -1,0 +1,1 @@
+"""The run folder on disk: written so that a kill loses nothing, locked, checked and read again."""

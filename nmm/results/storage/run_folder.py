@@ -1,0 +1,146 @@
+"""The folder of a run, written while the run goes.
+
+Layout: `run.json` with the version of this layout, `scene.toml` and `formulation.toml` as run,
+`topology.npz`, `frames/000000.npz`, ..., `history.csv`, `summary.json`; `.lock` while a run writes.
+Every file but the history is put in place whole, the history grows by whole lines, so a run that
+was killed can be read up to its last step.
+"""
+
+import os
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from warnings import warn
+
+from nmm.errors import NmmError, NmmWarning
+from nmm.results.frame import Frame, Topology
+from nmm.results.storage import files, former
+from nmm.results.storage.history import HistoryFile
+from nmm.results.storage.lock import FolderLock
+from nmm.results.storage.mark import Mark
+from nmm.results.storage.writing import ToDisk, told, write_text
+from nmm.results.summary import REPLACING, STOPPED, Summary
+
+
+class RunFolder:
+    """Sink that writes a run folder.
+
+    Parameters
+    ----------
+    path
+        The folder. It is made when missing; an earlier run in it is replaced.
+    scene, formulation
+        Their texts as run.
+    summary
+        What is known before the run (title, hashes, seed); written with status "running".
+
+    Raises
+    ------
+    StorageError
+        When the folder cannot be written, holds files but no run, so that nothing of the user's is
+        deleted, or another run is writing to it.
+
+    Warns
+    -----
+    NmmWarning
+        When the earlier run there was killed.
+    """
+
+    def __init__(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        scene: str = "",
+        formulation: str = "",
+        summary: Summary | None = None,
+    ) -> None:
+        self.path = Path(path)
+        self._summary = summary or Summary()
+        self._topologies = self._frames = self._rows = 0
+        replaced = former.is_there(self.path)
+        with told(self.path):
+            self.path.mkdir(parents=True, exist_ok=True)
+        self._lock = FolderLock(self.path / files.LOCK)
+        try:
+            self._disk = ToDisk()
+            self._replace(replaced)
+            self._start(scene, formulation)
+            self._write(files.SUMMARY, self._summary.to_json())
+        except BaseException:
+            self._lock.release()
+            raise
+        self._history = HistoryFile(self.path / files.HISTORY)
+
+    def begin(self, topology: Topology) -> None:
+        """Write the elements as the topology of the frames to come."""
+        path = self.path / files.topology_name(self._topologies)
+        files.write_topology(path, topology)
+        self._disk.wrote(path)
+        self._topologies += 1
+
+    def frame(self, frame: Frame) -> None:
+        """Write one frame."""
+        numbered = replace(frame, topology=self._topologies - 1)
+        path = self.path / files.FRAMES / files.frame_name(frame.index)
+        files.write_frame(path, numbered)
+        self._disk.wrote(path)
+        self._frames += 1
+
+    def row(self, values: Mapping[str, float]) -> None:
+        """Append one row to the history."""
+        self._history.append(values)
+        self._rows += 1
+        self._disk.wrote(self._history.path)
+
+    def finish(self, summary: Summary) -> None:
+        """Put the summary in the place of the one that says "running", and free the folder."""
+        self._write(files.SUMMARY, summary.to_json())
+        self._disk.sync()
+        self.close()
+
+    def stop(self, fault: BaseException) -> None:
+        """Say in the summary that the run was stopped and by what, as far as that can be written.
+
+        Nothing happens after `finish`.
+        """
+        if self._lock.released:
+            return
+        with suppress(NmmError):
+            said = f"{type(fault).__name__}: {fault}".rstrip(": ")
+            sentence = f"the run was stopped before its end after {self._rows} steps by {said}"
+            stopped = replace(self._summary, status=STOPPED, sentence=" ".join(sentence.split()))
+            self._write(files.SUMMARY, replace(stopped, steps=self._rows).to_json())
+            self._disk.sync()
+        self.close()
+
+    def close(self) -> None:
+        """Close the history and free the folder; a second call does nothing."""
+        self._history.close()
+        self._lock.release()
+
+    def _replace(self, replaced: bool) -> None:
+        """Delete the earlier run; whoever is killed over it leaves a folder that says so."""
+        if self._lock.stale is not None:
+            warn(
+                f"{self.path}: {self._lock.stale} was stopped here before its run had ended: "
+                "what it left is replaced",
+                NmmWarning,
+                stacklevel=4,
+            )
+        status = REPLACING if replaced else self._summary.status
+        self._write(files.SUMMARY, replace(self._summary, status=status).to_json())
+        if replaced:
+            former.delete(self.path)
+
+    def _start(self, scene: str, formulation: str) -> None:
+        with told(self.path / files.FRAMES):
+            (self.path / files.FRAMES).mkdir(exist_ok=True)
+        self._write(files.SCENE, scene)
+        self._write(files.FORMULATION, formulation)
+        mark = Mark.of({files.SCENE: scene, files.FORMULATION: formulation})
+        self._write(files.MARK, mark.to_json())
+
+    def _write(self, name: str, content: str) -> None:
+        write_text(self.path / name, content)
+        self._disk.wrote(self.path / name)

@@ -1,0 +1,176 @@
+"""ParaView files of a run: one .vtu a frame and the .pvd that puts them at their times.
+
+`blocks.pvd` holds the elements at their place before the run, so that *Warp By Vector* with
+`displacement` and factor 1 shows them where they are; points are not shared between elements, so
+openings show. `contacts.pvd` holds the contact points where they are, with their forces.
+"""
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.errors import DamageError
+from nmm.results.frame import Frame, Topology
+from nmm.results.sink import RunData
+from nmm.results.storage.writing import told, write_text
+from nmm.results.viewing.cells import Cells, cells
+from nmm.results.viewing.vtu import (
+    POLYGON,
+    TRIANGLE,
+    VERTEX,
+    collection,
+    in_space,
+    unstructured_grid,
+)
+
+STRESS = {"stress": ("xx", "yy", "xy")}
+
+
+def write_paraview(
+    run: RunData,
+    folder: str | os.PathLike[str],
+    tell: Callable[[str], None] | None = None,
+) -> list[Path]:
+    """Write all frames of a run for ParaView.
+
+    Parameters
+    ----------
+    run
+        A run in memory or a stored one.
+    folder
+        Where the files go; made when missing.
+    tell
+        Called with a sentence for each frame of a damaged run folder, which is left out. Without
+        it the first such fault is raised.
+
+    Returns
+    -------
+    list of Path
+        The files to open: `blocks.pvd` and, when the run has contact points, `contacts.pvd`.
+
+    Raises
+    ------
+    StorageError
+        When a file cannot be written.
+    DamageError
+        When a frame cannot be read and there is no ``tell``.
+    """
+    target = Path(folder)
+    with told(target):
+        target.mkdir(parents=True, exist_ok=True)
+    cut: dict[int, Cells] = {}
+    times: list[float] = []
+    bare = ""  # the text of contacts where there are none; written once there are some
+    touching = False
+    for frame, topology in _readable(run, tell):
+        if frame.topology not in cut:
+            cut[frame.topology] = cells(topology.elements)
+        number = len(times)
+        write_text(
+            _file(target, "blocks", number), blocks_grid(frame, topology, cut[frame.topology])
+        )
+        times.append(frame.time)
+        contacts = contacts_grid(frame)
+        if not touching and len(frame.contact_gap):
+            touching = True
+            for earlier in range(number):
+                write_text(_file(target, "contacts", earlier), bare)
+        if touching:
+            write_text(_file(target, "contacts", number), contacts)
+        bare = bare or contacts
+    names = ("blocks", "contacts") if touching else ("blocks",)
+    return [_write_collection(target, name, output_times(times)) for name in names]
+
+
+def _file(folder: Path, name: str, number: int) -> Path:
+    return folder / f"{name}_{number:06d}.vtu"
+
+
+def _readable(run: RunData, tell: Callable[[str], None] | None) -> Iterator[tuple[Frame, Topology]]:
+    """Yield the frames that can be read with their topologies, and tell each fault once."""
+    told_before = set[str]()
+    for number in range(len(run.frames)):
+        try:
+            frame = run.frames[number]
+            topology = run.topologies[frame.topology]
+        except DamageError as fault:
+            if tell is None:
+                raise
+            if str(fault) not in told_before:
+                tell(str(fault))
+                told_before.add(str(fault))
+        else:
+            yield frame, topology
+
+
+def output_times(times: Sequence[float]) -> list[float]:
+    """Return the times of frames, s; their numbers where time does not grow from frame to frame.
+
+    Viewers take two files at one time for two parts of one state.
+    """
+    if any(late <= early for early, late in pairwise(times)):
+        return [float(number) for number in range(len(times))]
+    return list(times)
+
+
+def _write_collection(folder: Path, name: str, times: Sequence[float]) -> Path:
+    names = [_file(folder, name, number).name for number in range(len(times))]
+    write_text(folder / f"{name}.pvd", collection(times, names))
+    return folder / f"{name}.pvd"
+
+
+def blocks_grid(frame: Frame, topology: Topology, cut: Cells) -> str:
+    """Return the .vtu text of the elements of a frame."""
+    sizes = np.diff(cut.offsets, prepend=0)
+    return unstructured_grid(
+        points=frame.points - frame.displacement,
+        connectivity=cut.connectivity,
+        offsets=cut.offsets,
+        types=np.where(sizes == 3, TRIANGLE, POLYGON).astype(np.uint8),
+        point_data={
+            "displacement": in_space(frame.displacement),
+            "velocity": in_space(frame.velocity),
+        },
+        cell_data={
+            "stress": frame.stress[cut.polygon],
+            "block": topology.element_region[cut.polygon],
+            "material": topology.element_material[cut.polygon],
+        },
+        components=STRESS,
+    )
+
+
+def contacts_grid(frame: Frame) -> str:
+    """Return the .vtu text of the contact points of a frame.
+
+    `force` is the force on side b, N n + T t with the normal n from side b to side a, t a quarter
+    turn clockwise from it, and N positive in tension.
+    """
+    number = np.arange(len(frame.contact_gap))
+    return unstructured_grid(
+        points=frame.contact_position,
+        connectivity=number,
+        offsets=number + 1,
+        types=np.full(len(number), VERTEX, dtype=np.uint8),
+        point_data={
+            "force": in_space(contact_vectors(frame)),
+            "normal_force": frame.contact_force[:, 0],
+            "shear_force": frame.contact_force[:, 1],
+            "gap": frame.contact_gap,
+            "state": frame.contact_state,
+        },
+        cell_data={},
+        components={},
+    )
+
+
+def contact_vectors(frame: Frame) -> Floats:
+    """(C, 2) force on side b at each contact point, N."""
+    normal = frame.contact_normal
+    tangent = np.stack([normal[:, 1], -normal[:, 0]], axis=1)
+    force: Floats = frame.contact_force[:, :1] * normal + frame.contact_force[:, 1:] * tangent
+    return force

@@ -1,0 +1,71 @@
+"""Multifrontal Cholesky factorisation in compiled code, the order kept while the pattern stands."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.solvers.frontal import fronts
+from nmm.solvers.frontal.blas import addresses, words
+from nmm.solvers.frontal.factor_blocks import Borrowed, Panels
+from nmm.solvers.frontal.lu import FrontalLU
+from nmm.solvers.frontal.symbolic import symmetric_plan
+from nmm.solvers.frontal.workspace import Loan
+from nmm.solvers.linear import Decomposition, LinearSolver, sorted_rows
+from nmm.solvers.superlu import SuperLU
+from nmm.solvers.threads import one_thread
+
+
+@dataclass(frozen=True)
+class Factorised(Panels):
+    """Panels of a factor and the plan they belong to."""
+
+    kernels: ClassVar[tuple[str, ...]] = fronts.KERNELS
+
+    def _fill(self, outside: Borrowed, rhs: Floats, solution: Floats) -> None:
+        p = self.plan
+        fronts.solve(*outside, rhs, p.order, *p.shape, self.panels.numbers, solution)
+
+
+@dataclass(frozen=True)
+class Cholesky(LinearSolver):
+    """``A = L L^T`` by dense fronts (Duff, Reid 1983; LAPACK within a front).
+
+    A matrix that is not positive definite is left to `FrontalLU`, one that is not symmetric to
+    rounding to SuperLU. On walls of bricks a factorisation takes a fifth of SuperLU's time once
+    the pattern is known (benchmark `benchmarks/enforcement.py`).
+    """
+
+    name: ClassVar[str] = "cholesky"
+
+    def decompose(self, matrix: csc_array) -> Decomposition:
+        """Factorise a scaled matrix; `RankDeficientError` at a zero pivot."""
+        matrix = sorted_rows(matrix)
+        plan = symmetric_plan(matrix)
+        if plan is None:
+            return SuperLU(self.refinements, self.shift).decompose(matrix)
+        panels, stack = Loan(plan.panel_start[-1]), Loan(plan.stack_size)
+        with one_thread():
+            bad = fronts.factorise(
+                addresses(*fronts.KERNELS),
+                *words(),
+                matrix.data,
+                plan.source,
+                plan.target,
+                plan.n_children,
+                *plan.shape,
+                panels.numbers,
+                stack.numbers,
+            )
+        if bad >= 0:
+            return self.unsymmetric().decompose(matrix)
+        return Factorised(plan, panels)
+
+    def indefinite(self) -> SuperLU:
+        """SuperLU, which searches pivots."""
+        return SuperLU(self.refinements, self.shift).indefinite()
+
+    def unsymmetric(self) -> FrontalLU:
+        """LU on the same fronts, refined twice."""
+        return FrontalLU(max(self.refinements, 2), self.shift)

@@ -1,0 +1,191 @@
+"""Numbers of a multifrontal LU factorisation (Duff, Reid 1984) on a plan of fronts.
+
+Rows are exchanged within the pivot block of a front alone, so the plan of a symmetric pattern
+stands whatever the numbers are. Panels hold both factors of the pivot block with ``L`` below; the
+transpose of ``U`` beside it is kept behind all panels.
+"""
+
+import numba as nb
+import numpy as np
+import numpy.typing as npt
+
+from integration.arrays import Floats, Ints
+from nmm.solvers.frontal.blas import Index, call6, call8, call11, call13
+from nmm.solvers.frontal.fronts import add, runs
+
+KERNELS = "dgetrf", "dtrsm", "dgemm", "dtrsv", "dgemv"
+
+
+@nb.njit(cache=True)
+def factorise(
+    kernels: Ints,
+    letters: npt.NDArray[np.uint8],
+    sizes: Index,
+    scalars: Floats,
+    data: Floats,
+    source: Ints,
+    target: Ints,
+    n_children: Ints,
+    first: Ints,
+    row_start: Ints,
+    rows: Ints,
+    panel_start: Ints,
+    beside_start: Ints,
+    panels: Floats,
+    swaps: Index,
+    stack: Floats,
+) -> int:
+    """Fill panels and exchanges of rows; the first place with a zero pivot (-1: none)."""
+    panels[: beside_start[-1]] = 0.0
+    for k in range(len(source)):
+        panels[target[k]] += data[source[k]]
+    count = len(first) - 1
+    held = np.empty(count, dtype=np.int64)  # supernodes whose updates are on the stack
+    base = np.empty(count + 1, dtype=np.int64)
+    base[0] = 0
+    n_held = 0
+    local = np.empty(first[-1], dtype=np.int64)
+    start, shift = np.empty_like(local), np.empty_like(local)
+    at = letters.ctypes.data
+    low, plain, right, turned, high = at, at + 1, at + 2, at + 3, at + 4
+    n_c = sizes.ctypes.data
+    n_r, n_h, info = n_c + 4, n_c + 8, n_c + 12
+    one = scalars.ctypes.data
+    minus = one + 8
+    for s in range(count):
+        c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
+        panel = panels[panel_start[s] : panel_start[s + 1]]
+        beside = panels[beside_start[s] : beside_start[s + 1]]
+        update = stack[base[n_held] : base[n_held] + r * r]
+        update[:] = 0.0
+        for k in range(c):
+            local[first[s] + k] = k
+        for k in range(r):
+            local[rows[row_start[s] + k]] = c + k
+        for _ in range(n_children[s]):
+            child = held[n_held - 1]
+            n_held -= 1
+            size = row_start[child + 1] - row_start[child]
+            n_runs = runs(rows[row_start[child] : row_start[child + 1]], local, c, start, shift)
+            part = stack[base[n_held] : base[n_held + 1]]
+            _collect(panel, beside, update, part, c, r, size, start, shift, n_runs)
+        sizes[0], sizes[1], sizes[2] = c, r, c + r
+        swap, block = swaps[first[s] : first[s + 1]], panel.ctypes.data
+        call6(kernels[0], (n_c, n_c, block, n_h, swap.ctypes.data, info))
+        if sizes[3] != 0:
+            return int(first[s] + sizes[3] - 1)
+        if r > 0:
+            _exchange(beside, swap, r)
+            left, top, new = panel[c:].ctypes.data, beside.ctypes.data, update.ctypes.data
+            call11(kernels[1], (right, high, plain, plain, n_r, n_c, one, block, n_h, left, n_h))
+            call11(kernels[1], (right, low, turned, high, n_r, n_c, one, block, n_h, top, n_r))
+            call13(
+                kernels[2],
+                (plain, turned, n_r, n_r, n_c, minus, left, n_h, top, n_r, one, new, n_r),
+            )
+            place = base[n_held]
+            if n_children[s] > 0:
+                for k in range(r * r):  # down to where the children's updates were
+                    stack[place + k] = update[k]
+            held[n_held] = s
+            n_held += 1
+            base[n_held] = place + r * r
+    return -1
+
+
+@nb.njit(cache=True)
+def _exchange(beside: Floats, swap: Index, r: int) -> None:
+    for k in range(len(swap)):
+        other = swap[k] - 1  # LAPACK counts from one
+        if other != k:
+            for i in range(r):
+                a, b = beside[k * r + i], beside[other * r + i]
+                beside[k * r + i], beside[other * r + i] = b, a
+
+
+@nb.njit(cache=True)
+def _collect(
+    panel: Floats,
+    beside: Floats,
+    update: Floats,
+    child: Floats,
+    c: int,
+    r: int,
+    size: int,
+    start: Ints,
+    shift: Ints,
+    n_runs: int,
+) -> None:
+    inner = 0
+    while inner < n_runs and start[inner] + shift[inner] < c:
+        inner += 1
+    for q in range(inner):
+        for j in range(start[q], start[q + 1]):
+            into = panel[(j + shift[q]) * (c + r) :]
+            add(into, 0, child[j * size :], 0, 0, start, shift, n_runs)
+    inside = start[inner]
+    for q in range(inner, n_runs):
+        for j in range(start[q], start[q + 1]):
+            column = j + shift[q] - c
+            add(update[column * r :], c, child[j * size :], inside, inner, start, shift, n_runs)
+            for p in range(inner):
+                for i in range(start[p], start[p + 1]):
+                    beside[(i + shift[p]) * r + column] += child[j * size + i]
+
+
+@nb.njit(cache=True)
+def solve(
+    kernels: Ints,
+    letters: npt.NDArray[np.uint8],
+    sizes: Index,
+    scalars: Floats,
+    rhs: Floats,
+    order: Ints,
+    first: Ints,
+    row_start: Ints,
+    rows: Ints,
+    panel_start: Ints,
+    beside_start: Ints,
+    panels: Floats,
+    swaps: Index,
+    solution: Floats,
+) -> None:
+    """Fill in the solution for one right-hand side: arrays are slow to return."""
+    n, count = len(rhs), len(first) - 1
+    x = np.empty(n)
+    for k in range(n):
+        x[k] = rhs[order[k]]
+    work = np.empty(n)
+    at = letters.ctypes.data
+    low, plain, turned, high = at, at + 1, at + 3, at + 4
+    n_c = sizes.ctypes.data
+    n_r, n_h, step = n_c + 4, n_c + 8, n_c + 12
+    sizes[3] = 1
+    one = scalars.ctypes.data
+    minus, zero = one + 8, one + 16
+    ends = work.ctypes.data
+    for s in range(count):
+        c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
+        sizes[0], sizes[1], sizes[2] = c, r, c + r
+        for k in range(first[s], first[s + 1]):
+            other = first[s] + swaps[k] - 1
+            x[k], x[other] = x[other], x[k]
+        own, block = x[first[s] :].ctypes.data, panels[panel_start[s] :].ctypes.data
+        call8(kernels[3], (low, plain, high, n_c, block, n_h, own, step))
+        if r > 0:
+            left = panels[panel_start[s] + c :].ctypes.data
+            call11(kernels[4], (plain, n_r, n_c, minus, left, n_h, own, step, zero, ends, step))
+            for k in range(r):
+                x[rows[row_start[s] + k]] += work[k]
+    for s in range(count - 1, -1, -1):
+        c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
+        sizes[0], sizes[1], sizes[2] = c, r, c + r
+        own, block = x[first[s] :].ctypes.data, panels[panel_start[s] :].ctypes.data
+        if r > 0:
+            top = panels[beside_start[s] :].ctypes.data
+            for k in range(r):
+                work[k] = x[rows[row_start[s] + k]]
+            call11(kernels[4], (turned, n_r, n_c, minus, top, n_r, ends, step, one, own, step))
+        call8(kernels[3], (high, plain, plain, n_c, block, n_h, own, step))
+    for k in range(n):
+        solution[order[k]] = x[k]

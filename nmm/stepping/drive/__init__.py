@@ -1,0 +1,1 @@
+"""What drives steps: time, growing loads, relaxation; and how a run ends."""

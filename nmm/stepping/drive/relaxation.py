@@ -1,0 +1,156 @@
+"""Where loose blocks come to rest: steps with a mass and no memory of velocity, then none.
+
+Each step moves the blocks as if they started from rest (Shi 1988, kinetic factor 0; dynamic
+relaxation in the sense of Day 1965, implicit). The mass lends stiffness to what is not yet held and
+drops out of the state that is found: the last solution is one without it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+from nmm.integrators.shi import Shi
+from nmm.stepping.drive.static_theorem import carried
+from nmm.stepping.step.anchors import block_name, largest_mover
+from nmm.stepping.step.stepper import Stepper
+from nmm.stepping.step.trial import Attempt
+
+# Motions in sizes of the domain: of the first step, up to which the next step is lengthened, and
+# at which a solution without mass is tried.
+FIRST, SLOW, STILL = 1e-3, 5e-3, 1e-5
+# A structure that gathers speed, its acceleration grown by this factor, over this way in sizes of
+# the domain, is a mechanism: relaxation would only follow its fall.
+GATHERS, GATHERED = 4.0, 0.03
+# Over this way one that cannot stand where it starts, by the static theorem, has fallen, though it
+# might come to lie on something further on.
+FALLEN = 0.25
+# Up to this way the motion that is told of a block that moves freely is looked for.
+FREE_WAY = 0.01
+# A step is lengthened and cut by these; so many steps, cuts in a row, and sizes of the domain
+# travelled end the search.
+LONGER, SHORTER, STEPS, CUTS = 1.5, 0.3, 400, 12
+
+
+@dataclass(frozen=True)
+class Relaxed:
+    """Where the search for rest ended.
+
+    Attributes
+    ----------
+    state
+        The last state.
+    steps
+        Steps taken.
+    at_rest
+        Whether hardly anything moves any more.
+    sentence
+        Which block moves, and how, if it does.
+    falls
+        Whether it moves on, so that the structure and not the solver is at fault.
+    way
+        Sum of the largest motions of the steps (m).
+    """
+
+    state: State
+    steps: int
+    at_rest: bool
+    sentence: str
+    falls: bool = False
+    way: float = 0.0
+
+
+def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) -> Relaxed:
+    """Move loose blocks under the loads of ``end`` until they rest; ``names`` (N,) of regions."""
+    # Only scenes with loose blocks come here; the others do not import inertia.
+    from nmm.effects.inertia import Inertia
+
+    model = stepper.model
+    heavy = replace(model, density=np.where(model.density > 0, model.density, 1.0))
+    inertia = Inertia(heavy)
+    moving = Stepper(
+        model, stepper.plan.joined(inertia), Shi(kinetic_factor=0.0), stepper.solver, small=False
+    )
+    moving.budget = stepper.budget
+    size = stepper.size
+    length = _first_length(heavy, stepper.plan.force(state, end), size)
+    proof = carried(stepper, state, end.load_factor)
+    way, cuts, attempt, start, stands = 0.0, 0, None, None, True
+
+    def fallen(first: Attempt | None) -> str:
+        assert proof is not None
+        return f"{proof.sentence}; {_who(moving, first, names)}"
+
+    for steps in range(1, STEPS + 1):
+        found = moving.attempt(state, end, length)
+        if not found.converged:
+            cuts += 1
+            length *= SHORTER
+            if cuts > CUTS:
+                said = f"a step failed: {found.sentence}"
+                return Relaxed(state, steps, False, said if stands else fallen(attempt), not stands)
+            continue
+        moving.accept(found)
+        rest = np.zeros_like(state.velocity)
+        state = replace(found.state, velocity=rest, acceleration=rest)
+        cuts, way = 0, way + found.motion
+        if attempt is None and proof is not None and proof.fails:
+            stands = not _touched(model, found, largest_mover(model, state, found.increment)[0])
+        # What moves first tells what is free, not what it hits later.
+        attempt = found if attempt is None or way - found.motion < FREE_WAY * size else attempt
+        start = found.motion / length**2 if start is None else start
+        if found.motion > GATHERS * start * length**2 and way > GATHERED * size:
+            who = _who(moving, attempt, names)
+            return Relaxed(state, steps, False, f"it gathers speed: {who}", True)
+        if not stands and way > FALLEN * size:
+            return Relaxed(state, steps, False, fallen(attempt), True)
+        if found.motion < STILL * size and _holds(stepper, state, end):
+            return Relaxed(state, steps, True, "", way=way)
+        if way > size:
+            break
+        length *= LONGER if found.motion < SLOW * size else 1.0
+    return Relaxed(state, steps, False, _who(moving, attempt, names), way > size)
+
+
+def _holds(stepper: Stepper, state: State, end: Instant) -> bool:
+    """Whether there is equilibrium without mass near ``state``."""
+    alone = stepper.attempt(state, end, None)
+    return alone.converged and alone.motion <= SLOW * stepper.size
+
+
+def _first_length(model: Model, force: Floats, size: float) -> float:
+    """Length (s) of a step in which the most accelerated body moves by `FIRST`."""
+    modes = model.manifold.rigid_modes
+    mass = (modes.T @ (model.mass @ modes)).diagonal().reshape(-1, 3)
+    pull = np.asarray(modes.T @ force).reshape(-1, 3)
+    fastest = float(np.hypot(*(pull[:, :2] / mass[:, :2]).T).max(initial=0.0))
+    return float(np.sqrt(2 * FIRST * size / fastest)) if fastest > 0 else 1.0
+
+
+def _who(moving: Stepper, attempt: Attempt | None, names: Sequence[str]) -> str:
+    """Name the block that moves most, and how; one that nothing touches moves freely."""
+    if attempt is None:
+        return "no step converged"
+    model = moving.model
+    body, how = largest_mover(model, attempt.state, attempt.increment)
+    name = block_name(model, body, names)
+    if _touched(model, attempt, body):
+        return (
+            f"block {name} moves most: {how}; the blocks that touch it do not hold it: add "
+            "supports, friction or strength, or [inertia] to follow its motion"
+        )
+    return f"block {name} can move freely: {how}; add a support or friction, or [inertia]"
+
+
+def _touched(model: Model, attempt: Attempt, body: int) -> bool:
+    """Whether anything pressed on a body in a step."""
+    if attempt.solved is None:
+        return False
+    contacts, answer = attempt.solved.contacts, attempt.solved.answer
+    owner = model.manifold.boundary.body
+    beside = (owner[contacts.edge_a] == body) | (owner[contacts.edge_b] == body)
+    return bool((beside & (answer.normal_force < 0)).any())

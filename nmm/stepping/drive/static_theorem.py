@@ -1,0 +1,139 @@
+"""The static theorem as a linear programme: whether any contact forces carry the loads at all.
+
+Each body must be in balance under its loads, what its supports can give, and contact forces within
+friction and strength. Where no such forces exist there is no equilibrium near this place, whatever
+bodies and contacts are made of and however they slide; where they exist nothing is shown, since
+friction may not choose them (Drucker 1954: with friction the static theorem bounds from above).
+"""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array, hstack, vstack
+from scipy.sparse.csgraph import connected_components
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+
+if TYPE_CHECKING:
+    from nmm.contact.problem.step_problem import Limits
+    from nmm.stepping.step.stepper import Stepper
+
+# Contacts open by less than this share of the domain count as if they could carry.
+NEAR = 1e-4
+# Stiffness of what holds a body below this share of the largest holds nothing.
+HOLDS = 1e-9
+# Bodies tied to each other in larger groups than this are taken as held.
+LARGEST = 200
+# Status of a programme without solution in scipy.
+INFEASIBLE = 2
+# Loads beyond those carried by more than this, relative, are a proof; the programme's rounding.
+CERTAIN = 1e-6
+
+
+@dataclass(frozen=True)
+class Carried:
+    """The largest load factor, up to that asked for, that admissible contact forces carry.
+
+    None where not even the loads that are not scaled are carried.
+    """
+
+    factor: float | None
+    asked: float
+
+    @property
+    def fails(self) -> bool:
+        """Whether the structure cannot be in equilibrium."""
+        return self.factor is None or self.factor < self.asked * (1 - CERTAIN)
+
+    @property
+    def sentence(self) -> str:
+        """Say what is proven."""
+        if self.factor is None:
+            return "no contact forces within friction and strength carry the loads (static theorem)"
+        return (
+            "contact forces within friction and strength carry no more than load factor "
+            f"{self.factor:.6g} (static theorem)"
+        )
+
+
+def carried(stepper: "Stepper", state: State, asked: float) -> Carried | None:
+    """Return what can be carried near ``state``; None without contact or where it is not known."""
+    # The one place that asks for it; its many signatures know no sparse conditions.
+    from scipy import optimize
+
+    linprog: Any = optimize.linprog
+    plan, contact = stepper.plan, stepper.plan.contact
+    if contact is None:
+        return None
+    (normal, tangent), limits = contact.near(state, NEAR * stepper.size)
+    balance = _directions(stepper, state)
+    fixed, whole = (plan.force(state, Instant(at, at)) for at in (0.0, asked))
+    fixed, gain = balance @ fixed, balance @ (whole - fixed)
+    size = max(float(np.abs(fixed).max(initial=0.0)), float(np.abs(gain).max(initial=0.0)))
+    if not balance.shape[0] or size == 0:
+        return None
+    m = len(limits.friction)
+    equal = hstack([balance @ normal.T, balance @ tangent.T, csc_array(gain[:, None] / size)])
+    bounds = np.full((2 * m + 1, 2), np.inf)
+    bounds[:m, 0], bounds[m : 2 * m, 0] = -limits.tension / size, -np.inf
+    bounds[-1] = 0.0, 1.0
+    cost = np.zeros(2 * m + 1)
+    cost[-1] = -1.0
+    rough, strength = _friction(limits)
+    found = linprog(
+        cost,
+        A_ub=rough,
+        b_ub=strength / size,
+        A_eq=csr_array(equal),
+        b_eq=-fixed / size,
+        bounds=bounds,
+        method="highs",
+    )
+    if found.status == INFEASIBLE:
+        return Carried(None, asked)
+    return Carried(asked * float(found.x[-1]), asked) if found.status == 0 else None
+
+
+def _friction(limits: "Limits") -> tuple[csr_array, Floats]:
+    """Conditions ``|t| - mu p <= c`` on pressures, shear forces and the load's share."""
+    m = len(limits.friction)
+    one, slope = diags_array(np.ones(m)), diags_array(-limits.friction)
+    rows = [hstack([slope, sign * one, csc_array((m, 1))]) for sign in (1.0, -1.0)]
+    return csr_array(vstack(rows)), np.tile(limits.cohesion, 2)
+
+
+def _directions(stepper: "Stepper", state: State) -> csr_array:
+    """Rows (k, n) of the rigid motions of bodies that no support, seam or glue resists.
+
+    A body that is held in part keeps its other motions. Rotations are of one mean size of a body.
+    """
+    manifold, plan = stepper.model.manifold, stepper.plan
+    n = manifold.n_unknowns
+    size = np.repeat(np.sqrt(manifold.body_area), 3)
+    size[np.arange(len(size)) % 3 != 2] = 1.0
+    modes = csr_array(manifold.rigid_modes @ diags_array(1 / size))
+    held = csr_array(modes.T @ (plan.matrix(state, csc_array((n, n))) @ modes))
+    border = plan.border(state, Instant(state.time, state.load_factor))
+    if border is not None:
+        rows = border[0] @ modes
+        held = csr_array(held / (abs(held).max() or 1.0) + rows.T @ rows / abs(rows).max() ** 2)
+    stiffest, free = abs(held).max(), []
+    tied = csr_array((np.ones(held.nnz), held.nonzero()), shape=held.shape)
+    body = np.arange(held.shape[0]) // 3
+    own = csr_array((np.ones(len(body)), (body, np.arange(len(body)))))
+    label = connected_components(tied + own.T @ own, directed=False)[1]
+    order = np.argsort(label, kind="stable")
+    for part in np.split(order, np.flatnonzero(np.diff(label[order])) + 1):  # groups of bodies
+        if len(part) > 3 * LARGEST:
+            continue
+        block = held[part][:, part].toarray()
+        value, vector = np.linalg.eigh(block)
+        loose = vector[:, value <= HOLDS * stiffest]
+        row = np.repeat(np.arange(loose.shape[1]), len(part))
+        column = np.tile(part, loose.shape[1])
+        shape = (loose.shape[1], len(label))
+        free.append(csr_array((loose.T.ravel(), (row, column)), shape=shape))
+    return csr_array(vstack(free) @ modes.T) if free else csr_array((0, n))

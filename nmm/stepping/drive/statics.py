@@ -1,0 +1,301 @@
+"""Growing loads without inertia: increments adapt to failure, and every state is in equilibrium.
+
+A step in which bonds break is accepted only when its load increment is within the tolerance of the
+load, so that bonds break in the order, and at the load, of a slow test whatever increment one
+starts from.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+from nmm.stepping.drive.relaxation import Relaxed, relax
+from nmm.stepping.drive.static_theorem import carried
+from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED, FAILED, FAILURE, SPENT, RunVerdict
+from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.step.anchors import ANCHOR, block_name, largest_mover, neutral
+from nmm.stepping.step.budget import BudgetSpentError
+from nmm.stepping.step.stepper import Stepper
+from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.contact.iteration.record import Breaking
+    from nmm.contact.points.contact_points import ContactPoints
+
+# Corrections for the turn of contacts and bodies end when they move nothing by more than this
+# share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain,
+# or of its distance from the origin: see `_rounding`).
+SETTLED = 1e-8
+ROUNDING = 1e-13
+CORRECTIONS = 12
+# While corrections shrink by this factor each they go on to so many.
+SHRINKS, PATIENCE = 0.9, 60
+# Corrections with anchors that do not shrink, so many and further than `COLLAPSE`, show a
+# mechanism: what is out of balance moves it on and on.
+STEADY = 4
+# A block that only anchors hold may wander by so many times that rounding.
+WANDER = 100.0
+
+# A load increment that was cut to this share of the largest is not cut further.
+SMALLEST = 2.0**-30
+
+# A structure whose points move by this share of its size in one increment has no equilibrium near.
+COLLAPSE = 0.05
+
+
+@dataclass(frozen=True)
+class LoadSchedule:
+    """How far and how finely the loads grow.
+
+    Attributes
+    ----------
+    target
+        Load factor at which to stop.
+    until_failure
+        Whether failing before the target is the result sought.
+    increment
+        Largest increment of the load factor.
+    tolerance
+        Relative width of the bracket of the failure load.
+    """
+
+    target: float
+    until_failure: bool
+    increment: float
+    tolerance: float
+
+
+def run_load(
+    stepper: Stepper,
+    recorder: Recorder,
+    state: State,
+    schedule: LoadSchedule,
+    progress: Callable[[float, str], None],
+    names: Sequence[str] = (),
+) -> tuple[State, RunVerdict]:
+    """Raise the load factor from that of ``state``; ``names`` are those of the regions.
+
+    Returns
+    -------
+    The last state in equilibrium and the verdict.
+    """
+    path = _Path(state)
+    try:
+        verdict = _raise_load(path, stepper, recorder, schedule, progress, names)
+    except BudgetSpentError as spent:
+        held = path.state.load_factor
+        verdict = RunVerdict(SPENT, f"stopped in equilibrium at load factor {held:.6g}: {spent}")
+    return path.state, verdict
+
+
+@dataclass
+class _Path:
+    """The last state in equilibrium."""
+
+    state: State
+
+
+def _raise_load(
+    path: _Path,
+    stepper: Stepper,
+    recorder: Recorder,
+    schedule: LoadSchedule,
+    progress: Callable[[float, str], None],
+    names: Sequence[str],
+) -> RunVerdict:
+    increment = min(schedule.increment, schedule.target)
+    rest: Relaxed | None = None
+    while path.state.load_factor < schedule.target * (1 - 1e-12):
+        state = path.state
+        factor = min(state.load_factor + increment, schedule.target)
+        fine = increment <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
+        start, bonds = stepper.remember(), stepper.broken_bonds
+        # A bond that breaks in a coarse increment is no news yet: the increment is cut first.
+        end, breaking = Instant(factor, factor), _breaking(fine)
+        found = settle(stepper, state, end, breaking)
+        last = fine or (state.load_factor == 0 and not schedule.until_failure)
+        if last and _may_be_loose(stepper, found):
+            stepper.restore(start)
+            found = _anchored(stepper, state, end, breaking)
+        broke = stepper.broken_bonds > bonds
+        if found.attempt.converged:
+            said = recorder.step(state, found.attempt, found.contacts)
+            path.state = state = found.attempt.state
+            recorder.offer(state, "load", found.contacts)
+            done = min(factor / schedule.target, 1.0)
+            progress(done, "  ".join([f"load factor {factor:.5g}", said]).rstrip())
+            increment = increment if broke else min(2 * increment, schedule.increment)
+            continue
+        stepper.restore(start)
+        loose = stepper.plan.contact is not None and state.load_factor == 0 and rest is None
+        if loose and last:
+            rest = relax(stepper, state, end, names)
+            if not rest.at_rest:
+                stepper.restore(start)
+                return _no_rest(rest)
+            path.state = replace(rest.state, time=state.time, load_factor=0.0)
+            continue
+        if fine:
+            verdict = _no_equilibrium(state, factor, found, schedule, stepper, names)
+            return _with_neutral(verdict, stepper, state, names)
+        increment /= 2
+    state = path.state
+    sentence = f"equilibrium at load factor {state.load_factor:.6g}"
+    if rest is not None:
+        sentence += f", loose blocks brought to rest in {rest.steps} steps of relaxation"
+        sentence += f" over {rest.way:.3g} m"
+    return _with_neutral(RunVerdict(CONVERGED, sentence), stepper, state, names)
+
+
+def _breaking(fine: bool) -> "Breaking":
+    return "worst" if fine else "stop"
+
+
+def _with_neutral(
+    verdict: RunVerdict, stepper: Stepper, state: State, names: Sequence[str]
+) -> RunVerdict:
+    """Add which blocks nothing but anchors would hold, and whether anchors were used."""
+    said = [verdict.sentence, *neutral(stepper, state, names)]
+    if stepper.anchored:
+        said.append(f"anchors of {ANCHOR:.0e} of the blocks' stiffness were used and carry nothing")
+    return replace(verdict, sentence="; ".join(said))
+
+
+def _may_be_loose(stepper: Stepper, found: "Settled") -> bool:
+    """Whether anchors may help a step without equilibrium: not where a bond was to break."""
+    solved = found.attempt.solved
+    stopped = found.attempt.converged or (solved is not None and solved.stopped)
+    return stepper.plan.contact is not None and not stepper.anchored and not stopped
+
+
+def _anchored(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> "Settled":
+    """Find equilibrium with anchors; where that succeeds they stay, and carry nothing."""
+    stepper.anchored = True
+    found = settle(stepper, state, end, breaking)
+    stepper.anchored = found.attempt.converged
+    return found
+
+
+@dataclass(frozen=True)
+class Settled:
+    """An attempt with its corrections, and the contacts as they are left.
+
+    ``mechanism`` says that corrections went on without end.
+    """
+
+    attempt: Attempt
+    contacts: "ContactPoints | None"
+    mechanism: bool = False
+
+
+def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> Settled:
+    """Find equilibrium in the moved place: solve, move, and correct until nothing moves."""
+    contacts: ContactPoints | None = None
+    rounding = _rounding(stepper)
+    total = attempt = stepper.attempt(state, end, None, breaking)
+    way, steady, count = 0.0, 0, 0
+    while count < CORRECTIONS or (count < PATIENCE and not steady):
+        far = not stepper.small and total.motion > COLLAPSE * stepper.size
+        if far or not attempt.converged:
+            return Settled(replace(total, converged=False), contacts, far)
+        _, contacts = stepper.accept(attempt)
+        if not stepper.anchored and stepper.small:
+            return Settled(total, contacts)
+        if attempt.motion <= SETTLED * total.motion + rounding:
+            return Settled(total, contacts)
+        last, way = attempt, way + attempt.motion
+        attempt = stepper.attempt(attempt.state, end, None, breaking)
+        steady = steady + 1 if attempt.motion > SHRINKS * last.motion else 0
+        total, count = _joined(total, attempt), count + 1
+        if stepper.anchored and steady >= STEADY and way > COLLAPSE * stepper.size:
+            sentence = f"it moved by {way:.3g} m in {count} corrections that did not shrink"
+            return Settled(replace(total, converged=False, sentence=sentence), contacts, True)
+    sentence = f"the moved place is not in equilibrium after {count} corrections"
+    return Settled(replace(total, converged=False, sentence=sentence), contacts)
+
+
+def _rounding(stepper: Stepper) -> float:
+    """How far points must move to be known to have moved (m)."""
+    farthest = float(np.abs(stepper.reference).max())
+    still = max(ROUNDING * stepper.size, 4 * float(np.finfo(float).eps) * farthest)
+    # Rounding of the loads, over anchors.
+    return WANDER * still if stepper.anchored else still
+
+
+def _joined(first: Attempt, then: Attempt) -> Attempt:
+    """One attempt of a step and its correction."""
+    solved = then.solved
+    if solved is not None and first.solved is not None:
+        solved = replace(solved, loss=solved.loss + first.solved.loss)
+    return replace(
+        then,
+        motion=max(first.motion, then.motion),
+        passes=first.passes + then.passes,
+        solved=solved,
+    )
+
+
+def _no_rest(rest: Relaxed) -> RunVerdict:
+    sentence = f"after {rest.steps} steps of relaxation: {rest.sentence}"
+    if rest.falls:
+        return RunVerdict(COLLAPSED, f"no equilibrium of loose blocks {sentence}", 0.0)
+    return RunVerdict(FAILED, f"no equilibrium of loose blocks was found {sentence}", 0.0)
+
+
+def _no_equilibrium(
+    state: State,
+    factor: float,
+    found: Settled,
+    schedule: LoadSchedule,
+    stepper: Stepper,
+    names: Sequence[str],
+) -> RunVerdict:
+    """Return the verdict on a load that was not solved: of the structure, if that is shown."""
+    held, reason = state.load_factor, found.attempt.sentence
+    shown = evidence(stepper, state, factor, found, names)
+    if shown is None:
+        sentence = (
+            f"no equilibrium was found between load factors {held:.6g} and {factor:.6g}: {reason}; "
+            "nothing shows that the structure is at fault: it may carry more; try another "
+            "enforcement or a larger loading.tolerance"
+        )
+        tolerance = (factor - held) / held if held else None
+        return RunVerdict(FAILED, sentence, held, tolerance)
+    if not schedule.until_failure or held == 0:
+        sentence = f"no equilibrium between load factors {held:.6g} and {factor:.6g}: {shown}"
+        return RunVerdict(COLLAPSED, sentence, held)
+    tolerance = (factor - held) / held
+    sentence = (
+        f"in equilibrium up to load factor {held:.6g}, none at {factor:.6g} "
+        f"({100 * tolerance:.2g} % above): {shown}"
+    )
+    return RunVerdict(FAILURE, sentence, held, tolerance)
+
+
+def evidence(
+    stepper: Stepper, state: State, factor: float, found: Settled, names: Sequence[str]
+) -> str | None:
+    """Return what shows that a structure, and not the solver, is at fault; None if nothing does.
+
+    The static theorem, a motion without end, or a system that is singular with the bonds and
+    contacts that are left.
+    """
+    attempt = found.attempt
+    proof = carried(stepper, state, factor)
+    said = [proof.sentence] if proof is not None and proof.fails else []
+    moves = attempt.motion > COLLAPSE * stepper.size
+    if (found.mechanism or moves) and np.isfinite(attempt.increment).all():
+        body, how = largest_mover(stepper.model, state, attempt.increment)
+        name = block_name(stepper.model, body, names)
+        if moves:
+            way = f"points move by more than {100 * COLLAPSE:.0f} % of the domain in one increment"
+        else:
+            way = attempt.sentence
+        said.append(f"a mechanism was found: {way}, block {name} most: {how}")
+    elif attempt.singular:
+        said.append(f"a mechanism was found: {attempt.sentence}")
+    return "; ".join(said) or None

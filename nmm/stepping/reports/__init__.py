@@ -1,0 +1,1 @@
+"""What a run hands over: frames, history, energies booked step by step."""

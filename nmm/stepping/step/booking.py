@@ -1,0 +1,68 @@
+"""What time integration and contact take of the energy in a step, each told from the other.
+
+A step's equations, multiplied by its increment ``d``, are a balance of work: inertia took ``i``,
+contact forces ``N`` did ``N d``, and elastic, holding and applied forces act with the weight ``w``
+at the end. What the mean of both ends would not have done is the integrator's own, and so is what
+the velocity does not show of ``i``.
+"""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from integration.arrays import Floats
+
+if TYPE_CHECKING:
+    from nmm.contact.iteration.record import Solved
+    from nmm.stepping.step.equations import Equations
+
+
+@dataclass(frozen=True)
+class Booked:
+    """Work in one step in time (J).
+
+    Attributes
+    ----------
+    inertia
+        Taken by inertia as the step's equations have it.
+    beyond
+        What forces at the end of a step take more than the mean of both ends.
+    contact
+        Work of contact forces on the bodies.
+    contact_factor
+        `Integrator.contact_factor`.
+    """
+
+    inertia: float
+    beyond: float
+    contact: float
+    contact_factor: float
+
+    def integration_loss(self, kinetic_gain: float) -> float:
+        """Energy (J) that the integrator took, but for contact; negative if it gave some."""
+        more = (self.contact_factor - 1) * self.contact
+        return self.inertia - kinetic_gain + self.beyond - more
+
+    def contact_loss(self, stored_gain: float, loss: float) -> float:
+        """Energy (J) that contact springs lost beyond the ``loss`` of friction; negative: made."""
+        return -self.contact - stored_gain - loss
+
+
+def booked(equations: "Equations", increment: Floats, solved: "Solved | None") -> Booked | None:
+    """Return the work in a step in time, None in statics."""
+    terms = equations.inertia
+    if terms is None:
+        return None
+    heavy = terms.factor * float(increment @ (terms.mass @ increment))
+    taken = heavy - float(increment @ terms.momentum)
+    beyond = 0.0
+    if terms.weight != 0.5:
+        share = terms.contact_factor
+        # The matrix is that of inertia and, weighted, of all that is elastic, over the share.
+        whole = share * float(increment @ (equations.matrix @ increment))
+        more = 0.0 if terms.gain is None else float(increment @ terms.gain)
+        beyond = (terms.weight - 0.5) * ((whole - heavy) / terms.weight - more)
+    work = 0.0
+    if solved is not None and solved.rows is not None:
+        forces = solved.answer.normal_force, solved.answer.shear_force
+        work = -float(solved.rows.push(*forces) @ increment)
+    return Booked(taken, beyond, work, terms.contact_factor)

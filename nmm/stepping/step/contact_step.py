@@ -1,0 +1,207 @@
+"""A step in which bodies may touch: contacts are sought, solved, and judged by how far all moved.
+
+Contacts are sought as far as points can move in a step. The first step has no motion to go by; one
+that moves further is solved again, and so is one whose forces act elsewhere half way.
+"""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.motion import State
+from nmm.solvers.linear import LinearSolver
+from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.equations import Equations
+from nmm.stepping.step.mover import Mover
+from nmm.stepping.step.remap import Laid
+from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.contact.enforcement.null_space import Held
+    from nmm.contact.iteration.record import Breaking, Solved
+    from nmm.contact.points.contact_points import ContactPoints
+    from nmm.effects.contact import Contact
+
+# How far contacts are sought in the first step, in sizes of the domain.
+FIRST_REACH = 1e-6
+# A step that moved further than contacts were sought is solved with this many times its motion.
+FURTHER = 1.5
+# How often a step is solved again with contact forces where they act half way.
+HALVES = 4
+# How often a step is solved again for vertices that went through edges they were no contacts of.
+LOOKS = 4
+
+# Vertex and edge (k,) of pairs.
+Pairs = tuple[Ints, Ints]
+
+
+class Touching:
+    """Solves steps with contact.
+
+    Parameters
+    ----------
+    size
+        Diagonal of the domain (m): a step that moves further has not converged.
+    carries
+        Whether accelerations count (`Integrator.carries`).
+    """
+
+    def __init__(
+        self,
+        laid: Laid,
+        mover: Mover,
+        solver: LinearSolver,
+        size: float,
+        carries: bool,
+        clock: Clock,
+    ) -> None:
+        self._laid, self._mover, self._solver, self._clock = laid, mover, solver, clock
+        self._size, self._carries = size, carries
+        self._reach = FIRST_REACH * size
+        self._held: Held | None = None
+
+    def accepted(self, motion: float) -> None:
+        """Take note of how far the last step moved (m)."""
+        self._reach = max(2 * motion, FIRST_REACH * self._size)
+
+    def attempt(self, equations: Equations, breaking: "Breaking") -> Attempt:
+        """Solve a step; ``breaking`` says which bonds break at a time.
+
+        Raises
+        ------
+        SolveError
+            Where the load moves a part that nothing holds.
+        """
+        contact, state = self._contact, equations.state
+        passes, halves, looks, reach = 0, 0, 0, self._reach
+        contacts, halfway = self.candidates(state, reach, equations.step), None
+        crossed: Pairs | None = None
+        held = self._conditions(equations)
+        while True:
+            solved = self._solve(equations, contacts, breaking, halfway, held, reach)
+            passes += solved.passes
+            verdict = solved.answer.verdict
+            result, rest = self._judged(equations, solved, held)
+            good = verdict.converged and result.motion <= self._size and not solved.stopped
+            if good and result.motion > reach:
+                reach = FURTHER * result.motion
+                contacts, halfway = self.candidates(state, reach, equations.step, crossed), None
+                continue
+            motion = contact.motion(state, result.state) if good else None
+            missed = None if motion is None else contact.overlooked(contacts, motion)
+            if missed is not None and looks < LOOKS:
+                looks, crossed = looks + 1, _joined(crossed, missed)
+                contacts, halfway = self.candidates(state, reach, equations.step, crossed), None
+                continue
+            if good and equations.step is not None and not self._mover.still:
+                half = contact.momentum.halfway(solved, state, result.state, halfway)
+                if half is not None and halves < HALVES:
+                    halfway, halves = half, halves + 1
+                    continue
+                result = self._kept(equations, solved, result, rest)
+            passage = "" if motion is None else contact.passage(motion)
+            return replace(
+                result,
+                converged=good and not passage,
+                sentence=passage or self._why(verdict.sentence, result, solved),
+                residual=solved.answer.residual,
+                passes=passes,
+                solved=solved,
+            )
+
+    def _why(self, solution: str, result: Attempt, solved: "Solved") -> str:
+        """Say why a solution is no step, though it be one of its equations."""
+        if solved.stopped:
+            return "a bond cannot hold: the increment is cut before it breaks"
+        if solved.answer.verdict.converged and result.motion > self._size:
+            return f"points move by {result.motion:.3g} m, further than the domain is large"
+        return solution
+
+    def candidates(
+        self, state: State, reach: float, step: float | None, crossed: Pairs | None = None
+    ) -> "ContactPoints":
+        """Return the contact points of a step in which no point moves further than ``reach``."""
+        with self._clock.phase("search"):
+            return self._contact.candidates(state, reach, step, crossed)
+
+    @property
+    def _contact(self) -> "Contact":
+        contact = self._laid.plan.contact
+        assert contact is not None
+        return contact
+
+    def _conditions(self, equations: Equations) -> "Held | None":
+        """Return the conditions of supports by multipliers."""
+        border = self._laid.plan.border(equations.state, equations.end)
+        if border is None:
+            return None
+        from nmm.contact.enforcement.null_space import Held
+
+        self._held = Held.of(*border, self._held)
+        return self._held
+
+    def _solve(
+        self,
+        equations: Equations,
+        contacts: "ContactPoints",
+        breaking: "Breaking",
+        halfway: State | None,
+        held: "Held | None",
+        reach: float,
+    ) -> "Solved":
+        def near(increment: Floats) -> bool:
+            return self._mover.after(equations, increment).motion <= reach
+
+        with self._clock.phase("solve"):
+            return self._contact.solve(
+                contacts,
+                equations.state,
+                equations.matrix,
+                equations.force,
+                self._solver,
+                breaking,
+                equations.step,
+                1.0 if equations.step is None else equations.rule.contact_weight,
+                halfway,
+                held,
+                near,
+            )
+
+    def _judged(
+        self, equations: Equations, solved: "Solved", held: "Held | None"
+    ) -> tuple[Attempt, Floats]:
+        """Return the bodies moved, and what contact takes of the forces (n,)."""
+        increment = solved.answer.increment
+        rest = equations.force - equations.matrix @ increment
+        if held is not None and solved.rows is not None:
+            rest = rest - self._holding(held, solved, rest)
+        push = -rest if self._carries and equations.step else None
+        return self._mover.after(equations, increment, push), rest
+
+    def _holding(self, held: "Held", solved: "Solved", rest: Floats) -> Floats:
+        """Return the forces (n,) of the multipliers, which the supports are told."""
+        assert solved.rows is not None
+        answer = solved.answer
+        multipliers = held.multipliers(
+            rest - solved.rows.push(answer.normal_force, answer.shear_force)
+        )
+        self._laid.plan.keep(multipliers)
+        return np.asarray(held.rows.T @ multipliers)
+
+    def _kept(
+        self, equations: Equations, solved: "Solved", result: Attempt, rest: Floats
+    ) -> Attempt:
+        """Return the attempt with the velocity that keeps momentum and angular momentum."""
+        assert equations.step is not None
+        state = result.state
+        change = self._contact.momentum.kept(solved, equations.state, state, equations.step, rest)
+        return replace(result, state=replace(state, velocity=state.velocity + change))
+
+
+def _joined(one: Pairs | None, other: Pairs) -> Pairs:
+    """Return pairs that were missed before and now."""
+    if one is None:
+        return other
+    return np.concatenate([one[0], other[0]]), np.concatenate([one[1], other[1]])

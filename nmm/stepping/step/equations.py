@@ -1,0 +1,137 @@
+"""The equations of one step but for contact: elasticity, inertia, supports and loads."""
+
+from dataclasses import dataclass, replace
+from operator import is_not
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+from nmm.integrators.base import Integrator
+from nmm.stepping.step.remap import Laid
+
+
+@dataclass(frozen=True)
+class InertiaTerms:
+    """What inertia adds to the equations of a step.
+
+    Attributes
+    ----------
+    mass, factor
+        The matrix (n, n) and its factor in the step's matrix.
+    momentum
+        (n,) that joins the forces.
+    weight, contact_factor
+        See `nmm.integrators.base`.
+    gain
+        (n,) by how much forces other than elasticity grow in the step; None where they do not.
+    """
+
+    mass: csc_array
+    factor: float
+    momentum: Floats
+    weight: float
+    contact_factor: float
+    gain: Floats | None
+
+
+@dataclass(frozen=True)
+class Equations:
+    """``matrix @ d = force`` for the unknowns ``d`` of a step.
+
+    Attributes
+    ----------
+    state, end
+        Where the step starts, and when it ends.
+    step
+        Its length (s); None in statics.
+    rule
+        How rates follow from the increment.
+    matrix, force
+        (n, n) and (n,).
+    inertia
+        Its terms; None in statics.
+    """
+
+    state: State
+    end: Instant
+    step: float | None
+    rule: Integrator
+    matrix: csc_array
+    force: Floats
+    inertia: InertiaTerms | None = None
+
+
+class Assembly:
+    """Makes the equations of steps; a matrix of the same parts is the same object."""
+
+    def __init__(self, laid: Laid) -> None:
+        self._laid = laid
+        self._kept: tuple[float, tuple[csc_array, csc_array], csc_array] | None = None
+        self._weighted: tuple[csc_array, float, csc_array] | None = None
+        self._soft: tuple[Model, csc_array] | None = None
+
+    def of(
+        self, state: State, end: Instant, step: float | None, rule: Integrator, anchored: bool
+    ) -> Equations:
+        """Return the equations of a step; ``anchored``: see `nmm.stepping.step.anchors`."""
+        model, plan = self._laid.model, self._laid.plan
+        force = self._applied(state, end)
+        if step is None or plan.inertia is None:
+            held = self._anchored() if anchored else model.stiffness
+            return Equations(state, end, step, rule, plan.matrix(state, held), force)
+        return self._in_time(Equations(state, end, step, rule, model.stiffness, force))
+
+    def _applied(self, state: State, end: Instant) -> Floats:
+        """Return the forces (n,) of all effects less those of elasticity at the start."""
+        model, plan = self._laid.model, self._laid.plan
+        return np.asarray(plan.force(state, end) - model.stiffness @ state.deformation)
+
+    def _in_time(self, static: Equations) -> Equations:
+        """Return the equations with inertia, over the factor of contact forces."""
+        plan, rule, state, step = self._laid.plan, static.rule, static.state, static.step
+        assert step is not None
+        assert plan.inertia is not None
+        weight, force, gain, mass = rule.end_weight, static.force, None, plan.inertia.mass
+        if weight < 1 or not plan.steady:
+            earlier = self._applied(state, Instant(state.time, state.load_factor))
+            gain = None if plan.steady else force - earlier
+            force = force if weight == 1 else weight * force + (1 - weight) * earlier
+        velocity = rule.kinetic_factor * state.velocity
+        momentum = mass @ rule.momentum(velocity, state.acceleration, step)
+        factor = rule.mass_factor(step)
+        base = self._base(factor / weight, mass)
+        share = 1.0 if plan.contact is None else rule.contact_factor
+        terms = InertiaTerms(mass, factor, momentum, weight, share, gain)
+        matrix = self._times(weight / share, plan.matrix(state, base))
+        return replace(static, matrix=matrix, force=(force + momentum) / share, inertia=terms)
+
+    def _anchored(self) -> csc_array:
+        """Return elasticity with anchors."""
+        model = self._laid.model
+        if self._soft is None or self._soft[0] is not model:
+            from nmm.stepping.step.anchors import anchors
+
+            self._soft = model, csc_array(model.stiffness + anchors(model))
+        return self._soft[1]
+
+    def _base(self, mass_factor: float, mass: csc_array) -> csc_array:
+        """Return elasticity and inertia, which stay as long as the step's length does."""
+        parts = (self._laid.model.stiffness, mass)
+        kept = self._kept
+        if kept is None or kept[0] != mass_factor or any(map(is_not, kept[1], parts)):
+            kept = mass_factor, parts, csc_array(parts[0] + mass_factor * mass)
+            self._kept = kept
+        return kept[2]
+
+    def _times(self, factor: float, matrix: csc_array) -> csc_array:
+        """Return ``factor * matrix``."""
+        if factor == 1:
+            return matrix
+        kept = self._weighted
+        if kept is None or kept[0] is not matrix or kept[1] != factor:
+            kept = self._weighted = matrix, factor, csc_array(factor * matrix)
+        return kept[2]

@@ -1,0 +1,92 @@
+"""Where bodies are after an increment, how fast, and how far their points have moved."""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.kept import KeptOfStates
+from nmm.assembly.motion import State, move, strain_only, vertex_points
+from nmm.solvers.linear import Factor, LinearSolver
+from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.equations import Equations
+from nmm.stepping.step.remap import Laid
+from nmm.stepping.step.trial import Attempt
+
+
+class Mover:
+    """Moves the bodies of one run.
+
+    Parameters
+    ----------
+    still
+        Whether the bodies' axes stay as they are.
+
+    Attributes
+    ----------
+    vertices
+        The elements' vertices, which are followed.
+    """
+
+    def __init__(self, laid: Laid, solver: LinearSolver, still: bool, clock: Clock) -> None:
+        self._laid, self._solver, self._clock = laid, solver, clock
+        self.still = still
+        self._masses: tuple[csc_array, Ints, Factor] | None = None
+        self.begin()
+
+    def begin(self) -> None:
+        """Follow the vertices of the model as it is laid now."""
+        self.vertices = vertex_points(self._laid.model.manifold)
+        self._places = KeptOfStates(self._placed)
+
+    def after(self, equations: Equations, increment: Floats, push: Floats | None = None) -> Attempt:
+        """Move by ``increment``; ``push`` (n,) is the contact force if its acceleration counts."""
+        with self._clock.phase("update"):
+            state, end = equations.state, equations.end
+            moved = self._moved(self._faster(equations, increment, push), increment)
+            moved = replace(moved, time=end.time, load_factor=end.load_factor)
+            way = self.place(moved) - self.place(state)
+            motion = float(np.sqrt((way**2).sum(axis=1).max()))
+        return Attempt(True, "converged", moved, increment, motion, 0.0, 1)
+
+    def place(self, state: State) -> Floats:
+        """Return where the elements' vertices are (P, 2)."""
+        return self._places.of(state)
+
+    def _placed(self, state: State) -> Floats:
+        return self.vertices.place(state.frames, state.deformation)
+
+    def _moved(self, state: State, increment: Floats) -> State:
+        return (strain_only if self.still else move)(self._laid.model, state, increment)
+
+    def _faster(self, equations: Equations, increment: Floats, push: Floats | None) -> State:
+        """Return the state at the start with the rates of the end."""
+        state, step, rule = equations.state, equations.step, equations.rule
+        if step is None:
+            return state
+        before = rule.kinetic_factor * state.velocity
+        velocity, acceleration = rule.rates(increment, before, state.acceleration, step)
+        if push is not None:
+            fast, more = rule.contact_kick
+            kick = self._accelerated(push)
+            velocity, acceleration = velocity + fast * step * kick, acceleration + more * kick
+        return replace(state, velocity=velocity, acceleration=acceleration)
+
+    def _accelerated(self, push: Floats) -> Floats:
+        """Return the acceleration (n,) by a force; none of what has no mass.
+
+        The force is what was left of the others, rounding among it. Where functions are dependent
+        that part has no acceleration, which says nothing: the solution is not judged.
+        """
+        inertia = self._laid.plan.inertia
+        assert inertia is not None
+        mass = inertia.mass
+        if self._masses is None or self._masses[0] is not mass:
+            heavy = np.flatnonzero(mass.diagonal() > 0)
+            factor = self._solver.factorise(csc_array(mass[heavy][:, heavy]))
+            self._masses = mass, heavy, factor
+        _, heavy, factor = self._masses
+        found = np.zeros_like(push)
+        found[heavy] = factor.refined(push[heavy])
+        return found

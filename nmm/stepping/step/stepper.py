@@ -1,0 +1,193 @@
+"""One step: assemble what is constant in it, solve, judge. Nothing is kept unless accepted."""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import MaterialPoints, State
+from nmm.effects.base import Instant
+from nmm.errors import SolveError
+from nmm.integrators.base import Integrator
+from nmm.integrators.shi import Shi
+from nmm.model.plan import Plan
+from nmm.solvers.linear import Factor, LinearSolver
+from nmm.stepping.step.booking import booked
+from nmm.stepping.step.budget import Budget
+from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.contact_step import Touching
+from nmm.stepping.step.equations import Assembly
+from nmm.stepping.step.free_step import Alone
+from nmm.stepping.step.mover import Mover
+from nmm.stepping.step.remap import Laid, Lay, relay
+from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.contact.iteration.record import Breaking, ContactRecord
+    from nmm.contact.points.contact_points import ContactPoints
+
+
+class Stepper:
+    """Solves steps of one plan; owns factors and what contact remembers.
+
+    Attributes
+    ----------
+    solver, small
+        The linear solver, and whether displacements are small.
+    budget
+        What the run may cost.
+    anchored
+        Whether soft springs hold bodies in statics to where they stand
+        (`nmm.stepping.step.anchors`).
+    reference
+        (P, 2) the elements' vertices at the start (m).
+    size
+        Diagonal of the domain (m).
+    seconds
+        Wall-clock seconds by phase.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        plan: Plan,
+        integrator: Integrator,
+        solver: LinearSolver,
+        small: bool,
+        lay: Lay | None = None,
+    ) -> None:
+        clock = Clock()
+        self.solver, self.small, self.seconds = solver, small, clock.seconds
+        self.anchored = False
+        self.budget = Budget()
+        self.reference = model.manifold.elements.points
+        self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
+        self._laid, self._lay, self._clock = Laid(model, plan), lay, clock
+        self._integrator = integrator
+        self._starter = Shi(kinetic_factor=integrator.kinetic_factor)
+        self._begun = False
+        self._pushing = np.zeros(0, dtype=np.int64)
+        self._assembly = Assembly(self._laid)
+        self._mover = Mover(self._laid, solver, small or lay is not None, clock)
+        self._alone = Alone(self._laid, self._mover, solver, small, clock)
+        self._touching = Touching(
+            self._laid, self._mover, solver, self.size, integrator.carries, clock
+        )
+
+    @property
+    def model(self) -> Model:
+        """The model as it is laid now."""
+        return self._laid.model
+
+    @property
+    def plan(self) -> Plan:
+        """The effects on it."""
+        return self._laid.plan
+
+    @property
+    def vertices(self) -> MaterialPoints:
+        """The elements' vertices, which are followed."""
+        return self._mover.vertices
+
+    @property
+    def factor(self) -> Factor | None:
+        """The last factor of a system without contacts."""
+        return self._alone.factor
+
+    def attempt(
+        self, state: State, end: Instant, step: float | None, breaking: "Breaking" = "all"
+    ) -> Attempt:
+        """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics.
+
+        Raises
+        ------
+        BudgetSpentError
+            When the run may cost no more.
+        """
+        self.budget.check()
+        with self._clock.phase("assembly"):
+            equations = self._assembly.of(state, end, step, self._rule, self.anchored)
+        try:
+            if self.plan.contact is None:
+                found = self._alone.attempt(equations)
+            else:
+                found = self._touching.attempt(equations, breaking)
+        except SolveError as fault:
+            rest = np.zeros_like(equations.force)
+            singular = fault.singular
+            return Attempt(False, str(fault), state, rest, 0.0, np.nan, 1, singular=singular)
+        if not found.converged or equations.inertia is None:
+            return found
+        return replace(found, booked=booked(equations, found.increment, found.solved))
+
+    def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
+        """Make an attempt the start of the next step; return it with its contacts as left."""
+        self._touching.accepted(attempt.motion)
+        self._begun = not (self._integrator.carries and self._struck(attempt))
+        state, contact, contacts = attempt.state, self.plan.contact, None
+        if contact is not None and attempt.solved is not None:
+            contacts = contact.commit(attempt.solved, state)
+        if self._lay is not None:
+            laid, place = self._laid, self.place(state)
+            laid.model, laid.plan, state = relay(
+                laid.model, laid.plan, self._lay, state, attempt.increment, place
+            )
+            self._mover.begin()
+        return state, contacts
+
+    def _struck(self, attempt: Attempt) -> bool:
+        """Whether contacts began or ended to push in a step."""
+        if attempt.solved is None:
+            return False
+        solved, before = attempt.solved, self._pushing
+        self._pushing = np.sort(solved.contacts.key[solved.answer.normal_force < 0])
+        return not np.array_equal(self._pushing, before)
+
+    def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
+        """Return the contact points of a step in which no point moves further than ``reach``."""
+        return self._touching.candidates(state, reach, step)
+
+    def remember(self) -> "ContactRecord | None":
+        """Return what contact knows now, for `restore`."""
+        return None if self.plan.contact is None else self.plan.contact.record
+
+    def restore(self, record: "ContactRecord | None") -> None:
+        """Take back what was accepted since `remember`."""
+        if self.plan.contact is not None and record is not None:
+            self.plan.contact.restore(record)
+
+    @property
+    def broken_bonds(self) -> int:
+        """Number of joint points whose bond is broken."""
+        return 0 if self.plan.contact is None else self.plan.contact.broken_bonds
+
+    def place(self, state: State) -> Floats:
+        """Return where the elements' vertices are (P, 2)."""
+        return self._mover.place(state)
+
+    def condition(self, state: State) -> float | None:
+        """Estimate the condition number of the last system, springs of contact included."""
+        if self.factor is not None:
+            return self.factor.condition()
+        contact = self.plan.contact
+        return None if contact is None else contact.condition(self.solver)
+
+    @property
+    def _rule(self) -> Integrator:
+        """The integrator of the step.
+
+        The first step is Shi's: no acceleration is known at its start, and it damps the waves of
+        loads that come all at once. Its error of the velocity, once of order 2 in the step, leaves
+        orders as they are. So is one after contacts began or ended to push, where the integrator
+        carries accelerations: those of waves that the step does not resolve are large, and make
+        velocities overshoot by their frequency times the step (Hilber and Hughes 1978).
+        """
+        return self._integrator if self._begun else self._starter
+
+
+def scaled_load(stepper: Stepper, factor: float) -> float | None:
+    """Return the resultant (N) of the scaled loads at a load factor; None without loads."""
+    loads = stepper.plan.loads
+    return None if loads is None else loads.scaled_resultant(factor)

@@ -1,0 +1,49 @@
+"""What came of a step."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.stepping.step.booking import Booked
+
+if TYPE_CHECKING:
+    from nmm.contact.iteration.record import Solved
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """What came of a step; to be accepted or thrown away.
+
+    Attributes
+    ----------
+    converged, sentence
+        The verdict.
+    state
+        The state at the end; that of the start when the step failed.
+    increment
+        (n,) unknowns of the step.
+    motion
+        Largest motion of a point (m).
+    residual
+        Relative out-of-balance force.
+    passes
+        Linear systems solved.
+    solved
+        Contact points with their forces; None without contact.
+    booked
+        Work of inertia and contact; None in statics.
+    singular
+        Whether the load moves a part that nothing holds.
+    """
+
+    converged: bool
+    sentence: str
+    state: State
+    increment: Floats
+    motion: float
+    residual: float
+    passes: int
+    solved: "Solved | None" = None
+    booked: Booked | None = None
+    singular: bool = False

@@ -1,0 +1,1 @@
+"""One case of a study: its variant, its run, its cost, its record."""

@@ -1,0 +1,180 @@
+"""Running cases and taking their cost: interleaved repeats after a warm-up, one thread a case."""
+
+import os
+import platform
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from time import perf_counter, process_time
+from typing import TYPE_CHECKING, Any
+
+from nmm.errors import NmmError
+from nmm.study.cases.memory import added_memories
+from nmm.study.cases.quantities import Measured, quantity
+from nmm.study.cases.record import Record
+from nmm.study.cases.running import commit, run_case
+from nmm.study.cases.variants import Case
+
+if TYPE_CHECKING:
+    from nmm.formulation import Formulation
+    from nmm.results.summary import Summary
+
+Progress = Callable[[float, str], None]
+
+
+@dataclass(frozen=True)
+class Spent:
+    """What one repeat took: processor and wall-clock seconds, and where they went."""
+
+    seconds: float
+    wall: float
+    summary: "Summary"
+
+
+def measure(
+    cases: Sequence[Case],
+    names: Sequence[str],
+    repeats: int = 3,
+    memory: bool = True,
+    progress: Progress | None = None,
+) -> list[Record]:
+    """Run every case ``repeats`` times, all cases in turn, after one round that is not counted.
+
+    Parameters
+    ----------
+    cases
+        What is run.
+    names
+        Quantities read off each run.
+    repeats
+        Counted runs of each case; a case that raised in the warm-up is not repeated.
+    memory
+        Also run each case once in a process of its own to see how much memory it adds.
+    """
+    tell = progress or (lambda share, text: None)
+    rounds = repeats + 1 + memory
+    total = rounds * len(cases)
+    found = [_once(case, names)[0] for case in _told(cases, tell, 0, total)]
+    times: list[list[Spent]] = [[] for _ in cases]
+    for turn in range(1, repeats + 1):
+        for index, case in enumerate(_told(cases, tell, turn * len(cases), total)):
+            if found[index].status != "error":
+                times[index].append(_once(case, ())[1])
+    peaks: list[int | None] = [None] * len(cases)
+    if memory:
+        told = _told(cases, tell, (rounds - 1) * len(cases), total)
+        runs = [index for index in range(len(cases)) if found[index].status != "error"]
+        for index, peak in zip(runs, added_memories([cases[i] for i in runs]), strict=True):
+            next(told)
+            peaks[index] = peak
+    return [_joined(one, many, peak) for one, many, peak in zip(found, times, peaks, strict=True)]
+
+
+def record(case: Case, names: Sequence[str]) -> Record:
+    """Run one case once and return its record, with the seconds of that one run."""
+    found, spent = _once(case, names)
+    return _joined(found, [spent], None)
+
+
+def machine() -> str:
+    """Processor and system in words."""
+    kind = platform.machine()
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        kind = next(line for line in lines if line.startswith("model name")).partition(":")[2]
+    except (OSError, StopIteration):
+        pass
+    return f"{kind.strip()}, {os.cpu_count()} cores, {platform.system()} {platform.release()}"
+
+
+def _once(case: Case, names: Sequence[str]) -> tuple[Record, Spent]:
+    from nmm.results.summary import Summary
+
+    cpu, wall = process_time(), perf_counter()
+    summary = Summary()
+    try:
+        done = run_case(case)
+        summary = done.summary
+        spent = Spent(process_time() - cpu, perf_counter() - wall, summary)
+        return _record(case, done, names), spent
+    # A case that breaks in any way is a result of the study, and the other cases go on.
+    except Exception as fault:
+        kind = "" if isinstance(fault, NmmError) else f"{type(fault).__name__}: "
+        spent = Spent(process_time() - cpu, perf_counter() - wall, summary)
+        sentence = " ".join(f"{kind}{fault}".split())
+        return Record(**_identity(case), status="error", sentence=sentence), spent
+
+
+def _identity(case: Case) -> dict[str, Any]:
+    from nmm.formulation import formulation_hash
+    from nmm.results.summary import installed_versions
+    from nmm.scene import scene_hash
+
+    seeds = [item.seed for item in case.scene.tessellations if item.seed is not None]
+    return {
+        "name": case.name,
+        "settings": dict(case.settings),
+        "key": case.key,
+        "cover": case.formulation.cover.type,
+        "method": method_of(case.formulation),
+        "scene_hash": scene_hash(case.scene),
+        "formulation_hash": formulation_hash(case.formulation),
+        "seed": seeds[0] if seeds else case.scene.seed,
+        "versions": installed_versions(),
+        "machine": machine(),
+        "commit": commit(),
+    }
+
+
+def method_of(formulation: "Formulation") -> dict[str, str]:
+    """Return what a formulation is in words: cover and degree, enforcement, integrator."""
+    cover = formulation.cover
+    linear = 1 if cover.of_blocks else 0
+    parts = [cover.type, str(cover.degree if cover.degree is not None else linear)]
+    if cover.enrichment is not None:
+        parts.append("enriched")
+    return {
+        "cover": " ".join(parts),
+        "enforcement": formulation.contact.enforcement,
+        "integrator": formulation.integrator.type,
+    }
+
+
+def _record(case: Case, done: Measured, names: Sequence[str]) -> Record:
+    summary = done.summary
+    usable = summary.status in ("converged", "failure_load")
+    values = {name: quantity(done, name) if usable else float("nan") for name in names}
+    return Record(
+        **_identity(case),
+        status=summary.status,
+        sentence=summary.sentence,
+        quantities=values,
+        phases=dict(summary.seconds),
+        effects=dict(summary.effect_seconds),
+        unknowns=summary.unknowns,
+        elements=summary.elements,
+        steps=summary.steps,
+        passes=summary.passes,
+    )
+
+
+def _joined(found: Record, times: Sequence[Spent], peak: int | None) -> Record:
+    """Return the record with the cost of its repeats; phases are those of the median one."""
+    if not times:
+        return replace(found, memory=peak)
+    middle = sorted(times, key=lambda one: one.seconds)[(len(times) - 1) // 2].summary
+    return replace(
+        found,
+        seconds=tuple(one.seconds for one in times),
+        wall=tuple(one.wall for one in times),
+        phases=dict(middle.seconds),
+        effects=dict(middle.effect_seconds),
+        memory=peak,
+    )
+
+
+def _told(cases: Sequence[Case], tell: Progress, done: int, total: int) -> Iterator[Case]:
+    """Tell each case as it comes."""
+    for index, case in enumerate(cases):
+        tell((done + index) / total, case.label)
+        yield case

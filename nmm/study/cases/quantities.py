@@ -1,0 +1,80 @@
+"""Numbers read off a run by name, the same for every formulation.
+
+Names: ``failure_load``, ``failure_factor`` and every number of the summary; any column of the
+history, at its end (``monitor:tip:uy``) or as ``max:column`` / ``min:column``; ``energy``, the
+elastic energy at the end.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import TYPE_CHECKING, Protocol
+
+from integration.arrays import Floats
+from nmm.errors import Fault, NmmError
+from nmm.results.summary import Summary
+from nmm.scene.faults import suggestion
+
+if TYPE_CHECKING:
+    from nmm.scene import Scene
+
+_NUMBERS = {item.name for item in fields(Summary)}
+_REDUCED = {"max": lambda column: column.max(), "min": lambda column: column.min()}
+
+
+class Measured(Protocol):
+    """A run as far as quantities are concerned."""
+
+    @property
+    def summary(self) -> Summary:
+        """Verdict and totals."""
+
+    @property
+    def history(self) -> Mapping[str, Floats]:
+        """Columns, one value a step."""
+
+
+def quantity(run: Measured, name: str) -> float:
+    """Return a quantity of a run; nan when the run ended before it existed.
+
+    Raises
+    ------
+    NmmError
+        When no run has a quantity of that name.
+    """
+    reduction, _, column = name.partition(":")
+    if reduction in _REDUCED:
+        return float(_REDUCED[reduction](_column(run, column)))
+    if name == "energy":
+        return float(_column(run, "strain_energy")[-1])
+    value = getattr(run.summary, name) if name in _NUMBERS else name
+    if value is None or isinstance(value, int | float):
+        return math.nan if value is None else float(value)
+    return float(_column(run, name)[-1])
+
+
+def _column(run: Measured, name: str) -> Floats:
+    if name not in run.history:
+        known = ", ".join(run.history) or "none, as no step was accepted"
+        raise NmmError(
+            f"quantity {name}: expected a number of the summary or a column of the history "
+            f"({known}): correct the name, or add a monitor to the scene"
+        )
+    return run.history[name]
+
+
+def check_quantity(scene: "Scene", name: str) -> None:
+    """Refuse a name that no run of a scene has, before any is made.
+
+    Raises
+    ------
+    NmmError
+        With the names there are.
+    """
+    from nmm.model.consistency import known_quantities
+
+    known = ["energy", *known_quantities(scene)]
+    reduction, _, column = name.partition(":")
+    if (column if reduction in _REDUCED else name) not in known:
+        expected = "a number of the summary or a column of the history, or max: or min: of one"
+        raise NmmError(Fault("quantity", f'"{name}"', expected, suggestion(name, known)))

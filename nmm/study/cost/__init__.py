@@ -1,0 +1,1 @@
+"""Error against seconds: cost studies, their report, orders, and the cost model."""

@@ -1,0 +1,1 @@
+"""Many cases from a study file: run, stored, summarised."""

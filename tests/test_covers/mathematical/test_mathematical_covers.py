@@ -1,0 +1,317 @@
+"""What every mathematical cover must do, and what its kind promises."""
+
+import numpy as np
+import pytest
+import shapely
+from skfem import MeshQuad, MeshTri
+
+from covers.mathematical.bspline import BSplines, cardinal_pieces
+from covers.mathematical.graded import Graded
+from covers.mathematical.kernels import KERNELS
+from covers.mathematical.mesh_edges import mesh_edges
+from covers.mathematical.moving_least_squares import MovingLeastSquares
+from covers.mathematical.quads import Quads
+from covers.mathematical.registry import COVERS, cover_class
+from covers.mathematical.triangles import Triangles
+from integration.monomials import count, evaluate
+
+BOUNDS = [[0.0, 0.0], [2.0, 1.0]]
+TURNED = {"angle": 0.3, "shift": (0.2, 0.7)}
+
+
+def jittered_triangles():
+    mesh = MeshTri.init_tensor(np.linspace(0, 2, 9), np.linspace(0, 1, 5))
+    return Triangles.from_mesh(MeshTri(_jitter(mesh.p), mesh.t))
+
+
+def jittered_quads():
+    mesh = MeshQuad.init_tensor(np.linspace(0, 2, 9), np.linspace(0, 1, 5))
+    return Quads.from_mesh(MeshQuad(_jitter(mesh.p), mesh.t))
+
+
+def sheared_quads():
+    mesh = MeshQuad.init_tensor(np.linspace(0, 2, 9), np.linspace(0, 1, 5))
+    return Quads.from_mesh(MeshQuad(np.array([[1, 0.4], [0.1, 1]]) @ mesh.p, mesh.t))
+
+
+def scattered_discs():
+    net = Quads.regular(BOUNDS, 0.25)
+    random = np.random.default_rng(2)
+    nodes = random.uniform([-0.6, -0.6], [2.6, 1.6], (260, 2))
+    radius = random.uniform(0.45, 0.6, len(nodes))
+    return MovingLeastSquares.on_cells(nodes, radius, net.vertices, net.cell_vertices)
+
+
+def _jitter(points):
+    inside = (points > 0).all(axis=0) & (points[0] < 2) & (points[1] < 1)
+    return points + inside * np.random.default_rng(1).uniform(-0.06, 0.06, points.shape)
+
+
+EXAMPLES = {
+    "triangles": lambda: Triangles.regular(BOUNDS, 0.23, **TURNED),
+    "triangles of a mesh": jittered_triangles,
+    "graded triangles": lambda: Graded.regular(BOUNDS, 0.05, **TURNED, focus=[[0.7, 0.4]]),
+    "quads": lambda: Quads.regular(BOUNDS, (0.2, 0.3), **TURNED),
+    "parallelograms": sheared_quads,
+    "distorted quads": jittered_quads,
+    "splines of degree 1": lambda: BSplines.regular(BOUNDS, 0.21, degree=1, **TURNED),
+    "splines of degree 2": lambda: BSplines.regular(BOUNDS, (0.2, 0.3), degree=2, **TURNED),
+    "splines of degree 3": lambda: BSplines.regular(BOUNDS, 0.21, degree=3, **TURNED),
+    "Shepard": lambda: MovingLeastSquares.regular(BOUNDS, 0.2, degree=0, **TURNED),
+    "least squares": lambda: MovingLeastSquares.regular(BOUNDS, 0.2, degree=1, **TURNED),
+    "quadratic least squares": lambda: MovingLeastSquares.regular(
+        BOUNDS, 0.2, degree=2, kernel="wendland", **TURNED
+    ),
+    "quartic kernel": lambda: MovingLeastSquares.regular(
+        BOUNDS, 0.2, kernel="quartic_spline", radius=2.4
+    ),
+    "scattered discs": scattered_discs,
+}
+
+
+def random_points(cover, number, seed=0):
+    """Cells and points inside them, uniform over cells."""
+    random = np.random.default_rng(seed)
+    cells = random.integers(0, len(cover.cell_vertices), number)
+    corners = cover.vertices[cover.cell_vertices[cells]]
+    share = random.dirichlet(np.ones(corners.shape[1]), number)
+    return cells, np.einsum("mk,mki->mi", share, corners)
+
+
+@pytest.fixture(params=list(EXAMPLES), scope="module")
+def cover(request):
+    return EXAMPLES[request.param]()
+
+
+def test_weights_sum_to_one_and_gradients_to_zero(cover):
+    weights, gradients = cover.evaluate(*random_points(cover, 300))
+    # A sum of k terms of size one; quadratic fits lose three digits to the moment matrix.
+    np.testing.assert_allclose(weights.sum(axis=1), 1, atol=1e-12)
+    np.testing.assert_allclose(gradients.sum(axis=1), 0, atol=1e-10)
+
+
+def test_gradients_are_differences_of_weights(cover):
+    cells, points = random_points(cover, 300)
+    gradients = cover.weight_gradients(cells, points)
+    step = 1e-5
+    for axis in (0, 1):
+        away = step * np.eye(2)[axis]
+        change = cover.weights(cells, points + away) - cover.weights(cells, points - away)
+        # Second differences of weights are below 1e3 per m2, third below 1e5: 1e-5 in all.
+        np.testing.assert_allclose(gradients[..., axis], change / (2 * step), atol=2e-5)
+
+
+def test_weights_combine_to_all_polynomials_of_the_claimed_precision_and_not_beyond(cover):
+    cells, points = random_points(cover, 3000)
+    weights = np.zeros((len(points), cover.n_patches + 1))
+    np.put_along_axis(weights, cover.cell_patches[cells], cover.weights(cells, points), axis=1)
+    values = weights[:, :-1]
+    degree = cover.precision + 1
+    wanted = evaluate(points, degree)
+    coefficients = np.linalg.lstsq(values, wanted, rcond=1e-9)[0]
+    miss = np.abs(values @ coefficients - wanted).max(axis=0)
+    assert miss[: count(degree - 1)].max() < 1e-9
+    assert miss[count(degree - 1) :].max() > 1e-5  # x2 alone may be in the span, not all
+
+
+def test_patch_centres_reproduce_the_coordinates(cover):
+    if cover.precision == 0:
+        pytest.skip("Shepard's weights have no linear precision")
+    cells, points = random_points(cover, 300)
+    centres = cover.patch_centre[cover.cell_patches[cells]]
+    field = np.einsum("mk,mki->mi", cover.weights(cells, points), centres)
+    np.testing.assert_allclose(field, points, atol=1e-12)
+
+
+def test_tables_are_the_weights_in_any_coordinates(cover):
+    cells, points = random_points(cover, 200)
+    origin, scale = points + np.array([0.05, -0.02]), np.linspace(0.05, 2.0, len(points))
+    if cover.weight_degree is None:
+        with pytest.raises(ValueError, match="no polynomials"):
+            cover.weight_tables(cells, origin, scale)
+        return
+    table, degree = cover.weight_tables(cells, origin, scale)
+    assert degree == cover.weight_degree
+    values = evaluate((points - origin) / scale[:, None], degree)
+    found = np.einsum("mK,mkK->mk", values, table)
+    np.testing.assert_allclose(found, cover.weights(cells, points), atol=1e-12)
+
+
+def test_weights_are_continuous_across_edges_and_vanish_outside_their_patch(cover):
+    edges = cover.edges
+    inner = np.flatnonzero((edges.left >= 0) & (edges.right >= 0))
+    points = 0.7 * cover.vertices[edges.start[inner]] + 0.3 * cover.vertices[edges.end[inner]]
+    spread = np.zeros((2, len(inner), cover.n_patches + 1))
+    for side, cells in enumerate((edges.left[inner], edges.right[inner])):
+        weights = cover.weights(cells, points)
+        np.put_along_axis(spread[side], cover.cell_patches[cells], weights, axis=1)
+    np.testing.assert_allclose(spread[0, :, :-1], spread[1, :, :-1], atol=1e-12)
+
+
+def test_patches_lie_within_their_size(cover):
+    corners = cover.vertices[cover.cell_vertices]
+    active = cover.cell_patches >= 0
+    away = corners[:, None] - cover.patch_centre[cover.cell_patches][:, :, None]
+    reach = np.linalg.norm(away, axis=3).max(axis=2)
+    if cover.disc_radius is None:
+        assert (reach <= cover.patch_size[cover.cell_patches] * (1 + 1e-12)).all()
+    else:
+        near = np.linalg.norm(away, axis=3).min(axis=2)
+        size = cover.patch_size[cover.cell_patches]
+        assert (near[active] < size[active] + 0.3).all()
+
+
+def test_regular_covers_hold_the_box_and_their_cells_are_congruent():
+    for name in COVERS:
+        cover = cover_class(name).regular(BOUNDS, 0.17, **TURNED)
+        assert (
+            shapely.union_all(cover.cells.to_shapely())
+            .buffer(1e-9)
+            .contains(shapely.box(0, 0, 2, 1))
+        )
+        areas = cover.cells.ring_areas
+        np.testing.assert_allclose(areas, areas[0], rtol=1e-12)
+        for shape in np.unique(cover.cell_shape):
+            corners = cover.vertices[cover.cell_vertices[cover.cell_shape == shape]]
+            moved = corners - corners[:, :1]
+            np.testing.assert_allclose(moved, np.broadcast_to(moved[0], moved.shape), atol=1e-14)
+
+
+def test_a_net_of_divisors_fits_the_box_exactly():
+    cover = Quads.regular([[0.1, 0.2], [0.8, 0.5]], 0.1)
+    assert len(cover.cell_vertices) == 21
+    assert cover.vertices.min(axis=0) == pytest.approx([0.1, 0.2], abs=0)
+    assert cover.vertices.max(axis=0) == pytest.approx([0.8, 0.5], abs=1e-15)
+
+
+def test_a_hexagon_of_six_triangles_is_the_patch_of_shis_net():
+    cover = Triangles.regular([[0, 0], [10, 10]], 1.0)
+    stars = np.bincount(cover.cell_vertices.ravel())
+    assert np.bincount(stars)[6] > 60
+    assert stars.max() == 6
+
+
+def test_quadratic_pieces_are_those_of_the_handbook():
+    # N(t) = (1 - t)^2 / 2, (1 + 2 t - 2 t^2) / 2, t^2 / 2 on one span (de Boor 1978).
+    expected = np.array([[1, -2, 1], [1, 2, -2], [0, 0, 1]]) / 2
+    np.testing.assert_allclose(cardinal_pieces(2), expected, atol=1e-15)
+
+
+def test_spline_gradients_are_continuous_across_spans():
+    cover = BSplines.regular(BOUNDS, 0.2, degree=2, **TURNED)
+    edges = cover.edges
+    inner = np.flatnonzero((edges.left >= 0) & (edges.right >= 0))
+    points = 0.4 * cover.vertices[edges.start[inner]] + 0.6 * cover.vertices[edges.end[inner]]
+    slopes = []
+    for cells in (edges.left[inner], edges.right[inner]):
+        spread = np.zeros((len(inner), cover.n_patches, 2))
+        for axis in (0, 1):
+            gradient = cover.weight_gradients(cells, points)[..., axis]
+            np.put_along_axis(spread[..., axis], cover.cell_patches[cells], gradient, axis=1)
+        slopes.append(spread)
+    np.testing.assert_allclose(slopes[0], slopes[1], atol=1e-12)
+
+
+@pytest.mark.parametrize("name", KERNELS)
+def test_kernels_vanish_with_their_slope_at_the_rim_and_differ_by_their_slope(name):
+    kernel = KERNELS[name]
+    r = np.linspace(0.01, 0.99, 50)
+    slope = (kernel(r + 1e-6)[0] - kernel(r - 1e-6)[0]) / 2e-6
+    np.testing.assert_allclose(kernel(r)[1], slope, atol=1e-8)
+    for value in kernel(np.array([1.0, 1.5])):
+        np.testing.assert_allclose(value, 0, atol=1e-15)
+
+
+def test_shepard_weights_are_positive():
+    cover = MovingLeastSquares.regular(BOUNDS, 0.2, degree=0)
+    assert (cover.weights(*random_points(cover, 500)) >= 0).all()
+
+
+def test_parallelograms_stay_polynomial_and_distorted_quads_do_not():
+    assert sheared_quads().weight_degree == 2
+    assert jittered_quads().weight_degree is None
+
+
+def test_bilinear_weights_of_a_distorted_quad_are_those_of_its_reference_square():
+    corners = np.array([[0.0, 0.0], [2.0, 0.3], [1.7, 1.9], [-0.4, 1.1]])
+    cover = Quads.from_mesh(MeshQuad(corners.T, np.arange(4)[:, None]))
+    x, y = 0.3, 0.8
+    weights = np.array([(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y])
+    found = cover.weights(np.zeros(1, dtype=np.int64), (weights @ corners)[None])
+    order = [int(np.flatnonzero((corners == v).all(axis=1))[0]) for v in cover.vertices]
+    placed = np.zeros(4)
+    placed[np.array(order)[cover.cell_vertices[0]]] = found[0]
+    np.testing.assert_allclose(placed, weights, atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Quads.regular([[0, 0], [0, 1]], 0.1), "lower and upper corner"),
+        (lambda: Triangles.regular([[0, 0], [1, 1]], -0.1), "positive length"),
+        (lambda: BSplines.regular([[0, 0], [1, 1]], 0.1, degree=0), "degree = 0"),
+        (lambda: MovingLeastSquares.regular([[0, 0], [1, 1]], 0.1, kernel="hat"), "kernel: 'hat'"),
+        (lambda: MovingLeastSquares.regular([[0, 0], [1, 1]], 0.1, radius=0.6), "enlarge the rad"),
+        (lambda: cover_class("hexagons"), "expected one of triangles"),
+        (
+            lambda: cover_class("covers.mathematical.triangles:Triangles"),
+            "expected one of triangles",
+        ),
+        (
+            lambda: Quads.from_mesh(
+                MeshQuad(np.array([[0, 1, 0.2, 0], [0, 0, 0.2, 1.0]]), np.arange(4)[:, None])
+            ),
+            "convex",
+        ),
+    ],
+)
+def test_wrong_input_is_named(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+def test_collinear_discs_do_not_determine_a_linear_fit():
+    net = Quads.regular([[0, 0], [1, 1]], 1.0)
+    nodes = np.array([[0.3, 0.5], [0.5, 0.5], [0.7, 0.5]])
+    cover = MovingLeastSquares.on_cells(nodes, np.ones(3), net.vertices, net.cell_vertices)
+    with pytest.raises(ValueError, match="do not determine a fit"):
+        cover.weights(np.zeros(1, dtype=np.int64), np.array([[0.4, 0.3]]))
+
+
+def test_a_point_far_from_its_cell_is_refused_by_distorted_quads():
+    cover = jittered_quads()
+    with pytest.raises(ValueError, match="no place in its cell"):
+        cover.weights(np.zeros(1, dtype=np.int64), np.array([[50.0, 70.0]]))
+
+
+def test_overlapping_cells_are_refused():
+    with pytest.raises(ValueError, match="edge of another cell"):
+        mesh_edges(np.array([[0, 1, 2], [0, 1, 3]]))
+
+
+def test_a_graded_net_is_fine_at_its_foci_and_grows_no_faster_than_asked():
+    focus = np.array([[0.5, 0.2], [1.7, 0.9]])
+    net = Graded.regular(BOUNDS, 0.01, focus=focus, radius=0.05, growth=0.3, coarsest=0.15)
+    assert net.vertices.min(axis=0) == pytest.approx([0, 0], abs=1e-15)
+    assert (net.vertices.max(axis=0) >= [2, 1]).all()
+    for axis in (0, 1):
+        lines = np.unique(net.vertices[:, axis])
+        steps = np.diff(lines)
+        middle = (lines[1:] + lines[:-1]) / 2
+        off = np.abs(middle[:, None] - focus[:, axis]).min(axis=1)
+        # A whole number of lines makes all steps a little shorter; a step has two ends.
+        allowed = np.minimum(0.01 + 0.3 * np.maximum(off + steps / 2 - 0.05, 0), 0.15)
+        assert (steps <= allowed * (1 + 1e-6)).all()
+        assert steps[off < 0.04] == pytest.approx(0.01, rel=0.05)
+        assert steps.max() == pytest.approx(0.15, rel=0.2) if axis == 0 else True
+
+
+def test_a_graded_net_without_focus_is_even():
+    lines = np.unique(Graded.regular(BOUNDS, 0.25).vertices[:, 0])
+    assert lines == pytest.approx(np.linspace(0, 2, 9), abs=1e-12)
+
+
+@pytest.mark.parametrize("options", [{"growth": -1}, {"coarsest": 0.01}, {"radius": -1}])
+def test_a_graded_net_that_cannot_be_is_refused(options):
+    with pytest.raises(ValueError, match="correct the options"):
+        Graded.regular(BOUNDS, 0.1, focus=[[1, 1]], **options)

@@ -1,0 +1,164 @@
+"""Every enforcement against the enumeration of all contact states, and against the law's words."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nmm.contact.enforcement.base import ENFORCEMENTS, make_enforcement
+from nmm.contact.iteration import anderson_kernel as mixing_kernel
+from nmm.contact.problem.balance import relative_residual, with_springs
+from nmm.contact.problem.cut_springs import CutSprings
+from nmm.contact.problem.matrix_pattern import SpringPattern
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+from nmm.solvers.linear import make_solver
+from nmm.testing.contact_oracle import all_solutions, is_one_of, obeys, random_problem
+
+SOFT = {"penalty"}
+SMOOTH = {"barrier"}
+SHARP = sorted(set(ENFORCEMENTS.names()) - SMOOTH)
+
+
+def balance(problem: StepProblem, answer: StepAnswer) -> float:
+    rest = problem.out_of_balance(answer.increment, answer.normal_force, answer.shear_force)
+    size = np.linalg.norm(problem.force) + np.linalg.norm(problem.matrix @ answer.increment)
+    return float(np.linalg.norm(rest) / size)
+
+
+@pytest.mark.parametrize("name", SHARP)
+@pytest.mark.parametrize("seed", range(25))
+def test_finds_a_solution_wherever_enumeration_finds_one(name: str, seed: int) -> None:
+    problem, exact = random_problem(seed), name not in SOFT
+    solutions = all_solutions(problem, exact)
+    answer = make_enforcement(name).solve(problem, make_solver())
+    assert answer.verdict.converged == bool(solutions), answer.verdict.sentence
+    # forces are of order one and the tolerance is 1e-8 of the largest: 1e-6 leaves a condition
+    # number of 100 between out-of-balance force and contact force
+    assert is_one_of(answer, solutions, 1e-6)
+    assert balance(problem, answer) < 1e-8
+
+
+@pytest.mark.parametrize("name", SHARP)
+@pytest.mark.parametrize("seed", range(100, 115))
+def test_bonds_and_own_stiffness_obey_the_law(name: str, seed: int) -> None:
+    problem, exact = random_problem(seed, bonded=True, own=True), name not in SOFT
+    answer = make_enforcement(name).solve(problem, make_solver())
+    assert answer.verdict.converged, answer.verdict.sentence
+    assert obeys(problem, answer, exact, 1e-6)
+    assert balance(problem, answer) < 1e-8
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_barrier_tends_to_an_exact_solution_with_its_width(seed: int) -> None:
+    problem = random_problem(seed)
+    problem = replace(problem, gap=np.abs(problem.gap))  # nothing begins beyond the barrier
+    solutions = all_solutions(problem, exact=True)
+    errors = []
+    for width in (1e-2, 1e-4):
+        answer = make_enforcement("barrier", {"width": width}).solve(problem, make_solver())
+        assert answer.verdict.converged, answer.verdict.sentence
+        assert balance(problem, answer) < 1e-7
+        assert answer.gap.min() > -width / 2 - 1e-12
+        # stiffness of the random matrices is below 30, so a gap w/2 is a force of 15 w at most,
+        # in each of up to eight directions
+        assert is_one_of(answer, solutions, 120 * width)
+        errors.append(
+            min(np.abs(answer.normal_force - n).max() for n in (s.normal_force for s in solutions))
+        )
+    assert errors[1] < 0.1 * errors[0] + 1e-9
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_open_close_iteration_never_claims_a_state_that_is_not_one(seed: int) -> None:
+    problem = random_problem(seed, bonded=seed % 2 == 0)
+    options = {"iteration": "open_close", "max_passes": 50}
+    answer = make_enforcement("penalty", options).solve(problem, make_solver())
+    if answer.verdict.converged:
+        assert is_one_of(answer, all_solutions(problem, exact=False), 1e-6)
+    else:
+        assert answer.verdict.code in ("cycle", "passes")
+        assert answer.verdict.contacts or answer.verdict.code == "passes"
+
+
+def test_warm_start_and_kept_factor_change_the_cost_and_not_the_answer() -> None:
+    from nmm.contact.iteration.memory import Memory
+
+    problem, memory, solver = random_problem(7), Memory(), make_solver()
+    for name in SHARP:
+        enforcement = make_enforcement(name)
+        cold = enforcement.solve(problem, solver)
+        warm = replace(
+            problem, normal_force=cold.normal_force, shear_force=cold.shear_force, state=cold.state
+        )
+        again = enforcement.solve(warm, solver, memory)
+        third = enforcement.solve(warm, solver, memory)
+        np.testing.assert_allclose(again.normal_force, cold.normal_force, atol=1e-6)
+        np.testing.assert_array_equal(third.state, again.state)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_compiled_defect_equals_the_whole_array_form(seed: int) -> None:
+    problem, rng = random_problem(seed, bonded=True), np.random.default_rng(seed)
+    shifts = rng.normal(size=(2, problem.n_contacts))
+    springs = CutSprings.of(problem).shifted(*shifts)
+    increment = rng.normal(size=len(problem.force))
+    forces = springs.forces(increment)
+    expected = problem.out_of_balance(increment, *forces)
+    found = springs.defect(increment)
+    np.testing.assert_allclose(found.force, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+    size = relative_residual(problem, springs.weight, increment, *forces)
+    assert found.size == pytest.approx(size, rel=1e-12)
+
+
+def test_compiled_mixing_is_least_squares_in_the_inner_product_of_the_factor() -> None:
+    rng, n, used = np.random.default_rng(0), 40, 4
+    root = rng.normal(size=(n, n))
+    inner = root @ root.T + np.eye(n)
+    steps, defects = rng.normal(size=(used, n)), rng.normal(size=(used, n))
+    corrections = -np.linalg.solve(inner, defects.T).T
+    sums, kept, gram = np.zeros((used, n)), np.zeros((used, n)), np.zeros((used, used))
+    for k in range(used):
+        arguments = (steps[k], corrections[k], np.zeros(n), defects[k], np.zeros(n))
+        mixing_kernel.add(sums, kept, gram, k, k + 1, *arguments)
+    force = rng.normal(size=n)
+    correction = -np.linalg.solve(inner, force)
+    found = mixing_kernel.mixed(sums, kept, gram, used, correction, force)
+    # least |correction - sum share correction_k| in the norm of the matrix, by its own root
+    upper = np.linalg.cholesky(inner).T
+    share = np.linalg.lstsq(upper @ corrections.T, upper @ correction, rcond=None)[0]
+    expected = correction - share @ (steps + corrections)
+    # the ridge of 1e-12 of the trace moves shares by as much times the condition, below 1e3
+    np.testing.assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("name", ["penalty", "augmented", "lagrange", "cone"])
+def test_steps_of_a_wall_converge_though_bricks_have_more_contacts_than_unknowns(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[4] / "benchmarks"))
+    from block_scenes import Motion, wall
+
+    from nmm.contact.iteration.memory import Memory
+
+    motion, memory, solver = Motion(wall(30, penalty=100.0)), Memory(), make_solver()
+    problem = motion.problem
+    for _ in range(4):
+        answer = make_enforcement(name).solve(problem, solver, memory)
+        assert answer.verdict.converged, answer.verdict.sentence
+        size = float(np.abs(answer.normal_force).max())
+        ease = 1 / problem.matrix.diagonal().min()
+        # forces meet the law to 1e-7 of the largest; gaps to 1e-7 of what that would press in,
+        # over rows of three entries of about one on either side
+        assert obeys(problem, answer, name not in SOFT, 1e-6 * size, 6e-7 * size * ease)
+        assert balance(problem, answer) < 1e-6
+        problem = motion.next_problem(answer)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_assembled_pattern_equals_the_sparse_product(seed: int) -> None:
+    problem, rng = random_problem(seed), np.random.default_rng(seed)
+    normal, shear = rng.random((2, problem.n_contacts))
+    found = SpringPattern.of(problem).matrix(problem, normal, shear)
+    expected = with_springs(problem, normal, shear)
+    np.testing.assert_allclose(found.toarray(), expected.toarray(), rtol=0, atol=1e-12)

@@ -1,0 +1,63 @@
+"""Rows of contact points: a rigid motion of one side changes gap and slip by its own components."""
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.contact.points.contact_points import rows
+from nmm.formulation import Formulation
+from nmm.stepping.simulation import prepare
+
+SCENE = """
+plane = "stress"
+duration = 1.0
+[materials.rock]
+density = 2600
+young_modulus = 1e9
+poisson_ratio = 0.2
+[interfaces.joint]
+friction_angle = "20 deg"
+[[blocks]]
+name = "base"
+material = "rock"
+vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
+[[blocks]]
+name = "block"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[supports]]
+name = "base"
+block = "base"
+fix = ["x", "y"]
+[gravity]
+[inertia]
+[contact]
+"""
+
+
+@pytest.mark.parametrize(
+    "cover",
+    [
+        {},
+        {"functions": "monomials", "degree": 2},
+        {"type": "triangles", "functions": "monomials", "degree": 0, "size": 0.7},
+        {"type": "quads", "functions": "monomials", "degree": 1, "size": 0.6},
+    ],
+)
+def test_rows_of_a_rigid_translation_are_normal_and_tangent(cover: dict[str, object]) -> None:
+    formulation = Formulation.model_validate({"cover": cover})
+    ready = prepare(nmm.parse_scene(SCENE), formulation)
+    manifold, contact = ready.stepper.model.manifold, ready.stepper.plan.contact
+    assert contact is not None
+    points = contact.candidates(ready.start, 1e-6)
+    assert len(points) >= 2
+    normal, tangent = rows(points, contact._sides, ready.start.frames, manifold.n_unknowns)
+    edges = manifold.boundary
+    for body in range(manifold.n_bodies):
+        sign = (edges.body[points.edge_a] == body) * 1.0 - (edges.body[points.edge_b] == body)
+        for axis in range(2):
+            motion = manifold.rigid_modes.toarray()[:, 3 * body + axis]
+            n = points.normal
+            t = np.stack([n[:, 1], -n[:, 0]], axis=1)
+            np.testing.assert_allclose(normal @ motion, sign * n[:, axis], atol=1e-13)
+            np.testing.assert_allclose(tangent @ motion, sign * t[:, axis], atol=1e-13)

@@ -1,0 +1,134 @@
+"""A failed structure, a failed solver and a spent budget are told apart, with what shows it."""
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import nmm
+from nmm.cli.app import app
+from nmm.stepping.drive.static_theorem import carried
+from nmm.stepping.drive.verdict import EXIT_CODES, MEANT
+from nmm.stepping.simulation import prepare
+
+BLOCKS = """
+plane = "stress"
+[contact]
+[gravity]
+[materials.r]
+young_modulus = 1e9
+poisson_ratio = 0.0
+density = 2000.0
+[interfaces.any]
+between = "any"
+friction_angle = "%s deg"
+[[blocks]]
+name = "base"
+material = "r"
+vertices = [[-3, -1], [4, -1], [4, 0], [-3, 0]]
+[[blocks]]
+name = "b"
+material = "r"
+vertices = [[0, 0], [1, 0], [1, 2], [0, 2]]
+[[supports]]
+name = "held"
+block = "base"
+fix = ["x", "y"]
+"""
+PUSH = '[[loads]]\nname = "push"\nkind = "point"\npoint = [0, %s]\nblock = "b"\nforce = [%s, 0]\n'
+WEIGHT = 2000.0 * 9.81 * 2
+
+
+def run(text, **loading):
+    table = {"loading": loading} if loading else {}
+    return nmm.run(nmm.parse_scene(text), nmm.Formulation.model_validate(table)).summary
+
+
+@pytest.mark.parametrize(("height", "friction", "right"), [(2.0, 45, 0.25), (0.02, 30, 0.57735)])
+def test_the_static_theorem_finds_what_a_block_carries(height, friction, right):
+    # Toppling: W 0.5 / 2; sliding: W tan 30.
+    text = BLOCKS % friction + PUSH % (height, WEIGHT) + '[loading]\nscaled = ["push"]\n'
+    made = prepare(nmm.parse_scene(text), nmm.Formulation())
+    found = carried(made.stepper, made.start, 1.0)
+    assert found.fails
+    assert found.factor == pytest.approx(right, rel=1e-5)
+    assert carried(made.stepper, made.start, 0.99 * right).fails is False
+
+
+def test_a_bond_carries_its_strength_in_the_static_theorem():
+    more = 'tensile_strength = 1e5\ncohesion = 1e9\nbonded = true\n[[blocks]]\nname = "base"'
+    text = BLOCKS.replace('[[blocks]]\nname = "base"', more) % 30
+    pull = PUSH % (2.0, 0.0)
+    text += pull.replace("force = [0.0, 0]", "force = [0, 1.0e6]").replace("[0, 2.0]", "[0.5, 2.0]")
+    text += '[loading]\nscaled = ["push"]\n'
+    made = prepare(nmm.parse_scene(text), nmm.Formulation())
+    # 1e5 Pa on 1 m2 and the weight, of 1e6 N.
+    right = (1e5 + WEIGHT) / 1e6
+    assert carried(made.stepper, made.start, 1.0).factor == pytest.approx(right, rel=1e-5)
+
+
+def test_a_block_pushed_over_is_a_failed_structure_with_its_proof():
+    text = BLOCKS % 45 + PUSH % (2.0, WEIGHT) + '[loading]\nscaled = ["push"]\n'
+    found = run(text, increment=0.1)
+    assert found.status == "collapsed"
+    assert "static theorem" in found.sentence
+    assert found.failure_factor == pytest.approx(0.25, rel=0.006)
+
+
+def test_a_block_on_a_slope_too_steep_for_it_is_a_failed_structure():
+    # arctan(3 / 8) is 20.6 degrees.
+    turned = BLOCKS.replace("[gravity]", "[gravity]\nacceleration = [3.0, -8.0]")
+    assert run(turned % 19).status == "collapsed"
+    assert run(turned % 22).status == "converged"
+
+
+def test_a_solver_that_gives_up_says_that_the_structure_may_carry_more():
+    """Two passes of springs are too few for a block that slides on one corner and lifts another."""
+    text = BLOCKS % 30 + PUSH % (1.0, 0.4 * WEIGHT) + '[loading]\nscaled = ["push"]\n'
+    table = {
+        "contact": {"options": {"iteration": "open_close"}, "max_passes": 1},
+        "loading": {"increment": 1.0},
+    }
+    found = nmm.run(nmm.parse_scene(text), nmm.Formulation.model_validate(table)).summary
+    assert found.status == "failed"
+    assert "may carry more" in found.sentence or "relaxation" in found.sentence
+
+
+def test_a_spent_budget_keeps_what_was_reached():
+    text = BLOCKS % 30 + PUSH % (0.02, 0.5 * WEIGHT) + '[loading]\nscaled = ["push"]\n'
+    found = run(text, increment=0.1, max_steps=3)
+    assert found.status == "budget_spent"
+    assert found.steps == 3
+    assert "load factor 0.3" in found.sentence
+    found = run(text, increment=0.1, budget=1e-6)
+    assert (found.status, found.steps) == ("budget_spent", 0)
+
+
+def test_a_dynamic_run_ends_with_its_budget():
+    text = "duration = 1.0\n" + BLOCKS % 30 + "[inertia]\n"
+    table = {"loading": {"max_steps": 5}, "integrator": {"step": 0.01}}
+    done = nmm.run(nmm.parse_scene(text), nmm.Formulation.model_validate(table))
+    assert done.summary.status == "budget_spent"
+    assert done.state.time == pytest.approx(0.05)
+    assert np.isclose(done.frames[-1].time, 0.05)
+
+
+def test_every_end_has_its_words_and_its_own_code():
+    assert set(EXIT_CODES) == set(MEANT)
+    failures = [code for code in EXIT_CODES.values() if code]
+    assert len(set(failures)) == len(failures) == 4
+    assert 1 not in failures  # faults of the files
+
+
+ENDS = [
+    (BLOCKS % 45 + PUSH % (2.0, 0.1 * WEIGHT), [], 0),
+    (BLOCKS % 45 + PUSH % (2.0, WEIGHT) + '[loading]\nscaled = ["push"]\n', [], 4),
+    (BLOCKS % 45 + PUSH % (2.0, 0.1 * WEIGHT), ["--budget", "1e-9"], 3),
+]
+
+
+@pytest.mark.parametrize(("text", "options", "code"), ENDS)
+def test_the_command_line_leaves_with_the_code_of_the_end(tmp_path, text, options, code):
+    scene = tmp_path / "a.toml"
+    scene.write_text(text)
+    told = CliRunner().invoke(app, ["run", str(scene), "--out", str(tmp_path / "r"), *options])
+    assert told.exit_code == code, told.output

@@ -1,0 +1,86 @@
+"""Formulations side by side at common points."""
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import nmm
+from integration.polygons import Polygons
+from nmm.cli.app import app
+from nmm.study.compare import compare_formulations, comparison_page, write_comparison
+from nmm.study.samples import elements_at, fields, raster
+
+# With it a bar held along its end in x is under uniform tension, which every formulation holds
+# exactly: sxx = 1e-3.
+CORNER = """
+[[supports]]
+name = "corner"
+point = [0, 0]
+fix = ["y"]
+"""
+KINDS = {
+    "DDA": nmm.Formulation(),
+    "NMM": nmm.Formulation.model_validate({"cover": {"type": "triangles", "size": 0.7}}),
+}
+
+
+@pytest.fixture(scope="module")
+def pulled(bar_text):
+    return bar_text(fix='["x"]', more=CORNER)
+
+
+@pytest.fixture(scope="module")
+def bar(pulled):
+    return nmm.scene.parse_scene(pulled)
+
+
+def test_the_raster_keeps_what_lies_in_material():
+    square = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
+    hole = 0.5 + (square - 0.5)[::-1] / 2
+    grid = raster(Polygons.from_rings([[square, hole]]), 400)
+    assert len(grid.points) == pytest.approx(300, abs=25)  # area 3/4, the cells on the hole's edge
+    image = grid.image(np.ones(len(grid.points)))
+    assert np.nansum(image) == len(grid.points)
+    assert np.isnan(image[10, 10])
+
+
+def test_points_outside_are_in_no_element():
+    squares = Polygons.from_vertices([np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])] * 2)
+    assert elements_at(squares, np.array([[0.5, 0.5], [2, 2]])).tolist() == [0, -1]
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_fields_of_uniform_tension_are_exact(bar, name):
+    points = np.array([[0.3, 0.2], [3.1, 0.9], [9, 9]])
+    found = fields(nmm.run(bar, KINDS[name]), points)
+    # The springs of the supports give way by 1e-3 of the stretch at most.
+    assert found.stress[:2] == pytest.approx(np.array([[1e-3, 0, 0]] * 2), abs=2e-6)
+    assert found.displacement[1, 0] == pytest.approx(3.1e-3, rel=1e-2)
+    assert found.mises[:2] == pytest.approx(1e-3, rel=2e-3)
+    assert np.isnan(found.stress[2]).all()
+
+
+def test_the_page_holds_table_differences_and_faults(bar, tmp_path):
+    broken = nmm.Formulation.model_validate({"cover": {"functions": "none_such"}})
+    study = compare_formulations(bar, {**KINDS, "broken": broken}, memory=False)
+    files = write_comparison(study, tmp_path)
+    assert [path.name for path in files] == ["compare.md", "compare.png"]
+    page = comparison_page(study, "compare.png")
+    assert "| family | DDA | manifold | DDA |" in page
+    assert "NMM differs from DDA by" in page
+    assert '- broken: formulation: cover.functions: "none_such": expected one of' in page
+    # energy of uniform tension, sigma^2 / (2 E) times the area
+    energy = next(line for line in page.splitlines() if line.startswith("| elastic energy"))
+    assert [float(cell) for cell in energy.split("|")[2:4]] == pytest.approx([2e-6] * 2, rel=1e-2)
+
+
+def test_the_verb_writes_the_page(tmp_path, pulled):
+    scene, kind = tmp_path / "bar.toml", tmp_path / "b.toml"
+    scene.write_text(pulled)
+    kind.write_text('title = "quadratic"\n[cover]\nfunctions = "monomials"\ndegree = 2\n')
+    (tmp_path / "a.toml").write_text("")
+    words = ["compare", scene, tmp_path / "a.toml", kind, "--no-memory", "--out", tmp_path]
+    result = CliRunner().invoke(app, [str(word) for word in words])
+    assert result.exit_code == 0, result.output
+    assert "| family | DDA | DDA |" in result.stdout
+    assert (tmp_path / "compare.png").exists()
