@@ -24,10 +24,10 @@ from nmm.contact.detection.narrow_phase import Contacts, follow, pair_key
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import FLUSH
 from nmm.contact.enforcement.base import Enforcement, make_enforcement
-from nmm.contact.enforcement.null_space import Conditioned, Held
-from nmm.contact.enforcement.rebalanced import solved_evenly
+from nmm.contact.enforcement.null_space import Constrained, NullSpace
+from nmm.contact.enforcement.rebalanced import solve_rebalanced
 from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.record import Breaking, ContactRecord, Solved
+from nmm.contact.iteration.record import Breaking, ContactRecord, ContactSolution
 from nmm.contact.laws.bonds import Laws, break_bonds
 from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.damage_iteration import Turns, slid_under_load
@@ -204,9 +204,9 @@ class Contact(Effect):
         step: float | None = None,
         weight: float = 1.0,
         halfway: State | None = None,
-        held: Held | None = None,
+        held: NullSpace | None = None,
         near: Callable[[Floats], bool] | None = None,
-    ) -> Solved:
+    ) -> ContactSolution:
         """Solve one step; bonds that cannot hold break and the step is solved again.
 
         ``breaking`` says which break at a time: "all", the "worst" alone, or "stop": none, the step
@@ -216,7 +216,7 @@ class Contact(Effect):
         on the unknowns besides. ``near`` says whether an increment (n,) moves no further than
         contacts were sought: no bond is judged by one that does.
         """
-        enforcement = self._enforcement if held is None else Conditioned(self._enforcement, held)
+        enforcement = self._enforcement if held is None else Constrained(self._enforcement, held)
         self._memory.moving = step is not None
         through = self._rows(contacts, state, halfway)
         weak = self._weak(contacts, state)
@@ -255,7 +255,9 @@ class Contact(Effect):
             if found is None:
                 started = self._memory.started(joined)
                 if held is None:
-                    found = solved_evenly(enforcement, started, solver, self._memory, self._bodies)
+                    found = solve_rebalanced(
+                        enforcement, started, solver, self._memory, self._bodies
+                    )
                 else:
                     found = enforcement.solve(started, solver, self._memory)
             self._memory.answered = None if held is not None else (joined, found)
@@ -264,12 +266,12 @@ class Contact(Effect):
             passes += answer.passes
             self._solved = (problem if held is None else held.reduced(problem), answer)
             if not answer.verdict.converged:
-                return Solved(turns.contacts, answer, passes, loss)
+                return ContactSolution(turns.contacts, answer, passes, loss)
             sliding = slid_under_load(problem, answer)
             answer = springs.unshifted(answer, shift)
             fault = turns.settled(answer, sliding)
             if fault is not None:
-                return Solved(turns.contacts, replace(answer, verdict=fault), passes, loss)
+                return ContactSolution(turns.contacts, replace(answer, verdict=fault), passes, loss)
             if not turns.done:
                 self._memory.start = answer.increment
                 continue
@@ -284,11 +286,13 @@ class Contact(Effect):
                         answer.normal_force,
                     ),
                 )
-                return Solved(turns.contacts, answer, passes, loss, False, sliding, through)
+                return ContactSolution(
+                    turns.contacts, answer, passes, loss, False, sliding, through
+                )
             if near is not None and not near(answer.increment):
-                return Solved(turns.contacts, answer, passes, loss)
+                return ContactSolution(turns.contacts, answer, passes, loss)
             if breaking == "stop":
-                return Solved(turns.contacts, answer, passes, loss, stopped=True)
+                return ContactSolution(turns.contacts, answer, passes, loss, stopped=True)
             elastic = answer.normal_force**2 / normal + answer.shear_force**2 / shear
             loss += float(elastic[broken].sum()) / 2
             contacts = break_bonds(contacts, broken)
@@ -308,7 +312,7 @@ class Contact(Effect):
             return None
         return WeakFaces.of(contacts, self._partners.surface(state), self._traces)
 
-    def commit(self, solved: Solved, state: State) -> ContactPoints:
+    def commit(self, solved: ContactSolution, state: State) -> ContactPoints:
         """Keep the accepted contacts as the start of the next step, and return them."""
         bonded = self._laws.bonded[solved.contacts.interface]
         done = answered(solved.contacts, solved.answer, bonded, solved.sliding)

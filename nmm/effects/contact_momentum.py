@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.contact.iteration.record import Solved
+from nmm.contact.iteration.record import ContactSolution
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.midpoint import middle, missing_moments
 
@@ -34,7 +34,7 @@ class Momentum:
         self._held, self._curved = held, curved
 
     def halfway(
-        self, solved: Solved, before: State, after: State, used: State | None
+        self, solved: ContactSolution, before: State, after: State, used: State | None
     ) -> State | None:
         """Where the forces of a step should have acted; None if ``used`` (None: before) will do.
 
@@ -56,7 +56,7 @@ class Momentum:
         return half if off > HALFWAY * np.abs(solved.answer.gap[acts]).max() else None
 
     def kept(
-        self, solved: Solved, before: State, after: State, step: float, balance: Floats
+        self, solved: ContactSolution, before: State, after: State, step: float, balance: Floats
     ) -> Floats:
         """Velocity (n,) that a step lacks of what keeps momentum and angular momentum.
 

@@ -44,9 +44,9 @@ def known_quantities(scene: "Scene") -> list[str]:
     columns = [f"monitor:{item.name}:u{axis}" for item in scene.monitors for axis in "xy"]
     columns += [f"reaction:{item.name}:{axis}" for item in scene.supports for axis in "xy"]
     if scene.contact is not None:
-        from nmm.contact.problem.step_problem import State
+        from nmm.contact.problem.contact_state import ContactState
 
-        columns += [*CONTACT_COLUMNS, *(state.name.lower() for state in State)]
+        columns += [*CONTACT_COLUMNS, *(state.name.lower() for state in ContactState)]
     return [*numbers, *COLUMNS, *columns]
 
 

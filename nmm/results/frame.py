@@ -1,20 +1,10 @@
 """What a run hands over: the topology of its elements once, then one frame an output time."""
 
 from dataclasses import dataclass
-from enum import IntEnum
 
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
-
-
-class ContactState(IntEnum):
-    """State of a contact point, as stored in `Frame.contact_state`."""
-
-    OPEN = 0
-    STICK = 1
-    SLIDE = 2
-    BONDED = 3
-    BROKEN = 4
+from nmm.contact.problem.contact_state import ContactState as ContactState
 
 
 @dataclass(frozen=True)

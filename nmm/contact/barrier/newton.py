@@ -101,7 +101,7 @@ class Newton:
                 return None
         return at.increment if self._balanced(at, tolerance) else None
 
-    def held(self, start: Start, bound: Floats, budget: int) -> tuple[Start, Floats]:
+    def under_bound(self, start: Start, bound: Floats, budget: int) -> tuple[Start, Floats]:
         """Start near the balance under a given ``bound`` (m,) of friction, and normal forces (m,).
 
         Such a step is a convex problem: it ends where friction that follows stands still.

@@ -9,7 +9,7 @@ from nmm.contact.barrier.descent import Descent
 from nmm.contact.barrier.newton import Newton, Start
 from nmm.contact.barrier.path import Path, Point
 from nmm.contact.barrier.potential import Potential
-from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.solvers.linear import LinearSolver
@@ -20,8 +20,6 @@ GOAL = 3e-3
 """Product of force and distance at which the path is left, over largest force and width."""
 BOUNDS = 6
 """Most friction bounds that are held before the descent."""
-
-Solved = tuple[StepProblem, StepAnswer]
 
 
 @dataclass(frozen=True)
@@ -38,7 +36,12 @@ class Search:
     linear: LinearSolver
     tolerance: float
 
-    def run(self, rough: Settled, passes: int, solved: Solved | None = None) -> Settled:
+    def run(
+        self,
+        rough: IterationResult,
+        passes: int,
+        solved: tuple[StepProblem, StepAnswer] | None = None,
+    ) -> IterationResult:
         """Unknowns in balance, or the last of the descent, always before the walls.
 
         ``solved`` is the last problem with its answer, where it was of the same step.
@@ -61,7 +64,7 @@ class Search:
             story = f"an interior point of {path.factorisations} and {story}"
         if increment is not None:
             size = well.imbalance(increment, springs.weight)
-            return Settled(springs, increment, size, solves, made, story)
+            return IterationResult(springs, increment, size, solves, made, story)
         descent = Descent(self.pattern, self.linear, springs.weight)
         bound = well.bound(rough.springs.forces(rough.increment)[0])
         increment, size, updates = descent.balanced(
@@ -69,9 +72,11 @@ class Search:
         )
         made, solves = made + descent.factorisations, solves + descent.factorisations
         story = f"{story}, then {descent.factorisations} of descent and {updates} friction bounds"
-        return Settled(springs, increment, size, solves, made, story)
+        return IterationResult(springs, increment, size, solves, made, story)
 
-    def _inside(self, newton: Newton, path: Path, rough: Settled, passes: int) -> Floats | None:
+    def _inside(
+        self, newton: Newton, path: Path, rough: IterationResult, passes: int
+    ) -> Floats | None:
         """Unknowns (n,) by way of the interior point."""
         size = GOAL * self.well.scale * self.well.width**2
         begun = path.start(rough.springs, rough.increment)
@@ -84,7 +89,7 @@ class Search:
         for _ in range(BOUNDS):
             if found is not None:
                 break
-            start, normal = newton.held(start, bound, min(LONG, passes))
+            start, normal = newton.under_bound(start, bound, min(LONG, passes))
             bound = self.well.bound(normal)
             found = newton.run(start, self.tolerance, min(QUICK, passes), patient=False)
         return found
@@ -104,7 +109,7 @@ def _end(newton: Newton, problem: StepProblem, answer: StepAnswer) -> Start:
     return Start(answer.increment, newton.curves.trials(gap, slip, *forces))
 
 
-def _cut(newton: Newton, rough: Settled) -> Start:
+def _cut(newton: Newton, rough: IterationResult) -> Start:
     """Start at cut springs: what they are stretched past their forces is gap and slip."""
     springs, increment = rough.springs, rough.increment
     normal, shear = springs.forces(increment)

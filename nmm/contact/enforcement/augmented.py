@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from nmm.contact.enforcement.base import Enforcement
-from nmm.contact.iteration.alternation import Budget
+from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.answers import answer, singular_answer
 from nmm.contact.iteration.exact import exact_round
 from nmm.contact.iteration.memory import Memory
@@ -67,7 +67,7 @@ class Augmented(Enforcement):
         memory = memory or Memory()
         at = first_round(stiff_springs(problem, self.scale))
         goal = exact_goal(problem, self.tolerance, self.gap_tolerance)
-        budget = Budget(400, 20, 0) if self.rescue else Budget()
+        budget = IterationBudget(400, 20, 0) if self.rescue else IterationBudget()
         try:
             at = converged_rounds(
                 at, linear_solver, memory, goal, self.max_rounds, self.growth, budget
@@ -77,6 +77,6 @@ class Augmented(Enforcement):
                 at, rest = exact_round(problem, linear_solver, memory, goal, self.rescue)
                 how = f"{how}, then {rest}"
         except SolveError as fault:
-            return singular_answer(at.settled.springs, linear_solver, fault)
+            return singular_answer(at.result.springs, linear_solver, fault)
         verdict = rounds_verdict(at, linear_solver, memory, goal, how)
-        return answer(at.settled, linear_solver, verdict)
+        return answer(at.result, linear_solver, verdict)

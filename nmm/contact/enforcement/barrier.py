@@ -8,13 +8,13 @@ import numpy as np
 from nmm.contact.barrier.potential import Potential
 from nmm.contact.barrier.search import Search
 from nmm.contact.enforcement.base import Enforcement
-from nmm.contact.iteration.alternation import Budget
+from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.answers import free_part, singular_answer, worst_contacts
-from nmm.contact.iteration.cut_spring_solver import settle
+from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import compliances, stiff_springs
 from nmm.contact.problem.coulomb import label
-from nmm.contact.problem.cut_springs import Settled
+from nmm.contact.problem.cut_springs import IterationResult
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
 from nmm.errors import SolveError
 from nmm.registry import above_zero
@@ -62,7 +62,9 @@ class Barrier(Enforcement):
         memory = memory or Memory()
         springs = stiff_springs(problem, 1.0)
         try:
-            rough = settle(springs, linear_solver, memory, 1e-2, budget=Budget(20, 2, 0))
+            rough = solve_springs(
+                springs, linear_solver, memory, 1e-2, budget=IterationBudget(20, 2, 0)
+            )
         except SolveError as fault:
             return singular_answer(springs, linear_solver, fault)
         force = max(float(np.abs(f).max(initial=0.0)) for f in springs.forces(rough.increment))
@@ -87,7 +89,7 @@ class _Outcome:
     options: Barrier
     well: Potential
     linear: LinearSolver
-    found: Settled
+    found: IterationResult
 
     def answer(self, memory: Memory) -> StepAnswer:
         """Forces under the bound of their own normal force, and the verdict on them."""

@@ -54,4 +54,4 @@ class Cone(Enforcement):
         except SolveError as fault:
             return singular_answer(stiff_springs(problem, START), linear_solver, fault)
         verdict = rounds_verdict(at, linear_solver, memory, goal, how)
-        return answer(at.settled, linear_solver, verdict)
+        return answer(at.result, linear_solver, verdict)

@@ -12,16 +12,16 @@ from nmm.contact.iteration.answers import answer, singular_answer
 from nmm.contact.iteration.exact import START, exact_round
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import (
-    Round,
+    MultiplierIterate,
     compliances,
     exact_goal,
     measured,
     rounds_verdict,
     stiff_springs,
 )
-from nmm.contact.iteration.open_close import Springs, changes, first_springs
+from nmm.contact.iteration.open_close import ActiveSet, changes, first_active_set
 from nmm.contact.problem.coulomb import shear_bound
-from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.errors import SolveError
 from nmm.registry import above_zero
@@ -82,11 +82,13 @@ class Lagrange(Enforcement):
                 return singular_answer(stiff_springs(problem, START), linear_solver, fault)
             how = f"{how}, then {rest}"
         verdict = rounds_verdict(at, linear_solver, memory, goal, how)
-        return answer(at.settled, linear_solver, verdict)
+        return answer(at.result, linear_solver, verdict)
 
-    def _active_set(self, springs: CutSprings, linear: LinearSolver) -> tuple[Round | None, str]:
+    def _active_set(
+        self, springs: CutSprings, linear: LinearSolver
+    ) -> tuple[MultiplierIterate | None, str]:
         problem = springs.problem
-        active, seen = first_springs(problem), set[bytes]()
+        active, seen = first_active_set(problem), set[bytes]()
         for passes in range(1, self.max_passes + 1):
             seen.add(active.code)
             if _constraints(problem, active) > len(problem.force):
@@ -105,21 +107,21 @@ class Lagrange(Enforcement):
                     np.where(problem.own_stiffness, 0.0, shear),
                 )
                 size = shifted.defect(increment).size
-                settled = Settled(shifted, increment, size, passes, passes, "")
-                return measured(settled, passes), f"{passes} active sets"
+                result = IterationResult(shifted, increment, size, passes, passes, "")
+                return measured(result, passes), f"{passes} active sets"
             if found.code in seen:
                 return None, f"an active set that cycled after {passes} passes"
             active = found
         return None, f"{self.max_passes} active sets"
 
 
-def _constraints(problem: StepProblem, active: Springs) -> int:
+def _constraints(problem: StepProblem, active: ActiveSet) -> int:
     sharp = active.closed & ~problem.own_stiffness
     return int(sharp.sum() + (sharp & ~active.sliding).sum())
 
 
 def _saddle(
-    problem: StepProblem, active: Springs, linear: LinearSolver
+    problem: StepProblem, active: ActiveSet, linear: LinearSolver
 ) -> tuple[Floats, Floats, Floats]:
     """Unknowns, normal and shear forces of an active set."""
     limits, own = problem.limits, problem.own_stiffness
@@ -178,8 +180,8 @@ def _refined(linear: LinearSolver, regular: csc_array, exact: csc_array, rhs: Fl
 
 
 def _corrected(
-    problem: StepProblem, active: Springs, increment: Floats, normal: Floats, shear: Floats
-) -> Springs:
+    problem: StepProblem, active: ActiveSet, increment: Floats, normal: Floats, shear: Floats
+) -> ActiveSet:
     limits, own = problem.limits, problem.own_stiffness
     gap, slip = problem.gaps(increment), problem.slips(increment)
     force = max(float(np.abs(normal).max(initial=0.0)), float(np.abs(shear).max(initial=0.0)))
@@ -202,4 +204,4 @@ def _corrected(
     turned = ~active.sliding & held & (np.abs(shear) > bound + near_force)
     sliding = stays | turned | smooth
     sign = np.where(stays, active.sign, np.sign(shear))
-    return Springs(~is_open, sliding, np.where(smooth, 0.0, sign) * sliding)
+    return ActiveSet(~is_open, sliding, np.where(smooth, 0.0, sign) * sliding)

@@ -1,4 +1,4 @@
-"""Conditions held by multipliers in a step with contact: unknowns that follow from the others.
+"""Elimination of linear constraints by a null-space basis, in a step with contact.
 
 A condition ``C d = g`` gives as many unknowns as there are conditions by the others,
 ``d = Z y + z`` with ``C Z = 0``. The step in ``y`` is an ordinary contact problem, which every
@@ -21,7 +21,7 @@ IMPLIED = 1e-10
 
 
 @dataclass(frozen=True)
-class Held:
+class NullSpace:
     """Conditions ``rows @ d = sides``.
 
     Attributes
@@ -48,7 +48,7 @@ class Held:
     _kept: dict[str, tuple[csc_array, csc_array]] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, rows: csr_array, sides: Floats, last: "Held | None" = None) -> "Held":
+    def of(cls, rows: csr_array, sides: Floats, last: "NullSpace | None" = None) -> "NullSpace":
         """Choose the unknowns; the choice of the ``last`` step stands as long as the rows do."""
         if last is not None and _same(rows, last.rows):
             return replace(last, sides=sides, start=last._start(sides))
@@ -124,28 +124,28 @@ class Held:
 
 
 @dataclass(frozen=True)
-class Conditioned(Enforcement):
+class Constrained(Enforcement):
     """An enforcement under conditions.
 
     Attributes
     ----------
     inner
         Solves the problem in the unknowns that are not given.
-    held
+    constraint
         The conditions.
     """
 
     inner: Enforcement
-    held: Held
+    constraint: NullSpace
 
     def solve(
         self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
     ) -> StepAnswer:
         """See `Enforcement.solve`."""
         if memory is not None and memory.start is not None:
-            memory.start = self.held.others(memory.start)
-        found = self.inner.solve(self.held.reduced(problem), linear_solver, memory)
-        return replace(found, increment=self.held.whole(found.increment))
+            memory.start = self.constraint.others(memory.start)
+        found = self.inner.solve(self.constraint.reduced(problem), linear_solver, memory)
+        return replace(found, increment=self.constraint.whole(found.increment))
 
 
 def _same(a: csr_array, b: csr_array) -> bool:

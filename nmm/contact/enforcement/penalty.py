@@ -8,14 +8,14 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.enforcement.base import Enforcement
-from nmm.contact.iteration.answers import settled_answer
+from nmm.contact.iteration.answers import spring_answer
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.open_close import (
-    Springs,
+    ActiveSet,
     changes,
-    first_springs,
+    first_active_set,
     forces,
-    next_springs,
+    next_active_set,
     words,
 )
 from nmm.contact.problem.balance import relative_residual, weights
@@ -72,7 +72,7 @@ class Penalty(Enforcement):
         memory = memory or Memory()
         if self.iteration == "open_close":
             return _OpenClose(self, problem, linear_solver, memory.pattern_of(problem)).run()
-        return settled_answer(CutSprings.of(problem), linear_solver, memory, self.tolerance)
+        return spring_answer(CutSprings.of(problem), linear_solver, memory, self.tolerance)
 
 
 class _OpenClose:
@@ -88,12 +88,12 @@ class _OpenClose:
         self.options, self.problem, self.linear = options, problem, linear
         self.pattern = pattern
         self.weight = weights(problem)
-        self.trail: list[Springs] = []
+        self.trail: list[ActiveSet] = []
         self.increment = np.zeros_like(problem.force)
         self.factorisations = 0
 
     def run(self) -> StepAnswer:
-        springs = first_springs(self.problem)
+        springs = first_active_set(self.problem)
         friction_from = self.problem.normal_force
         factor, stiff = None, b""
         for _ in range(self.options.max_passes):
@@ -110,11 +110,11 @@ class _OpenClose:
                 self.increment = factor.solve(rhs)
             except SolveError as fault:
                 if len(self.trail) == 1 and not springs.closed.all():
-                    springs = Springs(np.ones_like(springs.closed), springs.sliding, springs.sign)
+                    springs = ActiveSet(np.ones_like(springs.closed), springs.sliding, springs.sign)
                     continue
                 return self._answer(springs, self._singular(springs, fault))
             gap, slip = self.problem.gaps(self.increment), self.problem.slips(self.increment)
-            found = next_springs(self.problem, springs, gap, slip)
+            found = next_active_set(self.problem, springs, gap, slip)
             friction_from = np.minimum(
                 self.problem.normal_stiffness * gap, self.problem.limits.tension
             )
@@ -131,7 +131,7 @@ class _OpenClose:
         at_normal = p.normal_rows.T @ (kn * p.gap + normal)
         return np.asarray(p.force - at_normal - p.tangent_rows.T @ (kt * p.slip + shear))
 
-    def _answer(self, springs: Springs, verdict: Verdict | None) -> StepAnswer:
+    def _answer(self, springs: ActiveSet, verdict: Verdict | None) -> StepAnswer:
         p = self.problem
         gap, slip = p.gaps(self.increment), p.slips(self.increment)
         normal, shear = forces(p, springs, gap, slip)
@@ -163,7 +163,7 @@ class _OpenClose:
         miss = np.abs(np.stack(meant) - np.stack([normal, shear])).max(initial=0.0)
         return bool(miss <= 1e-9 * size)
 
-    def _singular(self, springs: Springs, fault: SolveError) -> Verdict:
+    def _singular(self, springs: ActiveSet, fault: SolveError) -> Verdict:
         n_open = int((~springs.closed).sum())
         sentence = (
             f"pass {len(self.trail)}: {n_open} of {self.problem.n_contacts} contacts open and "
@@ -199,20 +199,20 @@ class _OpenClose:
         return Verdict(False, "cycle", sentence, tuple(int(i) for i in who))
 
 
-def _stiffness(problem: StepProblem, springs: Springs) -> tuple[Floats, Floats]:
+def _stiffness(problem: StepProblem, springs: ActiveSet) -> tuple[Floats, Floats]:
     normal = np.where(springs.closed, problem.normal_stiffness, 0.0)
     sticks = ~springs.sliding & (springs.closed | (problem.limits.tension > 0))
     return normal, np.where(sticks, problem.shear_stiffness, 0.0)
 
 
 def _constant_forces(
-    problem: StepProblem, springs: Springs, normal: Floats
+    problem: StepProblem, springs: ActiveSet, normal: Floats
 ) -> tuple[Floats, Floats]:
     held = np.where(springs.closed, 0.0, problem.limits.tension)
     bound = shear_bound(normal, ~springs.closed, problem.limits)
     return held, np.where(springs.sliding, springs.sign * bound, 0.0)
 
 
-def _story(cycle: list[Springs], contact: int) -> str:
+def _story(cycle: list[ActiveSet], contact: int) -> str:
     seen = dict.fromkeys(words(springs, contact) for springs in cycle)
     return "/".join(seen)

@@ -1,4 +1,4 @@
-"""Every part in balance by its own forces, not only beside the largest force of the scene."""
+"""Solve again when the componentwise backward error of a body is too large."""
 
 from dataclasses import replace
 
@@ -20,7 +20,7 @@ FINE = 1e-11
 """Tolerance of the second solution."""
 
 
-def solved_evenly(
+def solve_rebalanced(
     enforcement: Enforcement,
     problem: StepProblem,
     linear: LinearSolver,
@@ -34,7 +34,7 @@ def solved_evenly(
     """
     answer = enforcement.solve(problem, linear, memory)
     allowed = UNEVEN_SMALL if len(problem.force) <= SMALL else UNEVEN
-    if not answer.verdict.converged or unevenness(problem, answer, body) <= allowed:
+    if not answer.verdict.converged or imbalance_of_bodies(problem, answer, body) <= allowed:
         return answer
     if not getattr(enforcement, "tolerance", 0.0) > FINE:
         return answer
@@ -46,7 +46,7 @@ def solved_evenly(
     return replace(finer if finer.verdict.converged else answer, passes=passes)
 
 
-def unevenness(problem: StepProblem, answer: StepAnswer, body: Ints) -> float:
+def imbalance_of_bodies(problem: StepProblem, answer: StepAnswer, body: Ints) -> float:
     """Largest out-of-balance force of an unknown over the forces that meet in its ``body`` (n,).
 
     These are ``|F| + |K| |d| + (|N| + |T|)`` through both rows of each contact, so that a block

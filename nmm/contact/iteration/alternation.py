@@ -1,4 +1,4 @@
-"""Chord steps with two factors by turns, from the best unknowns so far.
+"""Modified Newton, alternating between two factorisations, from the best unknowns so far.
 
 The factor of all springs acting is kept over steps and is safe wherever the search stands. That of
 the springs that act there makes the end quick, once most states are right: what is wrong with few
@@ -15,7 +15,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.contact.iteration.memory import KeptFactor, Memory
 from nmm.contact.iteration.modified_newton import Chord, Patience
-from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.errors import SolveError
 from nmm.solvers.linear import Factor, LinearSolver
 
@@ -34,7 +34,7 @@ DRAG = 0.02
 
 
 @dataclass(frozen=True)
-class Budget:
+class IterationBudget:
     """How long each method may try.
 
     Attributes
@@ -68,8 +68,8 @@ class Alternation:
         self.increment, self.defect = increment, springs.defect(increment)
         self.solves = self.factorisations = 0
 
-    def run(self, budget: Budget) -> Settled:
-        """Take turns until the tolerance is met or the budget is spent.
+    def run(self, budget: IterationBudget) -> IterationResult:
+        """Alternate until the tolerance is met or the budget is spent.
 
         Raises
         ------
@@ -90,7 +90,7 @@ class Alternation:
                     kept = self._all_acting()
                 self._steps(kept.factor, WIDE)
         story = f"{self.solves} solves with {self.factorisations or 'no'} new factors"
-        return Settled(
+        return IterationResult(
             self.springs,
             self.increment,
             self.defect.size,

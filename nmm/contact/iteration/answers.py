@@ -3,10 +3,10 @@
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.iteration.cut_spring_solver import settle
+from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.problem.coulomb import label
-from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.rounding import rounding
 from nmm.contact.problem.step_problem import StepAnswer, Verdict
 from nmm.errors import SolveError
@@ -16,18 +16,18 @@ PASSES = 3
 """Open-close passes after a failure, to see whether a part came free."""
 
 
-def settled_answer(
+def spring_answer(
     springs: CutSprings, linear: LinearSolver, memory: Memory, tolerance: float
 ) -> StepAnswer:
     """Settle ``springs`` and judge the outcome."""
     try:
-        found = settle(springs, linear, memory, tolerance)
+        found = solve_springs(springs, linear, memory, tolerance)
     except SolveError as fault:
         return singular_answer(springs, linear, fault)
     return answer(found, linear, judge(found, linear, memory, tolerance))
 
 
-def answer(found: Settled, linear: LinearSolver, verdict: Verdict) -> StepAnswer:
+def answer(found: IterationResult, linear: LinearSolver, verdict: Verdict) -> StepAnswer:
     """Answer with the forces of the springs at what was found."""
     springs, problem = found.springs, found.springs.problem
     gap, slip = problem.gaps(found.increment), problem.slips(found.increment)
@@ -49,12 +49,14 @@ def answer(found: Settled, linear: LinearSolver, verdict: Verdict) -> StepAnswer
     )
 
 
-def kept_slip(found: Settled, shear: Floats) -> Floats:
+def kept_slip(found: IterationResult, shear: Floats) -> Floats:
     """(m,) slip that the shear springs carry (m): what remains of the slip of exact contacts."""
     return (shear - found.springs.shear_shift) / found.springs.shear_stiffness
 
 
-def judge(found: Settled, linear: LinearSolver, memory: Memory, tolerance: float) -> Verdict:
+def judge(
+    found: IterationResult, linear: LinearSolver, memory: Memory, tolerance: float
+) -> Verdict:
     """Verdict on unknowns whose forces are admissible by construction."""
     springs = found.springs
     if found.size <= tolerance or found.size <= rounding(springs, found.increment):
@@ -82,12 +84,12 @@ def worst_contacts(springs: CutSprings, increment: Floats) -> tuple[int, ...]:
 def singular_answer(springs: CutSprings, linear: LinearSolver, fault: SolveError) -> StepAnswer:
     """Answer to a step in which a part is free to move."""
     problem = springs.problem
-    found = Settled(springs, np.zeros_like(problem.force), 1.0, 0, 1, "")
+    found = IterationResult(springs, np.zeros_like(problem.force), 1.0, 0, 1, "")
     sentence = f"with all {problem.n_contacts} contacts acting: {fault}"
     return answer(found, linear, Verdict(False, "singular", sentence))
 
 
-def free_part(found: Settled, linear: LinearSolver, memory: Memory) -> Verdict | None:
+def free_part(found: IterationResult, linear: LinearSolver, memory: Memory) -> Verdict | None:
     """Verdict "singular" when open-close passes from what was found set a part free."""
     springs, increment = found.springs, found.increment
     problem = springs.problem

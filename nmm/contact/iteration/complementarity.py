@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.row_products import stretched
 
 SOFT = 1e-7
@@ -141,11 +141,11 @@ class Sides:
         v = np.maximum(-slip, 0) + typical**2 * scale[1] / b
         return Point(increment, normal, shear, np.stack([p, a, b]), np.stack([w, u, v]))
 
-    def judged(self, point: Point) -> Settled:
+    def judged(self, point: Point) -> IterationResult:
         """The admissible forces of a point as springs that carry them, and what they lack."""
         springs, increment = self.springs, point.increment
         if not self.exact.any():
-            return Settled(springs, increment, springs.defect(increment).size, 0, 0, "")
+            return IterationResult(springs, increment, springs.defect(increment).size, 0, 0, "")
         forces = np.stack(springs.cut(point.normal, point.shear))
         problem = springs.problem
         rows = problem.normal_rows, problem.tangent_rows
@@ -156,7 +156,7 @@ class Sides:
         shifts = np.stack([springs.normal_shift, springs.shear_shift])
         carried = springs.shifted(*np.where(self.exact, forces, shifts))
         error = lacks / largest if largest > 0 else 0.0
-        return Settled(carried, increment, carried.defect(increment).size, 0, 0, "", error)
+        return IterationResult(carried, increment, carried.defect(increment).size, 0, 0, "", error)
 
 
 def _smooth(springs: CutSprings) -> Bools:

@@ -9,13 +9,13 @@ from dataclasses import replace
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.iteration.alternation import Alternation, Budget
+from nmm.contact.iteration.alternation import Alternation, IterationBudget
 from nmm.contact.iteration.complementarity import Point, Sides
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.semismooth_newton import polish
 from nmm.contact.iteration.warm_start import start_from
-from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.solvers.linear import LinearSolver
 
 SMALL = 120
@@ -32,14 +32,14 @@ LOOSE = 1e-4
 """Out-of-balance force at which the interior point has found most states."""
 
 
-def settle(
+def solve_springs(
     springs: CutSprings,
     linear: LinearSolver,
     memory: Memory,
     tolerance: float,
     start: Floats | None = None,
-    budget: Budget | None = None,
-) -> Settled:
+    budget: IterationBudget | None = None,
+) -> IterationResult:
     """Return unknowns whose cut spring forces balance the step within ``tolerance``, or the best.
 
     Raises
@@ -47,7 +47,7 @@ def settle(
     SolveError
         When even with all springs acting the load moves a free part.
     """
-    budget = budget or Budget()
+    budget = budget or IterationBudget()
     near, memory.start = memory.start, None
     given = near if start is None else start
     increment = start_from(springs, memory.found, memory.moving) if given is None else given
@@ -67,8 +67,12 @@ def settle(
 
 
 def _inside(
-    found: Settled, linear: LinearSolver, memory: Memory, tolerance: float, budget: Budget
-) -> Settled:
+    found: IterationResult,
+    linear: LinearSolver,
+    memory: Memory,
+    tolerance: float,
+    budget: IterationBudget,
+) -> IterationResult:
     """Best of the interior point, broken off near the end for chord steps, and gone on with."""
     springs, problem, best = found.springs, found.springs.problem, found
     stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
@@ -107,7 +111,7 @@ def inside_start(sides: Sides, linear: LinearSolver, memory: Memory) -> Point:
     return sides.start(increment, np.stack(alike.forces(increment)))
 
 
-def _joined(before: Settled, then: Settled) -> Settled:
+def _joined(before: IterationResult, then: IterationResult) -> IterationResult:
     """The better of two, with the cost of both."""
     return replace(
         then if then.size < before.size else before,
@@ -119,11 +123,11 @@ def _joined(before: Settled, then: Settled) -> Settled:
 
 def _polished(
     springs: CutSprings, linear: LinearSolver, memory: Memory, increment: Floats
-) -> Settled:
+) -> IterationResult:
     pattern = memory.pattern_of(springs.problem)
     return polish(springs, pattern, linear.unsymmetric(), increment, FINE)
 
 
-def _kept(found: Settled, memory: Memory) -> Settled:
+def _kept(found: IterationResult, memory: Memory) -> IterationResult:
     memory.keep(found.increment, found.springs.problem.force)
     return found

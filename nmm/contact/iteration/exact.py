@@ -10,13 +10,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from nmm.contact.iteration.alternation import Budget
+from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.complementarity import Sides
 from nmm.contact.iteration.cut_spring_solver import FINE, SMALL, inside_start
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import (
-    Round,
+    MultiplierIterate,
     compliances,
     converged_rounds,
     first_round,
@@ -42,7 +42,7 @@ def exact_round(
     memory: Memory,
     goal: Goal,
     factorisations: int = 100,
-) -> tuple[Round, str]:
+) -> tuple[MultiplierIterate, str]:
     """Forces within ``goal`` or the best found, and how they were found.
 
     Parameters
@@ -66,7 +66,7 @@ def exact_round(
             return at, f"{at.count} rounds"
         how = f"{at.count} rounds, then "
     at = interior_round(at, problem, linear, memory, goal, factorisations)
-    how = f"{how}{at.settled.story}"
+    how = f"{how}{at.result.story}"
     if at.meets(goal):
         return at, how
     more = _rounds(_stiffer(at), linear, memory, goal)
@@ -76,31 +76,31 @@ def exact_round(
 
 
 def _rounds(
-    at: Round, linear: LinearSolver, memory: Memory, goal: Goal, count: int = ROUNDS
-) -> Round:
-    budget = Budget(300, 12, 0)
+    at: MultiplierIterate, linear: LinearSolver, memory: Memory, goal: Goal, count: int = ROUNDS
+) -> MultiplierIterate:
+    budget = IterationBudget(300, 12, 0)
     most = at.count + count
     return converged_rounds(at, linear, memory, goal, most, 10.0, budget)
 
 
-def _stiffer(at: Round) -> Round:
+def _stiffer(at: MultiplierIterate) -> MultiplierIterate:
     """The same forces as multipliers of stiff springs."""
-    springs = at.settled.springs
+    springs = at.result.springs
     exact = ~springs.problem.own_stiffness
-    forces = springs.forces(at.settled.increment)
+    forces = springs.forces(at.result.increment)
     shifts = (np.where(exact, force, 0.0) for force in forces)
     stiff = stiff_springs(springs.problem, STIFF).shifted(*shifts)
-    return replace(at, settled=replace(at.settled, springs=stiff))
+    return replace(at, result=replace(at.result, springs=stiff))
 
 
 def interior_round(
-    at: Round | None,
+    at: MultiplierIterate | None,
     problem: StepProblem,
     linear: LinearSolver,
     memory: Memory,
     goal: Goal,
     budget: int,
-) -> Round:
+) -> MultiplierIterate:
     """Exact forces by the interior point, at the cost of the rounds before it and its own.
 
     Small problems are finished to rounding by rounds of Newton's method.
@@ -111,18 +111,18 @@ def interior_round(
     found = InteriorPoint(sides, memory.pattern_of(problem), linear).run(start, budget, goal)
     found = replace(
         found,
-        solves=before.settled.solves + found.solves,
-        factorisations=before.settled.factorisations + found.factorisations,
+        solves=before.result.solves + found.solves,
+        factorisations=before.result.factorisations + found.factorisations,
     )
     forces = found.springs.forces(found.increment)
     largest = max(float(np.abs(force).max(initial=0.0)) for force in forces)
     gap = found.error * largest * float(ease.max(initial=0.0))
-    best = Round(found, before.count, found.error, gap, found.error)
+    best = MultiplierIterate(found, before.count, found.error, gap, found.error)
     if len(problem.force) > SMALL:
         return best
     for _ in range(2):
-        tried = multiplier_round(_stiffer(best), linear, memory, FINE, Budget(0, 0, 0))
-        if not max(tried.settled.size, tried.error) < max(best.settled.size, best.error):
+        tried = multiplier_round(_stiffer(best), linear, memory, FINE, IterationBudget(0, 0, 0))
+        if not max(tried.result.size, tried.error) < max(best.result.size, best.error):
             break
         best = tried
     return best

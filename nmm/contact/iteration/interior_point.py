@@ -17,7 +17,7 @@ import numpy as np
 from nmm.contact.iteration.complementarity import Point, Sides
 from nmm.contact.iteration.interior_equations import Linearised
 from nmm.contact.iteration.semismooth_newton import polish
-from nmm.contact.problem.cut_springs import Settled
+from nmm.contact.problem.cut_springs import IterationResult
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.solvers.linear import LinearSolver
 
@@ -40,12 +40,12 @@ from elsewhere mostly leads past that place."""
 
 @dataclass(frozen=True)
 class Goal:
-    """Tolerances: relative out-of-balance force, and `Settled.error` of exact contacts."""
+    """Tolerances: relative out-of-balance force, and `IterationResult.error` of exact contacts."""
 
     balance: float
     error: float = np.inf
 
-    def distance(self, found: Settled) -> float:
+    def distance(self, found: IterationResult) -> float:
         """How many times the tolerances are exceeded; up to 1 they are met."""
         return max(found.size / self.balance, found.error / self.error)
 
@@ -57,7 +57,7 @@ class InteriorPoint:
         self.sides, self.pattern, self.linear = sides, pattern, linear.unsymmetric()
         self.factorisations = self.solves = 0
 
-    def run(self, start: Point, budget: int, goal: Goal) -> Settled:
+    def run(self, start: Point, budget: int, goal: Goal) -> IterationResult:
         """Follow paths with at most ``budget`` factorisations in all; return the best found."""
         best = self.sides.judged(start)
         for distance in DISTANCES:
@@ -73,7 +73,9 @@ class InteriorPoint:
             story=f"interior point with {self.factorisations} factorisations",
         )
 
-    def _followed(self, point: Point, best: Settled, budget: int, goal: Goal) -> Settled:
+    def _followed(
+        self, point: Point, best: IterationResult, budget: int, goal: Goal
+    ) -> IterationResult:
         """Best of what is known and of the path from ``point``."""
         length, tried, mark, idle = 1.0, 1e-3, np.inf, 0
         while self.factorisations < budget and goal.distance(best) > 1 and idle <= PATIENCE:
@@ -91,7 +93,7 @@ class InteriorPoint:
             best = found if goal.distance(found) < goal.distance(best) else best
         return best
 
-    def _polished(self, found: Settled, goal: Goal) -> Settled:
+    def _polished(self, found: IterationResult, goal: Goal) -> IterationResult:
         """Newton's method on springs from a point that may be near enough for it."""
         end = polish(found.springs, self.pattern, self.linear, found.increment, goal.balance)
         self.factorisations += end.factorisations

@@ -1,4 +1,4 @@
-"""Newton's chord method with one kept factor and Anderson acceleration.
+"""Modified Newton (fixed tangent) with Anderson acceleration.
 
 ``d <- d - M^-1 F(d)`` with ``M`` the matrix of all springs acting contracts for every convex
 problem because the tangent never exceeds ``M``; acceleration over the last steps (Anderson 1965;

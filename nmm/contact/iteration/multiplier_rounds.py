@@ -6,12 +6,12 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Floats
-from nmm.contact.iteration.alternation import Budget
+from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.answers import judge
-from nmm.contact.iteration.cut_spring_solver import SMALL, settle
+from nmm.contact.iteration.cut_spring_solver import SMALL, solve_springs
 from nmm.contact.iteration.interior_point import Goal
 from nmm.contact.iteration.memory import Memory
-from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.step_problem import StepProblem, Verdict
 from nmm.solvers.linear import LinearSolver
 
@@ -28,12 +28,12 @@ FAILURES = 2
 
 
 @dataclass(frozen=True)
-class Round:
+class MultiplierIterate:
     """Where the rounds stand.
 
     Attributes
     ----------
-    settled
+    result
         Springs shifted by the multipliers of this round, unknowns, out-of-balance force.
     count
         Rounds so far.
@@ -46,7 +46,7 @@ class Round:
         times the force): the part of a force that is still missing where forces are determined.
     """
 
-    settled: Settled
+    result: IterationResult
     count: int = 0
     change: float = np.inf
     gap: float = np.inf
@@ -54,7 +54,7 @@ class Round:
 
     def meets(self, goal: Goal) -> bool:
         """Whether balance and error are within their tolerances."""
-        return self.settled.size <= goal.balance and self.error <= goal.error
+        return self.result.size <= goal.balance and self.error <= goal.error
 
 
 def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
@@ -119,22 +119,24 @@ def exact_goal(problem: StepProblem, tolerance: float, gap_tolerance: float) -> 
     return Goal(tolerance, min(tolerance, gap_tolerance) if small else gap_tolerance)
 
 
-def first_round(springs: CutSprings) -> Round:
+def first_round(springs: CutSprings) -> MultiplierIterate:
     """Round zero: no unknowns yet."""
-    return Round(Settled(springs, np.zeros_like(springs.problem.force), 1.0, 0, 0, ""))
+    return MultiplierIterate(
+        IterationResult(springs, np.zeros_like(springs.problem.force), 1.0, 0, 0, "")
+    )
 
 
 def multiplier_round(
-    last: Round,
+    last: MultiplierIterate,
     linear: LinearSolver,
     memory: Memory,
     tolerance: float,
-    budget: Budget | None = None,
-) -> Round:
+    budget: IterationBudget | None = None,
+) -> MultiplierIterate:
     """Settle the springs and measure by how much their forces differ from the multipliers."""
-    before = last.settled
+    before = last.result
     start = before.increment if last.count else None
-    found = settle(before.springs, linear, memory, tolerance, start, budget)
+    found = solve_springs(before.springs, linear, memory, tolerance, start, budget)
     total = replace(
         found,
         solves=before.solves + found.solves,
@@ -143,8 +145,8 @@ def multiplier_round(
     return measured(total, last.count + 1)
 
 
-def measured(found: Settled, count: int) -> Round:
-    """Round whose springs were settled, with what its multipliers lack."""
+def measured(found: IterationResult, count: int) -> MultiplierIterate:
+    """Iterate whose springs are in balance, with what its multipliers lack."""
     springs = found.springs
     forces = np.stack(springs.forces(found.increment))
     shifts = np.stack([springs.normal_shift, springs.shear_shift])
@@ -154,31 +156,31 @@ def measured(found: Settled, count: int) -> Round:
     size = float(np.abs(forces).max(initial=0.0))
     largest = [float(quantity.max(initial=0.0)) for quantity in (jump, gap, part)]
     over = 1.0 / size if size > 0 else 0.0
-    return Round(found, count, largest[0] * over, largest[1], largest[2] * over)
+    return MultiplierIterate(found, count, largest[0] * over, largest[1], largest[2] * over)
 
 
-def updated(last: Round, growth: float = 1.0) -> Round:
+def updated(last: MultiplierIterate, growth: float = 1.0) -> MultiplierIterate:
     """Springs of the next round, ``growth`` times as stiff.
 
     ``lambda <- lambda + p d``, cut at the limits.
     """
-    exact = ~last.settled.springs.problem.own_stiffness
-    normal, shear = last.settled.springs.forces(last.settled.increment)
-    springs = last.settled.springs.shifted(np.where(exact, normal, 0), np.where(exact, shear, 0))
+    exact = ~last.result.springs.problem.own_stiffness
+    normal, shear = last.result.springs.forces(last.result.increment)
+    springs = last.result.springs.shifted(np.where(exact, normal, 0), np.where(exact, shear, 0))
     if growth != 1.0:
         springs = stiffened(springs, growth)
-    return replace(last, settled=replace(last.settled, springs=springs))
+    return replace(last, result=replace(last.result, springs=springs))
 
 
 def converged_rounds(
-    at: Round,
+    at: MultiplierIterate,
     linear: LinearSolver,
     memory: Memory,
     goal: Goal,
     max_rounds: int,
     growth: float,
-    budget: Budget | None = None,
-) -> Round:
+    budget: IterationBudget | None = None,
+) -> MultiplierIterate:
     """Repeat rounds until balance and error meet their tolerances; return the last.
 
     Balance is sought no finer than the error allows, and to its tolerance in the end.
@@ -191,7 +193,7 @@ def converged_rounds(
     inner, stiffness, failures = max(1e-4, goal.balance), 1.0, 0
     while at.count < max_rounds:
         last, at = at, multiplier_round(at, linear, memory, inner, budget)
-        failures += at.settled.size > inner
+        failures += at.result.size > inner
         if at.meets(goal) or failures > FAILURES or at.count == max_rounds:
             break
         fine = at.error <= NEAR * goal.error
@@ -205,14 +207,14 @@ def converged_rounds(
 
 
 def rounds_verdict(
-    at: Round,
+    at: MultiplierIterate,
     linear: LinearSolver,
     memory: Memory,
     goal: Goal,
     how: str,
 ) -> Verdict:
     """Verdict on balance and on what the multipliers still lack; ``how`` they were found."""
-    found = replace(at.settled, story=f"{how}, {at.settled.solves} solves")
+    found = replace(at.result, story=f"{how}, {at.result.solves} solves")
     verdict = judge(found, linear, memory, goal.balance)
     if not verdict.converged:
         return verdict

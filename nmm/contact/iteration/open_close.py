@@ -1,4 +1,4 @@
-"""Which contact springs act in a pass, and how their states change between passes."""
+"""Open-close iteration: which contact springs act in one iteration, and what changes then."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ from nmm.contact.problem.step_problem import BONDED, SLIDE, STICK, StepProblem
 
 
 @dataclass(frozen=True)
-class Springs:
+class ActiveSet:
     """States of all contacts in a pass.
 
     Attributes
@@ -33,17 +33,19 @@ class Springs:
         return (self.closed + 2 * self.sliding * (2 + self.sign)).astype(np.uint8).tobytes()
 
 
-def first_springs(problem: StepProblem) -> Springs:
-    """Springs of the first pass: the states given, and what penetrates is closed."""
+def first_active_set(problem: StepProblem) -> ActiveSet:
+    """Active set of the first pass: the states given, and what penetrates is closed."""
     held = np.isin(problem.state, (STICK, SLIDE, BONDED))
     closed = held | (problem.gap <= 0)
     smooth = (problem.limits.friction == 0) & (problem.limits.cohesion == 0)
     sign = np.sign(np.where(problem.shear_force != 0, problem.shear_force, problem.slip))
     sliding = smooth | ((problem.state == SLIDE) & (sign != 0))
-    return Springs(closed, sliding, np.where(smooth, 0.0, sign) * sliding)
+    return ActiveSet(closed, sliding, np.where(smooth, 0.0, sign) * sliding)
 
 
-def next_springs(problem: StepProblem, springs: Springs, gap: Floats, slip: Floats) -> Springs:
+def next_active_set(
+    problem: StepProblem, springs: ActiveSet, gap: Floats, slip: Floats
+) -> ActiveSet:
     """States after a pass that ended in ``gap`` and ``slip`` (Shi 1988, open-close iteration).
 
     Open contacts close when they penetrate, closed ones open when their pull exceeds the tension
@@ -60,11 +62,11 @@ def next_springs(problem: StepProblem, springs: Springs, gap: Floats, slip: Floa
     held = springs.closed | (limits.tension > 0)
     turned = held & (np.abs(shear) > bound)
     sliding = stays | turned | smooth
-    return Springs(~opens, sliding, np.where(smooth, 0.0, np.sign(shear)) * sliding)
+    return ActiveSet(~opens, sliding, np.where(smooth, 0.0, np.sign(shear)) * sliding)
 
 
 def forces(
-    problem: StepProblem, springs: Springs, gap: Floats, slip: Floats
+    problem: StepProblem, springs: ActiveSet, gap: Floats, slip: Floats
 ) -> tuple[Floats, Floats]:
     """Normal and shear force that the springs carry at ``gap`` and ``slip``."""
     limits = problem.limits
@@ -75,7 +77,7 @@ def forces(
     return normal, np.where(carries, problem.shear_stiffness * slip, at_bound)
 
 
-def changes(problem: StepProblem, old: Springs, new: Springs) -> Bools:
+def changes(problem: StepProblem, old: ActiveSet, new: ActiveSet) -> Bools:
     """(m,) contacts whose state differs; the shear state of lost contacts does not count."""
     shear = (old.sliding != new.sliding) | (old.sign != new.sign)
     bond = problem.limits.tension > 0
@@ -83,7 +85,7 @@ def changes(problem: StepProblem, old: Springs, new: Springs) -> Bools:
     return np.asarray((old.closed != new.closed) | (shear & held))
 
 
-def words(springs: Springs, contact: int) -> str:
+def words(springs: ActiveSet, contact: int) -> str:
     """State of one contact in words."""
     if not springs.closed[contact]:
         return "open"

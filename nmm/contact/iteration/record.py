@@ -17,7 +17,7 @@ Breaking = Literal["all", "worst", "stop"]
 
 
 @dataclass(frozen=True)
-class Solved:
+class ContactSolution:
     """Contact points of a step with the forces found.
 
     Attributes

@@ -3,7 +3,7 @@
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.problem.cut_springs import CutSprings, Settled
+from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.solvers.linear import LinearSolver
 
@@ -15,7 +15,7 @@ def polish(
     increment: Floats,
     tolerance: float,
     budget: int = 8,
-) -> Settled:
+) -> IterationResult:
     """Take full Newton steps while each halves the out-of-balance force.
 
     The tangent of a sliding contact follows the bound: its shear force changes with the normal
@@ -40,7 +40,7 @@ def polish(
         if not found.size < 0.5 * defect.size:
             break
         increment, defect = increment - step, found
-    return Settled(
+    return IterationResult(
         springs,
         increment,
         defect.size,

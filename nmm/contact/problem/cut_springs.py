@@ -108,7 +108,7 @@ class Defect:
 
 
 @dataclass(frozen=True)
-class Settled:
+class IterationResult:
     """Where an iterative solver ended.
 
     Attributes

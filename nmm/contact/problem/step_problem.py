@@ -7,28 +7,17 @@ Signs: gap positive open, normal force positive in tension, shear force along th
 """
 
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.contact.problem.contact_state import ContactState
 from nmm.errors import SolveError
 from nmm.interfaces.limits import Limits as Limits
 
-
-class State(IntEnum):
-    """What a contact does at the end of a step."""
-
-    OPEN = 0
-    STICK = 1
-    SLIDE = 2
-    BONDED = 3
-    BROKEN = 4
-
-
-OPEN, STICK, SLIDE, BONDED, BROKEN = State
+OPEN, STICK, SLIDE, BONDED, BROKEN = ContactState
 
 
 @dataclass(frozen=True)
@@ -53,7 +42,7 @@ class StepProblem:
     limits
         Largest forces.
     state
-        (m,) states at the start (`State`).
+        (m,) states at the start (`ContactState`).
     normal_force, shear_force
         (m,) forces of the step before (N), where the search for the new ones starts.
     compliant

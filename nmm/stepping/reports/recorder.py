@@ -185,7 +185,7 @@ class Recorder:
         return turned_stress(stress, state.frames.angle[model.manifold.element_body])
 
     def _contact_row(self, attempt: Attempt, contacts: "ContactPoints") -> dict[str, float]:
-        from nmm.contact.problem.step_problem import State as ContactState
+        from nmm.contact.problem.contact_state import ContactState
 
         contact = self.stepper.plan.contact
         assert contact is not None

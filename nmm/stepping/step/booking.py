@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from integration.arrays import Floats
 
 if TYPE_CHECKING:
-    from nmm.contact.iteration.record import Solved
+    from nmm.contact.iteration.record import ContactSolution
     from nmm.stepping.step.equations import Equations
 
 
@@ -47,7 +47,9 @@ class Booked:
         return -self.contact - stored_gain - loss
 
 
-def booked(equations: "Equations", increment: Floats, solved: "Solved | None") -> Booked | None:
+def booked(
+    equations: "Equations", increment: Floats, solved: "ContactSolution | None"
+) -> Booked | None:
     """Return the work in a step in time, None in statics."""
     terms = equations.inertia
     if terms is None:

@@ -19,8 +19,8 @@ from nmm.stepping.step.remap import Laid
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
-    from nmm.contact.enforcement.null_space import Held
-    from nmm.contact.iteration.record import Breaking, Solved
+    from nmm.contact.enforcement.null_space import NullSpace
+    from nmm.contact.iteration.record import Breaking, ContactSolution
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.effects.contact import Contact
 
@@ -60,7 +60,7 @@ class Touching:
         self._laid, self._mover, self._solver, self._clock = laid, mover, solver, clock
         self._size, self._carries = size, carries
         self._reach = FIRST_REACH * size
-        self._held: Held | None = None
+        self._held: NullSpace | None = None
 
     def accepted(self, motion: float) -> None:
         """Take note of how far the last step moved (m)."""
@@ -111,7 +111,7 @@ class Touching:
                 solved=solved,
             )
 
-    def _why(self, solution: str, result: Attempt, solved: "Solved") -> str:
+    def _why(self, solution: str, result: Attempt, solved: "ContactSolution") -> str:
         """Say why a solution is no step, though it be one of its equations."""
         if solved.stopped:
             return "a bond cannot hold: the increment is cut before it breaks"
@@ -132,14 +132,14 @@ class Touching:
         assert contact is not None
         return contact
 
-    def _conditions(self, equations: Equations) -> "Held | None":
+    def _conditions(self, equations: Equations) -> "NullSpace | None":
         """Return the conditions of supports by multipliers."""
         border = self._laid.plan.border(equations.state, equations.end)
         if border is None:
             return None
-        from nmm.contact.enforcement.null_space import Held
+        from nmm.contact.enforcement.null_space import NullSpace
 
-        self._held = Held.of(*border, self._held)
+        self._held = NullSpace.of(*border, self._held)
         return self._held
 
     def _solve(
@@ -148,9 +148,9 @@ class Touching:
         contacts: "ContactPoints",
         breaking: "Breaking",
         halfway: State | None,
-        held: "Held | None",
+        held: "NullSpace | None",
         reach: float,
-    ) -> "Solved":
+    ) -> "ContactSolution":
         def near(increment: Floats) -> bool:
             return self._mover.after(equations, increment).motion <= reach
 
@@ -170,7 +170,7 @@ class Touching:
             )
 
     def _judged(
-        self, equations: Equations, solved: "Solved", held: "Held | None"
+        self, equations: Equations, solved: "ContactSolution", held: "NullSpace | None"
     ) -> tuple[Attempt, Floats]:
         """Return the bodies moved, and what contact takes of the forces (n,)."""
         increment = solved.answer.increment
@@ -180,7 +180,7 @@ class Touching:
         push = -rest if self._carries and equations.step else None
         return self._mover.after(equations, increment, push), rest
 
-    def _holding(self, held: "Held", solved: "Solved", rest: Floats) -> Floats:
+    def _holding(self, held: "NullSpace", solved: "ContactSolution", rest: Floats) -> Floats:
         """Return the forces (n,) of the multipliers, which the supports are told."""
         assert solved.rows is not None
         answer = solved.answer
@@ -191,7 +191,7 @@ class Touching:
         return np.asarray(held.rows.T @ multipliers)
 
     def _kept(
-        self, equations: Equations, solved: "Solved", result: Attempt, rest: Floats
+        self, equations: Equations, solved: "ContactSolution", result: Attempt, rest: Floats
     ) -> Attempt:
         """Return the attempt with the velocity that keeps momentum and angular momentum."""
         assert equations.step is not None

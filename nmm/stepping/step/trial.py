@@ -8,7 +8,7 @@ from nmm.assembly.motion import State
 from nmm.stepping.step.booking import Booked
 
 if TYPE_CHECKING:
-    from nmm.contact.iteration.record import Solved
+    from nmm.contact.iteration.record import ContactSolution
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,6 @@ class Attempt:
     motion: float
     residual: float
     passes: int
-    solved: "Solved | None" = None
+    solved: "ContactSolution | None" = None
     booked: Booked | None = None
     singular: bool = False

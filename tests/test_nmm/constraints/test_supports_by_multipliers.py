@@ -12,7 +12,7 @@ from nmm.assembly.places import on_edges
 from nmm.constraints.edge_supports import Method
 from nmm.constraints.supports import Supports
 from nmm.contact.enforcement.base import make_enforcement
-from nmm.contact.enforcement.null_space import Conditioned, Held
+from nmm.contact.enforcement.null_space import Constrained, NullSpace
 from nmm.contact.problem.step_problem import Limits, StepProblem
 from nmm.formulation import Cover, parse_formulation
 from nmm.materials.elastic import Elastic
@@ -151,8 +151,8 @@ def test_conditions_in_contact_give_what_a_bordered_system_gives() -> None:
         normal_force=0 * one,
         shear_force=0 * one,
     )
-    held = Held.of(csr_array(rows), sides)
-    answer = Conditioned(make_enforcement("penalty"), held).solve(problem, make_solver())
+    held = NullSpace.of(csr_array(rows), sides)
+    answer = Constrained(make_enforcement("penalty"), held).solve(problem, make_solver())
     assert answer.verdict.converged
     assert answer.normal_force[0] < 0
     whole = np.zeros((n + 3, n + 3))
