@@ -8,11 +8,15 @@ import shapely
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons, diameters
 
+# A direction in which no two vertices of rectangles and of nets of usual angles are level, so that
+# rounding does not choose between them.
+UP = np.array([0.6347, 0.7728])
+
 
 def triangulate(polygons: Polygons) -> tuple[Floats, Ints]:
     """Counter-clockwise triangles (T, 3, 2) that tile each polygon and their polygon (T,), sorted.
 
-    A ring seen whole from its first vertex, as every convex one, is cut into a fan; the others go
+    A ring seen whole from its lowest vertex, as every convex one, is cut into a fan; the others go
     through the constrained Delaunay triangulation of GEOS. No new vertices. Polygons of zero area
     have no triangles.
 
@@ -42,14 +46,15 @@ def triangle_areas(triangles: Floats) -> Floats:
 
 
 def _fans(polygons: Polygons) -> tuple[Floats, Ints, Bools]:
-    """Fans about first vertices, their polygons, and which polygons (N,) they tile."""
+    """Fans about lowest vertices, their polygons, and which polygons (N,) they tile."""
     owner = polygons.polygon_of_point
     index = np.arange(len(owner))
+    lowest = _lowest(polygons)
     single = np.diff(polygons.polygon_offsets) == 1
-    inner = single[owner] & (index != polygons.first_point[owner])
-    inner &= polygons.next_point != polygons.first_point[owner]
+    inner = single[owner] & (index != lowest[owner])
+    inner &= polygons.next_point != lowest[owner]
     index, owner = index[inner], owner[inner]
-    corners = np.stack([polygons.first_point[owner], index, polygons.next_point[index]], axis=1)
+    corners = np.stack([lowest[owner], index, polygons.next_point[index]], axis=1)
     clockwise = polygons.ring_areas[polygons.polygon_offsets[:-1]][owner] < 0
     corners[clockwise] = corners[clockwise][:, [0, 2, 1]]
     triangles = polygons.points[corners]
@@ -57,6 +62,17 @@ def _fans(polygons: Polygons) -> tuple[Floats, Ints, Bools]:
     seen = single & (np.bincount(owner[area < 0], minlength=len(polygons)) == 0)
     keep = seen[owner] & (area > 0) & (polygons.areas != 0.0)[owner]
     return triangles[keep], owner[keep], seen
+
+
+def _lowest(polygons: Polygons) -> Ints:
+    """Lowest vertex (N,) of each polygon, as seen along `UP`.
+
+    What no rule integrates exactly would else depend on the vertex at which a ring is begun.
+    """
+    owner = polygons.polygon_of_point
+    height = (polygons.points - polygons.points[polygons.first_point][owner]) @ UP
+    least = np.flatnonzero(height == np.minimum.reduceat(height, polygons.first_point)[owner])
+    return np.asarray(least[np.searchsorted(owner[least], np.arange(len(polygons)))])
 
 
 def _delaunay(polygons: Polygons, number: Ints) -> tuple[Floats, Ints]:

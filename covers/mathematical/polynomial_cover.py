@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -11,6 +12,15 @@ from covers.mathematical.base import Cover
 from covers.small_matrices import inverses
 from integration.arrays import Floats, Ints
 from integration.monomials import affine, differentiate, evaluate
+
+# Corners of the unit triangle and the unit square, in the order of a cell's vertices.
+UNIT_CORNERS = {
+    3: np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
+    4: np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
+}
+# Coefficients of moved tables below this share of the largest are the rounding of what cancels:
+# the least that does not, of splines of degree 5, is 1/120^2.
+CANCELLED = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +97,30 @@ class PolynomialCover(Cover):
         """
         k = len(self.table)
         matrix = self.cell_matrix[cells] * scale[:, None, None]
-        shift = self.reference(cells, origin)
-        rows = np.tile(self.table, (len(cells), 1))
+        nearest, shift = self._from_corner(cells, origin)
+        rows = self._corner_tables[nearest].reshape(len(cells) * k, -1)
         moved = affine(rows, self.degree, np.repeat(matrix, k, axis=0), np.repeat(shift, k, axis=0))
         return moved.reshape(len(cells), k, -1), self.degree
+
+    @cached_property
+    def _corner_tables(self) -> Floats:
+        """Tables (v, k, K) of the weights in reference coordinates that begin at each corner.
+
+        A weight that vanishes towards a corner has no constant there. On a sliver of 1e-9 of the
+        cell beside it a spline of degree 2 is 1e-18: less than the rounding of its terms about
+        another corner.
+        """
+        corners = UNIT_CORNERS[self.cell_vertices.shape[1]]
+        v, k = len(corners), len(self.table)
+        rows = np.tile(self.table, (v, 1))
+        moved = affine(rows, self.degree, np.eye(2), np.repeat(corners, k, axis=0))
+        moved[np.abs(moved) < CANCELLED * np.abs(self.table).max()] = 0.0
+        return np.asarray(moved.reshape(v, k, -1))
+
+    def _from_corner(self, cells: Ints, points: Floats) -> tuple[Ints, Floats]:
+        """Nearest corner (m,) of each cell, and reference coordinates (m, 2) from there."""
+        corners = UNIT_CORNERS[self.cell_vertices.shape[1]]
+        away = np.linalg.norm(self.reference(cells, points)[:, None] - corners, axis=2)
+        nearest = np.argmin(away, axis=1)
+        offset = points - self.vertices[self.cell_vertices[cells, nearest]]
+        return nearest, np.asarray(np.einsum("mij,mj->mi", self.cell_matrix[cells], offset))

@@ -97,7 +97,7 @@ class Method:
             model.manifold,
             self._cut(model, place),
             self.ghost * model.thickness * soft / self.size**2,
-            self.degree + 1,
+            degree_of(model),
         )
         traction = traction_rows(model, place)
         penalty = gamma * hard[place.elements] / self.size

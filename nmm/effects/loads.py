@@ -11,10 +11,14 @@ from nmm.assembly.motion import State
 from nmm.assembly.places import Place, at_point, on_segment
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
+from nmm.effects.multiplier_space import degree_of
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
     from nmm.scene.actions import Load as SceneLoad
+
+LEAST_ORDER = 4
+"""Least degree that the work of a traction along an edge is integrated to: that of most covers."""
 
 
 @dataclass(frozen=True)
@@ -104,7 +108,9 @@ def _load(setup: Setup, load: "SceneLoad") -> Load:
         place = at_point(manifold, np.array(load.point), regions)
         total = np.array(load.force)
     else:
-        place = on_segment(manifold, np.array(load.segment), regions)
+        # The work of a uniform traction is of the degree of the displacements.
+        order = max(LEAST_ORDER, degree_of(setup.model))
+        place = on_segment(manifold, np.array(load.segment), regions, order)
         total = np.array(load.traction) * setup.model.thickness
     if not len(place):
         raise GeometryError(

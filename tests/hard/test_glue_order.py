@@ -94,7 +94,9 @@ def test_glued_bricks_do_not_know_the_order_they_are_written_in(
         exact = method != "spring" and not cover.startswith("triangles")
         tolerance = 2e-12 if exact else 1e-10
         size = np.concatenate([np.full(2, np.abs(first[:2]).max()), np.full(2, first[2])])
-        assert (np.abs(answer(other) - first) <= tolerance * size).all()
+        # Displacements are differences of places of up to 2 m.
+        rounding = np.array([4e-16, 4e-16, 0.0, 0.0])
+        assert (np.abs(answer(other) - first) <= tolerance * size + rounding).all()
 
 
 @pytest.mark.parametrize("method", ["auto", "lagrange"])

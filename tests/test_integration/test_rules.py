@@ -47,6 +47,19 @@ def test_triangle_rules_are_positive_inside_and_exact(order):
     np.testing.assert_allclose(weights @ values, expected, rtol=0, atol=2e-14)
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.4])
+def test_no_rule_depends_on_the_vertex_a_ring_begins_with(turn):
+    c, s = np.cos(turn), np.sin(turn)
+    ring = np.array([[0, 0], [1, 0], [1, 0.8], [0.4, 1.1], [0, 0.8]]) @ [[c, s], [-s, c]]
+
+    def integral(begin):
+        rule = polygon_rule(Polygons.from_vertices([np.roll(ring, begin, axis=0)]), 2)
+        return float(rule.weights @ (1 / (1 + 4 * (rule.points**2).sum(axis=1))))
+
+    # Degree 2 misses this function by a per cent, in which the fans of other vertices differ.
+    assert [integral(begin) for begin in range(5)] == pytest.approx([integral(0)] * 5, rel=1e-14)
+
+
 def test_triangles_tile_the_polygons(assorted):
     triangles, owner = triangulate(assorted)
     area = triangle_areas(triangles)

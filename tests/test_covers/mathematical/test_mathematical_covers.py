@@ -1,5 +1,7 @@
 """What every mathematical cover must do, and what its kind promises."""
 
+from math import factorial
+
 import numpy as np
 import pytest
 import shapely
@@ -315,3 +317,17 @@ def test_a_graded_net_without_focus_is_even():
 def test_a_graded_net_that_cannot_be_is_refused(options):
     with pytest.raises(ValueError, match="correct the options"):
         Graded.regular(BOUNDS, 0.1, focus=[[1, 1]], **options)
+
+
+@pytest.mark.parametrize("degree", [1, 2, 3])
+@pytest.mark.parametrize("away", [1e-3, 1e-9])
+def test_a_spline_that_ends_at_a_line_is_right_to_rounding_beside_it(degree, away):
+    cover = BSplines.regular(BOUNDS, 0.25, degree=degree)
+    corner = cover.vertices[cover.cell_vertices[9, 2]]
+    origin = corner - [away * 0.25, 0.125]
+    table, total = cover.weight_tables(np.array([9]), origin[None], np.array([0.25]))
+    value = (table[0] @ evaluate(np.zeros((1, 2)), total)[0]).reshape(degree + 1, degree + 1)
+    # The one that ends at the right side is s^p / p! there; both factors add up across.
+    along = value.sum(axis=0)
+    # 0.25 away is rounded to 1e-16 of coordinates up to two.
+    assert along[0] == pytest.approx(away**degree / factorial(degree), rel=2e-15 / away, abs=0)
