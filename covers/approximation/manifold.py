@@ -101,6 +101,11 @@ class Manifold:
         """Number of physical covers."""
         return len(self.cover_patch)
 
+    @property
+    def degree(self) -> int:
+        """Highest degree of the displacements on an element, as far as it is known."""
+        return max((getattr(group, "degree", 2) for group in self.groups), default=1)
+
     @cached_property
     def _place(self) -> tuple[Ints, Ints]:
         group = np.empty(len(self.elements), dtype=np.int64)

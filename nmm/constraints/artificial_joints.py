@@ -15,7 +15,6 @@ from integration.arrays import Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, material_points
-from nmm.constraints.multiplier_space import degree_of
 from nmm.constraints.nitsche_interface import averages
 from nmm.constraints.tied_interfaces import pairs_of, shared_edges
 from nmm.constraints.ties import Pairs, Springs, Tie
@@ -61,7 +60,7 @@ class ArtificialJoints(Effect):
         joints = shared_edges(model)
         own = region[edges.element[joints.edge_a]] == region[edges.element[joints.edge_b]]
         joints = joints.take(own)
-        degree, n = degree_of(model), model.manifold.n_unknowns
+        degree, n = model.manifold.degree, model.manifold.n_unknowns
         if glue == "nitsche" and len(joints.edge_a):  # blocks that are not divided have none
             pairs, one, two, _ = pairs_of(model, joints, 2 * degree)
             tie, free = averages(model, pairs, (one, two))

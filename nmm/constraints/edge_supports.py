@@ -9,7 +9,7 @@ from covers.approximation.ghost import ghost, neighbours
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
-from nmm.constraints.multiplier_space import degree_of, multipliers, pieces_of, traction_degree
+from nmm.constraints.multiplier_space import multipliers, pieces_of, traction_degree
 from nmm.constraints.nitsche_penalty import least_penalty
 from nmm.constraints.support_methods import (
     Multipliers,
@@ -68,7 +68,7 @@ class Method:
 
     def order(self, model: Model) -> int:
         """Degree of polynomials to integrate along edges."""
-        return max(2 * (self.degree + 2), 2 * degree_of(model))
+        return max(2 * (self.degree + 2), 2 * model.manifold.degree)
 
     def hold(
         self,
@@ -97,7 +97,7 @@ class Method:
             model.manifold,
             self._cut(model, place),
             self.ghost * model.thickness * soft / self.size**2,
-            degree_of(model),
+            model.manifold.degree,
         )
         traction = traction_rows(model, place)
         penalty = gamma * hard[place.elements] / self.size

@@ -80,13 +80,7 @@ def pieces_of(model: Model, place: Place, size: float) -> Pieces:
 def traction_degree(model: Model) -> int:
     """Degree of the stresses of the polynomials that displacements hold where they are richest."""
     richest = model.manifold.richest
-    return max((degree_of(model) if richest is None else richest) - 1, 0)
-
-
-def degree_of(model: Model) -> int:
-    """Degree of the displacements on an element, as far as it is known."""
-    found = [getattr(group, "degree", 2) for group in model.manifold.groups]
-    return max(found, default=1)
+    return max((model.manifold.degree if richest is None else richest) - 1, 0)
 
 
 def join(parts: Sequence[Pieces]) -> Pieces:

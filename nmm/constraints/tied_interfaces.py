@@ -10,7 +10,7 @@ from integration.arrays import Floats, Ints
 from integration.segments import segment_rule
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state, material_points
-from nmm.constraints.multiplier_space import Pieces, degree_of, multipliers, traction_degree
+from nmm.constraints.multiplier_space import Pieces, multipliers, traction_degree
 from nmm.constraints.multiplier_ties import MultiplierGlue, independent
 from nmm.constraints.nitsche_interface import averages
 from nmm.constraints.ties import Pairs, Springs, Tie
@@ -73,7 +73,7 @@ def springs(model: Model, joints: Joints, spring: Floats) -> Springs:
 
 def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
     """Nitsche's terms, and springs where neither side has stress."""
-    order = max(ORDER, 2 * degree_of(model) + 2)
+    order = max(ORDER, 2 * model.manifold.degree + 2)
     pairs, one, two, joint = pairs_of(model, joints, order)
     found, free = averages(model, pairs, (one, two), method.gamma)
     if not free.any():
@@ -89,7 +89,7 @@ def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
 
 
 def _multipliers(model: Model, joints: Joints, size: float | None) -> MultiplierGlue:
-    pairs, _, _, joint = pairs_of(model, joints, max(ORDER, 2 * degree_of(model) + 2))
+    pairs, _, _, joint = pairs_of(model, joints, max(ORDER, 2 * model.manifold.degree + 2))
     body = model.manifold.boundary.body
     a, b = body[joints.edge_a], body[joints.edge_b]
     turned = (a > b)[:, None]

@@ -11,7 +11,6 @@ from nmm.assembly.motion import State
 from nmm.assembly.places import Place, at_point, on_segment
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
-from nmm.effects.multiplier_space import degree_of
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
@@ -109,7 +108,7 @@ def _load(setup: Setup, load: "SceneLoad") -> Load:
         total = np.array(load.force)
     else:
         # The work of a uniform traction is of the degree of the displacements.
-        order = max(LEAST_ORDER, degree_of(setup.model))
+        order = max(LEAST_ORDER, manifold.degree)
         place = on_segment(manifold, np.array(load.segment), regions, order)
         total = np.array(load.traction) * setup.model.thickness
     if not len(place):

@@ -23,7 +23,12 @@ SHARE = {
     "corners": [["penalty", "shi"], ["lagrange", "shi"]],
     "fans": [["penalty", "shi"], ["penalty", "newmark"]],
     "pieces": [["triangles degree 1"], ["quads degree 1"]],
-    "cuts": [["triangles degree 1"], ["quads degree 2"], ["bspline degree 0"], ["bspline degree 2"]],
+    "cuts": [
+        ["triangles degree 1"],
+        ["quads degree 2"],
+        ["bspline degree 0"],
+        ["bspline degree 2"],
+    ],
     "tips": [["triangles degree 1"]],
     "ligaments": [["quads degree 1"]],
     "solids": [["block"], ["triangles degree 1"], ["bspline degree 0"], ["mls degree 0"]],
