@@ -35,10 +35,9 @@ from nmm.results.tee import Frames, Tee
 from nmm.scene import scene_hash
 from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
-from nmm.stepping.drive.dynamics import Schedule, run_in_time
-from nmm.stepping.drive.statics import LoadSchedule, run_load
+from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
+from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import FAILURE, RunVerdict
-from nmm.stepping.reports.ledger import Ledger
 from nmm.stepping.reports.output import (
     FRAMES_AFTER_FAILURE,
     Choice,
@@ -47,7 +46,7 @@ from nmm.stepping.reports.output import (
     choice_under_loads,
     storage,
 )
-from nmm.stepping.reports.recorder import Monitor, Recorder, monitors
+from nmm.stepping.reports.recorder import Monitor, Recorder, Totals, monitors
 from nmm.stepping.step.budget import Budget
 from nmm.stepping.step.remap import Lay, check_relay
 from nmm.stepping.step.stepper import Stepper, scaled_load
@@ -124,11 +123,11 @@ class Simulation:
             assert scene.duration is not None
             step = self.formulation.integrator.step
             times = Schedule(scene.duration, step)
-            return run_in_time(stepper, recorder, self.start, times, progress)
-        state, verdict = run_load(
-            stepper, recorder, self.start, self._load_schedule(), progress, self.regions.name
-        )
-        recorder.flush()
+            at = InTime.at_start(self.start, times)
+            return run_in_time(stepper, recorder, at, times, progress)
+        loads = self._load_schedule()
+        under = UnderLoad.at_start(self.start, loads)
+        state, verdict = run_load(stepper, recorder, under, loads, progress, self.regions.name)
         loading = scene.loading
         if verdict.code == FAILURE and loading is not None and loading.motion_after_failure:
             self._show_failure(recorder, state, verdict, loading.motion_after_failure, progress)
@@ -157,13 +156,13 @@ class Simulation:
         times = Schedule(duration, self.formulation.integrator.step, factor, "failure")
         shown = Frames(recorder.sink)
         asked = choice_in_time(self.scene.output, state.time, duration, FRAMES_AFTER_FAILURE)
-        moving = replace(
-            recorder, stepper=quiet, sink=shown, ledger=Ledger(), largest={}, choice=asked
-        )
+        known = Totals(frames=recorder.totals.frames)
+        moving = replace(recorder, stepper=quiet, sink=shown, choice=asked, totals=known)
         begun = perf_counter()
-        run_in_time(quiet, moving, replace(state, load_factor=factor), times, progress)
+        begin = InTime.at_start(replace(state, load_factor=factor), times)
+        run_in_time(quiet, moving, begin, times, progress)
         self.stepper.seconds["motion after failure"] = perf_counter() - begun
-        recorder.frames = moving.frames
+        recorder.totals = replace(recorder.totals, frames=moving.totals.frames)
 
     def _choice(self) -> Choice:
         """Return which states are stored."""
@@ -207,7 +206,7 @@ class Simulation:
         )
 
     def _summary(self, recorder: Recorder, state: State, verdict: RunVerdict) -> Summary:
-        stepper = self.stepper
+        stepper, totals = self.stepper, recorder.totals
         condition = stepper.condition(state)
         scene, formulation = self.scene, self.formulation
         findings = audit(
@@ -222,19 +221,19 @@ class Simulation:
             status=verdict.code,
             sentence=verdict.sentence,
             steps=recorder.steps,
-            passes=recorder.passes,
-            frames=recorder.frames,
+            passes=totals.passes,
+            frames=totals.frames,
             seconds=_with_rest(stepper.seconds, perf_counter() - self.begun),
             effect_seconds=dict(stepper.plan.seconds),
             peak_memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
-            equilibrium_residual=recorder.residual,
-            largest_penetration=recorder.penetration,
-            energy_balance=recorder.ledger.balance,
+            equilibrium_residual=totals.residual,
+            largest_penetration=totals.penetration,
+            energy_balance=totals.ledger.balance,
             condition_estimate=condition,
             failure_load=load,
             failure_factor=verdict.load_factor,
             failure_tolerance=verdict.tolerance,
-            largest_contacts=dict(recorder.largest),
+            largest_contacts=dict(totals.largest),
         )
 
 

@@ -10,7 +10,7 @@ NOTICED = 1e-8
 
 def equations(run: Ended) -> Findings:
     """Audit residual, condition, cuts and dependent functions."""
-    residual, manifold = run.recorder.residual, run.stepper.model.manifold
+    residual, manifold = run.recorder.totals.residual, run.stepper.model.manifold
     yield Finding(
         "residual",
         residual,

@@ -21,7 +21,7 @@ def impact_lasts(run: Ended) -> float | None:
 
     Half a period of its mass on two of the stiffest springs that pressed in the run.
     """
-    stiffest, model = run.recorder.stiffest, run.stepper.model
+    stiffest, model = run.recorder.totals.stiffest, run.stepper.model
     mass = np.bincount(model.manifold.element_body, model.density * model.element_area)
     heavy = mass[mass > 0]
     if stiffest == 0 or not len(heavy):
@@ -56,7 +56,7 @@ def _increments(run: Ended) -> Findings:
             "lower [loading] increment",
         )
     loading, recorder = run.scene.loading, run.recorder
-    slid = recorder.largest.get("slide", 0) + recorder.largest.get("broken", 0)
+    slid = recorder.totals.largest.get("slide", 0) + recorder.totals.largest.get("broken", 0)
     if loading is not None and loading.until != "failure" and slid and recorder.steps:
         yield Finding(
             "increments",

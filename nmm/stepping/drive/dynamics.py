@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
@@ -10,6 +11,9 @@ from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.budget import BudgetSpentError
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
 
 # Of a step, about what sums of many steps are off by: 20 000 steps are 20 000, not one more of
 # 1e-12 s at the end.
@@ -38,50 +42,102 @@ class Schedule:
     stage: str = "dynamic"
 
 
+@dataclass(frozen=True)
+class InTime:
+    """Where a run in time stands.
+
+    Attributes
+    ----------
+    state, contacts
+        The last accepted state, and its contacts as left.
+    begin
+        Time at which the run began (s).
+    step
+        Length of the next step, before it is cut (s).
+    cuts, why
+        Number of steps that were cut so far, and when and why the last one was.
+    """
+
+    state: State
+    contacts: "ContactPoints | None"
+    begin: float
+    step: float
+    cuts: int = 0
+    why: str = ""
+
+    @classmethod
+    def at_start(cls, state: State, schedule: Schedule) -> "InTime":
+        """Return the start of a run from ``state``."""
+        return cls(state, None, state.time, schedule.step)
+
+    def rest(self, schedule: Schedule) -> float:
+        """Return the time that is left (s); zero at the end."""
+        rest = self.begin + schedule.duration - self.state.time
+        return rest if rest > ROUNDING * schedule.step else 0.0
+
+
 def run_in_time(
     stepper: Stepper,
     recorder: Recorder,
-    state: State,
+    at: InTime,
     schedule: Schedule,
     progress: Callable[[float, str], None],
+    keep: Callable[[InTime], InTime] = lambda at: at,
 ) -> tuple[State, RunVerdict]:
-    """Step from ``state`` over the schedule's duration.
+    """Step on over the schedule's duration; ``keep`` is shown where every step but the last ends.
 
     Returns
     -------
     The last accepted state and the verdict.
     """
-    begin, end = state.time, state.time + schedule.duration
-    step, contacts, cuts, last = schedule.step, None, 0, ""
-    while state.time < end - ROUNDING * schedule.step:
-        rest = end - state.time
-        length = rest if rest < (1 + ROUNDING) * step else step
-        try:
-            attempt, why = _step_or_cut(stepper, state, length, schedule)
-        except BudgetSpentError as spent:
-            recorder.last(state, schedule.stage, contacts)
-            return state, RunVerdict(SPENT, f"stopped at {state.time:.6g} s: {spent}")
-        if not attempt.converged:
-            recorder.last(state, schedule.stage, contacts)
-            return state, RunVerdict(FAILED, _failure(attempt, state, schedule))
-        taken = attempt.state.time - state.time
-        after, contacts = stepper.accept(attempt)
-        said = recorder.step(state, attempt, contacts, after)
-        if why:
-            cuts, last = cuts + 1, f"at {state.time:.6g} s: {why}"
-            said = f"{said}  cut to {taken:.3g} s: {why}"
-        state = after
-        # After a cut the step grows back slowly: what made it fail is rarely over at once.
-        step = min(schedule.step, 2 * taken) if taken < schedule.step else schedule.step
-        share = (state.time - begin) / schedule.duration
-        if recorder.takes(state):
-            recorder.frame(state, schedule.stage, contacts)
-        progress(share, "  ".join([f"time {state.time:.4g} s of {end:.4g} s", said]).rstrip())
-    recorder.last(state, schedule.stage, contacts)
-    sentence = f"every step to {state.time:.6g} s converged"
-    if cuts:
-        sentence += f", {cuts} of them cut; the last {last}"
-    return state, RunVerdict(CONVERGED, sentence)
+    verdict = None
+    while verdict is None and at.rest(schedule):
+        found = _next(stepper, recorder, at, schedule, progress)
+        if isinstance(found, RunVerdict):
+            verdict = found
+        else:
+            at = keep(found) if found.rest(schedule) else found
+    recorder.last(at.state, schedule.stage, at.contacts)
+    return at.state, verdict or _arrived(at)
+
+
+def _next(
+    stepper: Stepper,
+    recorder: Recorder,
+    at: InTime,
+    schedule: Schedule,
+    progress: Callable[[float, str], None],
+) -> InTime | RunVerdict:
+    """Return where the next step ends, or why there is none."""
+    state, rest = at.state, at.rest(schedule)
+    length = rest if rest < (1 + ROUNDING) * at.step else at.step
+    try:
+        attempt, why = _step_or_cut(stepper, state, length, schedule)
+    except BudgetSpentError as spent:
+        return RunVerdict(SPENT, f"stopped at {state.time:.6g} s: {spent}")
+    if not attempt.converged:
+        return RunVerdict(FAILED, _failure(attempt, state, schedule))
+    after, contacts = stepper.accept(attempt)
+    said = recorder.step(state, attempt, contacts, after)
+    taken = attempt.state.time - state.time
+    cuts, last = at.cuts, at.why
+    if why:
+        cuts, last = cuts + 1, f"at {state.time:.6g} s: {why}"
+        said = f"{said}  cut to {taken:.3g} s: {why}"
+    recorder.offer(after, schedule.stage, contacts)
+    end = at.begin + schedule.duration
+    text = "  ".join([f"time {after.time:.4g} s of {end:.4g} s", said]).rstrip()
+    progress((after.time - at.begin) / schedule.duration, text)
+    # After a cut the step grows back slowly: what made it fail is rarely over at once.
+    step = min(schedule.step, 2 * taken) if taken < schedule.step else schedule.step
+    return InTime(after, contacts, at.begin, step, cuts, last)
+
+
+def _arrived(at: InTime) -> RunVerdict:
+    sentence = f"every step to {at.state.time:.6g} s converged"
+    if at.cuts:
+        sentence += f", {at.cuts} of them cut; the last {at.why}"
+    return RunVerdict(CONVERGED, sentence)
 
 
 def _step_or_cut(

@@ -69,50 +69,130 @@ class LoadSchedule:
     tolerance: float
 
 
+@dataclass(frozen=True)
+class Rest:
+    """How loose blocks were brought to rest: steps of relaxation, and the way they took (m)."""
+
+    steps: int
+    way: float
+
+
+@dataclass(frozen=True)
+class UnderLoad:
+    """Where growing loads stand.
+
+    Attributes
+    ----------
+    state, contacts
+        The last state in equilibrium, and its contacts as left.
+    increment
+        Of the load factor, which is tried next.
+    rest
+        How loose blocks were brought to rest; None when they were not.
+    """
+
+    state: State
+    contacts: "ContactPoints | None"
+    increment: float
+    rest: Rest | None = None
+
+    @classmethod
+    def at_start(cls, state: State, schedule: LoadSchedule) -> "UnderLoad":
+        """Return the start of a run from ``state``."""
+        return cls(state, None, min(schedule.increment, schedule.target))
+
+
+@dataclass(frozen=True)
+class Trial:
+    """An increment that was tried.
+
+    Attributes
+    ----------
+    factor
+        Load factor at its end.
+    fine
+        Whether it is within the tolerance of the load.
+    last
+        Whether no smaller one would be tried before loose blocks are held or brought to rest.
+    found, broke
+        What came of it, and whether bonds broke in it.
+    """
+
+    factor: float
+    fine: bool
+    last: bool
+    found: "Settled"
+    broke: bool
+
+
 def run_load(
     stepper: Stepper,
     recorder: Recorder,
-    state: State,
+    at: UnderLoad,
     schedule: LoadSchedule,
     progress: Callable[[float, str], None],
     names: Sequence[str] = (),
+    keep: Callable[[UnderLoad], UnderLoad] = lambda at: at,
 ) -> tuple[State, RunVerdict]:
-    """Raise the load factor from that of ``state``; ``names`` are those of the regions.
+    """Raise the load factor from where it stands; ``names`` are those of the regions.
+
+    ``keep`` is shown where every accepted increment but the last one ends.
 
     Returns
     -------
     The last state in equilibrium and the verdict.
     """
-    path = _Path(state)
+    raising = _Raising(stepper, recorder, schedule, progress, names)
+    verdict = None
     try:
-        verdict = _raise_load(path, stepper, recorder, schedule, progress, names)
+        while verdict is None and not raising.reached(at):
+            found = raising.next(at)
+            if isinstance(found, RunVerdict):
+                verdict = found
+            else:
+                grown = found.state.load_factor > at.state.load_factor
+                at = keep(found) if grown and not raising.reached(found) else found
+        verdict = verdict or raising.arrived(at)
     except BudgetSpentError as spent:
-        held = path.state.load_factor
+        held = at.state.load_factor
         verdict = RunVerdict(SPENT, f"stopped in equilibrium at load factor {held:.6g}: {spent}")
-    return path.state, verdict
+    recorder.last(at.state, "load", at.contacts)
+    return at.state, verdict
 
 
-@dataclass
-class _Path:
-    """The last state in equilibrium."""
+@dataclass(frozen=True)
+class _Raising:
+    """Raises a load: each method goes from where it stands to where it stands next."""
 
-    state: State
+    stepper: Stepper
+    recorder: Recorder
+    schedule: LoadSchedule
+    progress: Callable[[float, str], None]
+    names: Sequence[str]
 
+    def reached(self, at: UnderLoad) -> bool:
+        """Whether the load has grown as far as it is to."""
+        return at.state.load_factor >= self.schedule.target * (1 - 1e-12)
 
-def _raise_load(
-    path: _Path,
-    stepper: Stepper,
-    recorder: Recorder,
-    schedule: LoadSchedule,
-    progress: Callable[[float, str], None],
-    names: Sequence[str],
-) -> RunVerdict:
-    increment = min(schedule.increment, schedule.target)
-    rest: Relaxed | None = None
-    while path.state.load_factor < schedule.target * (1 - 1e-12):
-        state = path.state
-        factor = min(state.load_factor + increment, schedule.target)
-        fine = increment <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
+    def next(self, at: UnderLoad) -> UnderLoad | RunVerdict:
+        """Try an increment; then grow by it, or relax loose blocks, or try half of it, or end."""
+        start = self.stepper.remember()
+        trial = self._tried(at)
+        if trial.found.attempt.converged:
+            return self._grown(at, trial)
+        self.stepper.restore(start)
+        unheld = self.stepper.plan.contact is not None and at.state.load_factor == 0
+        if unheld and at.rest is None and trial.last:
+            return self._relaxed(at, trial)
+        if trial.fine:
+            return self._ended(at, trial)
+        return replace(at, increment=at.increment / 2)
+
+    def _tried(self, at: UnderLoad) -> Trial:
+        """Look for equilibrium under one increment more, with anchors where nothing else helps."""
+        stepper, schedule, state = self.stepper, self.schedule, at.state
+        factor = min(state.load_factor + at.increment, schedule.target)
+        fine = at.increment <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
         start, bonds = stepper.remember(), stepper.broken_bonds
         # A bond that breaks in a coarse increment is no news yet: the increment is cut first.
         end, breaking = Instant(factor, factor), _breaking(fine)
@@ -121,34 +201,43 @@ def _raise_load(
         if last and _may_be_loose(stepper, found):
             stepper.restore(start)
             found = _anchored(stepper, state, end, breaking)
-        broke = stepper.broken_bonds > bonds
-        if found.attempt.converged:
-            said = recorder.step(state, found.attempt, found.contacts)
-            path.state = state = found.attempt.state
-            recorder.offer(state, "load", found.contacts)
-            done = min(factor / schedule.target, 1.0)
-            progress(done, "  ".join([f"load factor {factor:.5g}", said]).rstrip())
-            increment = increment if broke else min(2 * increment, schedule.increment)
-            continue
-        stepper.restore(start)
-        loose = stepper.plan.contact is not None and state.load_factor == 0 and rest is None
-        if loose and last:
-            rest = relax(stepper, state, end, names)
-            if not rest.at_rest:
-                stepper.restore(start)
-                return _no_rest(rest)
-            path.state = replace(rest.state, time=state.time, load_factor=0.0)
-            continue
-        if fine:
-            verdict = _no_equilibrium(state, factor, found, schedule, stepper, names)
-            return _with_neutral(verdict, stepper, state, names)
-        increment /= 2
-    state = path.state
-    sentence = f"equilibrium at load factor {state.load_factor:.6g}"
-    if rest is not None:
-        sentence += f", loose blocks brought to rest in {rest.steps} steps of relaxation"
-        sentence += f" over {rest.way:.3g} m"
-    return _with_neutral(RunVerdict(CONVERGED, sentence), stepper, state, names)
+        return Trial(factor, fine, last, found, stepper.broken_bonds > bonds)
+
+    def _grown(self, at: UnderLoad, trial: Trial) -> UnderLoad:
+        """Accept an increment; the next is larger unless bonds broke."""
+        recorder, found, schedule = self.recorder, trial.found, self.schedule
+        said = recorder.step(at.state, found.attempt, found.contacts)
+        state = found.attempt.state
+        recorder.offer(state, "load", found.contacts)
+        text = "  ".join([f"load factor {trial.factor:.5g}", said]).rstrip()
+        self.progress(min(trial.factor / schedule.target, 1.0), text)
+        longer = min(2 * at.increment, schedule.increment)
+        return UnderLoad(state, found.contacts, at.increment if trial.broke else longer, at.rest)
+
+    def _relaxed(self, at: UnderLoad, trial: Trial) -> UnderLoad | RunVerdict:
+        """Bring loose blocks to rest, from where the load begins to grow anew."""
+        start = self.stepper.remember()
+        rest = relax(self.stepper, at.state, Instant(trial.factor, trial.factor), self.names)
+        if not rest.at_rest:
+            self.stepper.restore(start)
+            return _no_rest(rest)
+        state = replace(rest.state, time=at.state.time, load_factor=0.0)
+        return replace(at, state=state, rest=Rest(rest.steps, rest.way))
+
+    def _ended(self, at: UnderLoad, trial: Trial) -> RunVerdict:
+        """Return the verdict on the finest increment, under which no equilibrium was found."""
+        verdict = _no_equilibrium(
+            at.state, trial.factor, trial.found, self.schedule, self.stepper, self.names
+        )
+        return _with_neutral(verdict, self.stepper, at.state, self.names)
+
+    def arrived(self, at: UnderLoad) -> RunVerdict:
+        """Return the verdict at the end of the path."""
+        sentence = f"equilibrium at load factor {at.state.load_factor:.6g}"
+        if at.rest is not None:
+            sentence += f", loose blocks brought to rest in {at.rest.steps} steps of relaxation"
+            sentence += f" over {at.rest.way:.3g} m"
+        return _with_neutral(RunVerdict(CONVERGED, sentence), self.stepper, at.state, self.names)
 
 
 def _breaking(fine: bool) -> "Breaking":

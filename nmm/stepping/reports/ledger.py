@@ -10,6 +10,7 @@ from nmm.stepping.step.trial import Attempt
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
     from nmm.model.plan import Plan
+    from nmm.stepping.step.booking import Booked
 
 # Effects whose springs count as supports: those of the scene, glue, and what holds sub-blocks.
 HOLDING = ("supports", "seams", "artificial joints")
@@ -28,7 +29,7 @@ class Rise:
     given: float = 0.0
 
 
-@dataclass
+@dataclass(frozen=True)
 class Ledger:
     """Totals over accepted steps (J).
 
@@ -49,51 +50,70 @@ class Ledger:
         Energy at the start, before any contact.
     throughput
         Largest work, stored or lost energy so far.
+    steps
+        Number of accepted steps.
     in_step, in_run
         Largest rise of stored energy and losses less work, in one step and over the run.
+    given
+        What the integrator gave in the steps in which it gave some.
+    lowest, last
+        Energy from nowhere and what the integrator had given of it: where the first was least,
+        and after the last step.
     """
 
     work: float = 0.0
     friction_loss: float = 0.0
     integration_loss: float = 0.0
     contact_loss: float = 0.0
-    energies: dict[str, float] = field(default_factory=dict)
+    energies: Mapping[str, float] = field(default_factory=dict)
     stored_first: float = 0.0
     throughput: float = 0.0
     steps: int = 0
     in_step: Rise = field(default_factory=Rise)
     in_run: Rise = field(default_factory=Rise)
-    _given: float = 0.0
-    _lowest: tuple[float, float] = (0.0, 0.0)
-    _last: tuple[float, float] = (0.0, 0.0)
+    given: float = 0.0
+    lowest: tuple[float, float] = (0.0, 0.0)
+    last: tuple[float, float] = (0.0, 0.0)
 
-    def book(
+    def booked(
         self, plan: "Plan", model: "Model", before: State, attempt: Attempt, stands: State
-    ) -> None:
-        """Book an accepted step; ``stands`` is its end as blocks are laid now."""
-        first = not self.steps
+    ) -> "Ledger":
+        """Return the totals with an accepted step; ``stands`` is its end as blocks are laid now."""
+        first, after = not self.steps, attempt.state
         earlier = stored(plan, model, before) if first else self.energies
+        stored_first, work = self.stored_first, self.work
         if first:
-            self.stored_first = sum(earlier.values()) - earlier["contact_energy"]
-        self.steps += 1
-        after = attempt.state
+            stored_first = sum(earlier.values()) - earlier["contact_energy"]
         grows = first and plan.inertia is None
         if grows and plan.supports is not None:
-            self.stored_first -= plan.energy("supports", before)
-            self.work += plan.supports.first_work(before, after)
-        self.work += plan.work(before, after)
+            stored_first -= plan.energy("supports", before)
+            work += plan.supports.first_work(before, after)
+        work += plan.work(before, after)
         if grows:
-            self.work -= standing(plan, before, after)
-        self.energies = stored(plan, model, stands)
+            work -= standing(plan, before, after)
         loss = 0.0 if attempt.solved is None else attempt.solved.loss
-        self.friction_loss += loss
+        found = replace(
+            self,
+            work=work,
+            friction_loss=self.friction_loss + loss,
+            energies=stored(plan, model, stands),
+            stored_first=stored_first,
+            steps=self.steps + 1,
+        )
         if attempt.booked is not None:
-            gain = {name: value - earlier[name] for name, value in self.energies.items()}
-            lost = attempt.booked.integration_loss(gain["kinetic_energy"])
-            self.integration_loss += lost
-            self._given += max(-lost, 0.0)
-            self.contact_loss += attempt.booked.contact_loss(gain["contact_energy"], loss)
-        self._weigh(after)
+            found = found._lost_in_time(attempt.booked, earlier, loss)
+        return found.weighed(after.time)
+
+    def _lost_in_time(self, step: "Booked", earlier: Mapping[str, float], loss: float) -> "Ledger":
+        """Return the totals with what a step in time lost that began with ``earlier`` energies."""
+        gain = {name: value - earlier[name] for name, value in self.energies.items()}
+        lost = step.integration_loss(gain["kinetic_energy"])
+        return replace(
+            self,
+            integration_loss=self.integration_loss + lost,
+            given=self.given + max(-lost, 0.0),
+            contact_loss=self.contact_loss + step.contact_loss(gain["contact_energy"], loss),
+        )
 
     @property
     def row(self) -> Mapping[str, float]:
@@ -112,18 +132,28 @@ class Ledger:
     def _made(self) -> float:
         return sum(self.energies.values()) - self.stored_first + self.friction_loss - self.work
 
-    def _weigh(self, after: State) -> None:
-        """Take the size of the energies, and how much came from nowhere."""
+    def weighed(self, time: float) -> "Ledger":
+        """Return the totals with the size of the energies, and how much came from nowhere."""
         total = sum(self.energies.values())
-        self.throughput = max(
+        largest = max(
             self.throughput, abs(self.work), abs(total), abs(self.stored_first), self.friction_loss
         )
-        made, given = self._made, self._given
-        for name, (low, before) in (("in_step", self._last), ("in_run", self._lowest)):
-            if made - low > getattr(self, name).energy:
-                setattr(self, name, Rise(made - low, self.steps, after.time, given - before))
-        self._last = made, given
-        self._lowest = min(self._lowest, self._last)
+        now = self._made, self.given
+        return replace(
+            self,
+            throughput=largest,
+            in_step=self._largest(self.in_step, self.last, time),
+            in_run=self._largest(self.in_run, self.lowest, time),
+            last=now,
+            lowest=min(self.lowest, now),
+        )
+
+    def _largest(self, known: Rise, since: tuple[float, float], time: float) -> Rise:
+        """Return the larger of a rise and the one ``since`` energy and gift were so much."""
+        risen = self._made - since[0]
+        if risen > known.energy:
+            return Rise(risen, self.steps, time, self.given - since[1])
+        return known
 
 
 def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:

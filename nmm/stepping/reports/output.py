@@ -16,9 +16,9 @@ CONTACT, HEADERS = 72, 4096
 CHANGING = ("stick", "slide", "bonded", "broken")
 
 
-@dataclass
+@dataclass(frozen=True)
 class Choice:
-    """What is stored of one stretch of a run; asked once after each accepted step.
+    """What is stored of one stretch of a run.
 
     Attributes
     ----------
@@ -36,17 +36,19 @@ class Choice:
     period: float | None = None
     steps: int | None = None
     events: frozenset[str] = frozenset()
-    _periods: int = 0
-    _taken: int = 0
 
-    def takes(self, time: float, happened: frozenset[str]) -> bool:
-        """Return whether the state after a step is stored."""
-        self._taken += 1
-        due = self.steps is not None and self._taken % self.steps == 0
-        if self.period is not None:
-            periods = floor((time - self.begin) / self.period + 1e-9)
-            due, self._periods = due or periods > self._periods, max(periods, self._periods)
+    def takes(self, time: float, steps: int, periods: int, happened: frozenset[str]) -> bool:
+        """Return whether the state after so many ``steps`` of the stretch is stored.
+
+        ``periods`` had passed when this was asked last.
+        """
+        due = self.steps is not None and steps % self.steps == 0
+        due |= self.periods(time) > periods
         return due or not self.events.isdisjoint(happened)
+
+    def periods(self, time: float) -> int:
+        """Return how many periods have passed."""
+        return 0 if self.period is None else floor((time - self.begin) / self.period + 1e-9)
 
 
 def choice_in_time(
@@ -65,16 +67,16 @@ def choice_under_loads(asked: "Output | None") -> Choice:
     return Choice(0.0, None, asked.every_steps, frozenset(asked.events))
 
 
-@dataclass
+@dataclass(frozen=True)
 class Watch:
-    """Tells what happened in a step from the numbers of contact points in each state."""
+    """What tells the events of the next step from the numbers of contact points in each state."""
 
     before: Mapping[str, int] = field(default_factory=dict)
     touched: bool = False
     slipped: bool = False
 
-    def happened(self, counts: Mapping[str, int]) -> frozenset[str]:
-        """Return the events of the step after which contacts are so many in each state."""
+    def seen(self, counts: Mapping[str, int]) -> tuple["Watch", frozenset[str]]:
+        """Return the watch after a step that leaves so many contacts in each state; its events."""
         touches = any(counts.get(name, 0) for name in TOUCHING)
         slips = counts.get("slide", 0) > 0
         found = {
@@ -85,9 +87,8 @@ class Watch:
                 counts.get(name, 0) != self.before.get(name, 0) for name in CHANGING
             ),
         }
-        self.before = dict(counts)
-        self.touched, self.slipped = self.touched or touches, self.slipped or slips
-        return frozenset(name for name, true in found.items() if true)
+        now = Watch(dict(counts), self.touched or touches, self.slipped or slips)
+        return now, frozenset(name for name, true in found.items() if true)
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """From states to what a run hands over: frames, history rows, and the totals of the summary."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -52,6 +53,42 @@ def monitors(setup: Setup) -> list[Monitor]:
     return found
 
 
+@dataclass(frozen=True)
+class Totals:
+    """What a recorder knows of the run so far.
+
+    Attributes
+    ----------
+    ledger
+        Energies, and the number of accepted steps.
+    passes, frames
+        Linear systems solved, and frames stored.
+    residual, penetration, stiffest
+        Largest relative out-of-balance force, overlap (m) and stiffness of a contact (N/m).
+    largest, counts
+        Contact points in each state: most of all steps, and after the last.
+    watch
+        What tells the events of a step.
+    taken, periods
+        Steps of this stretch of the run, and periods between frames that have passed.
+    stored
+        Whether the last state was stored as a frame.
+    """
+
+    ledger: Ledger = field(default_factory=Ledger)
+    passes: int = 0
+    frames: int = 0
+    residual: float = 0.0
+    penetration: float = 0.0
+    stiffest: float = 0.0
+    largest: Mapping[str, int] = field(default_factory=dict)
+    counts: Mapping[str, int] = field(default_factory=dict)
+    watch: Watch = field(default_factory=Watch)
+    taken: int = 0
+    periods: int = 0
+    stored: bool = True
+
+
 @dataclass
 class Recorder:
     """Writes to a sink and keeps the running totals of a run.
@@ -60,32 +97,27 @@ class Recorder:
     ----------
     stepper, sink, monitors
         What is recorded, where to, and which points.
-    ledger
-        Energies.
     choice
         Which states are stored as frames.
+    totals
+        Of the steps so far.
     """
 
     stepper: Stepper
     sink: Sink
     monitors: list[Monitor]
-    ledger: Ledger = field(default_factory=Ledger)
-    passes: int = 0
     choice: Choice = field(default_factory=lambda: Choice(0.0, steps=1))
-    watch: Watch = field(default_factory=Watch)
-    frames: int = 0
-    residual: float = 0.0
-    penetration: float = 0.0
-    stiffest: float = 0.0
-    largest: dict[str, int] = field(default_factory=dict)
-    counts: dict[str, int] = field(default_factory=dict)
-    _stored: State | None = None
-    _kept: Frame | None = None
+    totals: Totals = field(default_factory=Totals)
 
     @property
     def steps(self) -> int:
         """Number of accepted steps."""
-        return self.ledger.steps
+        return self.totals.ledger.steps
+
+    @property
+    def ledger(self) -> Ledger:
+        """Energies so far."""
+        return self.totals.ledger
 
     def step(
         self,
@@ -98,11 +130,16 @@ class Recorder:
 
         ``stands`` is its end where blocks are laid anew after each step.
         """
-        plan, after = self.stepper.plan, attempt.state
-        self.ledger.book(plan, self.stepper.model, before, attempt, stands or after)
+        plan, after, totals = self.stepper.plan, attempt.state, self.totals
+        self.totals = replace(
+            totals,
+            ledger=self.ledger.booked(plan, self.stepper.model, before, attempt, stands or after),
+            passes=totals.passes + attempt.passes,
+            residual=max(totals.residual, attempt.residual),
+            taken=totals.taken + 1,
+            stored=False,
+        )
         self.stepper.budget.taken += 1
-        self.passes += attempt.passes
-        self.residual = max(self.residual, attempt.residual)
         row = {
             "time": after.time,
             "load_factor": after.load_factor,
@@ -122,41 +159,29 @@ class Recorder:
             way = monitor.points.place(after.frames, after.deformation)[0] - monitor.start
             row[f"monitor:{monitor.name}:ux"], row[f"monitor:{monitor.name}:uy"] = way
         self.sink.row(row)
-        held = [f"{count} {name}" for name, count in self.counts.items() if count]
+        held = [f"{count} {name}" for name, count in self.totals.counts.items() if count]
         noun = "pass" if attempt.passes == 1 else "passes"
         return f"{attempt.passes} {noun}, contacts: {', '.join(held)}" if held else ""
 
-    def takes(self, state: State) -> bool:
-        """Return whether the state after the step just recorded is to be a frame; ask once."""
-        return self.choice.takes(state.time, self.watch.happened(self.counts))
+    def offer(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
+        """Hand over the state after the step just recorded, if it is to be a frame; once."""
+        totals, choice = self.totals, self.choice
+        watch, happened = totals.watch.seen(totals.counts)
+        due = choice.takes(state.time, totals.taken, totals.periods, happened)
+        periods = max(choice.periods(state.time), totals.periods)
+        self.totals = replace(totals, watch=watch, periods=periods)
+        if due:
+            self.frame(state, stage, contacts)
 
     def frame(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over a frame."""
-        self._hand_over(self._made(state, stage, contacts))
-        self._stored = state
-
-    def offer(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
-        """Hand over a frame if it is to be stored; else keep it, as it may prove the last."""
-        made, self._kept = self._made(state, stage, contacts), None
-        if self.takes(state):
-            self._hand_over(made)
-        else:
-            self._kept = made
+        self.sink.frame(self._made(state, stage, contacts))
+        self.totals = replace(self.totals, frames=self.totals.frames + 1, stored=True)
 
     def last(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over the last state of a stretch, unless that was done."""
-        if self._stored is not state:
+        if not self.totals.stored:
             self.frame(state, stage, contacts)
-
-    def flush(self) -> None:
-        """Hand over what was offered last, unless that was done."""
-        if self._kept is not None:
-            self._hand_over(self._kept)
-            self._kept = None
-
-    def _hand_over(self, frame: Frame) -> None:
-        self.sink.frame(replace(frame, index=self.frames))
-        self.frames += 1
 
     def _made(self, state: State, stage: str, contacts: "ContactPoints | None") -> Frame:
         stepper, manifold = self.stepper, self.stepper.model.manifold
@@ -164,7 +189,7 @@ class Recorder:
         body = manifold.element_body[manifold.elements.polygon_of_point]
         velocity = stepper.vertices.rows.apply(state.velocity)
         return Frame(
-            index=self.frames,
+            index=self.totals.frames,
             time=state.time,
             load_factor=state.load_factor,
             stage=stage,
@@ -190,14 +215,17 @@ class Recorder:
         contact = self.stepper.plan.contact
         assert contact is not None
         penetration = -float(contacts.gap.min(initial=0.0))
-        self.stiffest = max(self.stiffest, contact.stiffest or 0.0)
-        self.penetration = max(self.penetration, penetration)
         tally = np.bincount(contacts.state, minlength=len(ContactState)).tolist()
         counts = {s.name.lower(): tally[s] for s in ContactState}
         counts["broken"] = contact.broken_bonds
-        self.counts = counts
-        for name, count in counts.items():
-            self.largest[name] = max(self.largest.get(name, 0), count)
+        totals = self.totals
+        self.totals = replace(
+            totals,
+            stiffest=max(totals.stiffest, contact.stiffest or 0.0),
+            penetration=max(totals.penetration, penetration),
+            largest={name: max(totals.largest.get(name, 0), n) for name, n in counts.items()},
+            counts=counts,
+        )
         lost = {"friction_loss": self.ledger.friction_loss}
         if attempt.booked is not None:
             lost["contact_loss"] = self.ledger.contact_loss

@@ -12,7 +12,7 @@ from nmm.formulation import Formulation, parse_formulation
 from nmm.geometry import regions
 from nmm.model.consistency import known_quantities
 from nmm.scene import parse_scene
-from nmm.stepping.drive.dynamics import Schedule, run_in_time
+from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.simulation import prepare
 
 STEP = "[formulation.integrator]\nstep = {}\n"
@@ -34,8 +34,8 @@ class Clockwork:
         self.times.append(attempt.state.time)
         return ""
 
-    def takes(self, state):
-        return False
+    def offer(self, state, stage, contacts):
+        pass
 
     def last(self, state, stage, contacts):
         pass
@@ -47,7 +47,8 @@ class Clockwork:
 def test_a_duration_of_whole_steps_takes_as_many(step, count):
     seen = Clockwork()
     schedule = Schedule(duration=count * step, step=step)
-    run_in_time(seen, seen, SimpleNamespace(time=0.0), schedule, lambda share, text: None)
+    at = InTime.at_start(SimpleNamespace(time=0.0), schedule)
+    run_in_time(seen, seen, at, schedule, lambda share, text: None)
     assert len(seen.times) == count
     # Steps are equal but for the rounding of a sum.
     assert np.diff(seen.times).min() > (1 - 1e-6) * step

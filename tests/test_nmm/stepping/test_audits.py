@@ -1,7 +1,6 @@
 """Audits: what makes them speak, that quiet runs are quiet, and that the page has the table."""
 
 import importlib.util
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -122,9 +121,7 @@ def test_a_solved_run_whose_audit_fails_is_unbalanced(name, value):
 
 def test_converged_with_energy_made_is_impossible():
     """Contact that makes energy: a spring that is loaded by nothing, as a ledger sees it."""
-    ledger = replace(Ledger(), throughput=1.0)
-    ledger.energies = {"kinetic_energy": 1.16}
-    ledger._weigh(nmm.run(nmm.parse_scene(FREE)).state)
+    ledger = Ledger(throughput=1.0, energies={"kinetic_energy": 1.16}).weighed(time=0.0)
     assert ledger.in_run.energy == pytest.approx(1.16)
     assert ledger.balance == pytest.approx(-1.0)
 
