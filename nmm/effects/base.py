@@ -13,6 +13,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 
 if TYPE_CHECKING:
+    from nmm.effects.change import Change
     from nmm.formulation import Formulation
     from nmm.scene.model import Scene
 
@@ -73,6 +74,9 @@ class Effect(ABC):
     """
 
     name: ClassVar[str]
+    placed: ClassVar[bool] = True
+    """Whether places in the reference configuration declare it, so that it cannot follow bodies
+    that are laid anew elsewhere."""
 
     @classmethod
     @abstractmethod
@@ -117,9 +121,9 @@ class Effect(ABC):
         """Volumes (k,) left open at edges that the effect holds, for a model's k pressures (m2)."""
         raise NotImplementedError
 
-    def relaid(self, model: Model) -> "Effect":
-        """Return the effect on a model whose blocks were laid anew where they stand."""
-        raise NotImplementedError
+    def follow(self, change: "Change") -> "Effect":
+        """Return the effect on the new model: built anew from what declares it."""
+        return type(self).from_setup(change.setup)
 
     def begin(self, state: State) -> State:
         """Return the state at the start of the run as the effect changes it."""

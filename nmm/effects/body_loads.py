@@ -27,6 +27,7 @@ class BodyLoads(Effect):
     """All body loads of a scene, fixed in direction while bodies turn."""
 
     name = "body loads"
+    placed = False
 
     def __init__(self, model: Model, loads: list[BodyLoad]) -> None:
         self._model = model
@@ -46,10 +47,6 @@ class BodyLoads(Effect):
                 factor = load_factor(setup, load)
                 found.append(BodyLoad(density, factor, load.history is None))
         return cls(setup.model, found)
-
-    def relaid(self, model: Model) -> Effect:
-        """See `Effect.relaid`."""
-        return BodyLoads(model, self._loads)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the loads in the bodies' axes."""

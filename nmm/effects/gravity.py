@@ -16,6 +16,7 @@ class Gravity(Effect):
     """Force density ``rho g``, fixed in space while bodies turn."""
 
     name = "gravity"
+    placed = False
 
     def __init__(self, model: Model, acceleration: Floats) -> None:
         self._model = model
@@ -27,10 +28,6 @@ class Gravity(Effect):
         """Build from ``[gravity]``."""
         assert setup.scene.gravity is not None
         return cls(setup.model, np.array(setup.scene.gravity.acceleration))
-
-    def relaid(self, model: Model) -> Effect:
-        """See `Effect.relaid`."""
-        return Gravity(model, self._acceleration)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the weight in the bodies' axes."""

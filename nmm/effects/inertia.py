@@ -19,6 +19,7 @@ class Inertia(Effect):
     """
 
     name = "inertia"
+    placed = False
 
     def __init__(self, model: Model, axes_turn: bool = True) -> None:
         self._model = model
@@ -29,10 +30,6 @@ class Inertia(Effect):
     def from_setup(cls, setup: Setup) -> Self:
         """Build from ``[inertia]``."""
         return cls(setup.model, setup.formulation.rotation.update != "linear")
-
-    def relaid(self, model: Model) -> Effect:
-        """See `Effect.relaid`."""
-        return Inertia(model, self._axes_turn)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the centrifugal force of the rotation at the start of the step."""

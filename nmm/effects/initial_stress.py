@@ -1,7 +1,7 @@
 """Stress in blocks at the start of a run, constant in each, turning with the material."""
 
 from functools import cached_property
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -9,6 +9,9 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
 
 
 class InitialStress(Effect):
@@ -19,6 +22,7 @@ class InitialStress(Effect):
     """
 
     name = "initial stress"
+    placed = False
 
     def __init__(self, model: Model, stress: Floats) -> None:
         self.stress = stress
@@ -43,9 +47,10 @@ class InitialStress(Effect):
             stress[slice(None) if regions is None else regions[region]] = item.stress
         return cls(setup.model, stress)
 
-    def relaid(self, model: Model) -> Effect:
-        """See `Effect.relaid`."""
-        return InitialStress(model, self.stress)
+    def follow(self, change: "Change") -> Effect:
+        """Return the stress of each element from those that it comes from; else as declared."""
+        declared = InitialStress.from_setup(change.setup).stress
+        return InitialStress(change.new, change.parentage.elements.mean(self.stress, declared))
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the constant internal force."""

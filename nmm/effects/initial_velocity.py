@@ -15,6 +15,7 @@ class InitialVelocity(Effect):
     """Rigid motion (vx, vy, omega about the centroid) of each body at the start."""
 
     name = "initial velocity"
+    placed = False
 
     def __init__(self, model: Model, motion: Floats) -> None:
         self._model = model
@@ -33,10 +34,6 @@ class InitialVelocity(Effect):
                 item.angular_velocity,
             ]
         return cls(setup.model, motion)
-
-    def relaid(self, model: Model) -> Effect:
-        """See `Effect.relaid`."""
-        return self
 
     def begin(self, state: State) -> State:
         """Return the state with the velocities set."""

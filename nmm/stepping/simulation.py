@@ -21,10 +21,11 @@ from nmm.geometry.regions import regions as build_regions
 from nmm.integrators.base import make_integrator
 from nmm.model.build import block_functions, build_model
 from nmm.model.consistency import check_together
+from nmm.model.discretisation import Discretisation
 from nmm.model.fault_places import placed
 from nmm.model.origin import MovedBack, own_origin, shifted, shifted_regions
 from nmm.model.parts import check_parts
-from nmm.model.plan import Plan, compile_plan
+from nmm.model.plan import Plan
 from nmm.model.several_meshes import net_class
 from nmm.model.solver_settings import cures, solver_for, warnings
 from nmm.results.frame import Topology
@@ -48,7 +49,7 @@ from nmm.stepping.reports.output import (
 )
 from nmm.stepping.reports.recorder import Monitor, Recorder, Totals, monitors
 from nmm.stepping.step.budget import Budget
-from nmm.stepping.step.remap import Lay, check_relay
+from nmm.stepping.step.remap import Lay, check_remap
 from nmm.stepping.step.stepper import Stepper, scaled_load
 
 if TYPE_CHECKING:
@@ -145,8 +146,7 @@ class Simulation:
         from nmm.effects.inertia import Inertia
 
         quiet = Stepper(
-            self.stepper.model,
-            self.stepper.plan.joined(Inertia(self.stepper.model)),
+            self.stepper.discretisation.joined(Inertia(self.stepper.model)),
             make_integrator(self.formulation.integrator),
             self.stepper.solver,
             small=False,
@@ -269,10 +269,10 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     setup = Setup(
         scene, formulation, model, tuple(regions.name), np.asarray(regions.material), start, origin
     )
-    plan = compile_plan(setup)
+    discretisation = Discretisation.of(setup)
+    plan = discretisation.plan
     stepper = Stepper(
-        model,
-        plan,
+        discretisation,
         make_integrator(formulation.integrator),
         solver_for(model.manifold, formulation.solver),
         small=_small(scene, formulation),
@@ -289,7 +289,7 @@ def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
     """Return what lays blocks anew each step when the classical update is asked for."""
     if formulation.rotation.update != "linear":
         return None
-    check_relay(plan)
+    check_remap(plan)
     functions = block_functions(formulation.cover)
     if formulation.cover.type != "block" or functions.degree > 1:
         raise FormulationError(

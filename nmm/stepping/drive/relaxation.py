@@ -73,7 +73,10 @@ def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) ->
     heavy = replace(model, density=np.where(model.density > 0, model.density, 1.0))
     inertia = Inertia(heavy)
     moving = Stepper(
-        model, stepper.plan.joined(inertia), Shi(kinetic_factor=0.0), stepper.solver, small=False
+        stepper.discretisation.joined(inertia),
+        Shi(kinetic_factor=0.0),
+        stepper.solver,
+        small=False,
     )
     moving.budget = stepper.budget
     size = stepper.size

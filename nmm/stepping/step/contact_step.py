@@ -11,17 +11,18 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
+from nmm.model.discretisation import Current
 from nmm.solvers.linear import LinearSolver
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations
 from nmm.stepping.step.mover import Mover
-from nmm.stepping.step.remap import Laid
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.enforcement.null_space import NullSpace
     from nmm.contact.iteration.record import Breaking, ContactSolution
     from nmm.contact.points.contact_points import ContactPoints
+    from nmm.effects.change import Change
     from nmm.effects.contact import Contact
 
 # How far contacts are sought in the first step, in sizes of the domain.
@@ -50,17 +51,21 @@ class Touching:
 
     def __init__(
         self,
-        laid: Laid,
+        current: Current,
         mover: Mover,
         solver: LinearSolver,
         size: float,
         carries: bool,
         clock: Clock,
     ) -> None:
-        self._laid, self._mover, self._solver, self._clock = laid, mover, solver, clock
+        self._current, self._mover, self._solver, self._clock = current, mover, solver, clock
         self._size, self._carries = size, carries
         self._reach = FIRST_REACH * size
         self._held: NullSpace | None = None
+
+    def follow(self, change: "Change") -> None:
+        """Forget the conditions of the old model; how far bodies move in a step stays known."""
+        self._held = None
 
     def accepted(self, motion: float) -> None:
         """Take note of how far the last step moved (m)."""
@@ -128,13 +133,13 @@ class Touching:
 
     @property
     def _contact(self) -> "Contact":
-        contact = self._laid.plan.contact
+        contact = self._current.plan.contact
         assert contact is not None
         return contact
 
     def _conditions(self, equations: Equations) -> "NullSpace | None":
         """Return the conditions of supports by multipliers."""
-        border = self._laid.plan.border(equations.state, equations.end)
+        border = self._current.plan.border(equations.state, equations.end)
         if border is None:
             return None
         from nmm.contact.enforcement.null_space import NullSpace
@@ -187,7 +192,7 @@ class Touching:
         multipliers = held.multipliers(
             rest - solved.rows.push(answer.normal_force, answer.shear_force)
         )
-        self._laid.plan.keep(multipliers)
+        self._current.plan.keep(multipliers)
         return np.asarray(held.rows.T @ multipliers)
 
     def _kept(

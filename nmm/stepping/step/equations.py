@@ -11,7 +11,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
-from nmm.stepping.step.remap import Laid
+from nmm.model.discretisation import Current
 
 
 @dataclass(frozen=True)
@@ -68,8 +68,8 @@ class Equations:
 class Assembly:
     """Makes the equations of steps; a matrix of the same parts is the same object."""
 
-    def __init__(self, laid: Laid) -> None:
-        self._laid = laid
+    def __init__(self, current: Current) -> None:
+        self._current = current
         self._kept: tuple[float, tuple[csc_array, csc_array], csc_array] | None = None
         self._weighted: tuple[csc_array, float, csc_array] | None = None
         self._soft: tuple[Model, csc_array] | None = None
@@ -78,7 +78,7 @@ class Assembly:
         self, state: State, end: Instant, step: float | None, rule: Integrator, anchored: bool
     ) -> Equations:
         """Return the equations of a step; ``anchored``: see `nmm.stepping.step.anchors`."""
-        model, plan = self._laid.model, self._laid.plan
+        model, plan = self._current.model, self._current.plan
         force = self._applied(state, end)
         if step is None or plan.inertia is None:
             held = self._anchored() if anchored else model.stiffness
@@ -87,12 +87,12 @@ class Assembly:
 
     def _applied(self, state: State, end: Instant) -> Floats:
         """Return the forces (n,) of all effects less those of elasticity at the start."""
-        model, plan = self._laid.model, self._laid.plan
+        model, plan = self._current.model, self._current.plan
         return np.asarray(plan.force(state, end) - model.stiffness @ state.deformation)
 
     def _in_time(self, static: Equations) -> Equations:
         """Return the equations with inertia, over the factor of contact forces."""
-        plan, rule, state, step = self._laid.plan, static.rule, static.state, static.step
+        plan, rule, state, step = self._current.plan, static.rule, static.state, static.step
         assert step is not None
         assert plan.inertia is not None
         weight, force, gain, mass = rule.end_weight, static.force, None, plan.inertia.mass
@@ -111,7 +111,7 @@ class Assembly:
 
     def _anchored(self) -> csc_array:
         """Return elasticity with anchors."""
-        model = self._laid.model
+        model = self._current.model
         if self._soft is None or self._soft[0] is not model:
             from nmm.stepping.step.anchors import anchors
 
@@ -120,7 +120,7 @@ class Assembly:
 
     def _base(self, mass_factor: float, mass: csc_array) -> csc_array:
         """Return elasticity and inertia, which stay as long as the step's length does."""
-        parts = (self._laid.model.stiffness, mass)
+        parts = (self._current.model.stiffness, mass)
         kept = self._kept
         if kept is None or kept[0] != mass_factor or any(map(is_not, kept[1], parts)):
             kept = mass_factor, parts, csc_array(parts[0] + mass_factor * mass)

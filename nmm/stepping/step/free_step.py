@@ -8,13 +8,13 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Floats
 from nmm.assembly.motion import strain_only
 from nmm.errors import SolveError
+from nmm.model.discretisation import Current
 from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.solvers.rigid_apart import ROUNDED, Apart, rounding, solve_apart
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations
 from nmm.stepping.step.mover import Mover
-from nmm.stepping.step.remap import Laid
 from nmm.stepping.step.rigid_bodies import rigid_bodies
 from nmm.stepping.step.trial import Attempt
 
@@ -38,9 +38,9 @@ class Alone:
     """
 
     def __init__(
-        self, laid: Laid, mover: Mover, solver: LinearSolver, small: bool, clock: Clock
+        self, current: Current, mover: Mover, solver: LinearSolver, small: bool, clock: Clock
     ) -> None:
-        self._laid, self._mover, self._solver = laid, mover, solver
+        self._current, self._mover, self._solver = current, mover, solver
         self._small, self._clock = small, clock
         self.factor: Factor | None = None
 
@@ -67,13 +67,13 @@ class Alone:
         if apart is None:
             return replace(result, residual=residual)
         end = equations.end
-        moved = strain_only(self._laid.model, equations.state, apart.strain, apart.rigid)
+        moved = strain_only(self._current.model, equations.state, apart.strain, apart.rigid)
         moved = replace(moved, time=end.time, load_factor=end.load_factor)
         return replace(result, state=moved, residual=apart.residual)
 
     def _solve(self, equations: Equations) -> tuple[Floats, float, Apart | None]:
         """Return the increment (n,), its residual and, where that is better, rigid parts apart."""
-        plan, matrix, force = self._laid.plan, equations.matrix, equations.force
+        plan, matrix, force = self._current.plan, equations.matrix, equations.force
         border = plan.border(equations.state, equations.end)
         n, solver = len(force), self._solver
         if border is not None:
@@ -101,13 +101,13 @@ class Alone:
         residual: float,
     ) -> Apart | None:
         """Solution with rigid motions apart where rounding would spoil the stress; else None."""
-        model = self._laid.model
+        model = self._current.model
         if not self._small or model.manifold.n_bodies == 1:
             return None
         bodies = rigid_bodies(model)
         if rounding(factor, bodies, increment, force) <= ROUNDED:
             return None
-        held = self._laid.plan.matrix(equations.state, csc_array(model.stiffness.shape))
+        held = self._current.plan.matrix(equations.state, csc_array(model.stiffness.shape))
         rows = None if border is None else border[0]
         found = solve_apart(factor, bodies, held, force, rows)
         return found if found.residual < residual else None

@@ -1,18 +1,23 @@
 """Where bodies are after an increment, how fast, and how far their points have moved."""
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfStates
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State, move, strain_only, vertex_points
+from nmm.model.discretisation import Current
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations
-from nmm.stepping.step.remap import Laid
 from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
 
 
 class Mover:
@@ -29,15 +34,18 @@ class Mover:
         The elements' vertices, which are followed.
     """
 
-    def __init__(self, laid: Laid, solver: LinearSolver, still: bool, clock: Clock) -> None:
-        self._laid, self._solver, self._clock = laid, solver, clock
+    def __init__(self, current: Current, solver: LinearSolver, still: bool, clock: Clock) -> None:
+        self._current, self._solver, self._clock = current, solver, clock
         self.still = still
         self._masses: tuple[csc_array, Ints, Factor] | None = None
-        self.begin()
+        self._follow(self._current.model)
 
-    def begin(self) -> None:
-        """Follow the vertices of the model as it is laid now."""
-        self.vertices = vertex_points(self._laid.model.manifold)
+    def follow(self, change: "Change") -> None:
+        """Follow the vertices of the new model."""
+        self._follow(change.new)
+
+    def _follow(self, model: Model) -> None:
+        self.vertices = vertex_points(model.manifold)
         self._places = KeptOfStates(self._placed)
 
     def after(self, equations: Equations, increment: Floats, push: Floats | None = None) -> Attempt:
@@ -58,7 +66,7 @@ class Mover:
         return self.vertices.place(state.frames, state.deformation)
 
     def _moved(self, state: State, increment: Floats) -> State:
-        return (strain_only if self.still else move)(self._laid.model, state, increment)
+        return (strain_only if self.still else move)(self._current.model, state, increment)
 
     def _faster(self, equations: Equations, increment: Floats, push: Floats | None) -> State:
         """Return the state at the start with the rates of the end."""
@@ -79,7 +87,7 @@ class Mover:
         The force is what was left of the others, rounding among it. Where functions are dependent
         that part has no acceleration, which says nothing: the solution is not judged.
         """
-        inertia = self._laid.plan.inertia
+        inertia = self._current.plan.inertia
         assert inertia is not None
         mass = inertia.mass
         if self._masses is None or self._masses[0] is not mass:

@@ -6,63 +6,65 @@ and the growth be seen; bodies' axes stay parallel to the global ones, and stres
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from covers.approximation.manifold import Manifold
+from covers.change.parentage import Parentage
 from integration.arrays import Floats
 from integration.polygons import Polygons
-from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames, State
-from nmm.effects.base import defines
+from nmm.effects.change import Change
 from nmm.errors import FormulationError
+from nmm.model.discretisation import Discretisation
 from nmm.model.plan import Plan
 
 Lay = Callable[[Polygons], Manifold]
 
 
-@dataclass
-class Laid:
-    """The model, and the plan of effects on it, as the blocks lie now."""
-
-    model: Model
-    plan: Plan
-
-
-def relay(
-    model: Model, plan: Plan, lay: Lay, state: State, increment: Floats, place: Floats
-) -> tuple[Model, Plan, State]:
+def remapped(
+    discretisation: Discretisation, lay: Lay, state: State, increment: Floats, place: Floats
+) -> Change:
     """Lay the blocks anew at ``place`` (P, 2), where the accepted ``state`` has left them.
 
-    Returns
-    -------
-    The new model; the plan of effects on it, with the stress so far as initial stress; and the
-    state, with velocities kept unknown by unknown and no deformation.
+    Velocities are kept unknown by unknown, and there is no deformation: `stress_so_far` has what
+    the ``increment`` (n,) of the step has left in the material.
     """
-    from nmm.effects.initial_stress import InitialStress
-
-    carried = plan.initial_stress
-    stress = model.mean_stress(increment) + (0.0 if carried is None else carried.stress)
+    model = discretisation.model
     manifold = lay(model.manifold.elements.with_points(place))
-    new = replace(model, manifold=manifold)
-    effects = {name: effect.relaid(new) for name, effect in plan.effects.items()}
-    effects[InitialStress.name] = InitialStress(new, stress)
     centre = manifold.body_centroid
     frames = Frames(centre, np.zeros(manifold.n_bodies), way=np.zeros_like(centre))
     rest = np.zeros(manifold.n_unknowns)
-    return new, replace(plan, effects=effects), replace(state, frames=frames, deformation=rest)
+    return Change(
+        before=discretisation.setup,
+        setup=replace(discretisation.setup, model=replace(model, manifold=manifold)),
+        parentage=Parentage(model.manifold, manifold, same=True),
+        state=replace(state, frames=frames, deformation=rest),
+    )
 
 
-def check_relay(plan: Plan) -> None:
-    """Refuse effects that cannot follow blocks that are laid anew.
+def with_stress_so_far(
+    new: Discretisation, old: Discretisation, increment: Floats
+) -> Discretisation:
+    """Return the new one with the stress so far as initial stress."""
+    from nmm.effects.initial_stress import InitialStress
+
+    carried = old.plan.initial_stress
+    stress = old.model.mean_stress(increment) + (0.0 if carried is None else carried.stress)
+    effects = {**new.plan.effects, InitialStress.name: InitialStress(new.model, stress)}
+    return replace(new, plan=replace(new.plan, effects=effects))
+
+
+def check_remap(plan: Plan) -> None:
+    """Refuse effects that cannot follow blocks that are laid anew elsewhere.
 
     Raises
     ------
     FormulationError
         Naming the effects.
     """
-    fixed = [name for name, effect in plan.effects.items() if not defines(effect, "relaid")]
+    fixed = [name for name, effect in plan.effects.items() if effect.placed]
     if fixed:
         raise FormulationError(
             f'[rotation] update: "linear": the scene names {", ".join(fixed)}: expected effects '

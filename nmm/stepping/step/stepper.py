@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.model import Model
 from nmm.assembly.motion import MaterialPoints, State
 from nmm.effects.base import Instant
 from nmm.errors import SolveError
 from nmm.integrators.base import Integrator
 from nmm.integrators.shi import Shi
-from nmm.model.plan import Plan
+from nmm.model.discretisation import Current, Discretisation
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.booking import booked
 from nmm.stepping.step.budget import Budget
@@ -21,12 +20,15 @@ from nmm.stepping.step.contact_step import Touching
 from nmm.stepping.step.equations import Assembly
 from nmm.stepping.step.free_step import Alone
 from nmm.stepping.step.mover import Mover
-from nmm.stepping.step.remap import Laid, Lay, relay
+from nmm.stepping.step.remap import Lay, remapped, with_stress_so_far
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
+    from nmm.assembly.model import Model
     from nmm.contact.iteration.record import Breaking, ContactRecord
     from nmm.contact.points.contact_points import ContactPoints
+    from nmm.effects.change import Change
+    from nmm.model.plan import Plan
 
 
 class Stepper:
@@ -51,8 +53,7 @@ class Stepper:
 
     def __init__(
         self,
-        model: Model,
-        plan: Plan,
+        discretisation: Discretisation,
         integrator: Integrator,
         solver: LinearSolver,
         small: bool,
@@ -62,29 +63,34 @@ class Stepper:
         self.solver, self.small, self.seconds = solver, small, clock.seconds
         self.anchored = False
         self.budget = Budget()
-        self.reference = model.manifold.elements.points
+        self.reference = discretisation.model.manifold.elements.points
         self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
-        self._laid, self._lay, self._clock = Laid(model, plan), lay, clock
+        self._current, self._lay, self._clock = Current(discretisation), lay, clock
         self._integrator = integrator
         self._starter = Shi(kinetic_factor=integrator.kinetic_factor)
         self._begun = False
         self._pushing = np.zeros(0, dtype=np.int64)
-        self._assembly = Assembly(self._laid)
-        self._mover = Mover(self._laid, solver, small or lay is not None, clock)
-        self._alone = Alone(self._laid, self._mover, solver, small, clock)
+        self._assembly = Assembly(self._current)
+        self._mover = Mover(self._current, solver, small or lay is not None, clock)
+        self._alone = Alone(self._current, self._mover, solver, small, clock)
         self._touching = Touching(
-            self._laid, self._mover, solver, self.size, integrator.carries, clock
+            self._current, self._mover, solver, self.size, integrator.carries, clock
         )
 
     @property
-    def model(self) -> Model:
-        """The model as it is laid now."""
-        return self._laid.model
+    def discretisation(self) -> Discretisation:
+        """What is solved now."""
+        return self._current.discretisation
 
     @property
-    def plan(self) -> Plan:
+    def model(self) -> "Model":
+        """Its model."""
+        return self._current.model
+
+    @property
+    def plan(self) -> "Plan":
         """The effects on it."""
-        return self._laid.plan
+        return self._current.plan
 
     @property
     def vertices(self) -> MaterialPoints:
@@ -130,12 +136,23 @@ class Stepper:
         if contact is not None and attempt.solved is not None:
             contacts = contact.commit(attempt.solved, state)
         if self._lay is not None:
-            laid, place = self._laid, self.place(state)
-            laid.model, laid.plan, state = relay(
-                laid.model, laid.plan, self._lay, state, attempt.increment, place
-            )
-            self._mover.begin()
+            state = self._remapped(self._lay, state, attempt.increment)
         return state, contacts
+
+    def _remapped(self, lay: Lay, state: State, increment: Floats) -> State:
+        """Lay the blocks anew where they stand; places still count from where the run began."""
+        old, start = self.discretisation, self.reference
+        change = remapped(old, lay, state, increment, self.place(state))
+        self.follow(change, with_stress_so_far(old.after(change), old, increment))
+        self.reference = start
+        return change.state
+
+    def follow(self, change: "Change", new: Discretisation) -> None:
+        """Solve ``new`` from now on, which is what a change has made of what was solved."""
+        self._current.discretisation = new
+        self.reference = change.new.manifold.elements.points
+        self._mover.follow(change)
+        self._touching.follow(change)
 
     def _struck(self, attempt: Attempt) -> bool:
         """Whether contacts began or ended to push in a step."""

@@ -1,0 +1,161 @@
+"""What became of elements, bodies, boundary edges and covers, of two manifolds on one material.
+
+Both lie in the same reference place, and their regions have the same numbers. Kin are those that
+have material, or boundary, in common: many old ones may have left it to many new ones.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+from scipy.sparse import coo_array, csr_array
+
+from covers.approximation.manifold import Manifold
+from covers.change.relation import Relation, identity
+from covers.cutting.boundary import BoundaryEdges
+from integration.arrays import Bools, Floats, Ints
+from integration.polygons import Polygons
+
+# Overlaps below this share of the smaller of two elements are rounding of their vertices.
+ROUNDING = 1e-12
+# Edges nearer than this share of the domain are the same: far above the resolution of cuts, far
+# below any cell.
+NEAR = 1e-9
+
+
+@dataclass(frozen=True)
+class Parentage:
+    """Kin of two manifolds.
+
+    Attributes
+    ----------
+    old, new
+        Before and after.
+    same
+        Whether elements and edges are one by one the same though they may lie elsewhere: bodies
+        laid anew where they stand.
+    """
+
+    old: Manifold
+    new: Manifold
+    same: bool = False
+
+    @cached_property
+    def elements(self) -> Relation:
+        """Elements, by the area they have in common (m2)."""
+        return self._overlaps[0]
+
+    @cached_property
+    def pieces(self) -> Polygons:
+        """The parts that old and new elements have in common, in the order of `elements`."""
+        return self._overlaps[1]
+
+    @cached_property
+    def bodies(self) -> Relation:
+        """Bodies, by the area they have in common (m2)."""
+        return self.elements.gathered(
+            (self.old.element_body, self.new.element_body), (self.old.n_bodies, self.new.n_bodies)
+        )
+
+    @cached_property
+    def edges(self) -> Relation:
+        """Boundary edges, by the length they have in common (m)."""
+        old, new = self.old.boundary, self.new.boundary
+        if self.same or _same_edges(old, new):
+            return identity(np.hypot(*(new.end - new.start).T))
+        return _along(self.old, self.new)
+
+    @cached_property
+    def covers(self) -> Relation:
+        """Covers, by the area where both have influence (m2)."""
+        old, new = _incidence(self.old), _incidence(self.new)
+        found = coo_array(old.T @ self.elements.matrix @ new)
+        parent, child = (index.astype(np.int64) for index in found.coords)
+        return Relation(parent, child, found.data, self.old.n_covers, self.new.n_covers)
+
+    @cached_property
+    def _overlaps(self) -> tuple[Relation, Polygons]:
+        old, new = self.old, self.new
+        if self.same or _same_elements(old, new):
+            return identity(new.elements.areas), new.elements
+        return _overlaps(old, new)
+
+    @cached_property
+    def new_bodies(self) -> Bools:
+        """Which new bodies (B,) have no parent."""
+        return self.bodies.main < 0
+
+
+def _same_elements(old: Manifold, new: Manifold) -> bool:
+    a, b = old.elements, new.elements
+    return np.array_equal(old.element_region, new.element_region) and all(
+        np.array_equal(getattr(a, name), getattr(b, name))
+        for name in ("points", "ring_offsets", "polygon_offsets")
+    )
+
+
+def _same_edges(old: BoundaryEdges, new: BoundaryEdges) -> bool:
+    names = ("start", "end", "element")
+    return all(np.array_equal(getattr(old, name), getattr(new, name)) for name in names)
+
+
+def _overlaps(old: Manifold, new: Manifold) -> tuple[Relation, Polygons]:
+    """Overlay elements of the same region."""
+    first, second = old.elements.to_shapely(), new.elements.to_shapely()
+    child, parent = shapely.STRtree(first).query(second, predicate="intersects")
+    alike = old.element_region[parent] == new.element_region[child]
+    parent, child = parent[alike], child[alike]
+    shapes, owner = shapely.get_parts(
+        shapely.intersection(first[parent], second[child]), return_index=True
+    )
+    parent, child, area = parent[owner], child[owner], shapely.area(shapes)
+    smaller = np.minimum(old.elements.areas[parent], new.elements.areas[child])
+    counts = (shapely.get_type_id(shapes) == 3) & (area > ROUNDING * smaller)
+    order = np.flatnonzero(counts)[np.lexsort((parent[counts], child[counts]))]
+    relation = Relation(
+        parent[order], child[order], area[order], len(old.elements), len(new.elements)
+    )
+    return relation, Polygons.from_shapely(shapes[order]).oriented()
+
+
+def _along(old: Manifold, new: Manifold) -> Relation:
+    """Boundary edges of the same region that lie on each other and have the same sense."""
+    a, b = old.boundary, new.boundary
+    near = NEAR * float(np.hypot(*np.ptp(old.elements.points, axis=0)))
+    first, second = (
+        [shapely.LineString(ends) for ends in np.stack([e.start, e.end], axis=1)] for e in (a, b)
+    )
+    child, parent = shapely.STRtree(first).query(second, predicate="dwithin", distance=near)
+    alike = old.element_region[a.element[parent]] == new.element_region[b.element[child]]
+    parent, child = parent[alike], child[alike]
+    common = _common(a, parent, b, child, near)
+    counts = common > near
+    return Relation(parent[counts], child[counts], common[counts], len(a), len(b))
+
+
+def _common(a: BoundaryEdges, one: Ints, b: BoundaryEdges, other: Ints, near: float) -> Floats:
+    """Length (k,) that edges ``one`` of ``a`` have in common with edges ``other`` of ``b``."""
+    way = a.end[one] - a.start[one]
+    length = np.hypot(*way.T)
+    along = way / length[:, None]
+    ends = np.stack([b.start[other], b.end[other]]) - a.start[one]
+    s = np.einsum("ekj,kj->ek", ends, along)
+    off = np.abs(ends[..., 0] * along[:, 1] - ends[..., 1] * along[:, 0]).max(axis=0)
+    common = np.minimum(s[1], length) - np.maximum(s[0], 0.0)
+    return np.where((off <= 2 * near) & (s[1] > s[0]), common, 0.0)
+
+
+def _incidence(manifold: Manifold) -> csr_array:
+    """Ones (E, C) where an element has a cover."""
+    elements, covers = [], []
+    for group in manifold.groups:  # a handful of groups
+        cover = np.searchsorted(manifold.cover_offset, group.unknowns, side="right") - 1
+        elements.append(np.repeat(group.elements, cover.shape[1]))
+        covers.append(cover.ravel())
+    place = np.concatenate(elements), np.concatenate(covers)
+    found = csr_array(
+        (np.ones(len(place[0])), place), shape=(len(manifold.elements), manifold.n_covers)
+    )
+    found.data[:] = 1.0
+    return found

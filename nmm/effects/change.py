@@ -1,0 +1,40 @@
+"""From one model to the next: what a change hands to all that hold numbers of the old one."""
+
+from dataclasses import dataclass
+
+from covers.change.parentage import Parentage
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.effects.base import Setup
+
+
+@dataclass(frozen=True)
+class Change:
+    """What became of a model.
+
+    Attributes
+    ----------
+    before
+        What effects were built from, with the old model.
+    setup
+        What they are built from now, with the new one.
+    parentage
+        Which elements, bodies, edges and covers come from which.
+    state
+        The last state, carried over to the new model; its effects are built for it.
+    """
+
+    before: Setup
+    setup: Setup
+    parentage: Parentage
+    state: State
+
+    @property
+    def old(self) -> Model:
+        """The model so far."""
+        return self.before.model
+
+    @property
+    def new(self) -> Model:
+        """The model from now on."""
+        return self.setup.model
