@@ -13,11 +13,11 @@ from typing import Literal
 from pydantic import Field, PrivateAttr
 
 from nmm.errors import FormulationError
-from nmm.scene.cover_tables import OWN, Part
-from nmm.scene.cover_tables import Cover as Cover
+from nmm.scene.cover_tables import OWN, PartTable
 from nmm.scene.cover_tables import CoverNet as CoverNet
 from nmm.scene.cover_tables import CoverRegion as CoverRegion
-from nmm.scene.cover_tables import Enrichment as Enrichment
+from nmm.scene.cover_tables import CoverTable as CoverTable
+from nmm.scene.cover_tables import EnrichmentTable as EnrichmentTable
 from nmm.scene.document import parse, read_text
 from nmm.scene.faults import Source
 from nmm.scene.fields import Count, Frozen, Number, PartName, Text, Time
@@ -66,7 +66,7 @@ class Glue(Frozen):
     )
 
 
-class ContactMethod(Part):
+class ContactMethod(PartTable):
     """Enforcement of contact and joint conditions."""
 
     enforcement: PartName = Field(
@@ -105,7 +105,7 @@ class ContactMethod(Part):
     )
 
 
-class Integrator(Part):
+class IntegratorTable(PartTable):
     """Time integration of dynamic scenes."""
 
     type: PartName = Field(
@@ -166,7 +166,7 @@ class LoadSteps(Frozen):
     )
 
 
-class Solver(Part):
+class Solver(PartTable):
     """Linear solver."""
 
     type: PartName = Field(
@@ -180,11 +180,13 @@ class Formulation(Frozen):
     """Cover, contact enforcement, integrator, rotation, load steps and linear solver."""
 
     title: Text = Field(default="", description="a title", examples=["DDA"])
-    cover: Cover = Field(default=Cover(), description="a table [cover]")
+    cover: CoverTable = Field(default=CoverTable(), description="a table [cover]")
     supports: SupportMethod = Field(default=SupportMethod(), description="a table [supports]")
     glue: Glue = Field(default=Glue(), description="a table [glue]")
     contact: ContactMethod = Field(default=ContactMethod(), description="a table [contact]")
-    integrator: Integrator = Field(default=Integrator(), description="a table [integrator]")
+    integrator: IntegratorTable = Field(
+        default=IntegratorTable(), description="a table [integrator]"
+    )
     rotation: Rotation = Field(default=Rotation(), description="a table [rotation]")
     loading: LoadSteps = Field(default=LoadSteps(), description="a table [loading]")
     solver: Solver = Field(default=Solver(), description="a table [solver]")

@@ -281,6 +281,28 @@ def test_a_room_says_in_a_sentence_what_is_in_it(room):
     assert len(says.split("\n")[0]) > 20
 
 
+# Names that are still taken twice; the list only shrinks.
+TAKEN_TWICE = {"Crossings", "Pairs", "Pieces", "Rows", "Seams", "Springs", "Verdict"}
+
+
+def homes_of_public_classes(root: Path) -> dict[str, list[str]]:
+    """Files that define each public class."""
+    homes: dict[str, list[str]] = {}
+    for path in (path for package in PACKAGES for path in sorted((root / package).rglob("*.py"))):
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                homes.setdefault(node.name, []).append(path.relative_to(root).as_posix())
+    return homes
+
+
+def test_no_two_public_classes_of_all_rooms_share_a_name():
+    """A table of a file that is named like what it describes ends in `Table`."""
+    homes = homes_of_public_classes(ROOT)
+    twice = {name: files for name, files in homes.items() if len(files) > 1}
+    assert twice.keys() <= TAKEN_TWICE, {n: f for n, f in twice.items() if n not in TAKEN_TWICE}
+    assert twice.keys() >= TAKEN_TWICE, f"{TAKEN_TWICE - twice.keys()}: take them off the list"
+
+
 # Lists of cases are as long as there are cases.
 LISTS = {"nmm/verification/problems", "nmm/verification/hard"}
 

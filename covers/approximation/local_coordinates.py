@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from covers.approximation.whitening import Frames, cover_frames, element_frames, element_spread
+from covers.approximation.whitening import LocalFrames, cover_frames, element_frames, element_spread
 from covers.cutting.cut_cells import CutCells
 from covers.local_functions.polynomials import Kinds
 from covers.mathematical.base import Cover
@@ -10,20 +10,20 @@ from integration.arrays import Bools, Ints
 from integration.polygons import Polygons, diameters
 
 
-def part_frames(cut: CutCells) -> tuple[Frames, Ints]:
+def part_frames(cut: CutCells) -> tuple[LocalFrames, Ints]:
     """Coordinates of the elements that are not whole cells, and which those are."""
     parts = np.flatnonzero(~cut.element_whole)
     if not len(parts):
-        return Frames(np.zeros((0, 2)), np.zeros((0, 2, 2))), parts
+        return LocalFrames(np.zeros((0, 2)), np.zeros((0, 2, 2))), parts
     return element_frames(cut.elements.take(parts)), parts
 
 
-def elements_coordinates(cut: CutCells, frames: Frames, parts: Ints) -> Frames:
+def elements_coordinates(cut: CutCells, frames: LocalFrames, parts: Ints) -> LocalFrames:
     """Coordinates of all elements (E,): those of parts of cells, of squares for whole ones."""
     centre = cut.elements.centroids.copy()
     matrix = np.eye(2) * (2 / diameters(cut.elements))[:, None, None]
     centre[parts], matrix[parts] = frames.centre, frames.matrix
-    return Frames(centre, matrix)
+    return LocalFrames(centre, matrix)
 
 
 def fitted_covers(cut: CutCells, kinds: Kinds) -> Bools:
@@ -35,8 +35,8 @@ def fitted_covers(cut: CutCells, kinds: Kinds) -> Bools:
 
 
 def covers_coordinates(
-    cover: Cover, cut: CutCells, kinds: Kinds, fitted: Bools, parts: Ints, frames: Frames
-) -> Frames:
+    cover: Cover, cut: CutCells, kinds: Kinds, fitted: Bools, parts: Ints, frames: LocalFrames
+) -> LocalFrames:
     """Coordinates of all covers (C,): of the patch, or fitted to what is left of it."""
     centre = cover.patch_centre[cut.cover_patch].copy()
     physical = kinds.each(lambda item: item.physical_length)
@@ -54,12 +54,14 @@ def covers_coordinates(
             spread, place[element], number[cut.covers[element, slot]], int(fitted.sum())
         )
         centre[fitted], matrix[fitted] = found.centre, found.matrix
-    return Frames(centre, matrix)
+    return LocalFrames(centre, matrix)
 
 
-def _some(cut: CutCells, polygons: Polygons, own: Ints, parts: Ints, frames: Frames) -> Frames:
+def _some(
+    cut: CutCells, polygons: Polygons, own: Ints, parts: Ints, frames: LocalFrames
+) -> LocalFrames:
     """Frames of some elements: their own when they are parts of cells, those of squares else."""
     matrix = np.eye(2) * (2 / diameters(polygons))[:, None, None]
     mine = np.isin(own, parts)
     matrix[mine] = frames.matrix[np.searchsorted(parts, own[mine])]
-    return Frames(polygons.centroids, matrix)
+    return LocalFrames(polygons.centroids, matrix)

@@ -27,7 +27,7 @@ from covers.approximation.quadrature_groups import QuadratureGroup
 from covers.approximation.rigid_modes import rigid_modes, stretch_modes
 from covers.approximation.singular_rules import singular_rule
 from covers.approximation.weighted_fields import RATIONAL, WeightedFields
-from covers.approximation.whitening import Frames
+from covers.approximation.whitening import LocalFrames
 from covers.cutting.cut_cells import CutCells
 from covers.local_functions.polynomials import Kinds, LocalFunctions
 from covers.mathematical.base import Cover
@@ -121,7 +121,7 @@ class _Builder:
     offset: Ints
     fitted: Bools
     enriched: Ints
-    frames: Frames
+    frames: LocalFrames
 
     @classmethod
     def of(

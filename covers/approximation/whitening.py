@@ -20,7 +20,7 @@ CORRELATED = 0.99
 
 
 @dataclass(frozen=True)
-class Frames:
+class LocalFrames:
     """Coordinates ``matrix (x - centre)``: (n, 2) and (n, 2, 2)."""
 
     centre: Floats
@@ -36,7 +36,7 @@ class Spread:
     root: Floats
 
 
-def element_frames(polygons: Polygons) -> Frames:
+def element_frames(polygons: Polygons) -> LocalFrames:
     """Coordinates along the principal axes, between -1 and 1 over each polygon."""
     centre = polygons.centroids
     second = moments(polygons, 2, scale=diameters(polygons))[:, [[3, 4], [4, 5]]]
@@ -44,10 +44,10 @@ def element_frames(polygons: Polygons) -> Frames:
     owner = polygons.polygon_of_point
     turned = np.einsum("pij,pj->pi", axes[owner], polygons.points - centre[owner])
     half = np.maximum.reduceat(np.abs(turned), polygons.first_point, axis=0)
-    return Frames(centre, axes / half[:, :, None])
+    return LocalFrames(centre, axes / half[:, :, None])
 
 
-def element_spread(polygons: Polygons, frames: Frames) -> Spread:
+def element_spread(polygons: Polygons, frames: LocalFrames) -> Spread:
     """Covariances as roots, which keep their figures for needles."""
     owner = polygons.polygon_of_point
     away = polygons.points - frames.centre[owner]
@@ -57,7 +57,7 @@ def element_spread(polygons: Polygons, frames: Frames) -> Spread:
     return Spread(polygons.areas, polygons.centroids, inverses(frames.matrix) @ root)
 
 
-def cover_frames(parts: Spread, element: Ints, cover: Ints, n_covers: int) -> Frames:
+def cover_frames(parts: Spread, element: Ints, cover: Ints, n_covers: int) -> LocalFrames:
     """Whitened coordinates of covers from pairs (p,) of an element and a cover it belongs to."""
     area, root = parts.area[element], parts.root[element]
     total = np.bincount(cover, area, minlength=n_covers)
@@ -71,7 +71,7 @@ def cover_frames(parts: Spread, element: Ints, cover: Ints, n_covers: int) -> Fr
     deviation = np.sqrt(np.stack([covariance[:, 0, 0], covariance[:, 1, 1]], axis=1))
     correlation = covariance[:, 0, 1] / deviation.prod(axis=1)
     whitening = _root_of_inverse(np.where(np.abs(correlation) < CORRELATED, correlation, 0.0))
-    return Frames(centre, whitening @ (axes / deviation[:, :, None]) / 2)
+    return LocalFrames(centre, whitening @ (axes / deviation[:, :, None]) / 2)
 
 
 def _covariance(share: Floats, away: Floats, root: Floats, cover: Ints, n: int) -> Floats:

@@ -9,7 +9,7 @@ from integration.arrays import Floats
 from nmm.assembly.errors import field_errors
 from nmm.assembly.places import on_segment
 from nmm.constraints.edge_supports import Method
-from nmm.formulation import Cover, read_formulation
+from nmm.formulation import CoverTable, read_formulation
 from nmm.geometry import regions
 from nmm.model.build import material_law
 from nmm.model.from_polygons import solid
@@ -47,7 +47,7 @@ def stress(points: Floats) -> Floats:
     return np.stack([-FORCE * (LENGTH - x) * y / INERTIA, 0 * x, shear], axis=1)
 
 
-def solve(cover: Cover) -> Answer:
+def solve(cover: CoverTable) -> Answer:
     """Bend the beam of the scene under a formulation's cover."""
     scene = read_scene(HERE / "beam.toml")
     law = material_law(scene.materials["steel"])

@@ -8,7 +8,7 @@ from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.places import at_point, on_edges
 from nmm.constraints.edge_supports import Method
-from nmm.formulation import Cover, read_formulation
+from nmm.formulation import CoverTable, read_formulation
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.stepping.drive.linear_statics import equilibrium, hold, traction
@@ -32,7 +32,7 @@ def lame() -> float:
     return (1 + nu) * a**2 / (b**2 - a**2) * ((1 - 2 * nu) * a + b**2 / a)
 
 
-def wall(cover: Cover) -> tuple[float, int]:
+def wall(cover: CoverTable) -> tuple[float, int]:
     """Displacement of the inner wall and the number of unknowns."""
     model = solid(quarter(), cover, [Elastic(1.0, POISSON)], "strain")
     edges = model.manifold.boundary
@@ -58,7 +58,7 @@ def _pressure(points: Floats, normals: Floats) -> Floats:
 def main(size: float = 0.15) -> dict[str, tuple[float, int]]:
     """Return error and unknowns of the radial net and of Shi's net of like cells at the wall."""
     own = read_formulation(HERE / "radial.toml").cover.model_copy(update={"size": size})
-    shi = Cover(type="triangles", size=size, degree=1, angle=0.2)
+    shi = CoverTable(type="triangles", size=size, degree=1, angle=0.2)
     found = {}
     with allowing("radial", folder=HERE):
         for name, cover in (("radial", own), ("triangles", shi)):

@@ -29,7 +29,7 @@ from nmm.effects.load_factor import displacement_factor
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
-    from nmm.scene.actions import Support as SceneSupport
+    from nmm.scene.actions import SupportTable as SceneSupport
 
 # Spring of a support in Young's moduli times thickness: Shi's 10 to 1000, at the stiff end.
 STIFFNESS = 1000.0

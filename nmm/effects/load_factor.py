@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 from nmm.effects.base import Instant, Setup, factor_of
 
 if TYPE_CHECKING:
-    from nmm.scene.actions import Load, Support
+    from nmm.scene.actions import LoadTable, SupportTable
 
 
-def load_factor(setup: Setup, load: "Load") -> Callable[[Instant], float]:
+def load_factor(setup: Setup, load: "LoadTable") -> Callable[[Instant], float]:
     """Return the factor of a load: its history, times the load factor if it is scaled.
 
     Without ``[loading]`` all loads are scaled: from 0 to 1 in statics, by 1 in dynamics.
@@ -19,7 +19,7 @@ def load_factor(setup: Setup, load: "Load") -> Callable[[Instant], float]:
     return lambda end: factor_of(load.history, end.time) * (end.load_factor if scaled else 1.0)
 
 
-def displacement_factor(setup: Setup, support: "Support") -> Callable[[Instant], float]:
+def displacement_factor(setup: Setup, support: "SupportTable") -> Callable[[Instant], float]:
     """Return the factor of a support's displacement: its history, times the load factor if scaled.
 
     It is scaled when ``[loading]`` names it, or scales "all" of a scene without loads and the

@@ -4,7 +4,7 @@
 from nmm.geometry.blocks import Regions
 from nmm.geometry.regions import regions
 from nmm.geometry.tessellation.cutting import cut
-from nmm.geometry.tessellation.joint_sets import Joints
+from nmm.geometry.tessellation.joint_sets import JointSetGeometry
 from nmm.geometry.tessellation.voronoi import tessellate
 
-__all__ = ["Joints", "Regions", "cut", "regions", "tessellate"]
+__all__ = ["JointSetGeometry", "Regions", "cut", "regions", "tessellate"]

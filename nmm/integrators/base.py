@@ -18,7 +18,7 @@ from nmm.errors import FormulationError
 from nmm.registry import Registry
 
 if TYPE_CHECKING:
-    from nmm.formulation import Integrator as Table
+    from nmm.formulation import IntegratorTable as Table
 
 
 @dataclass(frozen=True)

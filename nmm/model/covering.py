@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from covers.cutting.cut_cells import CutCells
     from covers.mathematical.base import Cover as MathematicalCover
-    from nmm.formulation import Cover
+    from nmm.formulation import CoverTable
     from nmm.geometry.blocks import Regions
 
 
@@ -31,7 +31,7 @@ class Covering:
 
 def cover_regions(
     regions: "Regions",
-    cover: "Cover",
+    cover: "CoverTable",
     cracks: "Sequence[Floats]" = (),
     kappa: Floats | None = None,
 ) -> Covering:
@@ -80,7 +80,7 @@ def cover_regions(
     return _mesh(regions, cover, functions, lines, kappa)
 
 
-def local_functions(cover: "Cover") -> LocalFunctions:
+def local_functions(cover: "CoverTable") -> LocalFunctions:
     """Return the local functions that ``[cover]`` names."""
     functions = FUNCTIONS.get(cover.functions)
     if functions is None:
@@ -104,7 +104,7 @@ def local_functions(cover: "Cover") -> LocalFunctions:
 
 def _mesh(
     regions: "Regions",
-    cover: "Cover",
+    cover: "CoverTable",
     functions: LocalFunctions,
     lines: "Sequence[Floats]",
     kappa: Floats | None,

@@ -11,11 +11,11 @@ from nmm.errors import FormulationError
 
 if TYPE_CHECKING:
     from covers.cutting.cut_cells import CutCells
-    from nmm.formulation import Cover, CoverRegion
+    from nmm.formulation import CoverRegion, CoverTable
     from nmm.geometry.blocks import Regions
 
 
-def kinds_by_region(regions: "Regions", cut: "CutCells", cover: "Cover") -> Kinds:
+def kinds_by_region(regions: "Regions", cut: "CutCells", cover: "CoverTable") -> Kinds:
     """Return the local functions of each cover: those of the last region that holds it.
 
     Raises

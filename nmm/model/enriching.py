@@ -10,13 +10,13 @@ from nmm.errors import FormulationError
 
 if TYPE_CHECKING:
     from covers.cutting.cut_cells import CutCells
-    from nmm.formulation import Cover
+    from nmm.formulation import CoverTable
 
 # Distance from a straight line in parts of the length looked at.
 STRAIGHT = 1e-6
 
 
-def enrichments(cut: "CutCells", cover: "Cover", kappa: Floats | None) -> list[Enrichment]:
+def enrichments(cut: "CutCells", cover: "CoverTable", kappa: Floats | None) -> list[Enrichment]:
     """Return crack-tip functions and the corner functions that ``[cover.enrichment]`` names.
 
     Without the table the covers about a tip carry its functions where the crack is straight and
@@ -56,7 +56,7 @@ def enrichments(cut: "CutCells", cover: "Cover", kappa: Floats | None) -> list[E
     return found
 
 
-def _tips(cut: "CutCells", cover: "Cover") -> Ints:
+def _tips(cut: "CutCells", cover: "CoverTable") -> Ints:
     """Tips whose functions are wanted."""
     every = np.arange(len(cut.tips))
     if cover.enrichment is not None:

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
 from nmm.assembly.model import Model
-from nmm.formulation import Cover
+from nmm.formulation import CoverTable
 from nmm.geometry.blocks import Regions
 from nmm.materials.base import Law
 from nmm.model.covering import cover_regions
@@ -16,7 +16,7 @@ from nmm.model.covering import cover_regions
 
 def solid(
     polygons: Polygons,
-    cover: Cover,
+    cover: CoverTable,
     laws: Sequence[Law],
     plane: str,
     *,
@@ -65,7 +65,7 @@ def solid(
 
 def covered(
     regions: Regions,
-    cover: Cover,
+    cover: CoverTable,
     laws: Sequence[Law],
     plane: str,
     *,

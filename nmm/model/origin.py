@@ -17,7 +17,7 @@ from nmm.geometry.blocks import Regions
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import Sink
 from nmm.results.tee import Tee
-from nmm.scene.cover_tables import Cover
+from nmm.scene.cover_tables import CoverTable
 from nmm.scene.fields import Coordinates
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def shifted(part: "ModelT", by: Floats) -> "ModelT":
         changed = _moved(value, by) if name in places else _shifted_within(value, by)
         if changed is not value:
             changes[name] = changed
-    if isinstance(part, Cover) and part.options and not part.of_blocks:
+    if isinstance(part, CoverTable) and part.options and not part.of_blocks:
         changes["options"] = _moved_options(part, by)
     return part.model_copy(update=changes) if changes else part
 
@@ -86,7 +86,7 @@ def _marked(hint: Any) -> bool:
     return any(map(_marked, get_args(hint)))
 
 
-def _moved_options(cover: Cover, by: Floats) -> dict[str, Any]:
+def _moved_options(cover: CoverTable, by: Floats) -> dict[str, Any]:
     from covers.mathematical.registry import cover_class
 
     moved = dict(cover.options)

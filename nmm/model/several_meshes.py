@@ -17,7 +17,7 @@ from nmm.errors import Fault, FormulationError
 from nmm.registry import Registry, check_values
 
 if TYPE_CHECKING:
-    from nmm.formulation import Cover, CoverNet
+    from nmm.formulation import CoverNet, CoverTable
     from nmm.geometry.blocks import Regions
 
 NETS = Registry[type[MathematicalCover]]("cover", MathematicalCover, COVERS)
@@ -25,7 +25,7 @@ NETS = Registry[type[MathematicalCover]]("cover", MathematicalCover, COVERS)
 
 
 def laid_and_cut(
-    regions: "Regions", cover: "Cover", lines: Sequence[Floats]
+    regions: "Regions", cover: "CoverTable", lines: Sequence[Floats]
 ) -> tuple[MathematicalCover, CutCells]:
     """Lay the nets of ``[cover]`` over the blocks and cut them by blocks and lines.
 
@@ -78,7 +78,7 @@ def _members(regions: "Regions", nets: "Sequence[CoverNet]") -> list[Ints]:
     return [np.flatnonzero(which == number) for number in range(len(nets) + 1)]
 
 
-def net_class(cover: "Cover") -> Any:
+def net_class(cover: "CoverTable") -> Any:
     """Return the class of a formulation's cover.
 
     Raises
@@ -99,7 +99,7 @@ def net_class(cover: "Cover") -> Any:
     return kind
 
 
-def _laid(cover: "Cover", net: "CoverNet | None", points: Floats) -> MathematicalCover:
+def _laid(cover: "CoverTable", net: "CoverNet | None", points: Floats) -> MathematicalCover:
     bounds = np.stack([points.min(axis=0), points.max(axis=0)])
     chosen: dict[str, Any] = {name: getattr(cover, name) for name in ("size", "angle", "shift")}
     if net is not None:

@@ -18,7 +18,7 @@ NAMED = 3
 
 
 @dataclass(frozen=True)
-class Tips:
+class ModelTips:
     """The tips of a model.
 
     Attributes
@@ -36,7 +36,7 @@ class Tips:
     bent: "Bools"
 
 
-def tips_of(model: "Model") -> Tips | None:
+def tips_of(model: "Model") -> ModelTips | None:
     """Return what the tips of a model carry; None without any."""
     cut = model.cut
     if cut is None or not len(cut.tips):
@@ -48,7 +48,7 @@ def tips_of(model: "Model") -> Tips | None:
         functions[tip] = (singular == point).all(axis=1).any()
         bent[tip] = functions[tip] and _bent(cut, tip)
     places = [f"[{x:.6g}, {y:.6g}]" for x, y in cut.tips.point]
-    return Tips(places, functions, bent)
+    return ModelTips(places, functions, bent)
 
 
 def tip_warnings(model: "Model") -> list[str]:
@@ -87,7 +87,7 @@ def tip_lines(model: "Model") -> Iterator[str]:
         yield f"crack tip {place}: {said}{more}"
 
 
-def _named(tips: Tips, which: "Ints") -> str:
+def _named(tips: ModelTips, which: "Ints") -> str:
     more = f" and {len(which) - NAMED} more" if len(which) > NAMED else ""
     return "at " + ", ".join(tips.places[n] for n in which[:NAMED]) + more
 

@@ -26,7 +26,7 @@ ARROWS = 40  # tractions drawn at most
 LENGTH = 0.09  # longest arrow relative to the body
 
 
-class Tractions(NamedTuple):
+class DrawnTractions(NamedTuple):
     """Tractions (m, 2) at points (m, 2) of faces with outward normals (m, 2)."""
 
     points: Floats
@@ -48,7 +48,7 @@ def scene_problem(run: "RunData", scene: "Scene", held: Sequence[int], path: Pat
 
 
 def solid_problem(
-    cut: "CutCells", loads: Sequence[Tractions], held: Floats, path: PathLike
+    cut: "CutCells", loads: Sequence[DrawnTractions], held: Floats, path: PathLike
 ) -> None:
     """Draw a meshed body.
 
@@ -94,7 +94,7 @@ def _limits(axes: "Axes", extent: Floats) -> None:
     axes.set_ylim(extent[0, 1] - margin, extent[1, 1] + margin)
 
 
-def _arrows(axes: "Axes", loads: Sequence[Tractions], extent: Floats) -> Floats:
+def _arrows(axes: "Axes", loads: Sequence[DrawnTractions], extent: Floats) -> Floats:
     """Draw tractions that start at the edge or, where they press, end there; return the extent."""
     strengths = [float(np.hypot(*one.force.T).max(initial=0.0)) for one in loads]
     strongest = max(strengths, default=0.0)

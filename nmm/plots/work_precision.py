@@ -44,7 +44,7 @@ FAILED = 0.96  # height, in fractions of the axes, at which failed runs are mark
 
 
 @dataclass(frozen=True)
-class Series:
+class WorkPrecision:
     """The runs of one formulation; errors are nan where a run failed.
 
     Attributes
@@ -74,7 +74,7 @@ class Series:
 
 
 def work_precision(
-    series: Mapping[str, Series],
+    series: Mapping[str, WorkPrecision],
     *,
     title: str = "",
     error_name: str = "relative error",
@@ -135,7 +135,7 @@ def _fewer_colours(path: PathLike | None) -> None:
         few.save(path, optimize=True)
 
 
-def _line(axes: "Axes", one: Series, what: str, colour: str, marker: str) -> None:
+def _line(axes: "Axes", one: WorkPrecision, what: str, colour: str, marker: str) -> None:
     cost = np.asarray(getattr(one, what), dtype=float) / (2**20 if what == "memory" else 1)
     error = np.maximum(np.asarray(one.error, dtype=float), 1e-16)
     there = np.isfinite(cost) & (cost > 0)
@@ -187,7 +187,7 @@ def _shade(axes: "Axes", uncertainty: float) -> None:
         axes.set_ylim(low, high)
 
 
-def _front(axes: "Axes", series: Mapping[str, Series]) -> None:
+def _front(axes: "Axes", series: Mapping[str, WorkPrecision]) -> None:
     """Draw the Pareto front as a broad pale line under the points."""
     best = [
         (s, e)
@@ -201,7 +201,7 @@ def _front(axes: "Axes", series: Mapping[str, Series]) -> None:
         axes.plot(seconds, error, color="#f3d98b", linewidth=8, zorder=0, solid_capstyle="round")
 
 
-def _effects(series: Mapping[str, Series]) -> dict[str, Mapping[str, float]]:
+def _effects(series: Mapping[str, WorkPrecision]) -> dict[str, Mapping[str, float]]:
     """Seconds of each effect, of those that have no colour together, and what is left."""
     found: dict[str, Mapping[str, float]] = {}
     for name, one in series.items():
@@ -251,7 +251,7 @@ def _shares(
         )
 
 
-def _seconds(axes: "Axes", series: Mapping[str, Series]) -> None:
+def _seconds(axes: "Axes", series: Mapping[str, WorkPrecision]) -> None:
     """Write the dearest run's seconds in place of the names, which stand at the left already."""
     timed = [one for one in series.values() if one.phases]
     axes.set_yticks(range(len(timed)), [f"{np.nanmax(one.seconds):.2g} s" for one in timed])
@@ -259,7 +259,7 @@ def _seconds(axes: "Axes", series: Mapping[str, Series]) -> None:
 
 def _legend(
     axes: "Axes",
-    series: Mapping[str, Series],
+    series: Mapping[str, WorkPrecision],
     looks: Sequence[tuple[str, str]],
     uncertainty: float,
 ) -> None:

@@ -32,7 +32,7 @@ class Answer(Protocol):
 
 
 @dataclass(frozen=True)
-class Comparison:
+class ReferenceComparison:
     """One quantity of a run against its reference.
 
     Attributes
@@ -66,10 +66,10 @@ class Comparison:
 
 def compare(
     summary: Summary, history: Mapping[str, Floats], references: Iterable[Answer]
-) -> list[Comparison]:
+) -> list[ReferenceComparison]:
     """Compare a run with the references of its scene."""
     return [
-        Comparison(
+        ReferenceComparison(
             item.quantity,
             _found(summary, history, item.quantity),
             item.value,

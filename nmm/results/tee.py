@@ -34,7 +34,7 @@ class Tee:
             sink.finish(summary)
 
 
-class Frames:
+class FramesOnly:
     """Sink that hands on frames alone: for motion that is shown but is no result."""
 
     def __init__(self, sink: Sink) -> None:

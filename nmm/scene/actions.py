@@ -56,7 +56,7 @@ class _Placed(Frozen):
         return value
 
 
-class Support(_Placed):
+class SupportTable(_Placed):
     """Displacement components that are prescribed at a place."""
 
     fix: Annotated[tuple[Literal["x", "y"], ...], Field(min_length=1)] = Field(
@@ -67,7 +67,7 @@ class Support(_Placed):
     )
 
     @model_validator(mode="after")
-    def _check(self) -> Support:
+    def _check(self) -> SupportTable:
         given = _given(self, "point", "segment", "block")
         if not given or {"point", "segment"} <= set(given):
             remedy = "give point, segment or block; block may also narrow point or segment"
@@ -87,7 +87,7 @@ _LOADS = {
 }
 
 
-class Load(_Placed):
+class LoadTable(_Placed):
     """A force at a point, a traction on a segment of the boundary, or a force on volume."""
 
     kind: Literal["point", "edge", "body"] = Field(
@@ -104,7 +104,7 @@ class Load(_Placed):
     )
 
     @model_validator(mode="after")
-    def _check(self) -> Load:
+    def _check(self) -> LoadTable:
         key, places = _LOADS[self.kind]
         if _given(self, "force", "traction", "density") != [key]:
             found = ", ".join(_given(self, "force", "traction", "density")) or "no magnitude"
@@ -120,7 +120,7 @@ def _given(item: Frozen, *keys: str) -> list[str]:
     return [key for key in keys if getattr(item, key) is not None]
 
 
-class Gravity(Frozen):
+class GravityTable(Frozen):
     """Weight; needs densities."""
 
     acceleration: tuple[Acceleration, Acceleration] = Field(
@@ -128,11 +128,11 @@ class Gravity(Frozen):
     )
 
 
-class Inertia(Frozen):
+class InertiaTable(Frozen):
     """Mass; makes the run dynamic, needs densities and a duration."""
 
 
-class Contact(Frozen):
+class ContactTable(Frozen):
     """Bodies touch; needs an interface."""
 
 
@@ -184,7 +184,7 @@ class Loading(Frozen):
         return self
 
 
-class InitialVelocity(Frozen):
+class InitialVelocityTable(Frozen):
     """Velocity of blocks at the start."""
 
     block: BlockName = Field(description='the name of a block, or "all"', examples=["all"])
@@ -196,7 +196,7 @@ class InitialVelocity(Frozen):
     )
 
 
-class InitialStress(Frozen):
+class InitialStressTable(Frozen):
     """Stress in blocks at the start."""
 
     block: BlockName = Field(description='the name of a block, or "all"', examples=["all"])
@@ -205,7 +205,7 @@ class InitialStress(Frozen):
     )
 
 
-class Monitor(Frozen):
+class MonitorTable(Frozen):
     """A point of a block whose displacement is recorded."""
 
     name: Name = Field(description=NAME, examples=["midspan"])
@@ -215,7 +215,7 @@ class Monitor(Frozen):
     )
 
 
-class Reference(Frozen):
+class ReferenceTable(Frozen):
     """An answer from elsewhere that a result is compared with."""
 
     quantity: Text = Field(

@@ -26,13 +26,13 @@ OWN = 'or "module:Name"'
 _OF_BLOCKS = ("block", "sub_blocks")
 
 
-class Part(Frozen):
+class PartTable(Frozen):
     """A part that can be exchanged; `options` is checked by the part itself."""
 
     options: Options = Field(default={}, description="a table of options of the part")
 
 
-class Enrichment(Frozen):
+class EnrichmentTable(Frozen):
     """Singular functions on the covers about all crack tips, and about corners that are named.
 
     Without the table the covers about a tip carry its functions where the crack is straight and
@@ -114,7 +114,7 @@ class CoverNet(Frozen):
     )
 
 
-class Cover(Part):
+class CoverTable(PartTable):
     """Physical covers and their local functions: block = DDA, meshes = manifold.
 
     The type "sub_blocks" divides blocks and glues the parts.
@@ -152,7 +152,9 @@ class Cover(Part):
         "ratio of 1/2",
         examples=["projected"],
     )
-    enrichment: Enrichment | None = Field(default=None, description="a table [cover.enrichment]")
+    enrichment: EnrichmentTable | None = Field(
+        default=None, description="a table [cover.enrichment]"
+    )
     regions: tuple[CoverRegion, ...] | None = Field(
         default=None, description="tables [[cover.regions]]"
     )

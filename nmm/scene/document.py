@@ -17,7 +17,7 @@ from nmm.scene.fields import DEEPEST
 OWN_KEYS = {
     "Scene": ("a scene", {"materials", "blocks", "tessellations", "plane"}),
     "Formulation": ("a formulation", {"cover", "integrator", "rotation", "solver", "glue"}),
-    "Plan": ("a study", {"scene", "scenes", "vary"}),
+    "StudyPlan": ("a study", {"scene", "scenes", "vary"}),
 }
 
 # Bytes of a file.

@@ -16,16 +16,16 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from nmm.errors import Fault, SceneError
 from nmm.formulation import Formulation
 from nmm.scene.actions import (
-    Contact,
-    Gravity,
-    Inertia,
-    InitialStress,
-    InitialVelocity,
-    Load,
+    ContactTable,
+    GravityTable,
+    InertiaTable,
+    InitialStressTable,
+    InitialVelocityTable,
     Loading,
-    Monitor,
-    Reference,
-    Support,
+    LoadTable,
+    MonitorTable,
+    ReferenceTable,
+    SupportTable,
 )
 from nmm.scene.consistency import contradictions
 from nmm.scene.faults import Source
@@ -66,21 +66,21 @@ class Scene(Frozen):
     )
     joint_sets: tuple[JointSet, ...] = Field(default=(), description="tables [[joint_sets]]")
     cracks: tuple[Crack, ...] = Field(default=(), description="tables [[cracks]]")
-    supports: tuple[Support, ...] = Field(default=(), description="tables [[supports]]")
-    loads: tuple[Load, ...] = Field(default=(), description="tables [[loads]]")
-    gravity: Gravity | None = Field(default=None, description="a table [gravity]")
-    inertia: Inertia | None = Field(default=None, description="a table [inertia]")
-    contact: Contact | None = Field(default=None, description="a table [contact]")
+    supports: tuple[SupportTable, ...] = Field(default=(), description="tables [[supports]]")
+    loads: tuple[LoadTable, ...] = Field(default=(), description="tables [[loads]]")
+    gravity: GravityTable | None = Field(default=None, description="a table [gravity]")
+    inertia: InertiaTable | None = Field(default=None, description="a table [inertia]")
+    contact: ContactTable | None = Field(default=None, description="a table [contact]")
     loading: Loading | None = Field(default=None, description="a table [loading]")
-    initial_velocities: tuple[InitialVelocity, ...] = Field(
+    initial_velocities: tuple[InitialVelocityTable, ...] = Field(
         default=(), description="tables [[initial_velocities]]"
     )
-    initial_stresses: tuple[InitialStress, ...] = Field(
+    initial_stresses: tuple[InitialStressTable, ...] = Field(
         default=(), description="tables [[initial_stresses]]"
     )
-    monitors: tuple[Monitor, ...] = Field(default=(), description="tables [[monitors]]")
+    monitors: tuple[MonitorTable, ...] = Field(default=(), description="tables [[monitors]]")
     output: Output | None = Field(default=None, description="a table [output]")
-    references: tuple[Reference, ...] = Field(
+    references: tuple[ReferenceTable, ...] = Field(
         default=(), alias="reference", description="tables [[reference]]"
     )
     formulation: Formulation | None = Field(default=None, description="a table [formulation]")

@@ -32,7 +32,7 @@ from nmm.results.frame import Topology
 from nmm.results.sink import Sink
 from nmm.results.storage.run_folder import RunFolder
 from nmm.results.summary import Summary
-from nmm.results.tee import Frames, Tee
+from nmm.results.tee import FramesOnly, Tee
 from nmm.scene import scene_hash
 from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
@@ -154,7 +154,7 @@ class Simulation:
         quiet.budget = self.stepper.budget
         factor = (verdict.load_factor or 0.0) * (1 + 2 * (verdict.tolerance or 0.0))
         times = Schedule(duration, self.formulation.integrator.step, factor, "failure")
-        shown = Frames(recorder.sink)
+        shown = FramesOnly(recorder.sink)
         asked = choice_in_time(self.scene.output, state.time, duration, FRAMES_AFTER_FAILURE)
         known = Totals(frames=recorder.totals.frames)
         moving = replace(recorder, stepper=quiet, sink=shown, choice=asked, totals=known)

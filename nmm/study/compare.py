@@ -16,8 +16,8 @@ from nmm.scene import Scene
 from nmm.stepping.run import Run, run
 from nmm.study.cases.measure import Progress, machine, method_of
 from nmm.study.cases.memory import added_memory
-from nmm.study.cases.variants import Case
-from nmm.study.samples import Fields, Raster, fields, raster
+from nmm.study.cases.variants import StudyCase
+from nmm.study.samples import Raster, SampledFields, fields, raster
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Compared:
     family: str
     method: str
     run: Run | None
-    fields: Fields | None
+    fields: SampledFields | None
     seconds: float
     memory: int | None
     fault: str = ""
@@ -46,7 +46,7 @@ class Comparison:
     runs: list[Compared]
 
     @property
-    def made(self) -> list[tuple[Compared, Run, Fields]]:
+    def made(self) -> list[tuple[Compared, Run, SampledFields]]:
         """The runs that could be made."""
         return [
             (one, one.run, one.fields)
@@ -75,13 +75,13 @@ def compare_formulations(
     found = []
     for number, (name, formulation) in enumerate(formulations.items()):
         tell(number / len(formulations), name)
-        found.append(_compared(Case(name, scene, formulation), grid, memory))
+        found.append(_compared(StudyCase(name, scene, formulation), grid, memory))
     if all(one.run is None for one in found):
         raise NmmError(f"{found[0].name}: {found[0].fault}")
     return Comparison(scene.title, grid, found)
 
 
-def _compared(case: Case, grid: Raster, memory: bool) -> Compared:
+def _compared(case: StudyCase, grid: Raster, memory: bool) -> Compared:
     family = "DDA" if case.formulation.cover.of_blocks else "manifold"
     method = method_of(case.formulation)["cover"]
     try:

@@ -41,7 +41,7 @@ class Raster:
 
 
 @dataclass(frozen=True)
-class Fields:
+class SampledFields:
     """Displacement (m, 2) in m and Cauchy stress (m, 3) in Pa, nan where no element is."""
 
     displacement: Floats
@@ -80,7 +80,7 @@ def elements_at(polygons: Polygons, points: Floats) -> Ints:
     return np.where(found == len(polygons), -1, found)
 
 
-def fields(run: "Run", points: Floats) -> Fields:
+def fields(run: "Run", points: Floats) -> SampledFields:
     """Evaluate a run's last state at reference points (m, 2), in global axes."""
     manifold = run.manifold
     elements = elements_at(manifold.elements, points)
@@ -88,7 +88,7 @@ def fields(run: "Run", points: Floats) -> Fields:
     displacement, stress = np.full((len(points), 2), np.nan), np.full((len(points), 3), np.nan)
     displacement[there] = _displacement(run, elements[there], points[there])
     stress[there] = _stress(run, elements[there], points[there])
-    return Fields(displacement, stress)
+    return SampledFields(displacement, stress)
 
 
 def _displacement(run: "Run", elements: Ints, points: Floats) -> Floats:

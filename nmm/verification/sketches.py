@@ -52,13 +52,15 @@ def sketch_solid(
     path: Path,
 ) -> None:
     """Draw the elements of a meshed body, the points that are held and the tractions."""
-    from nmm.plots.problems import Tractions, solid_problem
+    from nmm.plots.problems import DrawnTractions, solid_problem
 
     held = [one.place.position for one in supports]
     solid_problem(
         cut,
         [
-            Tractions(one.place.position, one.force / one.place.weight[:, None], one.place.normal)
+            DrawnTractions(
+                one.place.position, one.force / one.place.weight[:, None], one.place.normal
+            )
             for one in loads
             if one.place.normal is not None
         ],

@@ -10,7 +10,7 @@ from nmm.scene import parse_scene
 from nmm.stepping.run import run
 from nmm.verification import text
 from nmm.verification.formulations import chosen
-from nmm.verification.problems.incline import Threshold, down
+from nmm.verification.problems.incline import FrictionThreshold, down
 from nmm.verification.reading import momentum, way
 
 INTEGRATORS = {
@@ -87,7 +87,7 @@ def test_a_block_dropped_on_its_corner_gains_nothing(options):
 @pytest.mark.parametrize("options", INTEGRATORS.values(), ids=INTEGRATORS)
 def test_a_block_at_rest_on_a_slope_stays_at_rest(options, form):
     """Put down at once, unresolved by the step: it swings by its own penetration, 1e-7 m."""
-    case = Threshold(friction=40.0, duration=2.0)
+    case = FrictionThreshold(friction=40.0, duration=2.0)
     head = "[formulation.integrator]\n"
     source = case.scene().replace(head, head + options)
     found = run(parse_scene(source), chosen(form, parse_scene(source).formulation))

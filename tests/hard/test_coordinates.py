@@ -19,7 +19,7 @@ from nmm.stepping.run import run
 
 # Pairs in metres that are no places: ways.
 POINTS = r"\[x, y\]( in m|, in m|\] in m)|\[\[x"
-WAYS = {("Support", "displacement")}
+WAYS = {("SupportTable", "displacement")}
 
 
 def models(kind: Any, seen: set[type]) -> Iterator[type[BaseModel]]:

@@ -7,7 +7,7 @@ from nmm.scene import parse_scene
 from nmm.stepping.run import run
 from nmm.verification import text
 from nmm.verification.formulations import chosen
-from nmm.verification.problems.incline import Threshold, down
+from nmm.verification.problems.incline import FrictionThreshold, down
 from nmm.verification.problems.rotation import spinning
 from nmm.verification.reading import last_way, rates, way
 
@@ -53,7 +53,7 @@ def test_a_body_in_free_flight_neither_drifts_nor_gains(steps, formulation):
 @pytest.mark.slow
 @pytest.mark.parametrize("steps", [10_000, 100_000])
 def test_a_block_at_rest_on_a_slope_stays(steps):
-    case = Threshold(friction=40.0, duration=steps * 0.01)
+    case = FrictionThreshold(friction=40.0, duration=steps * 0.01)
     found = case.run()
     assert found.summary.status == "converged"
     slid = way(found, "toe") @ down(30.0)
@@ -65,7 +65,7 @@ def test_a_block_at_rest_on_a_slope_stays(steps):
 
 
 def test_a_block_at_rest_on_a_slope_stays_for_a_thousand_steps():
-    found = Threshold(friction=40.0, duration=10.0).run()
+    found = FrictionThreshold(friction=40.0, duration=10.0).run()
     slid = way(found, "toe") @ down(30.0)
     assert np.ptp(slid[100:]) < 1e-9
 
@@ -80,7 +80,7 @@ def test_a_block_at_rest_on_a_slope_stays_for_a_thousand_steps():
 )
 def test_a_block_at_rest_does_not_creep_by_its_own_swing(steps, integrator):
     """Without damping it swings by its penetration, 1e-7 m, and goes nowhere."""
-    case = Threshold(friction=40.0, duration=steps * 0.01)
+    case = FrictionThreshold(friction=40.0, duration=steps * 0.01)
     source = case.scene().replace(
         "[formulation.integrator]\n", f'[formulation.integrator]\ntype = "{integrator}"\n'
     )

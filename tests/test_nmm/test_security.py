@@ -16,7 +16,7 @@ from nmm.cli.app import app
 from nmm.formulation import Formulation, parse_formulation
 from nmm.scene import Scene, parse_scene
 from nmm.stepping.simulation import prepare
-from nmm.study.sweep.study_file import Plan
+from nmm.study.sweep.study_file import StudyPlan
 from nmm.trust import allowing
 from nmm.verification.published import Expected
 
@@ -146,7 +146,7 @@ def test_no_key_runs_code(watched, kind):
     base, model = {
         "scene": (SCENE, Scene),
         "formulation": (METHOD, Formulation),
-        "study": (STUDY, Plan),
+        "study": (STUDY, StudyPlan),
         "expected": (EXPECTED, Expected),
     }[kind]
     (watched / "scene.toml").write_text(tomli_w.dumps(SCENE))

@@ -21,7 +21,7 @@ WITHIN = 0.7
 
 
 @dataclass(frozen=True)
-class Point:
+class InteriorIterate:
     """Unknowns of the method, or a step of them.
 
     Attributes
@@ -40,14 +40,14 @@ class Point:
     slack: Floats
     flow: Floats
 
-    def moved(self, step: "Point", length: float) -> "Point":
+    def moved(self, step: "InteriorIterate", length: float) -> "InteriorIterate":
         """Point at ``length`` along ``step``."""
         pairs = zip(vars(self).values(), vars(step).values(), strict=True)
-        return Point(*(mine + length * other for mine, other in pairs))
+        return InteriorIterate(*(mine + length * other for mine, other in pairs))
 
 
 @dataclass(frozen=True)
-class Sides:
+class Complementarity:
     """Which sides contacts have, and how much they give way before.
 
     Attributes
@@ -71,7 +71,7 @@ class Sides:
     active: Bools
 
     @classmethod
-    def of(cls, springs: CutSprings, exact: Bools, ease: Floats) -> "Sides":
+    def of(cls, springs: CutSprings, exact: Bools, ease: Floats) -> "Complementarity":
         """Sides of the contacts of ``springs``."""
         limits = springs.problem.limits
         bounded = np.isfinite(limits.cohesion) & ~_smooth(springs)
@@ -87,12 +87,12 @@ class Sides:
         """(2, m) compliance (m/N) of springs; 0 of exact contacts."""
         return np.where(self.exact, 0.0, self.ease)
 
-    def mean(self, point: Point) -> float:
+    def mean(self, point: InteriorIterate) -> float:
         """Mean product of slack and flow (J)."""
         count = int(self.active.sum())
         return float((point.slack * point.flow)[self.active].sum() / max(count, 1))
 
-    def length(self, point: Point, step: Point) -> float:
+    def length(self, point: InteriorIterate, step: InteriorIterate) -> float:
         """Largest part of a step, up to 1, that leaves slack and flow positive."""
         longest = 1.0
         for value, change in ((point.slack, step.slack), (point.flow, step.flow)):
@@ -111,7 +111,7 @@ class Sides:
         bound = np.where(closes, limits.cohesion, 0.0) + limits.friction * np.maximum(-normal, 0.0)
         return np.where(self.active[1], bound, 0.0)
 
-    def start(self, increment: Floats, trial: Floats) -> Point:
+    def start(self, increment: Floats, trial: Floats) -> InteriorIterate:
         """Point well inside all sides.
 
         Parameters
@@ -139,9 +139,9 @@ class Sides:
         a, b = (np.maximum(bound - side * shear, 1e-3 * typical) for side in (1, -1))
         u = np.maximum(slip, 0) + typical**2 * scale[1] / a
         v = np.maximum(-slip, 0) + typical**2 * scale[1] / b
-        return Point(increment, normal, shear, np.stack([p, a, b]), np.stack([w, u, v]))
+        return InteriorIterate(increment, normal, shear, np.stack([p, a, b]), np.stack([w, u, v]))
 
-    def judged(self, point: Point) -> IterationResult:
+    def judged(self, point: InteriorIterate) -> IterationResult:
         """The admissible forces of a point as springs that carry them, and what they lack."""
         springs, increment = self.springs, point.increment
         if not self.exact.any():

@@ -10,7 +10,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.iteration.alternation import Alternation, IterationBudget
-from nmm.contact.iteration.complementarity import Point, Sides
+from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.semismooth_newton import polish
@@ -76,7 +76,7 @@ def _inside(
     """Best of the interior point, broken off near the end for chord steps, and gone on with."""
     springs, problem, best = found.springs, found.springs.problem, found
     stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
-    sides = Sides.of(springs, np.zeros(problem.n_contacts, dtype=bool), 1 / stiffness)
+    sides = Complementarity.of(springs, np.zeros(problem.n_contacts, dtype=bool), 1 / stiffness)
     start = inside_start(sides, linear, memory)
     for balance in (LOOSE, tolerance):
         method = InteriorPoint(sides, memory.pattern_of(problem), linear)
@@ -93,7 +93,7 @@ def _inside(
     return best
 
 
-def inside_start(sides: Sides, linear: LinearSolver, memory: Memory) -> Point:
+def inside_start(sides: Complementarity, linear: LinearSolver, memory: Memory) -> InteriorIterate:
     """Start of the interior point: as if all contacts were springs that pull and push.
 
     Exact ones are as stiff there as what they join. Raises `SolveError` when the load moves a

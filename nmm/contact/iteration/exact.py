@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from nmm.contact.iteration.alternation import IterationBudget
-from nmm.contact.iteration.complementarity import Sides
+from nmm.contact.iteration.complementarity import Complementarity
 from nmm.contact.iteration.cut_spring_solver import FINE, SMALL, inside_start
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.memory import Memory
@@ -106,7 +106,7 @@ def interior_round(
     Small problems are finished to rounding by rounds of Newton's method.
     """
     springs, ease = stiff_springs(problem, SLIGHT), np.stack(compliances(problem))
-    sides = Sides.of(springs, ~problem.own_stiffness, ease)
+    sides = Complementarity.of(springs, ~problem.own_stiffness, ease)
     start, before = inside_start(sides, linear, memory), at or first_round(springs)
     found = InteriorPoint(sides, memory.pattern_of(problem), linear).run(start, budget, goal)
     found = replace(

@@ -3,7 +3,7 @@
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.iteration.complementarity import SOFT, Point, Sides
+from nmm.contact.iteration.complementarity import SOFT, Complementarity, InteriorIterate
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.row_products import pushed, stretched
 from nmm.solvers.linear import LinearSolver
@@ -22,10 +22,10 @@ class Linearised:
 
     def __init__(
         self,
-        sides: Sides,
+        sides: Complementarity,
         pattern: SpringPattern,
         linear: LinearSolver,
-        at: Point,
+        at: InteriorIterate,
         coupled: bool = True,
     ) -> None:
         self.problem, self.sides, self.at, self.solves = sides.springs.problem, sides, at, 0
@@ -55,7 +55,7 @@ class Linearised:
         self.rest_slip = slip - flow[1] + flow[2] - (at.shear - springs.shear_shift) * give[1]
         self.rest_slack = np.where(sides.active, at.slack - np.where(sides.active, held, 0), 0.0)
 
-    def step(self, targets: Floats) -> Point:
+    def step(self, targets: Floats) -> InteriorIterate:
         """Step that brings every product to its value plus its entry of ``targets`` (3, m)."""
         problem, ratio, rest = self.problem, self.ratio, self.rest_slack
         flow = np.where(self.sides.active, targets / self.at.slack, 0.0)
@@ -71,4 +71,4 @@ class Linearised:
         shear = self.spring_t * (slipped + known_t) + self.mixed * normal
         bound = -self.slope * normal
         slack = np.stack([-normal, bound - shear, bound + shear]) - rest
-        return Point(increment, normal, shear, slack, flow - ratio * slack)
+        return InteriorIterate(increment, normal, shear, slack, flow - ratio * slack)

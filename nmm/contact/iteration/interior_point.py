@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nmm.contact.iteration.complementarity import Point, Sides
+from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_equations import Linearised
 from nmm.contact.iteration.semismooth_newton import polish
 from nmm.contact.problem.cut_springs import IterationResult
@@ -53,11 +53,13 @@ class Goal:
 class InteriorPoint:
     """One search for forces on the springs and sharp contacts of ``sides``."""
 
-    def __init__(self, sides: Sides, pattern: SpringPattern, linear: LinearSolver) -> None:
+    def __init__(
+        self, sides: Complementarity, pattern: SpringPattern, linear: LinearSolver
+    ) -> None:
         self.sides, self.pattern, self.linear = sides, pattern, linear.unsymmetric()
         self.factorisations = self.solves = 0
 
-    def run(self, start: Point, budget: int, goal: Goal) -> IterationResult:
+    def run(self, start: InteriorIterate, budget: int, goal: Goal) -> IterationResult:
         """Follow paths with at most ``budget`` factorisations in all; return the best found."""
         best = self.sides.judged(start)
         for distance in DISTANCES:
@@ -74,7 +76,7 @@ class InteriorPoint:
         )
 
     def _followed(
-        self, point: Point, best: IterationResult, budget: int, goal: Goal
+        self, point: InteriorIterate, best: IterationResult, budget: int, goal: Goal
     ) -> IterationResult:
         """Best of what is known and of the path from ``point``."""
         length, tried, mark, idle = 1.0, 1e-3, np.inf, 0
@@ -100,7 +102,9 @@ class InteriorPoint:
         self.solves += end.solves
         return end if end.size < found.size else found
 
-    def _moved(self, point: Point, kappa: float, jammed: bool) -> tuple[Point, float]:
+    def _moved(
+        self, point: InteriorIterate, kappa: float, jammed: bool
+    ) -> tuple[InteriorIterate, float]:
         """Point after predictor, corrector and corrections of centrality, and how far it went."""
         sides, products = self.sides, point.slack * point.flow
         system = Linearised(sides, self.pattern, self.linear, point, coupled=not jammed)

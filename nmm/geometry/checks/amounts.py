@@ -13,7 +13,7 @@ from nmm import capacity
 from nmm.errors import Fault, FormulationError
 
 if TYPE_CHECKING:
-    from nmm.formulation import Cover
+    from nmm.formulation import CoverTable
     from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
 
@@ -42,7 +42,7 @@ def refuse_many_blocks(scene: Scene, outlines: Polygons) -> None:
         _refuse_dense_joints(scene, outlines.points)
 
 
-def refuse_many_cells(regions: Regions, cover: Cover, place: str, even: bool = True) -> None:
+def refuse_many_cells(regions: Regions, cover: CoverTable, place: str, even: bool = True) -> None:
     """Refuse nets whose cells take more memory than there is.
 
     Cells that are not ``even``, as of a graded net that grow away from its foci, are counted where
@@ -66,7 +66,7 @@ def refuse_many_cells(regions: Regions, cover: Cover, place: str, even: bool = T
 
 
 def _refuse_cells(
-    points: Floats, areas: Floats, size: float, cover: Cover, place: str, even: bool
+    points: Floats, areas: Floats, size: float, cover: CoverTable, place: str, even: bool
 ) -> None:
     """A regular net is laid over the box of the material before it is cut by it."""
     box = np.ptp(points, axis=0)

@@ -12,7 +12,7 @@ from nmm.errors import Fault
 from nmm.geometry.blocks import Regions
 from nmm.geometry.checks.supports import contradicting_supports
 from nmm.geometry.places import edges_on, polygons_at, tolerance
-from nmm.scene.actions import Load, Monitor, Support
+from nmm.scene.actions import LoadTable, MonitorTable, SupportTable
 from nmm.scene.model import Scene
 
 _Finding = tuple[str, str, str]  # value, expected, remedy
@@ -21,7 +21,7 @@ _COVERED = 1e-6  # of a loaded segment's length
 
 def place_faults(scene: Scene, whole: Regions) -> list[Fault]:
     """Supports, loads and monitors whose place touches no block, or whose block does not exist."""
-    items: list[tuple[str, int, Support | Load | Monitor]] = []
+    items: list[tuple[str, int, SupportTable | LoadTable | MonitorTable]] = []
     items += [("supports", k, item) for k, item in enumerate(scene.supports)]
     items += [("loads", k, item) for k, item in enumerate(scene.loads)]
     items += [("monitors", k, item) for k, item in enumerate(scene.monitors)]
@@ -39,13 +39,13 @@ def place_faults(scene: Scene, whole: Regions) -> list[Fault]:
     ]
 
 
-def _findings(item: Support | Load | Monitor, whole: Regions) -> Iterator[_Finding]:
+def _findings(item: SupportTable | LoadTable | MonitorTable, whole: Regions) -> Iterator[_Finding]:
     chosen = whole.select(item.block)
     if not len(chosen):
         yield _no_block(item.block)
     elif item.point is not None:
         yield from _point_findings(item, whole, chosen)
-    elif not isinstance(item, Monitor) and item.segment is not None:
+    elif not isinstance(item, MonitorTable) and item.segment is not None:
         yield from _segment_findings(item, whole, chosen)
 
 
@@ -106,7 +106,7 @@ def _no_block(block: str | None) -> _Finding:
 
 
 def _point_findings(
-    item: Support | Load | Monitor, whole: Regions, chosen: Ints
+    item: SupportTable | LoadTable | MonitorTable, whole: Regions, chosen: Ints
 ) -> Iterator[_Finding]:
     point = np.asarray(item.point)
     polygons = whole.polygons.take(chosen)
@@ -118,7 +118,9 @@ def _point_findings(
     yield value, "a point of a block", "correct the point or the block"
 
 
-def _segment_findings(item: Support | Load, whole: Regions, chosen: Ints) -> Iterator[_Finding]:
+def _segment_findings(
+    item: SupportTable | LoadTable, whole: Regions, chosen: Ints
+) -> Iterator[_Finding]:
     polygons = whole.polygons.take(chosen)
     segment: Floats = np.asarray(item.segment)
     length = float(np.hypot(*(segment[1] - segment[0])))
@@ -131,10 +133,10 @@ def _segment_findings(item: Support | Load, whole: Regions, chosen: Ints) -> Ite
     if covered == 0:
         value = f"segment {segment.tolist()} lies on no edge"
         yield value, "a segment on edges of blocks", "correct its ends"
-    elif isinstance(item, Load) and covered < 1 - _COVERED:
+    elif isinstance(item, LoadTable) and covered < 1 - _COVERED:
         value = f"{covered:.3%} of the segment lies on edges"
         remedy = "shorten it to the edges, so that the whole load acts"
         yield value, "all of a loaded segment", remedy
-    elif isinstance(item, Load) and covered > 1 + _COVERED:
+    elif isinstance(item, LoadTable) and covered > 1 + _COVERED:
         value = "the segment lies on edges of both sides of a joint"
         yield value, "edges of one side", "name the loaded block by block = ..."

@@ -12,7 +12,7 @@ from integration.arrays import Ints
 from nmm.errors import Fault
 from nmm.geometry.blocks import Regions
 from nmm.geometry.places import edges_on, tolerance
-from nmm.scene.actions import Support
+from nmm.scene.actions import SupportTable
 from nmm.scene.model import Scene
 
 
@@ -35,7 +35,7 @@ def contradicting_supports(scene: Scene, whole: Regions) -> Iterator[Fault]:
             yield Fault(scene.source.place("supports", index), value, "one displacement", remedy)
 
 
-def _ways_differ(one: Support, other: Support, axis: str) -> bool:
+def _ways_differ(one: SupportTable, other: SupportTable, axis: str) -> bool:
     number = "xy".index(axis)
     ways = [(item.displacement[number], item.history) for item in (one, other)]
     if not any(way for way, _ in ways):
@@ -43,7 +43,7 @@ def _ways_differ(one: Support, other: Support, axis: str) -> bool:
     return ways[0] != ways[1]
 
 
-def _meet(one: Support, other: Support, whole: Regions, within: float) -> bool:
+def _meet(one: SupportTable, other: SupportTable, whole: Regions, within: float) -> bool:
     common = np.intersect1d(whole.select(one.block), whole.select(other.block))
     if not len(common):
         return False
@@ -57,7 +57,7 @@ def _meet(one: Support, other: Support, whole: Regions, within: float) -> bool:
     return bool(shapely.distance(first, second) <= within)
 
 
-def _held(item: Support, common: Ints, whole: Regions, within: float) -> bool:
+def _held(item: SupportTable, common: Ints, whole: Regions, within: float) -> bool:
     """Whether a support at a point or segment acts on some of the blocks and on no others."""
     if item.segment is None:
         near = (
@@ -70,7 +70,7 @@ def _held(item: Support, common: Ints, whole: Regions, within: float) -> bool:
     return length > within and bool(len(edges_on(polygons.points, end, segment, within).edge))
 
 
-def _shape(item: Support) -> shapely.Geometry | None:
+def _shape(item: SupportTable) -> shapely.Geometry | None:
     if item.point is not None:
         return shapely.Point(item.point)
     return None if item.segment is None else shapely.LineString(item.segment)

@@ -20,7 +20,7 @@ _MOST_LINES = 100_000
 
 
 @dataclass(frozen=True)
-class Joints:
+class JointSetGeometry:
     """A joint set in numbers: lengths in m, angles in rad, scatters are standard deviations.
 
     Attributes

@@ -13,7 +13,7 @@ from integration.polygons import Polygons
 from nmm.geometry.blocks import Regions
 from nmm.geometry.tessellation.cutting import cut
 from nmm.geometry.tessellation.faces import owners
-from nmm.geometry.tessellation.joint_sets import Joints
+from nmm.geometry.tessellation.joint_sets import JointSetGeometry
 from nmm.geometry.tessellation.seeds import seed_of
 from nmm.scene.model import Scene
 
@@ -57,7 +57,7 @@ def _cut(scene: Scene, whole: Regions, target: str, sets: list[int]) -> Regions:
 
 def _segments(scene: Scene, index: int, points: Floats) -> Floats:
     item = scene.joint_sets[index]
-    joints = Joints(
+    joints = JointSetGeometry(
         dip=item.dip,
         spacing=item.spacing,
         dip_scatter=item.dip_scatter,

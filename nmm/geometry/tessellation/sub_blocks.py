@@ -14,7 +14,7 @@ from nmm.registry import check_values
 
 if TYPE_CHECKING:
     from covers.mathematical.base import Cover as Net
-    from nmm.formulation import Cover
+    from nmm.formulation import CoverTable
 
 MESHES = ("triangles", "quads", "voronoi")
 BONDS = ("elastic", "interface")
@@ -48,7 +48,7 @@ class SubBlocks:
     seed: int = 1
 
     @classmethod
-    def of(cls, cover: Cover) -> Self:
+    def of(cls, cover: CoverTable) -> Self:
         """Read the options of a formulation's cover.
 
         Raises
@@ -78,7 +78,7 @@ class SubBlocks:
         return found
 
 
-def divided(blocks: Polygons, cover: Cover) -> tuple[Polygons, Ints]:
+def divided(blocks: Polygons, cover: CoverTable) -> tuple[Polygons, Ints]:
     """Return the sub-blocks of all blocks and the block (n,) that each comes from."""
     options = SubBlocks.of(cover)
     assert cover.size is not None
@@ -95,7 +95,7 @@ def divided(blocks: Polygons, cover: Cover) -> tuple[Polygons, Ints]:
     return pieces.elements, pieces.element_region
 
 
-def _net(bounds: Floats, cover: Cover, halved: bool) -> Net:
+def _net(bounds: Floats, cover: CoverTable, halved: bool) -> Net:
     from covers.mathematical.quads import Quads
 
     assert cover.size is not None

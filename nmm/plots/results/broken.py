@@ -12,7 +12,7 @@ from nmm.results.frame import ContactState, Frame, Topology
 
 
 @dataclass(frozen=True)
-class EdgeParts:
+class BrokenParts:
     """Parts of edges.
 
     Attributes
@@ -33,19 +33,19 @@ class EdgeParts:
         edge = polygons.points[polygons.next_point[self.point]] - start
         return np.stack([start + self.begin[:, None] * edge, start + self.end[:, None] * edge], 1)
 
-    def take(self, chosen: Bools) -> "EdgeParts":
+    def take(self, chosen: Bools) -> "BrokenParts":
         """Return the parts chosen by a mask."""
-        return EdgeParts(self.point[chosen], self.begin[chosen], self.end[chosen])
+        return BrokenParts(self.point[chosen], self.begin[chosen], self.end[chosen])
 
-    def joined(self, other: "EdgeParts") -> "EdgeParts":
+    def joined(self, other: "BrokenParts") -> "BrokenParts":
         """Return the parts of both."""
-        return EdgeParts(
+        return BrokenParts(
             np.concatenate([self.point, other.point]),
             np.concatenate([self.begin, other.begin]),
             np.concatenate([self.end, other.end]),
         )
 
-    def covered_by(self, other: "EdgeParts") -> Bools:
+    def covered_by(self, other: "BrokenParts") -> Bools:
         """(n,) whether the middle of a part lies in a part of the same edge of the other."""
         middle = 0.5 * (self.begin + self.end)
         order = np.argsort(other.point, kind="stable")
@@ -59,7 +59,7 @@ class EdgeParts:
         return covered
 
 
-def broken_parts(frames: Sequence[Frame], topology: Topology, frame: Frame) -> EdgeParts:
+def broken_parts(frames: Sequence[Frame], topology: Topology, frame: Frame) -> BrokenParts:
     """Return where joints are broken: bonded when the run began and not in this frame.
 
     Contact points that the frame itself calls broken are among them.
@@ -75,7 +75,7 @@ def broken_parts(frames: Sequence[Frame], topology: Topology, frame: Frame) -> E
     return lost.joined(marked.take(~marked.covered_by(lost)))
 
 
-def sliding_parts(topology: Topology, frame: Frame) -> EdgeParts:
+def sliding_parts(topology: Topology, frame: Frame) -> BrokenParts:
     """Return where contacts slide in this frame."""
     here = topology.elements.with_points(frame.points)
     return edge_parts(frame, here, ContactState.SLIDE)
@@ -89,7 +89,7 @@ def _first_with_bonds(frames: Sequence[Frame]) -> Frame | None:
     return None
 
 
-def edge_parts(frame: Frame, polygons: Polygons, state: ContactState) -> EdgeParts:
+def edge_parts(frame: Frame, polygons: Polygons, state: ContactState) -> BrokenParts:
     """Return the parts of edges on both sides of the contact points in a state.
 
     Parameters
@@ -120,7 +120,7 @@ def edge_parts(frame: Frame, polygons: Polygons, state: ContactState) -> EdgePar
     half = frame.contact_length[contact]
     parallel = (off_normal < 0.05) & (foot > -0.5 * half) & (foot < length + 0.5 * half)
     begin, finish = _part(foot, length, half)
-    parts = EdgeParts(edge.astype(np.int64), begin / length, finish / length)
+    parts = BrokenParts(edge.astype(np.int64), begin / length, finish / length)
     return parts.take(parallel)
 
 

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from nmm.scene import Scene
-    from nmm.scene.actions import Load, Support
+    from nmm.scene.actions import LoadTable, SupportTable
 
 SUPPORT = "#1f5f3f"
 LOAD = "#8c2d19"
@@ -29,7 +29,7 @@ def draw_conditions(axes: "Axes", scene: "Scene", extent: Floats) -> Floats:
     return np.stack([together.min(axis=0), together.max(axis=0)])
 
 
-def _places(item: "Support | Load", count: int) -> Floats:
+def _places(item: "SupportTable | LoadTable", count: int) -> Floats:
     """(n, 2) the point, or points along the segment; none for a whole block."""
     if item.point is not None:
         return np.array([item.point])
@@ -38,7 +38,7 @@ def _places(item: "Support | Load", count: int) -> Floats:
     return np.linspace(item.segment[0], item.segment[1], count)
 
 
-def _draw_support(axes: "Axes", support: "Support", extent: Floats) -> Floats:
+def _draw_support(axes: "Axes", support: "SupportTable", extent: Floats) -> Floats:
     points = _places(support, 9)
     if not len(points):
         return points
@@ -56,7 +56,7 @@ def _triangle(along: Floats) -> str:
     return "^" if along[1] < 0 else "v"
 
 
-def _draw_load(axes: "Axes", load: "Load", extent: Floats) -> Floats:
+def _draw_load(axes: "Axes", load: "LoadTable", extent: Floats) -> Floats:
     points = _places(load, 5)
     vector = np.array(load.force or load.traction or (0.0, 0.0))
     strength = float(np.hypot(*vector))

@@ -9,7 +9,7 @@ from integration.polygons import Polygons
 
 
 @dataclass(frozen=True)
-class Cells:
+class PolygonCells:
     """Cells over the points of polygons.
 
     Attributes
@@ -27,7 +27,7 @@ class Cells:
     polygon: Ints
 
 
-def cells(polygons: Polygons) -> Cells:
+def cells(polygons: Polygons) -> PolygonCells:
     """Return the cells of polygons; triangles use the polygon's own vertices."""
     whole = drawable(polygons)
     chosen = np.flatnonzero(whole)
@@ -35,7 +35,7 @@ def cells(polygons: Polygons) -> Cells:
     points = np.flatnonzero(whole[polygons.polygon_of_point])
     triangles, owner = _triangles(polygons, np.flatnonzero(~whole))
     lengths = np.concatenate([sizes[chosen], np.full(len(triangles), 3)])
-    return Cells(
+    return PolygonCells(
         connectivity=np.concatenate([points, triangles.ravel()]).astype(np.int64),
         offsets=np.cumsum(lengths).astype(np.int64),
         polygon=np.concatenate([chosen, owner]).astype(np.int64),

@@ -17,7 +17,7 @@ from nmm.errors import DamageError
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
 from nmm.results.storage.writing import told, write_text
-from nmm.results.viewing.cells import Cells, cells
+from nmm.results.viewing.cells import PolygonCells, cells
 from nmm.results.viewing.vtu import (
     POLYGON,
     TRIANGLE,
@@ -62,7 +62,7 @@ def write_paraview(
     target = Path(folder)
     with told(target):
         target.mkdir(parents=True, exist_ok=True)
-    cut: dict[int, Cells] = {}
+    cut: dict[int, PolygonCells] = {}
     times: list[float] = []
     bare = ""  # the text of contacts where there are none; written once there are some
     touching = False
@@ -123,7 +123,7 @@ def _write_collection(folder: Path, name: str, times: Sequence[float]) -> Path:
     return folder / f"{name}.pvd"
 
 
-def blocks_grid(frame: Frame, topology: Topology, cut: Cells) -> str:
+def blocks_grid(frame: Frame, topology: Topology, cut: PolygonCells) -> str:
     """Return the .vtu text of the elements of a frame."""
     sizes = np.diff(cut.offsets, prepend=0)
     return unstructured_grid(

@@ -51,7 +51,7 @@ class Ended:
 
 
 @dataclass(frozen=True)
-class Finding:
+class AuditFinding:
     """A number that was measured.
 
     Attributes
@@ -94,7 +94,7 @@ class Finding:
         return f"{self.where}; {self.remedy} (audit {self.name})"
 
 
-Findings = Iterator[Finding]
+Findings = Iterator[AuditFinding]
 
 
 def percent(share: float) -> str:

@@ -5,7 +5,7 @@ import numpy as np
 from integration.arrays import Floats
 from integration.polygons import areas
 from nmm.assembly.motion import State
-from nmm.stepping.audits.base import Ended, Finding, Findings, percent
+from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.step.stepper import Stepper
 
 
@@ -15,7 +15,7 @@ def bodies(run: Ended) -> Findings:
     contact = run.stepper.plan.contact
     if contact is not None:
         size = float(np.sqrt(model.manifold.body_area.min()))
-        yield Finding(
+        yield AuditFinding(
             "penetration",
             deep / size,
             f"bodies overlap by up to {deep:.3g} m, {percent(deep / size)} of the smallest",
@@ -25,7 +25,7 @@ def bodies(run: Ended) -> Findings:
     if run.formulation.rotation.update == "linear":
         before = float(areas(model.manifold.elements.with_points(run.stepper.reference)).sum())
         share = abs(float(areas(model.manifold.elements).sum()) / before - 1)
-        yield Finding(
+        yield AuditFinding(
             "mass",
             share,
             f"the area of the bodies changed by {percent(share)}: the linear update grows what "
@@ -51,7 +51,7 @@ def _momentum(run: Ended) -> Findings:
     if size > 0:
         change = last.sum(axis=0) - first.sum(axis=0) - impulse
         share = float(np.hypot(*change)) / size
-        yield Finding(
+        yield AuditFinding(
             "momentum",
             share,
             f"momentum changed by ({change[0]:.3g}, {change[1]:.3g}) N s without a force",
@@ -60,7 +60,7 @@ def _momentum(run: Ended) -> Findings:
     turns = max(typical[1], *(np.abs(part).sum() for part in (spun, spins)))
     if gravity is None and turns > 0 and run.formulation.rotation.update != "small":
         gained = float(spins.sum() - spun.sum())
-        yield Finding(
+        yield AuditFinding(
             "angular_momentum",
             abs(gained) / turns,
             f"angular momentum changed by {gained:.3g} N m s without a moment",

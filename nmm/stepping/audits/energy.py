@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from nmm.stepping.audits.base import Ended, Finding, Findings, percent
+from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.audits.steps import impact_lasts
 from nmm.stepping.audits.table import THRESHOLDS
 from nmm.stepping.reports.ledger import Rise
@@ -18,7 +18,7 @@ def energy(run: Ended) -> Findings:
     """Audit the energies of a run."""
     ledger = run.recorder.ledger
     wrong = [name for name, value in ledger.row.items() if not np.isfinite(value)]
-    yield Finding(
+    yield AuditFinding(
         "not_finite",
         float(len(wrong)),
         f"{', '.join(wrong)} of the last step are no finite numbers",
@@ -31,7 +31,7 @@ def energy(run: Ended) -> Findings:
         yield from _lost(run)
     elif run.stepper.small and run.stepper.plan.contact is None:
         lacking = abs(ledger.balance) * ledger.throughput
-        yield Finding(
+        yield AuditFinding(
             "work_not_stored",
             0.0 if lacking <= _rounding(run) else abs(ledger.balance),
             f"work and stored energy differ by {percent(ledger.balance)}",
@@ -59,7 +59,7 @@ def _made(run: Ended) -> Findings:
         said = rise is ledger.in_run and rise.energy < SAME * ledger.in_step.energy
         bound = THRESHOLDS[name].fails
         assert bound is not None
-        yield Finding(
+        yield AuditFinding(
             name,
             share,
             _came(name, rise, share),
@@ -117,7 +117,7 @@ def _lost(run: Ended) -> Findings:
     if lasts is not None and ledger.contact_loss > 0.5 * share * ledger.throughput:
         kept = min(kept, lasts / RESOLVED)
     other = ', or type = "newmark", which damps nothing but impacts' if rule.type == "shi" else ""
-    yield Finding(
+    yield AuditFinding(
         "energy_lost",
         share,
         f"{percent(share)} of the turnover was lost to no friction or damper"

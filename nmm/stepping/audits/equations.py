@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from nmm.stepping.audits.base import Ended, Finding, Findings
+from nmm.stepping.audits.base import AuditFinding, Ended, Findings
 
 # Residual from which on dependent functions are worth a word.
 NOTICED = 1e-8
@@ -11,14 +11,14 @@ NOTICED = 1e-8
 def equations(run: Ended) -> Findings:
     """Audit residual, condition, cuts and dependent functions."""
     residual, manifold = run.recorder.totals.residual, run.stepper.model.manifold
-    yield Finding(
+    yield AuditFinding(
         "residual",
         residual,
         f"a step was accepted {residual:.1e} of its load out of balance",
         "shorten the step, or ask [contact] options for a smaller tolerance",
     )
     if run.condition is not None:
-        yield Finding(
+        yield AuditFinding(
             "condition",
             run.condition,
             f"the last system has a condition number of {run.condition:.1e}: "
@@ -29,7 +29,7 @@ def equations(run: Ended) -> Findings:
         area = run.stepper.model.element_area
         at = int(np.argmin(area))
         x, y = manifold.elements.points[manifold.elements.polygon_of_point == at].mean(axis=0)
-        yield Finding(
+        yield AuditFinding(
             "smallest_cut",
             float(area.max() / area[at]),
             f"the element at ({x:.6g}, {y:.6g}) has {area[at] / area.max():.1e} of the area of the "
@@ -37,7 +37,7 @@ def equations(run: Ended) -> Findings:
             "do not read stresses there; shift the net by [cover] origin, or turn it",
         )
     if manifold.dependent and residual > NOTICED:
-        yield Finding(
+        yield AuditFinding(
             "dependent_functions",
             manifold.dependent / manifold.n_unknowns,
             f"{manifold.dependent} of {manifold.n_unknowns} functions depend on the others, and "

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from nmm.stepping.audits.base import Ended, Finding, Findings
+from nmm.stepping.audits.base import AuditFinding, Ended, Findings
 from nmm.stepping.audits.bodies import bodies
 from nmm.stepping.audits.energy import energy
 from nmm.stepping.audits.equations import equations
@@ -13,14 +13,14 @@ from nmm.stepping.drive.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdic
 AUDITS: tuple[Callable[[Ended], Findings], ...] = (energy, equations, bodies, steps)
 
 
-def audit(run: Ended) -> list[Finding]:
+def audit(run: Ended) -> list[AuditFinding]:
     """Return every number that an audit has measured; nothing of a run without a step."""
     if not run.recorder.steps:
         return []
     return [finding for one in AUDITS for finding in one(run)]
 
 
-def judged(verdict: RunVerdict, findings: list[Finding]) -> RunVerdict:
+def judged(verdict: RunVerdict, findings: list[AuditFinding]) -> RunVerdict:
     """Return the verdict, which is "unbalanced" where the audit of a solved run failed."""
     failed = [finding.where for finding in findings if finding.fails]
     if verdict.code not in (CONVERGED, FAILURE) or not failed:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from nmm.stepping.audits.base import Ended, Finding, Findings, percent
+from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.drive.verdict import FAILURE
 
 # Share of the turnover lost by contact from which on its duration counts.
@@ -36,7 +36,7 @@ def _impacts(run: Ended) -> Findings:
         return
     if ledger.contact_loss <= LOST * ledger.throughput:
         return
-    yield Finding(
+    yield AuditFinding(
         "contact_duration",
         step / lasts,
         f"springs of contact lost {percent(ledger.contact_loss / ledger.throughput)} of the "
@@ -48,7 +48,7 @@ def _impacts(run: Ended) -> Findings:
 def _increments(run: Ended) -> Findings:
     verdict, asked = run.verdict, run.formulation.loading.tolerance
     if verdict.code == FAILURE and verdict.tolerance is not None:
-        yield Finding(
+        yield AuditFinding(
             "failure_tolerance",
             verdict.tolerance / asked,
             f"the failure load is known within {percent(verdict.tolerance)} only, "
@@ -58,7 +58,7 @@ def _increments(run: Ended) -> Findings:
     loading, recorder = run.scene.loading, run.recorder
     slid = recorder.totals.largest.get("slide", 0) + recorder.totals.largest.get("broken", 0)
     if loading is not None and loading.until != "failure" and slid and recorder.steps:
-        yield Finding(
+        yield AuditFinding(
             "increments",
             FEW / recorder.steps,
             f"friction slid or bonds broke in a path of {recorder.steps} increments, on which the "

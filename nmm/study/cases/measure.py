@@ -13,7 +13,7 @@ from nmm.study.cases.memory import added_memories
 from nmm.study.cases.quantities import Measured, quantity
 from nmm.study.cases.record import Record
 from nmm.study.cases.running import commit, run_case
-from nmm.study.cases.variants import Case
+from nmm.study.cases.variants import StudyCase
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
@@ -32,7 +32,7 @@ class Spent:
 
 
 def measure(
-    cases: Sequence[Case],
+    cases: Sequence[StudyCase],
     names: Sequence[str],
     repeats: int = 3,
     memory: bool = True,
@@ -70,7 +70,7 @@ def measure(
     return [_joined(one, many, peak) for one, many, peak in zip(found, times, peaks, strict=True)]
 
 
-def record(case: Case, names: Sequence[str]) -> Record:
+def record(case: StudyCase, names: Sequence[str]) -> Record:
     """Run one case once and return its record, with the seconds of that one run."""
     found, spent = _once(case, names)
     return _joined(found, [spent], None)
@@ -87,7 +87,7 @@ def machine() -> str:
     return f"{kind.strip()}, {os.cpu_count()} cores, {platform.system()} {platform.release()}"
 
 
-def _once(case: Case, names: Sequence[str]) -> tuple[Record, Spent]:
+def _once(case: StudyCase, names: Sequence[str]) -> tuple[Record, Spent]:
     from nmm.results.summary import Summary
 
     cpu, wall = process_time(), perf_counter()
@@ -105,7 +105,7 @@ def _once(case: Case, names: Sequence[str]) -> tuple[Record, Spent]:
         return Record(**_identity(case), status="error", sentence=sentence), spent
 
 
-def _identity(case: Case) -> dict[str, Any]:
+def _identity(case: StudyCase) -> dict[str, Any]:
     from nmm.formulation import formulation_hash
     from nmm.results.summary import installed_versions
     from nmm.scene import scene_hash
@@ -140,7 +140,7 @@ def method_of(formulation: "Formulation") -> dict[str, str]:
     }
 
 
-def _record(case: Case, done: Measured, names: Sequence[str]) -> Record:
+def _record(case: StudyCase, done: Measured, names: Sequence[str]) -> Record:
     summary = done.summary
     usable = summary.status in ("converged", "failure_load")
     values = {name: quantity(done, name) if usable else float("nan") for name in names}
@@ -173,7 +173,7 @@ def _joined(found: Record, times: Sequence[Spent], peak: int | None) -> Record:
     )
 
 
-def _told(cases: Sequence[Case], tell: Progress, done: int, total: int) -> Iterator[Case]:
+def _told(cases: Sequence[StudyCase], tell: Progress, done: int, total: int) -> Iterator[StudyCase]:
     """Tell each case as it comes."""
     for index, case in enumerate(cases):
         tell((done + index) / total, case.label)

@@ -9,13 +9,13 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from nmm.study.cases.running import run_case
-from nmm.study.cases.variants import Case
+from nmm.study.cases.variants import StudyCase
 
 # Packages whose modules are loaded before memory is measured: they are no part of a run.
 _LOADED = ("integration", "covers", "nmm", "scipy", "skfem", "shapely", "numba")
 
 
-def added_memory(case: Case) -> int | None:
+def added_memory(case: StudyCase) -> int | None:
     """Bytes that a run adds to a fresh process at its peak; None when they cannot be told.
 
     What this process has imported is imported there before, so a case should have run here once.
@@ -23,7 +23,7 @@ def added_memory(case: Case) -> int | None:
     return next(added_memories([case]))
 
 
-def added_memories(cases: Sequence[Case]) -> Iterator[int | None]:
+def added_memories(cases: Sequence[StudyCase]) -> Iterator[int | None]:
     """Yield the memory of each case, one after the other in one process that gives memory back.
 
     What libraries keep after their first use, 6 to 40 MiB, is not counted where there are several
@@ -46,7 +46,7 @@ def added_memories(cases: Sequence[Case]) -> Iterator[int | None]:
                 yield None
 
 
-def _added_memory(case: Case, modules: Sequence[str]) -> int | None:
+def _added_memory(case: StudyCase, modules: Sequence[str]) -> int | None:
     for name in modules:
         try:
             import_module(name)

@@ -9,7 +9,7 @@ from typing import Any
 from nmm.errors import NmmError
 from nmm.study.cases.record import Record
 from nmm.study.cases.threads import one_thread
-from nmm.study.cases.variants import Case
+from nmm.study.cases.variants import StudyCase
 
 # A case whose process dies this often is recorded as failed: it is the case that kills.
 ATTEMPTS = 2
@@ -17,7 +17,7 @@ PATIENCE = "10s"  # for a scheduler to answer
 DIED = "the process that ran it died (killed, or out of memory)"
 
 
-def run_case(case: Case, quantities: Sequence[str], repeats: int) -> Record:
+def run_case(case: StudyCase, quantities: Sequence[str], repeats: int) -> Record:
     """Run one case; what breaks is a record of status "error"."""
     from nmm.study.cases.measure import measure, record
 
@@ -27,7 +27,7 @@ def run_case(case: Case, quantities: Sequence[str], repeats: int) -> Record:
 
 
 def run_here(
-    cases: Sequence[Case], quantities: Sequence[str], repeats: int, processes: int
+    cases: Sequence[StudyCase], quantities: Sequence[str], repeats: int, processes: int
 ) -> Iterator[Record]:
     """Yield the records of cases in the order they end, from a pool of processes.
 
@@ -46,7 +46,7 @@ def run_here(
 
 
 def _pooled(
-    cases: Sequence[Case], quantities: Sequence[str], repeats: int, processes: int
+    cases: Sequence[StudyCase], quantities: Sequence[str], repeats: int, processes: int
 ) -> Iterator[Record]:
     with _pool(processes) as pool:
         futures = [pool.submit(run_case, case, quantities, repeats) for case in cases]
@@ -61,7 +61,7 @@ def _pooled(
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _alone(case: Case, quantities: Sequence[str], repeats: int) -> Record:
+def _alone(case: StudyCase, quantities: Sequence[str], repeats: int) -> Record:
     for _ in range(ATTEMPTS):
         with _pool(1) as pool:
             try:
@@ -75,14 +75,14 @@ def _pool(processes: int) -> ProcessPoolExecutor:
     return ProcessPoolExecutor(processes, mp_context=get_context("spawn"), initializer=one_thread)
 
 
-def lost(case: Case, sentence: str) -> Record:
+def lost(case: StudyCase, sentence: str) -> Record:
     """Return the record of a case that nothing came back from."""
     cover = case.formulation.cover.type
     return Record(case.name, dict(case.settings), case.key, "error", sentence, cover=cover)
 
 
 def run_on_cluster(
-    cases: Sequence[Case], quantities: Sequence[str], repeats: int, address: str
+    cases: Sequence[StudyCase], quantities: Sequence[str], repeats: int, address: str
 ) -> Iterator[Record]:
     """Yield the records of cases as they end on the workers of a dask.distributed scheduler.
 

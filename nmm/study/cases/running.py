@@ -10,13 +10,13 @@ from nmm.study.cases.quantities import Measured
 from nmm.trust import allowing
 
 if TYPE_CHECKING:
-    from nmm.study.cases.variants import Case
+    from nmm.study.cases.variants import StudyCase
 
 SKFEM = "skfem"
 """Cover type of a formulation that asks for the finite elements of a yardstick."""
 
 
-def run_case(case: "Case") -> Measured:
+def run_case(case: "StudyCase") -> Measured:
     """Run a case in this process.
 
     Parts of one's own that are allowed are imported from the folder of the scene file too, behind
@@ -26,7 +26,7 @@ def run_case(case: "Case") -> Measured:
         return _run_allowed(case)
 
 
-def _run_allowed(case: "Case") -> Measured:
+def _run_allowed(case: "StudyCase") -> Measured:
     if case.formulation.cover.type == SKFEM:
         from nmm.study.scikit_fem.yardstick import run_elements
 

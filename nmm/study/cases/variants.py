@@ -21,7 +21,7 @@ SIZE = "formulation.cover.size"
 
 
 @dataclass(frozen=True)
-class Case:
+class StudyCase:
     """One run of a study.
 
     Attributes
@@ -58,7 +58,7 @@ class Case:
         return f"{self.name} ({settings})" if settings else self.name
 
 
-def with_settings(case: Case, settings: Mapping[str, Any]) -> Case:
+def with_settings(case: StudyCase, settings: Mapping[str, Any]) -> StudyCase:
     """Return a case with values changed; keys of formulations begin with ``formulation.``.
 
     A key is a path through tables and arrays (``tessellations.0.seed``,
@@ -87,19 +87,19 @@ def with_settings(case: Case, settings: Mapping[str, Any]) -> Case:
 
 def cases_of(
     scene: Scene, formulations: Mapping[str, Formulation], vary: Mapping[str, Sequence[Any]]
-) -> list[Case]:
+) -> list[StudyCase]:
     """Return one case for each formulation and combination of values, none of them twice.
 
     The size of a cover means nothing to blocks: their formulations get no such setting.
     """
-    found: dict[tuple[str, str], Case] = {}
+    found: dict[tuple[str, str], StudyCase] = {}
     file = Path(scene.source.name)
     folder = str(file.resolve().parent) if file.is_file() else ""
     for name, formulation in formulations.items():
         blocks = formulation.cover.type == "block"
         for settings in grid(vary):
             apt = {key: value for key, value in settings.items() if not (blocks and key == SIZE)}
-            case = with_settings(Case(name, scene, formulation, folder=folder), apt)
+            case = with_settings(StudyCase(name, scene, formulation, folder=folder), apt)
             found.setdefault((name, case.key), case)
     return list(found.values())
 

@@ -10,8 +10,8 @@ from nmm.formulation import Formulation
 from nmm.scene import Scene, parse_scene
 from nmm.study.cases.measure import Progress, machine
 from nmm.study.cases.memory import added_memory
-from nmm.study.cases.variants import Case
-from nmm.study.cost.cost_model import CostModel, Measured, fit, size_of
+from nmm.study.cases.variants import StudyCase
+from nmm.study.cost.cost_model import CostModel, MeasuredRun, fit, size_of
 
 ROCK = "[materials.rock]\nyoung_modulus = 1e9\npoisson_ratio = 0.2\ndensity = 2000\n"
 JOINT = "[interfaces.joint]\nfriction_angle = 0.5\n"
@@ -35,14 +35,14 @@ class Kind:
     steps: int = 1
 
     @property
-    def case(self) -> Case:
+    def case(self) -> StudyCase:
         """What is run."""
         name = f"{self.name} {self.number}"
         if self.cover == "block":
-            return Case(name, wall(self.number, self.steps), _walled(self.degree))
+            return StudyCase(name, wall(self.number, self.steps), _walled(self.degree))
         cover = {"type": self.cover, "degree": self.degree, "size": 1 / self.number}
         formulation = Formulation.model_validate({"cover": cover})
-        return Case(name, parse_scene(BEAM, "calibration"), formulation)
+        return StudyCase(name, parse_scene(BEAM, "calibration"), formulation)
 
 
 FITTED = (
@@ -81,7 +81,7 @@ def wall(number: int, steps: int) -> Scene:
     return parse_scene(head + ROCK + JOINT + "".join(blocks + held), "calibration")
 
 
-def measured(kinds: Sequence[Kind], progress: Progress | None = None) -> Iterator[Measured]:
+def measured(kinds: Sequence[Kind], progress: Progress | None = None) -> Iterator[MeasuredRun]:
     """Yield size and cost of every kind, each after a warm-up and the lesser of two repeats."""
     from nmm.results.sink import MemorySink
     from nmm.stepping.simulation import prepare
@@ -100,7 +100,7 @@ def measured(kinds: Sequence[Kind], progress: Progress | None = None) -> Iterato
         assert simulation is not None
         size = size_of(simulation, float(kind.steps))
         preparing, running = np.min(np.array(times[1:]), axis=0)
-        yield Measured(case.name, size, float(preparing), float(running), added_memory(case))
+        yield MeasuredRun(case.name, size, float(preparing), float(running), added_memory(case))
 
 
 def calibrate(progress: Progress | None = None) -> CostModel:

@@ -65,7 +65,7 @@ class Size:
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasuredRun:
     """A run that was measured: its size, processor seconds, and bytes (None when not taken)."""
 
     name: str
@@ -130,7 +130,7 @@ class CostModel:
         return cls(**values)
 
 
-def fit(measured: Sequence[Measured], machine: str) -> CostModel:
+def fit(measured: Sequence[MeasuredRun], machine: str) -> CostModel:
     """Fit all coefficients so that relative errors are least.
 
     Raises
@@ -149,7 +149,7 @@ def fit(measured: Sequence[Measured], machine: str) -> CostModel:
     return replace(model, spread_seconds=max(seconds), spread_memory=max(held, default=1.0))
 
 
-def _coefficients(kind: str, measured: Sequence[Measured]) -> Coefficients:
+def _coefficients(kind: str, measured: Sequence[MeasuredRun]) -> Coefficients:
     if len(measured) < 4:
         raise NmmError(
             f"cost model, {kind}: {len(measured)} measurements: expected at least 4: run more"

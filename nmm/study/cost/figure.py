@@ -12,14 +12,14 @@ from nmm.study.cost.reference import Reference
 
 def draw(study: CostStudy, path: Path) -> None:
     """Draw the work-precision figure."""
-    from nmm.plots.work_precision import Series, work_precision
+    from nmm.plots.work_precision import WorkPrecision, work_precision
 
     on_front = study.front()
     sizes = {one.unknowns for one in study.records if one.unknowns}
     counted = "unknowns" if len(sizes) > 1 else "steps"
     methods = distinguished(study)
     series = {
-        name: Series(
+        name: WorkPrecision(
             error=study.errors(many),
             seconds=[one.median_seconds for one in many],
             counts=[float(getattr(one, counted) or np.nan) for one in many],

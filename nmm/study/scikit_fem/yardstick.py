@@ -20,7 +20,7 @@ from nmm.scene import scene_hash
 
 if TYPE_CHECKING:
     from nmm.scene import Scene
-    from nmm.scene.actions import Load
+    from nmm.scene.actions import LoadTable
 
 DEGREES = (1, 2, 3, 4)
 NEAR = 1e-9  # of the body's extent: what lies on a segment
@@ -228,7 +228,7 @@ def _constant(field: Sequence[float], thickness: float) -> Any:
     return skfem.LinearForm(lambda v, w: x * v[0] + y * v[1])
 
 
-def _at_node(solid: _Solid, load: "Load") -> Floats:
+def _at_node(solid: _Solid, load: "LoadTable") -> Floats:
     assert load.point is not None
     assert load.force is not None
     node = solid.node(load.point)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from nmm.study.cases.pool import run_here, run_on_cluster
 from nmm.study.cases.record import Record
-from nmm.study.cases.variants import Case
+from nmm.study.cases.variants import StudyCase
 from nmm.study.sweep.store import Store
-from nmm.study.sweep.study_file import Plan
+from nmm.study.sweep.study_file import StudyPlan
 
 CASES = "cases"
 
@@ -30,14 +30,14 @@ class Sweep:
         How many had been done before.
     """
 
-    plan: Plan
+    plan: StudyPlan
     records: list[Record]
     skipped: int
 
 
 def run_study(
-    plan: Plan,
-    cases: Sequence[Case],
+    plan: StudyPlan,
+    cases: Sequence[StudyCase],
     out: Path,
     *,
     scheduler: str | None = None,
@@ -84,7 +84,7 @@ def _to_run(record: Record | None, again: bool) -> bool:
     return record is None or (again and not record.valid)
 
 
-def _all(store: Store, cases: Sequence[Case]) -> Iterator[Record]:
+def _all(store: Store, cases: Sequence[StudyCase]) -> Iterator[Record]:
     for case in cases:
         record = store.find(case, ())
         if record is not None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from nmm.study.cases.record import Record
-from nmm.study.cases.variants import Case
+from nmm.study.cases.variants import StudyCase
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Store:
             file.write(record.to_json() + "\n")
         os.replace(name, self.path(record.key))
 
-    def find(self, case: Case, quantities: Sequence[str]) -> Record | None:
+    def find(self, case: StudyCase, quantities: Sequence[str]) -> Record | None:
         """Return the record of a case under its present name; None when it has to be run.
 
         A file that cannot be read, or lacks a quantity that is asked for, counts as none.

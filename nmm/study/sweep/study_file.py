@@ -14,10 +14,10 @@ from nmm.scene import read_scene
 from nmm.scene.document import parse, read_text
 from nmm.scene.fields import Count, Frozen, Text
 from nmm.study.cases.quantities import check_quantity
-from nmm.study.cases.variants import Case, cases_of, read_formulations
+from nmm.study.cases.variants import StudyCase, cases_of, read_formulations
 
 
-class Plan(Frozen):
+class StudyPlan(Frozen):
     """A study: scenes, formulations, values by dotted key, and what is read off each run."""
 
     title: Text = Field(default="", description="a title", examples=["Kitoh, 12 seeds"])
@@ -49,7 +49,7 @@ class Plan(Frozen):
     repeats: Count = Field(default=1, gt=0, description="repeats of each case, > 0", examples=[1])
 
 
-def read_plan(path: Path) -> tuple[Plan, list[Case]]:
+def read_plan(path: Path) -> tuple[StudyPlan, list[StudyCase]]:
     """Read a study file and return it with its cases, none twice.
 
     Raises
@@ -57,7 +57,7 @@ def read_plan(path: Path) -> tuple[Plan, list[Case]]:
     NmmError
         Faults of the study file, of the scene, of a formulation, or of a value in ``[vary]``.
     """
-    plan = parse(read_text(path, NmmError), Plan, str(path), NmmError)[0]
+    plan = parse(read_text(path, NmmError), StudyPlan, str(path), NmmError)[0]
     if bool(plan.scene) == bool(plan.scenes):
         raise NmmError(
             f"{path}: scene: {'scenes too' if plan.scene else 'none'}: expected one scene, or a "
@@ -77,7 +77,7 @@ def read_plan(path: Path) -> tuple[Plan, list[Case]]:
     return plan, cases
 
 
-def _cases(folder: Path, plan: Plan, name: str) -> list[Case]:
+def _cases(folder: Path, plan: StudyPlan, name: str) -> list[StudyCase]:
     """Cases of one scene; of several, the scene's file is the first of their settings."""
     scene = read_scene(folder / name)
     kinds = read_formulations([folder / item for item in plan.formulations])

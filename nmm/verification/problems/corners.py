@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.places import on_edges
-from nmm.formulation import Enrichment, Formulation
+from nmm.formulation import EnrichmentTable, Formulation
 from nmm.materials.elastic import Elastic
 from nmm.verification.base import Check, Checks, limit, order
 from nmm.verification.continuum import (
@@ -49,7 +49,7 @@ def tractions(points: Floats, normals: Floats) -> Floats:
     return traction_of(strain @ elasticity, normals)
 
 
-class Corner(ContinuumCase):
+class LShapedBody(ContinuumCase):
     """An L-shaped body with arms of 1, loaded by the tractions of the first mode of its corner."""
 
     source: ClassVar[str] = (
@@ -63,7 +63,7 @@ class Corner(ContinuumCase):
 
         cover = formulation.cover
         if self.radius is not None:
-            extra = Enrichment(radius=self.radius, corners=((0.0, 0.0),))
+            extra = EnrichmentTable(radius=self.radius, corners=((0.0, 0.0),))
             cover = cover.model_copy(update={"enrichment": extra})
         model = solid(polygon(RING), cover, [LAW], "strain")
         x, y = middles(model).T
@@ -73,7 +73,7 @@ class Corner(ContinuumCase):
 
 
 @dataclass(frozen=True)
-class Exponents(Corner):
+class Exponents(LShapedBody):
     """Exponents of stress singularities at a corner and at a crack."""
 
     name: ClassVar[str] = "A13 exponents"
@@ -101,7 +101,7 @@ class Exponents(Corner):
 
 
 @dataclass(frozen=True)
-class PlainCorner(Corner):
+class PlainCorner(LShapedBody):
     """Without the functions of the corner errors fall by its exponent, whatever the degree.
 
     How large they are depends on how the corner lies in its cell, so sizes are chosen that leave it
@@ -130,7 +130,7 @@ class PlainCorner(Corner):
 
 
 @dataclass(frozen=True)
-class EnrichedCorner(Corner):
+class EnrichedCorner(LShapedBody):
     """With the functions of the corner the energy is right with a few hundred unknowns."""
 
     name: ClassVar[str] = "A13 enriched"

@@ -8,7 +8,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.places import on_edges, on_segment
-from nmm.formulation import Enrichment, Formulation
+from nmm.formulation import EnrichmentTable, Formulation
 from nmm.materials.elastic import Elastic
 from nmm.verification.base import Check, Checks, limit
 from nmm.verification.continuum import (
@@ -53,7 +53,7 @@ class CrackedBody(ContinuumCase):
         from nmm.model.from_polygons import solid
 
         cover = formulation.cover.model_copy(
-            update={"enrichment": Enrichment(radius=self.enriched)}
+            update={"enrichment": EnrichmentTable(radius=self.enriched)}
         )
         return solid(polygon(ring), cover, [self.law], "strain", cracks=[crack])
 

@@ -137,7 +137,7 @@ def driven_contact(formulation: str, path: Floats) -> tuple[Floats, Floats]:
 
 
 @dataclass(frozen=True)
-class Cone(Case):
+class ConeProjection(Case):
     """Trial forces are brought back to the cone: pull cut off, shear cut at the bound."""
 
     name: ClassVar[str] = "B10 cone"

@@ -44,7 +44,7 @@ def _head(title: str, duration: float | None, step: float) -> str:
 
 
 @dataclass(frozen=True)
-class Threshold(SceneCase):
+class FrictionThreshold(SceneCase):
     """A square block rests when friction exceeds the slope, and slides when it does not."""
 
     name: ClassVar[str] = "B1 friction"

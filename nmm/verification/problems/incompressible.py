@@ -26,7 +26,7 @@ from nmm.verification.problems.cylinders import RESIDUAL, Cylinder
 
 
 @dataclass(frozen=True)
-class Pressures(Cylinder):
+class CylinderPressures(Cylinder):
     """Pressures in a thick cylinder that hardly changes its volume.
 
     Stresses do not depend on Poisson's ratio. With volumes projected on pressures of one degree

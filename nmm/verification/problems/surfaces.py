@@ -376,7 +376,7 @@ def _graded(formulation: "Formulation", **changes: Any) -> "Formulation":
 
 def _covered(formulation: "Formulation", **changes: Any) -> "Formulation":
     """Return a formulation with other keys of its cover."""
-    from nmm.formulation import Cover
+    from nmm.formulation import CoverTable
 
-    cover = Cover.model_validate(formulation.cover.model_dump(mode="json") | changes)
+    cover = CoverTable.model_validate(formulation.cover.model_dump(mode="json") | changes)
     return formulation.model_copy(update={"cover": cover})

@@ -99,7 +99,7 @@ class SpringBlock(SceneCase):
 
 
 @dataclass(frozen=True)
-class Order(Case):
+class IntegratorOrder(Case):
     """Error of the oscillator at a fixed time over three halvings of the step."""
 
     name: ClassVar[str] = "B9 order"

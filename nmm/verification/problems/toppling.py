@@ -20,7 +20,7 @@ STEP, DURATION = 1e-3, 0.1
 
 
 @dataclass(frozen=True)
-class Modes(SceneCase):
+class BlockOnSlope(SceneCase):
     """A block of width b and height h on a slope, friction to either side of each limit."""
 
     name: ClassVar[str] = "B6"

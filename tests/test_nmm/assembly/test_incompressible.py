@@ -13,7 +13,7 @@ from nmm.assembly.motion import initial_state
 from nmm.assembly.places import on_edges
 from nmm.constraints.edge_supports import Method
 from nmm.constraints.supports import Supports
-from nmm.formulation import Cover, Formulation, parse_formulation
+from nmm.formulation import CoverTable, Formulation, parse_formulation
 from nmm.fracture.stress_intensity import stress_intensity
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
@@ -272,7 +272,7 @@ def test_reactions_and_energies_balance_the_load(kind: str) -> None:
 
 
 def test_edges_held_on_both_axes_do_not_know_how_far_a_body_has_turned() -> None:
-    cover = Cover.model_validate({"type": "triangles", "size": 0.3, "volumetric": "projected"})
+    cover = CoverTable.model_validate({"type": "triangles", "size": 0.3, "volumetric": "projected"})
     model = solid(SQUARE, cover, [Elastic(1.0, 0.4999)], "strain")
     place = on_edges(model.manifold, np.ones(len(model.manifold.boundary), dtype=bool), 6)
     held = hold(model, place, Method("nitsche", 0.3, 1))
@@ -287,7 +287,7 @@ SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [
 
 def without_divergence(nu: float, degree: int, size: float, volumetric: str) -> tuple[float, float]:
     """Errors in energy and displacement of a field that keeps the volume, under Nitsche."""
-    cover = Cover.model_validate(
+    cover = CoverTable.model_validate(
         {
             "type": "triangles",
             "size": size,
@@ -345,7 +345,7 @@ def linear(p: Floats) -> Floats:
 @pytest.mark.parametrize("volumetric", ["full", "projected"])
 @pytest.mark.parametrize(("degree", "nu"), [(0, 0.4999), (1, 0.45), (1, 0.4999), (2, 0.49)])
 def test_linear_fields_are_exact_on_any_cut(degree: int, nu: float, volumetric: str) -> None:
-    cover = Cover.model_validate(
+    cover = CoverTable.model_validate(
         {
             "type": "triangles",
             "size": 0.15,
@@ -366,7 +366,7 @@ def test_linear_fields_are_exact_on_any_cut(degree: int, nu: float, volumetric: 
 
 
 def test_regions_of_other_degrees_share_pressures_and_hold_linear_fields() -> None:
-    cover = Cover.model_validate(
+    cover = CoverTable.model_validate(
         {
             "type": "triangles",
             "size": 0.15,
@@ -387,7 +387,7 @@ def test_regions_of_other_degrees_share_pressures_and_hold_linear_fields() -> No
 @pytest.mark.parametrize("nu", POISSONS)
 def test_intensity_of_an_edge_crack_does_not_know_the_poisson_ratio(nu: float) -> None:
     ring = np.array([[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]])
-    cover = Cover.model_validate(
+    cover = CoverTable.model_validate(
         {"type": "triangles", "size": 0.1, "angle": 0.4, "volumetric": "projected"}
     )
     crack = [[-0.1, 0.0], [0.5, 0.0]]
@@ -421,7 +421,7 @@ def test_below_a_third_and_in_plane_stress_projection_changes_nothing() -> None:
         full, projected = (
             solid(
                 SQUARE,
-                Cover.model_validate({"type": "triangles", "size": 0.3, "volumetric": kind}),
+                CoverTable.model_validate({"type": "triangles", "size": 0.3, "volumetric": kind}),
                 [Elastic(1.0, nu)],
                 plane,
             ).stiffness

@@ -6,7 +6,7 @@ import pytest
 from integration.polygons import Polygons
 from nmm.assembly.model import Model
 from nmm.errors import FormulationError
-from nmm.formulation import Cover, Enrichment, parse_formulation
+from nmm.formulation import CoverTable, EnrichmentTable, parse_formulation
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene import parse_scene
@@ -18,31 +18,31 @@ SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [
 DENSITY = 3.0
 
 
-def model(cover: Cover, density: float = DENSITY, crack: bool = False) -> Model:
+def model(cover: CoverTable, density: float = DENSITY, crack: bool = False) -> Model:
     cracks = [[[-0.1, 0.52], [0.47, 0.5]]] if crack else []
     law = [Elastic(1.0, 0.3)]
     return solid(SQUARE, cover, law, "stress", density=[density], lumped=True, cracks=cracks)
 
 
 COVERS = [
-    Cover(type="triangles", size=0.3, degree=1, angle=0.3, shift=(0.2, 0.3)),
-    Cover(type="triangles", size=0.3, degree=3, angle=0.3, shift=(0.2, 0.3)),
-    Cover(type="quads", size=0.25, degree=2),
-    Cover(type="bspline", size=0.3, degree=1, angle=0.3),
-    Cover(type="triangles", size=0.3, functions="rigid_strain"),
+    CoverTable(type="triangles", size=0.3, degree=1, angle=0.3, shift=(0.2, 0.3)),
+    CoverTable(type="triangles", size=0.3, degree=3, angle=0.3, shift=(0.2, 0.3)),
+    CoverTable(type="quads", size=0.25, degree=2),
+    CoverTable(type="bspline", size=0.3, degree=1, angle=0.3),
+    CoverTable(type="triangles", size=0.3, functions="rigid_strain"),
 ]
 CONSTANT = [
-    Cover(type="triangles", size=0.2, degree=0, angle=0.3),
-    Cover(type="bspline", size=0.3, degree=0, angle=0.3),
+    CoverTable(type="triangles", size=0.2, degree=0, angle=0.3),
+    CoverTable(type="bspline", size=0.3, degree=0, angle=0.3),
 ]
 
 
-def named(cover: Cover) -> str:
+def named(cover: CoverTable) -> str:
     return f"{cover.type}{cover.functions[0]}{cover.degree}"
 
 
 @pytest.mark.parametrize("cover", [*COVERS, *CONSTANT], ids=named)
-def test_no_cover_is_coupled_with_another(cover: Cover) -> None:
+def test_no_cover_is_coupled_with_another(cover: CoverTable) -> None:
     one = model(cover)
     owner = np.repeat(np.arange(one.manifold.n_covers), np.diff(one.manifold.cover_offset))
     row, column = one.mass.tocoo().coords
@@ -51,7 +51,7 @@ def test_no_cover_is_coupled_with_another(cover: Cover) -> None:
 
 
 @pytest.mark.parametrize("cover", COVERS, ids=named)
-def test_mass_and_both_momenta_of_any_velocity_are_exact(cover: Cover) -> None:
+def test_mass_and_both_momenta_of_any_velocity_are_exact(cover: CoverTable) -> None:
     one = model(cover)
     modes = one.manifold.rigid_modes
     # rho A, and rho (1 + 1) / 12 about the middle.
@@ -64,7 +64,7 @@ def test_mass_and_both_momenta_of_any_velocity_are_exact(cover: Cover) -> None:
 
 
 @pytest.mark.parametrize("cover", CONSTANT, ids=named)
-def test_constant_covers_have_the_row_sums(cover: Cover) -> None:
+def test_constant_covers_have_the_row_sums(cover: CoverTable) -> None:
     one = model(cover)
     sums = np.asarray(one.consistent_mass.sum(axis=1)).ravel()
     np.testing.assert_allclose(one.mass.diagonal(), sums, rtol=1e-10)
@@ -73,7 +73,7 @@ def test_constant_covers_have_the_row_sums(cover: Cover) -> None:
 
 
 def test_singular_functions_have_mass_in_their_cover_and_momentum_stays_exact() -> None:
-    cover = COVERS[0].model_copy(update={"enrichment": Enrichment(radius=0.35)})
+    cover = COVERS[0].model_copy(update={"enrichment": EnrichmentTable(radius=0.35)})
     one = model(cover, crack=True)
     assert one.manifold.enriched > 3
     modes = one.manifold.rigid_modes
@@ -84,7 +84,7 @@ def test_singular_functions_have_mass_in_their_cover_and_momentum_stays_exact() 
 
 
 def test_the_mass_of_a_block_is_the_same_lumped_or_not() -> None:
-    one = model(Cover())
+    one = model(CoverTable())
     np.testing.assert_allclose(
         one.mass.toarray(), one.consistent_mass.toarray(), rtol=1e-14, atol=1e-16
     )
@@ -98,7 +98,7 @@ def test_the_mass_of_a_block_is_the_same_lumped_or_not() -> None:
 def test_lame_mode_and_three_rigid_motions_under_a_lumped_mass(
     degree: int, size: float, tolerance: float
 ) -> None:
-    cover = Cover(type="triangles", size=size, degree=degree, angle=0.3, shift=(0.2, 0.3))
+    cover = CoverTable(type="triangles", size=size, degree=degree, angle=0.3, shift=(0.2, 0.3))
     one = model(cover, 1.0)
     modes = lowest_modes(one, 8)
     # Benchmark A14.
@@ -138,6 +138,6 @@ def test_a_projectile_keeps_parabola_and_spin(degree: int, projectile: str) -> N
 
 
 def test_weights_that_are_negative_have_no_lumped_mass() -> None:
-    cover = Cover(type="mls", size=0.25, degree=1, options={"degree": 2})
+    cover = CoverTable(type="mls", size=0.25, degree=1, options={"degree": 2})
     with pytest.raises(FormulationError, match='mass: "lumped": cover'):
         _ = model(cover).mass

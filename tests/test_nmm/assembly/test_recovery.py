@@ -13,7 +13,7 @@ from nmm.assembly.recovery import recovered_stress
 from nmm.constraints.edge_supports import Method
 from nmm.constraints.supports import Supports
 from nmm.errors import GeometryError
-from nmm.formulation import Cover, Enrichment
+from nmm.formulation import CoverTable, EnrichmentTable
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.stepping.drive.linear_statics import Equilibrium, equilibrium, hold, traction
@@ -23,9 +23,9 @@ LAW = Elastic(1000.0, 0.3)
 SIZE = 0.25
 
 
-def cover(position: tuple[float, tuple[float, float]], degree: int = 1) -> Cover:
+def cover(position: tuple[float, tuple[float, float]], degree: int = 1) -> CoverTable:
     angle, shift = position
-    return Cover(type="triangles", size=SIZE, degree=degree, angle=angle, shift=shift)
+    return CoverTable(type="triangles", size=SIZE, degree=degree, angle=angle, shift=shift)
 
 
 def kirsch(p: Floats) -> Floats:
@@ -141,7 +141,7 @@ def test_stress_of_a_quadratic_displacement_comes_back_exactly() -> None:
 
 def test_the_fit_does_not_look_across_a_crack() -> None:
     crack = [[-1.5, 0.03], [0.5, 0.03]]
-    plain = cover(POSITIONS[0], 0).model_copy(update={"enrichment": Enrichment(tips=False)})
+    plain = cover(POSITIONS[0], 0).model_copy(update={"enrichment": EnrichmentTable(tips=False)})
     model: Model = solid(SQUARE, plain, [LAW], "stress", cracks=[crack])
     assert model.cut is not None
     element, slot = np.nonzero(model.cut.covers >= 0)

@@ -9,7 +9,7 @@ from integration.rules import polygon_rule
 from nmm.assembly.errors import stresses
 from nmm.assembly.places import on_edges
 from nmm.constraints.edge_supports import Method
-from nmm.formulation import Cover
+from nmm.formulation import CoverTable
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.stepping.drive.linear_statics import body_force, equilibrium, hold
@@ -58,7 +58,7 @@ def test_quadratic_fields_held_by_multipliers_are_exact(
     kind: str, degree: int, options: dict[str, int], angle: float, region: str
 ) -> None:
     size = 0.23
-    cover = Cover(
+    cover = CoverTable(
         type=kind, size=size, degree=degree, angle=angle, shift=(0.2, 0.3), options=options
     )
     ring = Polygons.from_vertices([np.array(REGIONS[region])])

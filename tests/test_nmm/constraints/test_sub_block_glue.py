@@ -12,7 +12,7 @@ from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, on_edges
 from nmm.constraints.artificial_joints import ArtificialJoints
 from nmm.constraints.edge_supports import Method
-from nmm.formulation import Cover
+from nmm.formulation import CoverTable
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.stepping.drive.linear_statics import body_force, equilibrium, hold, traction
@@ -22,7 +22,7 @@ LAW = Elastic(1.0, 0.3)
 
 
 def sub_blocks(mesh: str, degree: int, size: float, angle: float = 0.0) -> Model:
-    cover = Cover(
+    cover = CoverTable(
         type="sub_blocks",
         functions="monomials",
         degree=degree,

@@ -14,7 +14,7 @@ from nmm.constraints.supports import Supports
 from nmm.contact.enforcement.base import make_enforcement
 from nmm.contact.enforcement.null_space import Constrained, NullSpace
 from nmm.contact.problem.step_problem import Limits, StepProblem
-from nmm.formulation import Cover, parse_formulation
+from nmm.formulation import CoverTable, parse_formulation
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene import parse_scene
@@ -33,7 +33,7 @@ def patch(corners: int, kind: str, degree: int) -> float:
     """Benchmark A1a on a regular polygon held all around: largest error of a stress of 1."""
     t = 2 * np.pi * np.arange(corners) / corners
     ring = np.stack([np.cos(t), np.sin(t)], axis=1)
-    cover = Cover(type=kind, size=0.31, degree=degree, angle=0.4, shift=(0.2, 0.3))
+    cover = CoverTable(type=kind, size=0.31, degree=degree, angle=0.4, shift=(0.2, 0.3))
     region = Polygons.from_vertices([ring])
     model = solid(region, cover, [Elastic(1000.0, 0.3)], "stress")
     edges = on_edges(model.manifold, np.ones(len(model.manifold.boundary), dtype=bool), 8)

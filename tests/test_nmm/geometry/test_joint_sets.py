@@ -8,7 +8,7 @@ import pytest
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.errors import GeometryError
-from nmm.geometry import Joints, cut
+from nmm.geometry import JointSetGeometry, cut
 
 UNIT = Polygons.from_vertices([[[0, 0], [1, 0], [1, 1], [0, 1]]])
 LOW, HIGH = np.array([0.0, 0.0]), np.array([100.0, 100.0])
@@ -19,8 +19,10 @@ def _lengths(segments: Floats) -> Floats:
 
 
 def test_two_through_going_sets_cut_a_grid() -> None:
-    flat = Joints(0.0, 0.25, origin=(0.0, 0.125)).segments(UNIT.points[0], UNIT.points[2])
-    steep = Joints(math.pi / 2, 0.5, origin=(0.25, 0.0)).segments(UNIT.points[0], UNIT.points[2])
+    flat = JointSetGeometry(0.0, 0.25, origin=(0.0, 0.125)).segments(UNIT.points[0], UNIT.points[2])
+    steep = JointSetGeometry(math.pi / 2, 0.5, origin=(0.25, 0.0)).segments(
+        UNIT.points[0], UNIT.points[2]
+    )
     answer = cut(UNIT, np.concatenate([flat, steep]))
     assert len(answer.polygons) == 5 * 3
     assert sorted(answer.polygons.areas)[-1] == pytest.approx(0.125, rel=1e-12)
@@ -29,7 +31,10 @@ def test_two_through_going_sets_cut_a_grid() -> None:
 
 
 def test_neighbours_share_vertices_at_crossings_bit_by_bit() -> None:
-    joints = [Joints(0.3, 0.1, 0.1, 0.02, seed=1), Joints(1.9, 0.15, 0.1, 0.02, seed=2)]
+    joints = [
+        JointSetGeometry(0.3, 0.1, 0.1, 0.02, seed=1),
+        JointSetGeometry(1.9, 0.15, 0.1, 0.02, seed=2),
+    ]
     lines = np.concatenate([set_.segments(UNIT.points[0], UNIT.points[2]) for set_ in joints])
     cells = cut(UNIT, lines).polygons
     edges = np.concatenate([cells.points, cells.points[cells.next_point]], axis=1)
@@ -40,7 +45,7 @@ def test_neighbours_share_vertices_at_crossings_bit_by_bit() -> None:
 
 
 def test_spacing_dip_and_persistence_are_those_asked_for() -> None:
-    joints = Joints(
+    joints = JointSetGeometry(
         math.radians(30),
         spacing=0.5,
         dip_scatter=0.02,
@@ -67,7 +72,7 @@ def test_spacing_dip_and_persistence_are_those_asked_for() -> None:
 
 def test_the_same_seed_gives_the_same_joints() -> None:
     first, second, third = (
-        Joints(0.3, 0.1, 0.1, 0.02, 0.5, 0.4, seed=seed).segments(LOW, HIGH / 50)
+        JointSetGeometry(0.3, 0.1, 0.1, 0.02, 0.5, 0.4, seed=seed).segments(LOW, HIGH / 50)
         for seed in (3, 3, 4)
     )
     assert first.tobytes() == second.tobytes() != third.tobytes()
@@ -105,7 +110,7 @@ def test_joints_through_corners_and_crossings_leave_no_slivers(miss: float) -> N
 def test_every_region_is_cut_on_its_own_and_keeps_its_area() -> None:
     ring = [[[0, 0], [4, 0], [4, 4], [0, 4]], [[1, 1], [3, 1], [3, 3], [1, 3]]]
     both = Polygons.from_rings([ring, [[[4, 0], [6, 0], [6, 4], [4, 4]]]])
-    lines = Joints(0.0, 0.5, origin=(0.0, 0.25)).segments(LOW, HIGH / 10)
+    lines = JointSetGeometry(0.0, 0.5, origin=(0.0, 0.25)).segments(LOW, HIGH / 10)
     answer = cut(both, lines)
     assert np.bincount(answer.region, answer.polygons.areas) == pytest.approx([12.0, 8.0])
     assert np.count_nonzero(answer.region == 1) == 9  # eight lines from y = 0.25 to 3.75
@@ -113,11 +118,11 @@ def test_every_region_is_cut_on_its_own_and_keeps_its_area() -> None:
 
 def test_a_spacing_far_below_the_region_is_refused() -> None:
     with pytest.raises(GeometryError, match="increase the spacing"):
-        Joints(0.0, 1e-4).segments(LOW, HIGH, "bedding")
+        JointSetGeometry(0.0, 1e-4).segments(LOW, HIGH, "bedding")
 
 
 def test_joints_that_almost_coincide_leave_neither_slivers_nor_short_edges() -> None:
-    sets = [Joints(angle, 0.2, spacing_scatter=0.02, seed=3) for angle in (0.1, 1.3)]
+    sets = [JointSetGeometry(angle, 0.2, spacing_scatter=0.02, seed=3) for angle in (0.1, 1.3)]
     lines = np.concatenate([item.segments(UNIT.points[0], UNIT.points[2]) for item in sets])
     single = cut(UNIT, lines).polygons
     for shift in (1e-15, 1e-12, 1e-9, 1e-7):
@@ -130,7 +135,7 @@ def test_joints_that_almost_coincide_leave_neither_slivers_nor_short_edges() -> 
 
 def test_neighbouring_regions_share_the_joints_that_cross_their_border() -> None:
     pair = Polygons.from_vertices([UNIT.points, UNIT.points + np.array([1.0, 0.0])])
-    lines = Joints(0.3, 0.15, 0.05, 0.02, seed=5).segments(LOW, np.array([2.0, 1.0]))
+    lines = JointSetGeometry(0.3, 0.15, 0.05, 0.02, seed=5).segments(LOW, np.array([2.0, 1.0]))
     answer = cut(pair, lines)
     assert np.bincount(answer.region, answer.polygons.areas) == pytest.approx([1.0, 1.0], rel=1e-12)
     points = answer.polygons.points
@@ -143,5 +148,5 @@ def test_neighbouring_regions_share_the_joints_that_cross_their_border() -> None
 
 
 def test_a_set_without_a_joint_in_the_region_cuts_nothing() -> None:
-    far = Joints(0.0, 50.0, persistence=0.5, trace=1.0, origin=(0.0, 20.0))
+    far = JointSetGeometry(0.0, 50.0, persistence=0.5, trace=1.0, origin=(0.0, 20.0))
     assert len(cut(UNIT, far.segments(UNIT.points[0], UNIT.points[2])).polygons) == 1

@@ -9,7 +9,7 @@ import pytest
 from integration.polygons import Polygons
 from nmm.assembly.places import on_edges
 from nmm.errors import NmmError
-from nmm.formulation import Cover
+from nmm.formulation import CoverTable
 from nmm.fracture.stress_intensity import stress_intensity
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
@@ -52,6 +52,6 @@ def test_edge_crack_with_fine_covers_is_right_to_a_thousandth(position: int) -> 
 
 def test_a_tip_that_does_not_exist_is_named() -> None:
     region = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])])
-    model = solid(region, Cover(type="triangles", size=0.5), [Elastic(1.0, 0.3)], "stress")
+    model = solid(region, CoverTable(type="triangles", size=0.5), [Elastic(1.0, 0.3)], "stress")
     with pytest.raises(NmmError, match="crack tip 0: 0 tips"):
         stress_intensity(model, np.zeros(model.manifold.n_unknowns), 0, 0.1, kappa=2.0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from nmm.errors import FormulationError, NmmError
-from nmm.formulation import Cover, Enrichment, parse_formulation
+from nmm.formulation import CoverTable, EnrichmentTable, parse_formulation
 from nmm.fracture.stress_intensity import stress_intensity
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
@@ -106,7 +106,7 @@ SQUARE = polygon([[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]])
 def test_a_domain_that_holds_more_than_one_straight_crack_is_refused(
     cracks: list[list[list[float]]], radius: float, what: str | None, distance: str | None
 ) -> None:
-    cover = Cover.model_validate({"type": "triangles", "size": 0.1, "angle": 0.2})
+    cover = CoverTable.model_validate({"type": "triangles", "size": 0.1, "angle": 0.2})
     model = solid(SQUARE, cover, [Elastic(1.0, 0.3)], "strain", cracks=cracks)
     still = np.zeros(model.manifold.n_unknowns)
     if what is None:
@@ -122,7 +122,9 @@ def test_a_domain_that_holds_more_than_one_straight_crack_is_refused(
 )
 def test_a_corner_that_is_not_re_entrant_is_refused(corner: list[float], angle: str) -> None:
     ring = [[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.5, 1.0], [0.0, 1.0]]
-    cover = Cover.model_validate({"type": "triangles", "size": 0.3})
-    named = cover.model_copy(update={"enrichment": Enrichment(corners=((corner[0], corner[1]),))})
+    cover = CoverTable.model_validate({"type": "triangles", "size": 0.3})
+    named = cover.model_copy(
+        update={"enrichment": EnrichmentTable(corners=((corner[0], corner[1]),))}
+    )
     with pytest.raises(FormulationError, match=f"{angle} degrees"):
         solid(polygon(ring), named, [Elastic(1.0, 0.3)], "strain")

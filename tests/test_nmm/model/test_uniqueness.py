@@ -7,7 +7,7 @@ from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.places import on_edges
 from nmm.constraints.edge_supports import Method
-from nmm.formulation import Cover, Solver
+from nmm.formulation import CoverTable, Solver
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.stepping.drive.linear_statics import equilibrium, hold
@@ -16,13 +16,13 @@ REGION = Polygons.from_vertices(
     [np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.6], [0.0, 1.0]])]
 )
 COVERS = [
-    Cover(type="triangles", size=0.4, degree=1, angle=0.4, shift=(0.2, 0.3)),
-    Cover(type="triangles", size=0.5, degree=3, angle=0.4, shift=(0.2, 0.3)),
-    Cover(type="quads", size=0.4, degree=1, angle=0.4, shift=(0.2, 0.3)),
-    Cover(type="quads", size=0.4, degree=2),
-    Cover(type="bspline", size=0.4, degree=1, angle=0.4),
+    CoverTable(type="triangles", size=0.4, degree=1, angle=0.4, shift=(0.2, 0.3)),
+    CoverTable(type="triangles", size=0.5, degree=3, angle=0.4, shift=(0.2, 0.3)),
+    CoverTable(type="quads", size=0.4, degree=1, angle=0.4, shift=(0.2, 0.3)),
+    CoverTable(type="quads", size=0.4, degree=2),
+    CoverTable(type="bspline", size=0.4, degree=1, angle=0.4),
     # Least squares with linear functions are too ill-conditioned for this (docs/limits.md).
-    Cover(type="mls", size=0.4, degree=0, angle=0.4),
+    CoverTable(type="mls", size=0.4, degree=0, angle=0.4),
 ]
 
 
@@ -31,7 +31,7 @@ def bent(points: Floats) -> Floats:
 
 
 @pytest.mark.parametrize("cover", COVERS, ids=lambda c: f"{c.type}{c.degree}")
-def test_the_field_is_the_same_whatever_the_shift(cover: Cover) -> None:
+def test_the_field_is_the_same_whatever_the_shift(cover: CoverTable) -> None:
     model = solid(REGION, cover, [Elastic(1000.0, 0.3)], "stress")
     assert (model.manifold.dependent > 0) == (cover.degree != 0)
     assert cover.size is not None

@@ -9,7 +9,7 @@ import pytest
 
 from nmm.errors import SceneError
 from nmm.scene import Scene, canonical_text, json_schema, parse_scene, read_scene, scene_hash
-from nmm.scene.actions import Gravity
+from nmm.scene.actions import GravityTable
 from nmm.scene.solids import Block, Material
 
 GOOD = """
@@ -224,7 +224,7 @@ def test_a_scene_built_in_python_is_checked_like_a_file() -> None:
     scene = Scene(plane="strain", materials={"rock": rock}, blocks=(block,), gravity=None)
     assert scene.blocks[0].vertices[1] == (1.0, 0.0)
     with pytest.raises(ValueError, match="a density in kg/m3"):
-        Scene(plane="strain", materials={"rock": rock}, blocks=(block,), gravity=Gravity())
+        Scene(plane="strain", materials={"rock": rock}, blocks=(block,), gravity=GravityTable())
 
 
 @pytest.mark.parametrize(

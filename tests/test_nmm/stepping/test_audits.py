@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.stepping.audits.base import Finding
+from nmm.stepping.audits.base import AuditFinding
 from nmm.stepping.audits.judge import judged
 from nmm.stepping.audits.table import THRESHOLDS
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, UNBALANCED, RunVerdict
@@ -101,7 +101,7 @@ def test_the_growth_of_the_linear_update_is_told():
 
 
 def test_a_failure_load_that_asks_for_too_much_is_not_hidden():
-    finding = Finding("failure_tolerance", 3.0, "known within 3 %", "lower the increment")
+    finding = AuditFinding("failure_tolerance", 3.0, "known within 3 %", "lower the increment")
     assert finding.warns
     assert not finding.fails
 
@@ -110,12 +110,14 @@ def test_a_failure_load_that_asks_for_too_much_is_not_hidden():
 @pytest.mark.parametrize("value", [2.0, np.nan])
 def test_a_solved_run_whose_audit_fails_is_unbalanced(name, value):
     bound = THRESHOLDS[name].fails
-    found = judged(RunVerdict(CONVERGED, "solved"), [Finding(name, value * bound, "off", "do")])
+    found = judged(
+        RunVerdict(CONVERGED, "solved"), [AuditFinding(name, value * bound, "off", "do")]
+    )
     assert found.code == UNBALANCED
     assert "off" in found.sentence
-    quiet = judged(RunVerdict(CONVERGED, "solved"), [Finding(name, 0.5 * bound, "off", "do")])
+    quiet = judged(RunVerdict(CONVERGED, "solved"), [AuditFinding(name, 0.5 * bound, "off", "do")])
     assert quiet.code == CONVERGED
-    failed = judged(RunVerdict(FAILED, "why"), [Finding(name, value * bound, "off", "do")])
+    failed = judged(RunVerdict(FAILED, "why"), [AuditFinding(name, value * bound, "off", "do")])
     assert failed.code == FAILED
 
 

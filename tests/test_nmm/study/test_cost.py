@@ -9,7 +9,7 @@ from nmm.cli.app import app
 from nmm.errors import NmmError
 from nmm.study.cases.measure import measure
 from nmm.study.cases.record import Record
-from nmm.study.cases.variants import SIZE, Case, cases_of, read_formulations, with_settings
+from nmm.study.cases.variants import SIZE, StudyCase, cases_of, read_formulations, with_settings
 from nmm.study.cost.cost_study import cost_study, read_records
 from nmm.study.cost.front import cost_at, costs_at_levels, front
 from nmm.study.cost.orders import observed_order, richardson
@@ -135,14 +135,16 @@ def test_blocks_are_not_run_again_for_every_size_of_a_cover(bar):
 
 def test_a_setting_that_leads_nowhere_is_named(bar):
     with pytest.raises(NmmError, match=r"setting blocks\.7\.material: leads nowhere"):
-        with_settings(Case("a", bar, formulation()), {"blocks.7.material": "m"})
+        with_settings(StudyCase("a", bar, formulation()), {"blocks.7.material": "m"})
     with pytest.raises(NmmError, match=r"setting materials\.n\.young_modulus: leads nowhere"):
-        with_settings(Case("a", bar, formulation()), {"materials.n.young_modulus": 2.0})
+        with_settings(StudyCase("a", bar, formulation()), {"materials.n.young_modulus": 2.0})
 
 
 def test_the_key_of_a_case_depends_on_its_content_only(bar, bent):
-    first = Case("a", bar, formulation())
-    assert first.key == Case("b", nmm.scene.parse_scene(bent + "# no matter"), formulation()).key
+    first = StudyCase("a", bar, formulation())
+    assert (
+        first.key == StudyCase("b", nmm.scene.parse_scene(bent + "# no matter"), formulation()).key
+    )
     assert first.key != with_settings(first, {"materials.m.young_modulus": 2.0}).key
 
 
@@ -153,8 +155,8 @@ def test_formulations_are_named_by_title_or_file(tmp_path):
 
 
 def test_a_case_that_breaks_is_recorded_and_the_others_go_on(bar):
-    broken = Case("broken", bar, formulation(type="triangles", size=1, functions="none_such"))
-    records = measure([broken, Case("dda", bar, formulation())], ["energy"], 1, memory=False)
+    broken = StudyCase("broken", bar, formulation(type="triangles", size=1, functions="none_such"))
+    records = measure([broken, StudyCase("dda", bar, formulation())], ["energy"], 1, memory=False)
     assert [one.status for one in records] == ["error", "converged"]
     assert "none_such" in records[0].sentence
     assert records[0].seconds == ()

@@ -11,7 +11,7 @@ from nmm.shipped import starter
 from nmm.stepping.simulation import prepare
 from nmm.study.cost.calibrate import BEAM, Kind, measured, wall
 from nmm.study.cost.cost_model import (
-    Measured,
+    MeasuredRun,
     Size,
     factor,
     fit,
@@ -32,7 +32,7 @@ def made(n, edges=0, steps=1.0, noise=1.0):
     running = steps * (1e-3 + 2e-5 * n + 4e-8 * n**1.5 + 1e-5 * edges)
     memory = int(8e6 + 400 * n * np.log2(n + 2))
     one = size(n, edges, steps)
-    return Measured(f"{n}", one, noise * preparing, noise * running, memory)
+    return MeasuredRun(f"{n}", one, noise * preparing, noise * running, memory)
 
 
 def runs(dice=None):

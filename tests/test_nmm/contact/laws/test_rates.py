@@ -9,7 +9,7 @@ from nmm.assembly.errors import field_errors
 from nmm.assembly.model import Model
 from nmm.assembly.places import on_edges
 from nmm.constraints.edge_supports import Method
-from nmm.formulation import Cover
+from nmm.formulation import CoverTable
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.stepping.drive.linear_statics import Equilibrium, body_force, equilibrium, glued, hold
@@ -37,7 +37,7 @@ def strain(p: Floats) -> Floats:
 
 
 def solve(
-    rings: list[list[list[float]]], cover: Cover, supports: str, glue: str, turn: float
+    rings: list[list[list[float]]], cover: CoverTable, supports: str, glue: str, turn: float
 ) -> Equilibrium:
     c, s = np.cos(turn), np.sin(turn)
     blocks = Polygons.from_vertices([np.array(ring, dtype=float) for ring in rings])
@@ -75,7 +75,7 @@ def rates(
     for number, shift in enumerate([(0.17, 0.29), (0.61, 0.83), (0.42, 0.05)]):
         errors = []
         for size in SIZES[degree]:
-            cover = Cover(
+            cover = CoverTable(
                 type=kind, size=size, degree=degree, angle=0.2 + 0.3 * number, shift=shift
             )
             one = solve(rings, cover, supports, glue, 0.35 * number)
@@ -109,7 +109,7 @@ def test_glue_along_a_kinked_line_keeps_the_order(kind: str, degree: int, glue: 
 
 @pytest.mark.parametrize("glue", ["nitsche", "lagrange"])
 def test_a_glued_square_is_as_exact_as_a_whole_one(glue: str) -> None:
-    cover = Cover(type="triangles", size=1 / 12, degree=1, angle=0.3, shift=(0.2, 0.3))
+    cover = CoverTable(type="triangles", size=1 / 12, degree=1, angle=0.3, shift=(0.2, 0.3))
     error = []
     for rings in (SQUARE, SPLIT):
         one = solve(rings, cover, "lagrange", glue, 0.35)
