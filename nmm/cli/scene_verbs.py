@@ -84,7 +84,15 @@ def new(
     tell_next(f"nmm check {path}", f"nmm run {path}")
 
 
-VERBS = (new, check, explain)
+def bound(
+    scene: SceneFile, formulation: FormulationFile = None, allow_code: AllowCode = None
+) -> None:
+    """Print the load factor that no run can pass: the static theorem, by linear programming."""
+    with faults_told(), allowed(scene, allow_code):
+        _bound(scene, formulation)
+
+
+VERBS = (new, check, explain, bound)
 
 
 def register(app: typer.Typer) -> None:
@@ -146,6 +154,44 @@ def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
     out.print(str(prepared.storage), highlight=False)
     if cost:
         _tell_cost(prepared)
+    tell_next(f"nmm run {place}")
+
+
+def _bound(place: Path, formulation: Path | None) -> None:
+    import nmm
+    from nmm.errors import SceneError
+    from nmm.formulation import Formulation
+    from nmm.stepping.drive.static_theorem import load_bound
+    from nmm.stepping.simulation import prepare
+    from nmm.stepping.step.anchors import block_name, largest_mover
+    from nmm.stepping.step.stepper import scaled_load
+
+    scene = nmm.read_scene(place)
+    if scene.contact is None or scene.loading is None:
+        missing = "[contact]" if scene.contact is None else "[loading]"
+        raise SceneError(
+            f"{place}: {missing} is missing: expected blocks in contact under a load that grows: "
+            f"add {missing}, with the loads that it scales"
+        )
+    made = prepare(scene, read_formulation(formulation) or scene.formulation or Formulation())
+    found = load_bound(made.stepper, made.start)
+    out = console()
+    if found is None:
+        text = "no bound: no body moves by contacts alone, or nothing loads one"
+    elif found.factor is None:
+        text = "no equilibrium: contacts and bonds do not carry the loads that are not scaled"
+    elif not found.motion.any():
+        text = "no bound: contacts and bonds carry any load factor"
+    else:
+        load = scaled_load(made.stepper, found.factor)
+        newton = "" if load is None else f", {load:.6g} N"
+        body, how = largest_mover(made.stepper.model, made.start, found.motion)
+        name = block_name(made.stepper.model, body, made.regions.name)
+        text = (
+            f"no equilibrium above load factor {found.factor:.6g}{newton}\n"
+            f"mechanism: block {name} moves most: {how} (friction that dilates)"
+        )
+    out.print(text, highlight=False, markup=False)
     tell_next(f"nmm run {place}")
 
 

@@ -70,6 +70,8 @@ class Summary:
     failure_load, failure_factor, failure_tolerance
         Largest sum of the scaled loads (N) found in equilibrium, its load factor, and how far
         above it, relative to it, the smallest load was found that is not.
+    failure_bound
+        Load factor that admissible forces of contacts and bonds cannot pass, by the static theorem.
     largest_contacts
         Largest number of contact points in each state at one step.
     versions, seed, scene_hash, formulation_hash
@@ -99,6 +101,7 @@ class Summary:
     failure_load: float | None = None
     failure_factor: float | None = None
     failure_tolerance: float | None = None
+    failure_bound: float | None = None
     largest_contacts: Mapping[str, int] = field(default_factory=dict)
     versions: Mapping[str, str] = field(default_factory=installed_versions)
     seed: int | None = None
@@ -200,6 +203,8 @@ def failure_line(summary: Summary) -> str | None:
     text = "failure " + ", ".join(parts)
     if summary.failure_tolerance is not None:
         text += f"; none {100 * summary.failure_tolerance:.2g} % above it is in equilibrium"
+    if summary.failure_bound is not None:
+        text += f"; no more than load factor {summary.failure_bound:.5g} by the static theorem"
     return text
 
 
@@ -217,6 +222,7 @@ def rows(summary: Summary) -> list[tuple[str, str]]:
             "load factor reached" if summary.status in ON_THE_WAY else "failure load factor",
             _or_none(summary.failure_factor, _number),
         ),
+        ("failure factor at most", _or_none(summary.failure_bound, _number)),
         ("equilibrium residual", _or_none(summary.equilibrium_residual, _number)),
         ("largest penetration", _or_none(summary.largest_penetration, _metre)),
         ("energy balance", _or_none(summary.energy_balance, _number)),

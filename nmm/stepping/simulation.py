@@ -37,6 +37,7 @@ from nmm.scene import scene_hash
 from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
+from nmm.stepping.drive.static_theorem import load_bound
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import FAILURE, RunVerdict
 from nmm.stepping.reports.output import (
@@ -99,6 +100,7 @@ class Simulation:
 
     def run(self, sinks: list[Sink], progress: Progress) -> State:
         """Run to the end, or to the step that cannot be solved; return the last state."""
+        bound = self._failure_bound()
         sink: Sink = Tee(sinks)
         if self.origin.any():
             sink = MovedBack(sink, self.origin)
@@ -115,8 +117,18 @@ class Simulation:
         recorder.frame(self.start, "load" if self.scene.inertia is None else "dynamic", None)
         state, verdict = self._advance(recorder, progress)
         summary = self._summary(recorder, state, verdict)
-        sink.finish(summary)
+        sink.finish(replace(summary, failure_bound=bound))
         return state
+
+    def _failure_bound(self) -> float | None:
+        """Return the load factor that no run until failure can pass; None of other runs."""
+        loading = self.scene.loading
+        if self.scene.inertia is not None or loading is None or loading.until != "failure":
+            return None
+        begun = perf_counter()
+        found = load_bound(self.stepper, self.start)
+        self.stepper.seconds["bound"] = perf_counter() - begun
+        return None if found is None else found.factor
 
     def _advance(self, recorder: Recorder, progress: Progress) -> tuple[State, RunVerdict]:
         stepper, scene = self.stepper, self.scene

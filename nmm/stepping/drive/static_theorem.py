@@ -27,8 +27,8 @@ NEAR = 1e-4
 HOLDS = 1e-9
 # Bodies tied to each other in larger groups than this are taken as held.
 LARGEST = 200
-# Status of a programme without solution in scipy.
-INFEASIBLE = 2
+# Status of linear programmes in scipy.
+SOLVED, INFEASIBLE, UNBOUNDED = 0, 2, 3
 # Loads beyond those carried by more than this, relative, are a proof; the programme's rounding.
 CERTAIN = 1e-6
 
@@ -59,8 +59,42 @@ class Carried:
         )
 
 
+@dataclass(frozen=True)
+class LoadBound:
+    """The largest load factor that any admissible forces carry: no failure load lies above it.
+
+    Attributes
+    ----------
+    factor
+        The bound; infinite where no motion of bodies is resisted by contacts alone. None where
+        not even the loads that are not scaled are carried.
+    motion
+        (n,) increment of the collapse mechanism, scaled at will; zero without one.
+    """
+
+    factor: float | None
+    motion: Floats
+
+
 def carried(stepper: "Stepper", state: State, asked: float) -> Carried | None:
     """Return what can be carried near ``state``; None without contact or where it is not known."""
+    found = _largest_share(stepper, state, asked, most=1.0)
+    if found is None:
+        return None
+    return Carried(None if found.factor is None else asked * found.factor, asked)
+
+
+def load_bound(stepper: "Stepper", state: State) -> LoadBound | None:
+    """Return the bound of the failure load near ``state``; None without contact or scaled loads.
+
+    The multipliers of the equations of balance are the velocities of the mechanism in which the
+    bodies fail under that load (Charnes, Lemke and Zienkiewicz 1959).
+    """
+    return _largest_share(stepper, state, 1.0, most=np.inf)
+
+
+def _largest_share(stepper: "Stepper", state: State, asked: float, most: float) -> LoadBound | None:
+    """Return the largest share, up to ``most``, of the loads at ``asked`` that is carried."""
     # The one place that asks for it; its many signatures know no sparse conditions.
     from scipy import optimize
 
@@ -79,7 +113,7 @@ def carried(stepper: "Stepper", state: State, asked: float) -> Carried | None:
     equal = hstack([balance @ normal.T, balance @ tangent.T, csc_array(gain[:, None] / size)])
     bounds = np.full((2 * m + 1, 2), np.inf)
     bounds[:m, 0], bounds[m : 2 * m, 0] = -limits.tension / size, -np.inf
-    bounds[-1] = 0.0, 1.0
+    bounds[-1] = 0.0, most
     cost = np.zeros(2 * m + 1)
     cost[-1] = -1.0
     rough, strength = _friction(limits)
@@ -90,11 +124,17 @@ def carried(stepper: "Stepper", state: State, asked: float) -> Carried | None:
         A_eq=csr_array(equal),
         b_eq=-fixed / size,
         bounds=bounds,
-        method="highs",
+        method="highs-ipm",  # a fifth of the simplex method's seconds on 455 bonded blocks
     )
+    still = np.zeros(balance.shape[1])
     if found.status == INFEASIBLE:
-        return Carried(None, asked)
-    return Carried(asked * float(found.x[-1]), asked) if found.status == 0 else None
+        return LoadBound(None, still)
+    if found.status == UNBOUNDED:
+        return LoadBound(np.inf, still)
+    if found.status != SOLVED:
+        return None
+    motion = balance.T @ found.eqlin.marginals
+    return LoadBound(float(found.x[-1]), -motion if motion @ whole < 0 else motion)
 
 
 def _friction(limits: "Limits") -> tuple[csr_array, Floats]:

@@ -54,6 +54,43 @@ def test_the_static_theorem_finds_what_a_block_carries(height, friction, right):
     assert carried(made.stepper, made.start, 0.99 * right).fails is False
 
 
+@pytest.mark.parametrize(
+    ("height", "friction", "right", "how"),
+    [(2.0, 45, 0.25, "turns clockwise"), (0.02, 30, 0.57735, "moves along (0.87, 0.50)")],
+)
+def test_bound_prints_the_load_and_the_mechanism(tmp_path, height, friction, right, how):
+    # Toppling: W 0.5 / 2; sliding: W tan 30, with friction that dilates by its angle.
+    scene = tmp_path / "pushed.toml"
+    text = BLOCKS % friction + PUSH % (height, WEIGHT) + '[loading]\nscaled = ["push"]\n'
+    scene.write_text(text)
+    said = CliRunner().invoke(app, ["bound", str(scene)]).output
+    assert float(said.split("load factor ")[1].split(",")[0]) == pytest.approx(right, rel=1e-5)
+    assert f"block b moves most: it {how}" in " ".join(said.split())
+
+
+def test_a_load_that_presses_on_the_floor_has_no_bound(tmp_path):
+    scene = tmp_path / "pressed.toml"
+    pressed = (PUSH % (2.0, 0.0)).replace("force = [0.0, 0]", "force = [0, -1]")
+    scene.write_text(BLOCKS % 30 + pressed + '[loading]\nscaled = ["push"]\n')
+    assert "carry any load factor" in CliRunner().invoke(app, ["bound", str(scene)]).output
+
+
+def test_bound_of_a_scene_without_contact_is_refused(tmp_path):
+    scene = tmp_path / "whole.toml"
+    scene.write_text(BLOCKS.replace("[contact]\n", "") % 30)
+    told = CliRunner().invoke(app, ["bound", str(scene)])
+    assert told.exit_code == 1
+    assert "[contact] is missing" in " ".join(told.output.split())
+
+
+def test_a_run_until_failure_tells_its_bound_beside_what_it_found():
+    text = BLOCKS % 45 + PUSH % (2.0, WEIGHT)
+    text += '[loading]\nscaled = ["push"]\nuntil = "failure"\n'
+    found = run(text, increment=0.1)
+    assert found.failure_bound == pytest.approx(0.25, rel=1e-5)
+    assert 0.99 * found.failure_bound <= found.failure_factor <= found.failure_bound
+
+
 def test_a_bond_carries_its_strength_in_the_static_theorem():
     more = 'tensile_strength = 1e5\ncohesion = 1e9\nbonded = true\n[[blocks]]\nname = "base"'
     text = BLOCKS.replace('[[blocks]]\nname = "base"', more) % 30
