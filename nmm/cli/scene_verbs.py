@@ -123,7 +123,7 @@ def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
 
     import nmm
     from nmm.formulation import Formulation
-    from nmm.model.plan import called_for
+    from nmm.model.effects_table import called_for
     from nmm.model.tips import tip_lines
     from nmm.stepping.simulation import prepare
 
@@ -139,13 +139,15 @@ def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
             "simulated" if named else f"not simulated: the scene has no {escape(key)}",
             style=None if named else "dim",
         )
+    for name, table in scene.effects.items():
+        effects.add_row(escape(name), f"simulated: {escape(table.type)}")
     out = console()
     out.print(effects)
     for line in _sizes(scene, chosen, len(prepared.regions), len(manifold.elements)):
         out.print(line, highlight=False)
-    for effect in prepared.stepper.plan.effects.values():
+    for name, effect in prepared.stepper.plan.effects.items():
         if effect.about:
-            out.print(f"{effect.name}: {effect.about}", highlight=False)
+            out.print(f"{name}: {effect.about}", highlight=False, markup=False)
     for line in tip_lines(prepared.stepper.model):
         out.print(line, highlight=False, markup=False)
     out.print(f"unknowns: {manifold.n_unknowns:,}", highlight=False)

@@ -1,9 +1,9 @@
 """What an effect is to the step loop, and what it is built from."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -11,6 +11,8 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.quantity import Quantity
+from nmm.scene.fields import Frozen
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -50,6 +52,9 @@ class Setup:
         State at the start of the run.
     origin
         (2,) where the axes of model and states lie in those of the scene (m).
+    table
+        What an effect's own ``[effects.NAME]`` says, an `Effect.Table` in the axes of the model;
+        None for effects that have keys of the scene.
     """
 
     scene: "Scene"
@@ -59,6 +64,7 @@ class Setup:
     region_material: Ints
     start: State
     origin: Floats = field(default_factory=lambda: np.zeros(2))
+    table: Any = None
 
     def regions(self, name: str | None) -> Bools | None:
         """Return which regions a name means: a block, all blocks of a tessellation, or "all"."""
@@ -70,10 +76,20 @@ class Setup:
 class Effect(ABC):
     """Base of effects: override the hooks the effect has; those left alone are never called.
 
-    All vectors and matrices are in the unknowns of the step, that is in the bodies' axes.
+    All vectors and matrices are in the unknowns of the step, that is in the bodies' axes. An
+    effect of one's own is named by ``[effects.NAME]`` of a scene, whose keys its `Table` declares;
+    what it stores, or the work that it does, joins the energies of the run.
+
+    Attributes
+    ----------
+    name
+        Of a built-in effect; one of one's own has the name of its table.
+    Table
+        Keys of the table of an effect of one's own.
     """
 
     name: ClassVar[str]
+    Table: ClassVar[type[Frozen]] = Frozen
     placed: ClassVar[bool] = True
     """Whether places in the reference configuration declare it, so that it cannot follow bodies
     that are laid anew elsewhere."""
@@ -115,6 +131,14 @@ class Effect(ABC):
 
     def energy(self, state: State) -> float:
         """Energy (J) the effect stores."""
+        raise NotImplementedError
+
+    def outputs(self, state: State) -> Mapping[str, Quantity]:
+        """Quantities of a state by name, for frames, run folders, ParaView and plots."""
+        raise NotImplementedError
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Numbers of a state by name, for a line of the history; asked for after each step."""
         raise NotImplementedError
 
     def gap_volume(self, state: State, k: int) -> Floats:

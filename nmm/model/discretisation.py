@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
 from nmm.effects.base import Effect, Setup
+from nmm.model.effects_table import with_table
 from nmm.model.plan import Plan, compile_plan
 
 if TYPE_CHECKING:
@@ -46,7 +47,10 @@ class Discretisation:
     def after(self, change: "Change") -> "Discretisation":
         """Return the next version: every effect follows the change."""
         plan = self.plan
-        effects = {name: effect.follow(change) for name, effect in plan.effects.items()}
+        effects = {
+            name: effect.follow(replace(change, setup=with_table(change.setup, name)))
+            for name, effect in plan.effects.items()
+        }
         return Discretisation(change.setup, replace(plan, effects=effects), self.version + 1)
 
 

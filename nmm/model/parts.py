@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from nmm.errors import Fault, FormulationError, NmmError
+from nmm.errors import Fault, FormulationError, NmmError, SceneError
 from nmm.registry import check_values
 from nmm.scene.faults import suggestion
 
@@ -40,8 +40,39 @@ def check_parts(scene: "Scene", formulation: "Formulation") -> None:
         except NmmError as error:
             place = source.place(*path, *(keys if len(keys) == 1 else ()))
             faults += [_placed(fault, place) for fault in error.faults]
+    faults += _of_effects(scene) + _of_outputs(scene)
     if faults:
         raise FormulationError(*faults)
+
+
+def _of_effects(scene: "Scene") -> list[Fault | str]:
+    """Return what is wrong with the tables of effects of one's own."""
+    from nmm.model.effects_table import own_effect
+
+    faults: list[Fault | str] = []
+    for name in scene.effects:
+        try:
+            own_effect(scene, name)
+        except SceneError as error:
+            faults += error.faults
+        except NmmError as error:
+            place = scene.source.place("effects", name, "type")
+            faults += [_placed(fault, place) for fault in error.faults]
+    return faults
+
+
+def _of_outputs(scene: "Scene") -> list[Fault | str]:
+    """Return what is wrong with the quantities that ``[output]`` names."""
+    from nmm.outputs.base import OUTPUTS
+
+    faults: list[Fault | str] = []
+    for number, name in enumerate(scene.output.quantities if scene.output else ()):
+        try:
+            OUTPUTS.make(name)
+        except NmmError as error:
+            place = scene.source.place("output", "quantities", number)
+            faults += [_placed(fault, place) for fault in error.faults]
+    return faults
 
 
 def _placed(fault: Fault | str, place: str) -> Fault | str:

@@ -6,7 +6,6 @@ What a scene does not name is not imported and has no arrays.
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from importlib import import_module
 from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar, cast
 
@@ -17,6 +16,7 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup, defines
 from nmm.errors import SolveError
+from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
@@ -25,50 +25,9 @@ if TYPE_CHECKING:
     from nmm.effects.inertia import Inertia
     from nmm.effects.initial_stress import InitialStress
     from nmm.effects.loads import Loads
-    from nmm.scene.model import Scene
 
 
 T = TypeVar("T")
-
-
-@dataclass(frozen=True)
-class Called:
-    """An effect's class and when a scene calls for it."""
-
-    target: str
-    named: Callable[["Scene"], bool]
-
-
-EFFECTS: dict[str, Called] = {
-    "initial velocity": Called(
-        "nmm.effects.initial_velocity:InitialVelocity", lambda s: bool(s.initial_velocities)
-    ),
-    "initial stress": Called(
-        "nmm.effects.initial_stress:InitialStress", lambda s: bool(s.initial_stresses)
-    ),
-    "gravity": Called("nmm.effects.gravity:Gravity", lambda s: s.gravity is not None),
-    "loads": Called(
-        "nmm.effects.loads:Loads", lambda s: any(load.kind != "body" for load in s.loads)
-    ),
-    "body loads": Called(
-        "nmm.effects.body_loads:BodyLoads", lambda s: any(load.kind == "body" for load in s.loads)
-    ),
-    "supports": Called("nmm.constraints.supports:Supports", lambda s: bool(s.supports)),
-    "seams": Called(
-        "nmm.constraints.bonded_interfaces:Seams",
-        lambda s: s.contact is None and any(item.bonded for item in s.interfaces.values()),
-    ),
-    "inertia": Called("nmm.effects.inertia:Inertia", lambda s: s.inertia is not None),
-    "contact": Called("nmm.effects.contact:Contact", lambda s: s.contact is not None),
-}
-
-GLUE = "nmm.constraints.artificial_joints:ArtificialJoints"
-"""Not the scene's but the formulation's: what holds sub-blocks together."""
-
-
-def called_for(scene: "Scene") -> dict[str, bool]:
-    """Say for every effect whether a scene names it."""
-    return {name: called.named(scene) for name, called in EFFECTS.items()}
 
 
 @dataclass(frozen=True)
@@ -102,12 +61,17 @@ class Plan:
     def force(self, state: State, end: Instant) -> Floats:
         """Return the sum of all effects' forces (n,)."""
         total = np.zeros(len(state.deformation))
-        for effect in self._with("force"):
-            part = self._timed(effect.name, partial(effect.force, state, end))
+        for name, effect in self._named("force"):
+            part = self._timed(name, partial(effect.force, state, end))
+            if part.shape != total.shape:
+                raise SolveError(
+                    f"{name}: the force has the shape {part.shape}: expected {total.shape}, one "
+                    "number an unknown: correct Effect.force"
+                )
             total += part
             if not np.isfinite(part).all():
                 raise SolveError(
-                    f"{effect.name} at {end.time:.6g} s: the force is infinite or no number: "
+                    f"{name} at {end.time:.6g} s: the force is infinite or no number: "
                     "expected finite numbers: correct its magnitude, history or place"
                 )
         return total
@@ -120,8 +84,8 @@ class Plan:
     def matrix(self, state: State, base: csc_array) -> csc_array:
         """Return ``base`` with all effects' matrices added; the same sum of the same parts."""
         added = (
-            self._timed(effect.name, partial(effect.matrix, state))
-            for effect in self._with("matrix")
+            self._timed(name, partial(effect.matrix, state))
+            for name, effect in self._named("matrix")
         )
         parts = [base, *added]
         kept = self.sums.get("matrix")
@@ -178,6 +142,14 @@ class Plan:
         effect = self.effects.get(name)
         return 0.0 if effect is None else effect.energy(state)
 
+    def own_energies(self, state: State) -> dict[str, float]:
+        """Return the energy (J) that each effect of one's own stores, by its column of history."""
+        return {
+            f"energy:{name.removeprefix(OWN)}": effect.energy(state)
+            for name, effect in self._named("energy")
+            if name.startswith(OWN)
+        }
+
     @property
     def contact(self) -> "Contact | None":
         """The contact effect."""
@@ -208,7 +180,10 @@ class Plan:
         self.seconds[name] = self.seconds.get(name, 0.0) + seconds
 
     def _with(self, hook: str) -> list[Effect]:
-        return [effect for effect in self.effects.values() if defines(effect, hook)]
+        return [effect for _, effect in self._named(hook)]
+
+    def _named(self, hook: str) -> list[tuple[str, Effect]]:
+        return [(name, one) for name, one in self.effects.items() if defines(one, hook)]
 
     def _timed(self, name: str, call: Callable[[], T]) -> T:
         start = perf_counter()
@@ -222,13 +197,13 @@ def _are(some: list[csc_array], others: list[csc_array]) -> bool:
 
 
 def compile_plan(setup: Setup) -> Plan:
-    """Import and build the effects that a scene names."""
-    targets = [EFFECTS[name].target for name, wanted in called_for(setup.scene).items() if wanted]
+    """Import and build the effects that a scene names, with keys of its own or in tables."""
+    kinds = [EFFECTS.load(name) for name, wanted in called_for(setup.scene).items() if wanted]
     if setup.formulation.cover.glued:
-        targets.append(GLUE)
+        kinds.append(EFFECTS.load(GLUE))
     plan = Plan({})
-    for target in targets:
-        module, _, attribute = target.partition(":")
-        kind: type[Effect] = getattr(import_module(module), attribute)
+    for kind in kinds:
         plan.effects[kind.name] = plan._timed(kind.name, partial(kind.from_setup, setup))
+    for name in setup.scene.effects:
+        plan.effects[OWN + name] = plan._timed(OWN + name, partial(make_own, setup, name))
     return plan

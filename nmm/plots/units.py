@@ -22,7 +22,7 @@ UNITS = {
 }
 """Units of history columns; columns not named here are pure numbers."""
 
-FAMILIES = {"monitor": "m", "reaction": "N"}
+FAMILIES = {"monitor": "m", "reaction": "N", "energy": "J"}
 """Units of columns such as `monitor:tip:uy`, by what stands before the first colon."""
 
 
@@ -34,9 +34,9 @@ def unit_of(column: str) -> str:
 
 def words_of(column: str) -> str:
     """Return a history column's name as words: `monitor:tip:uy` becomes "uy of tip"."""
-    family, colon, rest = column.partition(":")
-    if not colon:
-        return column.replace("_", " ")
+    family, _, rest = column.partition(":")
+    if family not in ("monitor", "reaction"):
+        return column.replace("_", " ").replace(":", " ")
     name, _, component = rest.rpartition(":")
     return f"{component} of {name}" if family == "monitor" else f"{family} {component} of {name}"
 

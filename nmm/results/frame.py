@@ -1,10 +1,12 @@
 """What a run hands over: the topology of its elements once, then one frame an output time."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
 from nmm.contact.problem.contact_state import ContactState as ContactState
+from nmm.quantity import Quantity
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,9 @@ class Frame:
         (C,) values of `ContactState`.
     topology
         Which of the run's topologies the points belong to; sinks set it.
+    fields
+        Further quantities by name, as effects of the scene and its ``[output]`` declare them;
+        those of bodies are given for each element.
     """
 
     index: int
@@ -88,3 +93,8 @@ class Frame:
     contact_gap: Floats
     contact_state: Ints
     topology: int = 0
+    fields: Mapping[str, Quantity] = field(default_factory=dict)
+
+    def on(self, place: str) -> dict[str, Quantity]:
+        """Return the further quantities that belong to one of `nmm.quantity.PLACES`."""
+        return {name: one for name, one in self.fields.items() if one.on == place}

@@ -64,7 +64,7 @@ def _listed(value: object) -> object:
     return value.tolist() if hasattr(value, "tolist") else value
 
 
-def _plain(value: object) -> object:
+def plain_data(value: object) -> object:
     """Refuse what is no number, text, truth value, list or table, or lies too deep."""
     level = [value]
     for _ in range(DEEPEST):
@@ -138,7 +138,7 @@ Text = Annotated[str, Field(pattern=r"^[^\p{Cc}\p{Zl}\p{Zp}]*$")]
 Prose = Annotated[str, Field(pattern=r"^([^\p{Cc}\p{Zl}\p{Zp}]|[\n\t])*$")]
 # A registry name, or "module:Name" for a part of one's own.
 PartName = Annotated[str, Field(pattern=r"^[A-Za-z_]\w*$|^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")]
-Options = Annotated[dict[str, Any], BeforeValidator(_plain)]
+Options = Annotated[dict[str, Any], BeforeValidator(plain_data)]
 
 
 def example(unit: str) -> list[object]:

@@ -30,7 +30,8 @@ from nmm.scene.actions import (
 from nmm.scene.consistency import contradictions
 from nmm.scene.faults import Source
 from nmm.scene.fields import Count, Frozen, Length, TableName, Text, Time, example
-from nmm.scene.output import Output
+from nmm.scene.output import OutputTable
+from nmm.scene.own_tables import EffectTable
 from nmm.scene.solids import Block, Crack, Interface, JointSet, Material, Tessellation
 
 
@@ -78,8 +79,11 @@ class Scene(Frozen):
     initial_stresses: tuple[InitialStressTable, ...] = Field(
         default=(), description="tables [[initial_stresses]]"
     )
+    effects: dict[TableName, EffectTable] = Field(
+        default={}, description="tables [effects.NAME] of effects of one's own"
+    )
     monitors: tuple[MonitorTable, ...] = Field(default=(), description="tables [[monitors]]")
-    output: Output | None = Field(default=None, description="a table [output]")
+    output: OutputTable | None = Field(default=None, description="a table [output]")
     references: tuple[ReferenceTable, ...] = Field(
         default=(), alias="reference", description="tables [[reference]]"
     )

@@ -1,4 +1,4 @@
-"""Which states of a run are stored as frames."""
+"""Which states of a run are stored as frames, and which quantities with them."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from typing import Literal
 
 from pydantic import Field
 
-from nmm.scene.fields import Count, Frozen, Time
+from nmm.scene.fields import Count, Frozen, PartName, Time
 
 Event = Literal["first_contact", "first_slip", "bond_breaks", "state_changes"]
 
 
-class Output(Frozen):
+class OutputTable(Frozen):
     """Which states are stored as frames, each by what is named; the first and the last always are.
 
     Where nothing is named these are 60 in a dynamic run, 30 in the motion after failure and each
@@ -36,3 +36,14 @@ class Output(Frozen):
         "which it is so is stored",
         examples=[["first_contact", "bond_breaks"]],
     )
+    quantities: tuple[PartName, ...] = Field(
+        default=(),
+        description='a list of "von_mises", "principal_stress", "mean_stress", "crack_opening" and '
+        '"module:Class" of outputs of one\'s own: what frames hold beside displacement and stress',
+        examples=[["von_mises", "crack_opening"]],
+    )
+
+    @property
+    def chooses(self) -> bool:
+        """Whether it says which states are stored."""
+        return bool(self.every_time or self.every_steps or self.events)

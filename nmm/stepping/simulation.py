@@ -40,6 +40,7 @@ from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.drive.static_theorem import load_bound
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import FAILURE, RunVerdict
+from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.output import (
     FRAMES_AFTER_FAILURE,
     Choice,
@@ -113,7 +114,11 @@ class Simulation:
                 region_names=tuple(self.regions.name),
             )
         )
-        recorder = Recorder(self.stepper, sink, self.monitors, choice=self._choice())
+        output = self.scene.output
+        declared = Declared.of(output.quantities if output else ())
+        recorder = Recorder(
+            self.stepper, sink, self.monitors, choice=self._choice(), declared=declared
+        )
         recorder.frame(self.start, "load" if self.scene.inertia is None else "dynamic", None)
         state, verdict = self._advance(recorder, progress)
         summary = self._summary(recorder, state, verdict)

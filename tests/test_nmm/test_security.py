@@ -53,6 +53,7 @@ SCENE: dict[str, Any] = {
     "initial_velocities": [{"block": "b"}],
     "initial_stresses": [{"block": "b", "stress": [0, 0, 0]}],
     "monitors": [{"name": "o", "point": [1, 1]}],
+    "output": {"quantities": ["von_mises"]},
     "reference": [{"quantity": "steps", "value": 1, "tolerance": 1, "source": "x"}],
 }
 METHOD: dict[str, Any] = {
@@ -121,9 +122,11 @@ def watched(tmp_path, monkeypatch):
 
 def attempts(tables: dict[str, Any], model: type[BaseModel]) -> Iterator[dict[str, Any]]:
     for path in dict.fromkeys(keys(model)):
-        naming = path[-1] in ("law", "type", "enforcement", "functions", "options")
+        naming = path[-1] in ("law", "type", "enforcement", "functions", "options", "quantities")
         for code in CODE if naming else CODE[:1]:
             yield with_value(tables, path, code)
+            if path[-1] == "quantities":
+                yield with_value(tables, path, [code])
             if path[-1] == "options":
                 yield with_value(tables, path, {"command": code, "path": code, code: code})
             elif path[-1] in ("law", "type", "enforcement", "functions"):
@@ -138,6 +141,8 @@ def test_every_kind_of_key_is_walked():
     assert ("tessellations", 0, "seed") in found
     assert ("formulation", "cover", "regions", 0, "polygon") in found
     assert ("solver", "type") in found
+    assert ("effects", "m", "type") in found
+    assert ("output", "quantities") in found
     assert len(found) > 200
 
 

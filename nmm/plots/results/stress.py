@@ -1,15 +1,18 @@
-"""Mean stress of each element as colours."""
+"""Mean stress, or another quantity, of each element as colours."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import NmmError
+from nmm.outputs.stresses import principal, von_mises
 from nmm.plots.canvas import BESIDE, PathLike, axes_grid, extent_of, fit_height, frame_plane, save
 from nmm.plots.results.deformed import magnified, moment
 from nmm.plots.shapes import draw_lines, fill, line_width
 from nmm.plots.units import label, prefixed
+from nmm.results.frame import Frame
 from nmm.results.sink import RunData
 
 if TYPE_CHECKING:
@@ -40,14 +43,15 @@ def stress(
     ax: "Axes | None" = None,
     path: PathLike | None = None,
 ) -> "Axes":
-    """Draw one measure of the stress of every element, tension positive.
+    """Draw one measure of the stress of every element, tension positive, or another quantity.
 
     Parameters
     ----------
     run
         A run in memory or a stored one.
     component
-        "mises", "xx", "yy", "xy", "major" or "minor".
+        "mises", "xx", "yy", "xy", "major" or "minor", or a quantity of the frame on elements that
+        the scene asks for: "von_mises", "ground:pressure", "principal_stress:major".
     frame
         Number of the frame, counted from the end when negative.
     magnification
@@ -64,13 +68,14 @@ def stress(
     """
     shown = run.frames[frame]
     topology = run.topologies[shown.topology]
-    values = measure(shown.stress, component)
-    factor, unit = prefixed(values, "Pa")
+    values, unit = _chosen(shown, component)
+    factor, unit = prefixed(values, unit)
     polygons = magnified(shown, topology, magnification)
     extent = extent_of(polygons.points)
     axes = ax or axes_grid(1, 1, 4.0)[0]
     values = factor * values
-    signed = component != "mises"
+    signed = bool((values < 0).any()) or component in set(NAMES) - {"mises"}
+    words = NAMES.get(component, component)
     areas = topology.elements.areas
     limit, beyond = scale_end(values, areas)
     drawn = fill(
@@ -82,21 +87,34 @@ def stress(
         axes, topology, polygons, shown, colors="#00000066", linewidths=0.7 * line_width(topology)
     )
     text = f", displacements ×{magnification:g}" if magnification != 1.0 else ""
-    frame_plane(axes, extent, f"{NAMES[component]}, {moment(shown)}{text}")
+    frame_plane(axes, extent, f"{words}, {moment(shown)}{text}")
     above = bool(beyond and (values > limit).any())
     below = bool(beyond and signed and (values < -limit).any())
     arrows = ("neither", "max", "min", "both")[above + 2 * below]
     bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02, fraction=0.05, aspect=15, extend=arrows)
-    words = label(SHORT.get(component, NAMES[component]), unit)
+    beside = label(SHORT.get(component, words), unit)
     if beyond:
-        words += f"\n{100 * beyond:.2g} % of the area beyond, up to {np.abs(values).max():.3g}"
-    bar.set_label(words, fontsize=9.0)
+        beside += f"\n{100 * beyond:.2g} % of the area beyond, up to {np.abs(values).max():.3g}"
+    bar.set_label(beside, fontsize=9.0)
     bar.ax.tick_params(labelsize=9.0, width=0.6)
     bar.outline.set_visible(False)
     if ax is None:
         fit_height([axes], beside=BESIDE + 0.9)
     save(axes, path)
     return axes
+
+
+def _chosen(frame: Frame, component: str) -> tuple[Floats, str]:
+    """Return the values (E,) that are drawn, and their unit."""
+    scalars = {name: (q.values, q.unit) for name, q in frame.on("elements").items()}
+    for name, one in frame.on("elements").items():
+        if one.values.ndim == 2:
+            del scalars[name]
+            parts = one.components or [str(i) for i in range(one.values.shape[1])]
+            scalars |= {f"{name}:{p}": (one.values[:, i], one.unit) for i, p in enumerate(parts)}
+    if component in scalars:
+        return scalars[component]
+    return measure(frame.stress, component, [*scalars]), "Pa"
 
 
 def scale_end(values: Floats, areas: Floats) -> tuple[float, float]:
@@ -117,11 +135,11 @@ def scale_end(values: Floats, areas: Floats) -> tuple[float, float]:
     return end, float(areas[sizes > end].sum() / areas.sum())
 
 
-def measure(stresses: Floats, component: str) -> Floats:
+def measure(stresses: Floats, component: str, besides: Sequence[str] = ()) -> Floats:
     """(E,) one number of stresses (E, 3): xx, yy, xy.
 
     The von Mises stress is sqrt(xx^2 - xx yy + yy^2 + 3 xy^2), exact in plane stress; in plane
-    strain it leaves the stress across the plane out.
+    strain it leaves the stress across the plane out. ``besides`` are names that would do too.
 
     Raises
     ------
@@ -129,15 +147,16 @@ def measure(stresses: Floats, component: str) -> Floats:
         When the component is not known.
     """
     xx, yy, xy = stresses.T
-    mean, radius = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+    major, minor = principal(stresses).T
     known: dict[str, Floats] = {
-        "mises": np.sqrt(np.maximum(xx**2 - xx * yy + yy**2 + 3 * xy**2, 0.0)),
+        "mises": von_mises(stresses),
         "xx": xx,
         "yy": yy,
         "xy": xy,
-        "major": mean + radius,
-        "minor": mean - radius,
+        "major": major,
+        "minor": minor,
     }
     if component not in known:
-        raise NmmError(f"stress plot: component {component!r}: expected one of {', '.join(known)}")
+        names = ", ".join([*known, *besides])
+        raise NmmError(f"stress plot: component {component!r}: expected one of {names}")
     return known[component]

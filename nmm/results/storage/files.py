@@ -15,8 +15,9 @@ import numpy.typing as npt
 
 from integration.polygons import Polygons
 from nmm.errors import DamageError
+from nmm.quantity import Quantity
 from nmm.results.frame import Frame, Topology
-from nmm.results.storage.layout import frame_misfit, topology_misfit
+from nmm.results.storage.layout import FIELDS, frame_misfit, topology_misfit
 from nmm.results.storage.writing import write_arrays
 
 MARK = "run.json"
@@ -32,6 +33,8 @@ PARAVIEW = "paraview"
 FRAME_NAME = re.compile(r"([0-9]{6,})\.npz")
 TOPOLOGY_NAME = re.compile(r"topology(?:_([0-9]+))?\.npz")
 
+_IN_FRAME = [item.name for item in fields(Frame) if item.name != "fields"]
+_FRAME_FILES = [f"{name}.npy" for name in _IN_FRAME]
 _ARRAYS = ("points", "ring_offsets", "polygon_offsets")
 _BESIDE = ("element_region", "region_material", "material_names", "region_names")
 
@@ -79,7 +82,7 @@ def archive_fault(path: Path) -> str | None:
     """Return why a frame cannot be whole, from its table of contents alone; None if it may be."""
     try:
         with _read(path), zipfile.ZipFile(path) as archive:
-            _same_names(archive.namelist(), [f"{item.name}.npy" for item in fields(Frame)])
+            _same_names([n for n in archive.namelist() if not _of_fields(n)], _FRAME_FILES)
     except DamageError as fault:
         return str(fault)
     return None
@@ -87,7 +90,15 @@ def archive_fault(path: Path) -> str | None:
 
 def write_frame(path: Path, frame: Frame) -> None:
     """Write one frame."""
-    write_arrays(path, vars(frame))
+    arrays = {name: getattr(frame, name) for name in _IN_FRAME}
+    if frame.fields:
+        texts = [
+            (name, one.on, one.unit, ",".join(one.components)) for name, one in frame.fields.items()
+        ]
+        columns = zip(FIELDS, zip(*texts, strict=True), strict=True)
+        arrays |= {name: np.array(column, dtype=np.str_) for name, column in columns}
+        arrays |= {f"field_{i}": one.values for i, one in enumerate(frame.fields.values())}
+    write_arrays(path, arrays)
 
 
 def read_frame(path: Path) -> Frame:
@@ -100,10 +111,25 @@ def read_frame(path: Path) -> Frame:
     """
     stored: dict[str, Any] = read_arrays(path)
     with _read(path):
-        _same_names(list(stored), [item.name for item in fields(Frame)])
+        _same_names([name for name in stored if not _of_fields(name)], _IN_FRAME)
         if (wrong := frame_misfit(stored)) is not None:
             raise ValueError(wrong)
-    return Frame(**{name: a.item() if a.ndim == 0 else a for name, a in stored.items()})
+    known = {name: stored[name] for name in _IN_FRAME}
+    plain = {name: a.item() if a.ndim == 0 else a for name, a in known.items()}
+    return Frame(**plain, fields=_fields(stored))
+
+
+def _of_fields(name: str) -> bool:
+    return re.fullmatch(r"field_(names|places|units|components|[0-9]+)(\.npy)?", name) is not None
+
+
+def _fields(stored: dict[str, Any]) -> dict[str, Quantity]:
+    """Return the further quantities of a frame; those of earlier versions have none."""
+    texts = zip(*(stored.get(name, np.zeros(0)).tolist() for name in FIELDS), strict=True)
+    return {
+        name: Quantity(on, stored[f"field_{i}"], unit, tuple(filter(None, parts.split(","))))
+        for i, (name, on, unit, parts) in enumerate(texts)
+    }
 
 
 def write_topology(path: Path, topology: Topology) -> None:

@@ -39,10 +39,26 @@ _TOPOLOGY: dict[str, tuple[str, tuple[str | int, ...]]] = {
 }
 
 
+FIELDS = ("field_names", "field_places", "field_units", "field_components")
+"""Texts (F,) of the further quantities of a frame, whose values are `field_0`, `field_1`, ..."""
+
+
 def frame_misfit(arrays: Arrays) -> str | None:
     """Return what is wrong with the arrays of a frame, None when they fit together."""
-    wrong, _ = _misfit(arrays, _FRAME)
-    return wrong
+    wrong, lengths = _misfit(arrays, _FRAME)
+    if wrong is not None or FIELDS[0] not in arrays:
+        return wrong
+    wrong, counts = _misfit(arrays, dict.fromkeys(FIELDS, ("U", ("fields",))))
+    if wrong is not None:
+        return wrong
+    places = arrays["field_places"].tolist()
+    for number in range(counts["fields"]):  # a handful of quantities
+        values = arrays.get(f"field_{number}")
+        if values is None or values.dtype.kind != "f" or values.ndim not in (1, 2):
+            return f"its field_{number} is no array of numbers"
+        if lengths.get(places[number]) != len(values):
+            return f"its field_{number} does not fit its {places[number]}"
+    return None
 
 
 def topology_misfit(arrays: Arrays) -> str | None:

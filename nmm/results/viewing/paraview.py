@@ -27,7 +27,7 @@ from nmm.results.viewing.vtu import (
     unstructured_grid,
 )
 
-STRESS = {"stress": ("xx", "yy", "xy")}
+STRESS: dict[str, tuple[str, ...]] = {"stress": ("xx", "yy", "xy")}
 
 
 def write_paraview(
@@ -134,13 +134,15 @@ def blocks_grid(frame: Frame, topology: Topology, cut: PolygonCells) -> str:
         point_data={
             "displacement": in_space(frame.displacement),
             "velocity": in_space(frame.velocity),
+            **{name: _shown(one.values) for name, one in frame.on("points").items()},
         },
         cell_data={
             "stress": frame.stress[cut.polygon],
             "block": topology.element_region[cut.polygon],
             "material": topology.element_material[cut.polygon],
+            **{n: _shown(q.values)[cut.polygon] for n, q in frame.on("elements").items()},
         },
-        components=STRESS,
+        components=STRESS | _components(frame),
     )
 
 
@@ -162,10 +164,21 @@ def contacts_grid(frame: Frame) -> str:
             "shear_force": frame.contact_force[:, 1],
             "gap": frame.contact_gap,
             "state": frame.contact_state,
+            **{name: _shown(one.values) for name, one in frame.on("contacts").items()},
         },
         cell_data={},
-        components={},
+        components=_components(frame),
     )
+
+
+def _shown(values: Floats) -> Floats:
+    """Return values as viewers expect them: pairs without names are vectors in space."""
+    return in_space(values) if values.ndim == 2 and values.shape[1] == 2 else values
+
+
+def _components(frame: Frame) -> dict[str, tuple[str, ...]]:
+    """Return the names of components of the further quantities that have some."""
+    return {name: one.components for name, one in frame.fields.items() if one.components}
 
 
 def contact_vectors(frame: Frame) -> Floats:

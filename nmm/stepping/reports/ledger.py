@@ -166,6 +166,7 @@ def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
         "strain_energy": strain + plan.energy("initial stress", state),
         "contact_energy": plan.energy("contact", state),
         "support_energy": sum(plan.energy(name, state) for name in HOLDING) - lifted,
+        **plan.own_energies(state),
     }
 
 

@@ -6,7 +6,7 @@ from math import floor
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from nmm.scene.output import Output
+    from nmm.scene.output import OutputTable
 
 # Frames of a dynamic run and of the motion after failure; the last state is among them.
 FRAMES, FRAMES_AFTER_FAILURE = 60, 30
@@ -52,15 +52,15 @@ class Choice:
 
 
 def choice_in_time(
-    asked: "Output | None", begin: float, duration: float, frames: int = FRAMES
+    asked: "OutputTable | None", begin: float, duration: float, frames: int = FRAMES
 ) -> Choice:
     """Return what is stored of a stretch in time."""
-    if asked is None or asked == type(asked)():
+    if asked is None or not asked.chooses:
         return Choice(begin, duration / frames)
     return Choice(begin, asked.every_time, asked.every_steps, frozenset(asked.events))
 
 
-def choice_under_loads(asked: "Output | None") -> Choice:
+def choice_under_loads(asked: "OutputTable | None") -> Choice:
     """Return what is stored while loads grow, where there is no time."""
     if asked is None or (asked.every_steps is None and not asked.events):
         return Choice(0.0, steps=1)

@@ -11,8 +11,10 @@ from nmm.assembly.motion import MaterialPoints, State
 from nmm.assembly.places import at_point
 from nmm.effects.base import Setup
 from nmm.errors import GeometryError
+from nmm.outputs.base import View
 from nmm.results.frame import Frame
 from nmm.results.sink import Sink
+from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.ledger import Ledger
 from nmm.stepping.reports.output import Choice, Watch
 from nmm.stepping.step.stepper import Stepper
@@ -99,6 +101,8 @@ class Recorder:
         What is recorded, where to, and which points.
     choice
         Which states are stored as frames.
+    declared
+        Further quantities that frames and history hold.
     totals
         Of the steps so far.
     """
@@ -107,6 +111,7 @@ class Recorder:
     sink: Sink
     monitors: list[Monitor]
     choice: Choice = field(default_factory=lambda: Choice(0.0, steps=1))
+    declared: Declared = field(default_factory=Declared)
     totals: Totals = field(default_factory=Totals)
 
     @property
@@ -158,7 +163,7 @@ class Recorder:
         for monitor in self.monitors:
             way = monitor.points.place(after.frames, after.deformation)[0] - monitor.start
             row[f"monitor:{monitor.name}:ux"], row[f"monitor:{monitor.name}:uy"] = way
-        self.sink.row(row)
+        self.sink.row(row | self.declared.row(plan, lambda: self._view(after, contacts)))
         held = [f"{count} {name}" for name, count in self.totals.counts.items() if count]
         noun = "pass" if attempt.passes == 1 else "passes"
         return f"{attempt.passes} {noun}, contacts: {', '.join(held)}" if held else ""
@@ -196,9 +201,13 @@ class Recorder:
             points=place,
             displacement=place - stepper.reference,
             velocity=state.frames.to_global(body, velocity),
-            stress=self.stress(state),
+            stress=(view := self._view(state, contacts)).stress,
             **self._contact_arrays(state, contacts),
+            fields=self.declared.fields(stepper.plan, view),
         )
+
+    def _view(self, state: State, contacts: "ContactPoints | None") -> View:
+        return View(self.stepper.model, state, contacts, self.stress)
 
     def stress(self, state: State) -> Floats:
         """Return the mean Cauchy stress (E, 3) of the elements in global axes (Pa)."""

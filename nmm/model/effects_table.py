@@ -1,0 +1,115 @@
+"""Which effects there are, which key of a scene calls for each, and those of one's own.
+
+An effect that a scene does not name is not imported.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from pydantic import ValidationError
+
+from nmm.effects.base import Effect, Setup
+from nmm.errors import Fault, FormulationError, NmmError, SceneError
+from nmm.model.origin import shifted
+from nmm.registry import Registry
+from nmm.scene.fields import Frozen
+
+if TYPE_CHECKING:
+    from nmm.scene.model import Scene
+
+EFFECTS: Registry[type[Effect]] = Registry(
+    "effect",
+    Effect,
+    {
+        "initial velocity": "nmm.effects.initial_velocity:InitialVelocity",
+        "initial stress": "nmm.effects.initial_stress:InitialStress",
+        "gravity": "nmm.effects.gravity:Gravity",
+        "loads": "nmm.effects.loads:Loads",
+        "body loads": "nmm.effects.body_loads:BodyLoads",
+        "supports": "nmm.constraints.supports:Supports",
+        "seams": "nmm.constraints.bonded_interfaces:Seams",
+        "inertia": "nmm.effects.inertia:Inertia",
+        "contact": "nmm.effects.contact:Contact",
+        "artificial joints": "nmm.constraints.artificial_joints:ArtificialJoints",
+    },
+)
+"""Built-in effects by name, or a user's own."""
+
+NAMED: dict[str, Callable[["Scene"], bool]] = {
+    "initial velocity": lambda s: bool(s.initial_velocities),
+    "initial stress": lambda s: bool(s.initial_stresses),
+    "gravity": lambda s: s.gravity is not None,
+    "loads": lambda s: any(load.kind != "body" for load in s.loads),
+    "body loads": lambda s: any(load.kind == "body" for load in s.loads),
+    "supports": lambda s: bool(s.supports),
+    "seams": lambda s: s.contact is None and any(i.bonded for i in s.interfaces.values()),
+    "inertia": lambda s: s.inertia is not None,
+    "contact": lambda s: s.contact is not None,
+}
+"""When a scene calls for a built-in effect, in the order in which they act."""
+
+GLUE = "artificial joints"
+"""Not the scene's but the formulation's: what holds sub-blocks together."""
+
+OWN = "effects."
+"""Before the names of effects of one's own, which are those of their tables."""
+
+
+def called_for(scene: "Scene") -> dict[str, bool]:
+    """Say for every built-in effect whether a scene names it."""
+    return {name: named(scene) for name, named in NAMED.items()}
+
+
+def own_effect(scene: "Scene", name: str) -> tuple[type[Effect], Frozen]:
+    """Return the class and the table, as its class reads it, of ``[effects.NAME]``.
+
+    Raises
+    ------
+    FormulationError
+        When the class is not known, or may not or cannot be imported.
+    SceneError
+        All keys of the table that it refuses, one line each.
+    """
+    from nmm.scene.faults import report
+
+    table = scene.effects[name]
+    if table.type in EFFECTS.table:
+        remedy = "built-in effects have keys of their own; see nmm explain"
+        fault = Fault("type", f'"{table.type}"', 'an effect of your own, "module:Class"', remedy)
+        raise FormulationError(fault)
+    kind = EFFECTS.load(table.type)
+    source = replace(scene.source, root=(*scene.source.root, "effects", name))
+    try:
+        return kind, kind.Table.model_validate(table.given)
+    except ValidationError as error:
+        raise SceneError(*report(error, kind.Table, source)) from None
+
+
+def with_table(setup: Setup, effect: str) -> Setup:
+    """Return what an effect is built from: with its table where it is one of one's own."""
+    if not effect.startswith(OWN):
+        return setup
+    _, table = own_effect(setup.scene, effect.removeprefix(OWN))
+    moved: Any = shifted(table, -setup.origin) if setup.origin.any() else table
+    return replace(setup, table=moved)
+
+
+def make_own(setup: Setup, name: str) -> Effect:
+    """Build the effect of a table of one's own.
+
+    Raises
+    ------
+    NmmError
+        When it cannot be built.
+    """
+    kind, _ = own_effect(setup.scene, name)
+    try:
+        return kind.from_setup(with_table(setup, OWN + name))
+    except NmmError:
+        raise
+    except Exception as error:  # the code of an effect may raise anything
+        place = setup.scene.source.place("effects", name)
+        why = f"{type(error).__name__}: {' '.join(str(error).split())}"
+        expected = "an effect that can be built"
+        raise SceneError(Fault(place, kind.__name__, expected, why)) from error

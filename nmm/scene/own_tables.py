@@ -1,0 +1,26 @@
+"""Tables of a scene whose keys the part that they name declares: effects of one's own."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, ConfigDict, Field
+
+from nmm.scene.fields import Frozen, PartName, plain_data
+
+
+class EffectTable(Frozen):
+    """An effect of one's own; what else stands in the table is read by ``Effect.Table``."""
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, Annotated[Any, BeforeValidator(plain_data)]] = Field(init=False)
+
+    type: PartName = Field(
+        description='"module:Class" of an effect of one\'s own, or the name of an installed one',
+        examples=["foundation:Winkler"],
+    )
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The keys of the table but for its type, as read."""
+        return dict(self.__pydantic_extra__)

@@ -1,0 +1,130 @@
+"""An effect and an output of a user's own: table, energy, frames, history, ParaView."""
+
+import base64
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.results import read_run
+from nmm.results.viewing.paraview import write_paraview
+from nmm.scene.read import build_scene
+
+RAFT = Path(__file__).parents[2] / "examples" / "own_effect" / "raft.toml"
+CODE = ["foundation", "steepness"]
+# Load, its eccentricity, length and thickness of the raft, stiffness of the ground.
+LOAD, ECCENTRICITY, LENGTH, SPRING = 1e6, 0.5, 4.0, 10e6
+TILT = LOAD * ECCENTRICITY / (SPRING * LENGTH**3 / 12)
+SINKS = LOAD / (SPRING * LENGTH)
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    return nmm.run(nmm.read_scene(RAFT), allow_code=CODE, out=tmp_path_factory.mktemp("raft"))
+
+
+def test_a_stiff_raft_tilts_on_springs_as_a_rigid_bar(done):
+    # A block of linear functions under one edge load keeps its lower edge straight.
+    assert done.history["largest_tilt"][-1] == pytest.approx(TILT, rel=1e-12)
+    # The outermost of the Gauss points on the edge.
+    last = LENGTH / 2 * np.polynomial.legendre.leggauss(3)[0][-1]
+    assert done.history["ground:settlement"][-1] == pytest.approx(SINKS + TILT * last, rel=1e-12)
+    assert done.history["ground:reaction"][-1] == pytest.approx(LOAD, rel=1e-12)
+
+
+def test_what_springs_of_ones_own_store_is_in_the_balance(done):
+    moment = LOAD * ECCENTRICITY
+    stored = LOAD * SINKS / 2 + moment * TILT / 2
+    assert done.history["energy:ground"][-1] == pytest.approx(stored, rel=1e-12)
+    # Of order one were the energy left out.
+    assert abs(done.summary.energy_balance) < 1e-12
+    assert done.summary.audits["work_not_stored"] < 1e-12
+
+
+def test_quantities_of_ones_own_are_stored_and_read_again(done):
+    stored = read_run(done.folder)
+    assert list(stored.frames[-1].fields) == [
+        "ground:pressure", "friction:pressure", "von_mises", "tilt"
+    ]  # fmt: skip
+    for kept, read in zip(done.frames, stored.frames, strict=True):
+        for name, one in kept.fields.items():
+            again = read.fields[name]
+            assert (again.on, again.unit, again.components) == (one.on, one.unit, one.components)
+            assert np.array_equal(again.values, one.values)
+    pressure = stored.frames[-1].fields["ground:pressure"]
+    assert pressure.unit == "Pa"
+    assert pressure.values == pytest.approx([LOAD / LENGTH], rel=1e-12)
+
+
+def test_quantities_of_ones_own_are_in_paraview(done, tmp_path):
+    write_paraview(done, tmp_path)
+    text = sorted(tmp_path.glob("blocks_*.vtu"))[-1].read_text()
+    coded = re.search(r'Name="tilt"[^>]*>([^<]*)<', text.partition("<CellData>")[2])
+    values = np.frombuffer(base64.b64decode(coded[1])[8:])
+    assert values == pytest.approx([-TILT], rel=1e-12)
+
+
+def test_what_a_scene_does_not_name_is_not_imported(monkeypatch):
+    tables = tomllib.loads(RAFT.read_text())
+    del tables["effects"], tables["output"]
+    hold = {"name": "held", "segment": [[0, 0], [4, 0]], "fix": ["x", "y"]}
+    imported = set(sys.modules) - {"foundation"}
+    monkeypatch.delitem(sys.modules, "foundation", raising=False)
+    assert nmm.run(build_scene({**tables, "supports": [hold]}), allow_code=CODE).frames
+    assert "foundation" not in set(sys.modules) - imported
+
+
+FAULTS = {
+    'stiffness = "10 MPa/m"': ('stiffness = "10 MPa"', "stiffness: '10 MPa': expected"),
+    "segment = [[0, 0], [4, 0]]\nstiffness = \"10": (
+        "segmnt = [[0, 0], [4, 0]]\nstiffness = \"10", 'segmnt": expected a known key'
+    ),
+    'type = "foundation:Winkler"\nsegment': (
+        'type = "foundation:Winkle"\nsegment', "a subclass of nmm.effects.base.Effect"
+    ),
+    '"von_mises"': ('"von_mise"', 'did you mean "von_mises"?'),
+    "segment = [[0, 0], [4, 0]]": ("segment = [[0, 5], [4, 5]]", "move the segment"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("right", FAULTS)
+def test_faults_in_tables_of_ones_own_are_told_by_line(right, tmp_path):
+    wrong, message = FAULTS[right]
+    text = RAFT.read_text().replace(right, wrong, 1)
+    place = tmp_path / "raft.toml"
+    place.write_text(text)
+    with (
+        nmm.trust.allowing(*CODE, folder=RAFT.parent),
+        pytest.raises(nmm.NmmError, match=re.escape(message)) as caught,
+    ):
+        nmm.run(nmm.read_scene(place), allow_code=CODE)
+    line = next(n for n, one in enumerate(text.splitlines(), 1) if wrong.split("\n")[0] in one)
+    if "move" not in message:  # a place is told by the effect itself, which knows no lines
+        assert f"{place}:{line}:" in str(caught.value)
+
+
+def test_an_effect_of_ones_own_needs_the_users_word():
+    with pytest.raises(nmm.NmmError, match=r"raft\.toml:\d+: effects\.ground.*--allow-code found"):
+        nmm.run(nmm.read_scene(RAFT), allow_code=["steepness"])
+
+
+def test_a_builtin_effect_has_no_table_of_ones_own():
+    text = RAFT.read_text().replace('"foundation:Winkler"', '"gravity"', 1)
+    with pytest.raises(nmm.NmmError, match="built-in effects have keys of their own"):
+        nmm.run(nmm.parse_scene(text), allow_code=CODE)
+
+
+def test_quantities_of_ones_own_are_drawn_by_name(done):
+    from nmm import plots
+
+    axes = plots.stress(done, "ground:pressure")
+    (bar,) = [one for one in axes.figure.axes if one is not axes]
+    assert bar.get_ylabel() == "ground:pressure  (kPa)"
+    drawn = np.ma.getdata(axes.collections[0].get_array())
+    assert drawn == pytest.approx([LOAD / LENGTH / 1e3], rel=1e-12)
+    with pytest.raises(nmm.NmmError, match="minor, ground:pressure, friction:pressure, von_mises"):
+        plots.stress(done, "pressure")
