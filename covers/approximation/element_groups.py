@@ -55,6 +55,11 @@ class ElementGroup(ABC):
         return True
 
     @property
+    def trace_degree(self) -> int | None:
+        """Degree of displacements along a line as polynomials, None where they are none."""
+        return None
+
+    @property
     def n_shapes(self) -> int:
         """Number d of distinct shapes."""
         return int(self.shape.max(initial=-1)) + 1
@@ -149,6 +154,11 @@ class PolynomialGroup(ElementGroup):
     origin: Floats
     matrix: Floats
     moments: Floats
+
+    @property
+    def trace_degree(self) -> int:
+        """See `ElementGroup.trace_degree`."""
+        return self.degree
 
     @property
     def weighted(self) -> bool:

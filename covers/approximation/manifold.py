@@ -106,6 +106,18 @@ class Manifold:
         """Highest degree of the displacements on an element, as far as it is known."""
         return max((getattr(group, "degree", 2) for group in self.groups), default=1)
 
+    @property
+    def shared_covers(self) -> bool:
+        """Whether covers reach over several elements, instead of one block each."""
+        return self.reproduction is not None
+
+    @property
+    def trace_degree(self) -> int | None:
+        """Highest degree of displacements along edges; None where some are no polynomials."""
+        degrees = [group.trace_degree for group in self.groups]
+        known = [degree for degree in degrees if degree is not None]
+        return max(known, default=1) if len(known) == len(degrees) else None
+
     @cached_property
     def _place(self) -> tuple[Ints, Ints]:
         group = np.empty(len(self.elements), dtype=np.int64)

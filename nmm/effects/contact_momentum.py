@@ -71,7 +71,7 @@ class Momentum:
         owed = np.asarray(self._modes_turned @ (balance - push)).reshape(-1, 3)
         acted = np.asarray(self._modes_turned @ push)
         owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, acted)
-        return np.asarray(modes @ (step * self._ease_of_all * owed.ravel()))
+        return np.asarray(modes @ (step * self._compliance_of_all * owed.ravel()))
 
     @cached_property
     def _of_blocks(self) -> bool:
@@ -85,16 +85,16 @@ class Momentum:
         return csr_array(self._model.manifold.rigid_modes.T)
 
     @cached_property
-    def _ease_of_all(self) -> Floats:
+    def _compliance_of_all(self) -> Floats:
         """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those without mass."""
         modes = self._model.manifold.rigid_modes
         rigid = (modes.T @ (self._model.mass @ modes)).diagonal()
         return np.asarray(np.divide(1.0, rigid, out=np.zeros_like(rigid), where=rigid > 0))
 
     @property
-    def ease(self) -> Floats:
+    def compliance(self) -> Floats:
         """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those that are held."""
-        return np.where(np.repeat(self._held, 3), 0.0, self._ease_of_all)
+        return np.where(np.repeat(self._held, 3), 0.0, self._compliance_of_all)
 
 
 def _largest_turn(one: State, other: State, body: Ints) -> float:

@@ -13,7 +13,7 @@ from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import DEPTH, FLUSH
 from nmm.contact.mortar.segments import faced
 from nmm.contact.points.boundary_points import sides
-from nmm.contact.points.tracking import JointBook
+from nmm.contact.points.joint_book import JointBook
 from nmm.effects.contact_pairs import GLUED, MISSING, Pairs, no_interface
 from nmm.errors import SceneError, SolveError
 

@@ -36,6 +36,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection import narrow_arrays
+from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import Rules, dot, flush_distance, measure, rules_of
 
@@ -200,11 +201,6 @@ def follow(old: Contacts, new: Contacts) -> Ints:
             hit &= dot(new.normal[target], old.normal[source[first[at]]]) >= FACING
         found[target[hit]] = source[first[at[hit]]]
     return found
-
-
-def pair_key(surface: Surface, vertex: Ints, edge: Ints) -> Ints:
-    """Identity (m,) of pairs of a vertex and an edge: ``vertex * n + edge``."""
-    return vertex * len(surface) + edge
 
 
 def _by_arrays(

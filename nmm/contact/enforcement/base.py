@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
@@ -24,10 +24,14 @@ class Enforcement(ABC):
     multipliers
         Whether forces are whatever exact conditions need: on faces of meshes these are then held
         in the mean (`nmm.contact.mortar.face_means`).
+    exact
+        Whether penalties, stiffnesses that are not a joint's own, are replaced by conditions that
+        store no energy; where not, contacts are springs of that stiffness.
     """
 
     name: ClassVar[str]
     multipliers: ClassVar[bool] = False
+    exact: ClassVar[bool] = True
 
     @abstractmethod
     def solve(
@@ -70,13 +74,19 @@ ENFORCEMENTS: Registry[type[Enforcement]] = Registry(
 )
 
 
-def make_enforcement(name: str, options: Mapping[str, Any] | None = None) -> Enforcement:
+def make_enforcement(
+    name: str, options: Mapping[str, Any] | None = None, given: Mapping[str, Any] | None = None
+) -> Enforcement:
     """Return the enforcement ``name`` ("penalty", ... or "module:Class") with ``options`` set.
+
+    What is ``given`` besides holds for enforcements that have an option of that name.
 
     Raises
     ------
     FormulationError
         When the name or an option is not known.
     """
-    made: Enforcement = ENFORCEMENTS.make(name, options)
+    known = {item.name for item in fields(ENFORCEMENTS.load(name))}
+    more = {key: value for key, value in (given or {}).items() if key in known}
+    made: Enforcement = ENFORCEMENTS.make(name, more | dict(options or {}))
     return made

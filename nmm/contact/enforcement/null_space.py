@@ -6,22 +6,21 @@ enforcement solves; the multipliers are what is left of the balance of the unkno
 """
 
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints
-from nmm.contact.enforcement.base import Enforcement
-from nmm.contact.iteration.memory import Memory
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
-from nmm.solvers.linear import LinearSolver
+from nmm.contact.problem.transform import Transform
 
 # Conditions that others imply up to this share of the largest are left out.
 IMPLIED = 1e-10
 
 
 @dataclass(frozen=True)
-class NullSpace:
+class NullSpace(Transform):
     """Conditions ``rows @ d = sides``.
 
     Attributes
@@ -70,7 +69,7 @@ class NullSpace:
         made = cls(rows, sides, given, r[:rank, :rank], q[:, :rank], basis, np.zeros(n))
         return replace(made, start=made._start(sides))
 
-    def reduced(self, problem: StepProblem) -> StepProblem:
+    def apply(self, problem: StepProblem) -> StepProblem:
         """Return the problem in the other unknowns."""
         matrix, basis, start = self._matrix(problem.matrix), self.basis, self.start
         normal, tangent = (
@@ -86,17 +85,16 @@ class NullSpace:
             tangent_rows=tangent,
             gap=problem.gap + problem.normal_rows @ start,
             slip=problem.slip + problem.tangent_rows @ start,
+            start=None if problem.start is None else self.of_unknowns(problem.start),
         )
 
-    def others(self, unknowns: Floats) -> Floats:
-        """Return the unknowns (n - r,) that are not given."""
-        kept = np.ones(len(unknowns), dtype=bool)
-        kept[self.given] = False
-        return np.asarray(unknowns[kept])
+    def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
+        """Return the answer in all unknowns."""
+        return replace(answer, increment=self.basis @ answer.increment + self.start)
 
-    def whole(self, unknowns: Floats) -> Floats:
-        """Return all unknowns (n,) from those that are not given."""
-        return np.asarray(self.basis @ unknowns + self.start)
+    def of_unknowns(self, values: Any) -> Any:
+        """Return those (n - r,) of the unknowns that are not given."""
+        return np.delete(values, self.given)
 
     def multipliers(self, rest: Floats) -> Floats:
         """Multipliers (k,) with ``rows.T @ m = rest`` (n,), what is left of the balance."""
@@ -121,31 +119,6 @@ class NullSpace:
             small.sort_indices()
             kept = self._kept["matrix"] = matrix, small
         return kept[1]
-
-
-@dataclass(frozen=True)
-class Constrained(Enforcement):
-    """An enforcement under conditions.
-
-    Attributes
-    ----------
-    inner
-        Solves the problem in the unknowns that are not given.
-    constraint
-        The conditions.
-    """
-
-    inner: Enforcement
-    constraint: NullSpace
-
-    def solve(
-        self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
-    ) -> StepAnswer:
-        """See `Enforcement.solve`."""
-        if memory is not None and memory.start is not None:
-            memory.start = self.constraint.others(memory.start)
-        found = self.inner.solve(self.constraint.reduced(problem), linear_solver, memory)
-        return replace(found, increment=self.constraint.whole(found.increment))
 
 
 def _same(a: csr_array, b: csr_array) -> bool:

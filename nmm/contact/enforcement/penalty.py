@@ -53,6 +53,7 @@ class Penalty(Enforcement):
     """
 
     name: ClassVar[str] = "penalty"
+    exact: ClassVar[bool] = False
     iteration: str = "settle"
     max_passes: int = above_zero(20)
     tolerance: float = above_zero(1e-8)

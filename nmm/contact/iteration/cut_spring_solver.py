@@ -48,7 +48,7 @@ def solve_springs(
         When even with all springs acting the load moves a free part.
     """
     budget = budget or IterationBudget()
-    near, memory.start = memory.start, None
+    near = springs.problem.start if start is None else None
     given = near if start is None else start
     increment = start_from(springs, memory.found, memory.moving) if given is None else given
     small = len(increment) <= SMALL

@@ -57,7 +57,7 @@ def exact_round(
     """
     small, again = len(problem.force) <= SMALL, memory.again(problem)
     if again:
-        memory.start = again[1].increment
+        problem = replace(problem, start=again[1].increment)
     at, how = None, ""
     if small or again:
         first = first_round(stiff_springs(problem, AGAIN if again else START))

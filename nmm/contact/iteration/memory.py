@@ -70,8 +70,6 @@ class Memory:
     ----------
     pattern
         Pattern of matrix and springs.
-    start
-        Unknowns to start the next solution from, of the same step.
     found
         Unknowns found for the last steps, latest first, from which the next one may start.
     moving
@@ -87,7 +85,6 @@ class Memory:
     """
 
     pattern: SpringPattern | None = None
-    start: Floats | None = None
     found: list[Floats] = field(default_factory=list)
     moving: bool = False
     kept: list[KeptFactor] = field(default_factory=list)
@@ -125,7 +122,7 @@ class Memory:
 
     def forget_answers(self) -> None:
         """Drop all that was found: after a step that failed none of it is near the next answer."""
-        self.start, self.found, self.answered = None, [], None
+        self.found, self.answered = [], None
 
     def keep(self, increment: Floats, load: Floats) -> None:
         """Keep the unknowns found under a load, in place of what was found under it before."""
@@ -154,8 +151,9 @@ class Memory:
 
 
 def _same(a: StepProblem, b: StepProblem) -> bool:
+    names = (item.name for item in fields(a) if item.name != "start")
     return a.n_contacts == b.n_contacts and all(
-        _equal(getattr(a, item.name), getattr(b, item.name)) for item in fields(a)
+        _equal(getattr(a, name), getattr(b, name)) for name in names
     )
 
 

@@ -8,8 +8,8 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.joint_book import JointBook
 from nmm.contact.points.midpoint import Rows
-from nmm.contact.points.tracking import JointBook
 from nmm.contact.problem.step_problem import StepAnswer
 
 Breaking = Literal["all", "worst", "stop"]

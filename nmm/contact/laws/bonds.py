@@ -166,6 +166,15 @@ class Laws:
                 rise[index] = np.tan(law.dilation_angle) * way
         return rise
 
+    def normal_stiffness(self, contacts: ContactPoints) -> Floats:
+        """Return the normal stiffness (m,) in N/m."""
+        return self.springs(contacts)[0]
+
+    @cached_property
+    def makes_joints(self) -> Bools:
+        """(n,) whether shared edges of each law are followed as joints."""
+        return np.array([law.makes_joints for law in self.laws], dtype=bool)
+
     @cached_property
     def bonded(self) -> Bools:
         """(n,) whether joints of each law hold together at the start."""

@@ -12,7 +12,7 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.contact.laws.bonds import Laws
 from nmm.contact.laws.fixed_point import FixedPoint
-from nmm.contact.laws.tension_compression import Twins
+from nmm.contact.laws.tension_compression import AsymmetricSprings
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
 
@@ -21,7 +21,7 @@ MOST = 200
 SETTLED = 1e-9
 """Change of damage, or of the rise of the faces over the largest gap, that is as good as none."""
 
-NONE = Twins(np.zeros(0, dtype=np.int64), np.zeros(0))
+NONE = AsymmetricSprings(np.zeros(0, dtype=np.int64), np.zeros(0))
 
 
 class Turns:
@@ -31,7 +31,7 @@ class Turns:
     ----------
     start, contacts
         The contacts at the start of the step, and with the damage of this turn.
-    twins
+    asymmetric
         Bonds that have opened once.
     rise, lift
         (m,) by how much sliding has lifted the faces at the start, and by the end (m).
@@ -43,7 +43,7 @@ class Turns:
         self._laws = laws
         self.start = self.contacts = start
         self._soft = laws.softening(start)
-        self._stiffness, self.twins = _whole_and_opened(laws, start, self._soft)
+        self._stiffness, self.asymmetric = _whole_and_opened(laws, start, self._soft)
         self.rise = self.lift = laws.lift(start, start.worn)
         self.done = False
         self._count = 0
@@ -101,7 +101,9 @@ class Turns:
         return float(rubbed[~self._soft].sum() + work - stored)
 
 
-def _whole_and_opened(laws: Laws, start: ContactPoints, soft: Bools) -> tuple[Floats, Twins]:
+def _whole_and_opened(
+    laws: Laws, start: ContactPoints, soft: Bools
+) -> tuple[Floats, AsymmetricSprings]:
     """Normal stiffness (m,) of whole bonds (N/m), and those of the ``soft`` that opened once."""
     if not soft.any():
         return np.zeros(len(start)), NONE
@@ -109,7 +111,7 @@ def _whole_and_opened(laws: Laws, start: ContactPoints, soft: Bools) -> tuple[Fl
         laws.springs(start, np.full(len(start), is_open))[0] for is_open in (True, False)
     )
     index = np.flatnonzero(soft & (opened < (1 - 1e-9) * whole))
-    return whole, Twins(index, opened[index] / whole[index])
+    return whole, AsymmetricSprings(index, opened[index] / whole[index])
 
 
 def slid_under_load(problem: StepProblem, answer: StepAnswer) -> Floats:

@@ -1,66 +1,97 @@
 """Dampers beside the normal springs of contacts, in one step."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+from nmm.contact.problem.transform import Transform
 
 
 @dataclass(frozen=True)
-class Dashpots:
+class Dashpots(Transform):
     """``N = k gap + c d(gap)/dt`` while pressed, as a stiffer spring from a shifted gap.
 
     Attributes
     ----------
     stiffness
         (m,) ``c / dt`` (N/m), added to that of the springs.
-    lag
-        (m,) taken from the gap at the start of the step (m).
+    gap
+        (m,) at the start of the step (m); of one that is open the damper starts at zero.
     """
 
     stiffness: Floats
-    lag: Floats
+    gap: Floats
 
-    @classmethod
-    def of(cls, coefficient: Floats, step: float, spring: Floats, gap: Floats) -> "Dashpots":
-        """Dampers ``coefficient`` (N s/m) over a step from ``gap``; an open one starts at zero."""
-        stiffness = coefficient / step
-        return cls(stiffness, stiffness * np.minimum(gap, 0.0) / (spring + stiffness))
+    def apply(self, problem: StepProblem) -> StepProblem:
+        """See `Transform.apply`."""
+        return replace(
+            problem,
+            normal_stiffness=problem.normal_stiffness + self.stiffness,
+            gap=problem.gap - self._lag(problem),
+            compliant=problem.own_stiffness | (self.stiffness > 0),
+        )
 
-    def loss(
-        self, spring: Floats, gap: tuple[Floats, Floats], force: tuple[Floats, Floats]
-    ) -> float:
+    def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
+        """See `Transform.undo`."""
+        return replace(answer, gap=answer.gap + self._lag(problem))
+
+    def _lag(self, problem: StepProblem) -> Floats:
+        stretch = problem.gap - np.maximum(self.gap, 0.0)
+        return np.asarray(stretch * self.stiffness / (problem.normal_stiffness + self.stiffness))
+
+    def loss(self, spring: Floats, end: Floats, force: tuple[Floats, Floats]) -> float:
         """Energy (J) taken in a step.
 
-        Mean force times way, less what the springs have gained; ``gap`` and ``force`` are those at
-        the start and the end, ``spring`` (m,) the stiffness beside the damper.
+        Mean force times displacement, less what the springs have gained; ``end`` (m,) are the gaps
+        and ``force`` those at both ends, ``spring`` (m,) the stiffness beside the damper.
         """
-        work = (force[0] + force[1]) / 2 * (gap[1] - gap[0])
-        before, after = (np.minimum(one, 0.0) for one in gap)
+        work = (force[0] + force[1]) / 2 * (end - self.gap)
+        before, after = (np.minimum(one, 0.0) for one in (self.gap, end))
         return float((work - spring * (after**2 - before**2) / 2)[self.stiffness > 0].sum())
 
 
-def meeting_mass(rows: csr_array, pair: Ints, rigid_modes: csc_array, ease: Floats) -> Floats:
-    """Mass (m,) in kg that two rigid bodies put against each other at each contact.
+@dataclass(frozen=True)
+class RigidMass:
+    """Mass of the bodies as contacts feel it.
 
-    ``1 / (G M^-1 G^T 1)`` with the normal rows ``G`` in rigid motions: all contacts of one pair of
-    bodies close together, as two do when faces meet.
-
-    Parameters
+    Attributes
     ----------
-    rows
-        (m, n) normal rows.
-    pair
-        (m,) which pair of bodies each contact belongs to.
-    rigid_modes, ease
-        (n, 3 B) rigid motions, (3 B,) inverse of mass and moment of inertia; 0 for held bodies.
+    edge_body
+        (E,) body of each boundary edge.
+    modes
+        (n, 3 B) unknowns of rigid motions.
+    compliance
+        (3 B,) inverse of mass and moment of inertia; 0 for held bodies.
     """
-    along = csr_array(rows @ rigid_modes)
-    _, number = np.unique(pair, return_inverse=True)
-    m = len(number)
-    members = csr_array((np.ones(m), (number, np.arange(m))), shape=(number.max(initial=-1) + 1, m))
-    together = csr_array(members @ along)[number]
-    eased = np.maximum(along.multiply(together) @ ease, 0.0)
-    return np.asarray(np.divide(1.0, eased, out=np.zeros_like(eased), where=eased > 0))
+
+    edge_body: Ints
+    modes: csc_array
+    compliance: Floats
+
+    def dashpots(
+        self, contacts: ContactPoints, share: Floats, spring: Floats, rows: csr_array, step: float
+    ) -> Dashpots:
+        """Return dampers of a ``share`` (m,) of critical damping beside springs (m,) in N/m."""
+        critical = 2 * np.sqrt(spring * self.meeting(contacts, rows))
+        return Dashpots(share * critical / step, contacts.gap)
+
+    def meeting(self, contacts: ContactPoints, rows: csr_array) -> Floats:
+        """Mass (m,) in kg that two rigid bodies put against each other at each contact.
+
+        ``1 / (G M^-1 G^T 1)`` with the normal rows ``G`` (m, n) in rigid motions: all contacts of
+        one pair of bodies close together, as two do when faces meet.
+        """
+        body_a, body_b = self.edge_body[contacts.edge_a], self.edge_body[contacts.edge_b]
+        along = csr_array(rows @ self.modes)
+        pair = body_a * (len(self.compliance) // 3) + body_b
+        _, number = np.unique(pair, return_inverse=True)
+        m = len(number)
+        size = number.max(initial=-1) + 1
+        members = csr_array((np.ones(m), (number, np.arange(m))), shape=(size, m))
+        together = csr_array(members @ along)[number]
+        eased = np.maximum(along.multiply(together) @ self.compliance, 0.0)
+        return np.asarray(np.divide(1.0, eased, out=np.zeros_like(eased), where=eased > 0))

@@ -1,4 +1,4 @@
-"""Bonds that are softer open than pressed, as two contacts at one place.
+"""Tension-compression asymmetric springs, split into two parallel contacts.
 
 A spring of share ``s`` of the stiffness ``k`` that pulls and presses, and one of ``(1 - s) k`` that
 only presses, are ``s k gap`` open and ``k gap`` pressed: a convex law, so that no enforcement has
@@ -13,14 +13,15 @@ from scipy.sparse import csr_array, vstack
 
 from integration.arrays import Floats, Ints
 from nmm.contact.problem.step_problem import OPEN, STICK, Limits, StepAnswer, StepProblem
+from nmm.contact.problem.transform import Transform
 
 # Shear stiffness of the second contact, which carries no shear: a positive number is expected.
 FAINT = 1e-9
 
 
 @dataclass(frozen=True)
-class Twins:
-    """Which contacts are doubled.
+class AsymmetricSprings(Transform):
+    """Contacts that are softer open than pressed.
 
     Attributes
     ----------
@@ -33,11 +34,9 @@ class Twins:
     index: Ints
     share: Floats
 
-    def joined(self, problem: StepProblem) -> StepProblem:
+    def apply(self, problem: StepProblem) -> StepProblem:
         """Return the problem with the second contacts added at its end."""
         at = self.index
-        if not len(at):
-            return problem
         whole = problem.normal_stiffness[at]
         first = problem.normal_stiffness.copy()
         first[at] = self.share * whole
@@ -70,11 +69,9 @@ class Twins:
             compliant=np.concatenate([problem.own_stiffness, np.ones(len(at), dtype=bool)]),
         )
 
-    def merged(self, answer: StepAnswer) -> StepAnswer:
-        """Return the answer of the contacts that `joined` was given."""
-        if not len(self.index):
-            return answer
-        m = len(answer.gap) - len(self.index)
+    def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
+        """See `Transform.undo`."""
+        m = problem.n_contacts
         normal = answer.normal_force[:m].copy()
         normal[self.index] += answer.normal_force[m:]
         return replace(

@@ -16,70 +16,70 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.contact.laws.dashpots import Dashpots
-from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.problem.step_problem import BROKEN, OPEN, StepAnswer
+from nmm.contact.problem.step_problem import BROKEN, OPEN, StepAnswer, StepProblem
+from nmm.contact.problem.transform import Transform
 
 
 @dataclass(frozen=True)
-class MeanSprings:
-    """Springs from a shifted gap and slip: ``N = normal (g1 - lag)``, ``T = shear (s1 + lead)``.
+class TimeWeighting(Transform):
+    """Springs stretched by a weighted mean of the start and the end of the step.
 
     Attributes
     ----------
-    normal, shear
-        (m,) stiffnesses (N/m).
-    lag, lead
-        (m,) shifts (m).
     weight
         (m,) share of the end of the step.
+    lift
+        (m,) by how much sliding had lifted the faces at the start (m): no stretch of a spring.
+    pulls
+        (m,) whose springs pull at the start, as intact bonds do; the others push alone.
     """
 
-    normal: Floats
-    shear: Floats
-    lag: Floats
-    lead: Floats
     weight: Floats
+    lift: Floats
+    pulls: Bools
 
-    @classmethod
-    def of(
-        cls,
-        contacts: ContactPoints,
-        springs: tuple[Floats, Floats],
-        weight: Floats,
-        lift: Floats,
-        dashpots: Dashpots,
-    ) -> "MeanSprings":
-        """Weight springs (normal and shear, N/m) and add dampers.
-
-        Parameters
-        ----------
-        contacts
-            At the start of the step; intact bonds pull, the others push alone.
-        weight
-            (m,) share of the end of the step.
-        lift
-            (m,) taken from the gap at the start (m).
-        """
-        normal, shear = springs
-        gap = contacts.gap - lift
-        held = contacts.is_joint & (contacts.damage < 1)
-        earlier = (1 - weight) * normal * np.where(held, gap, np.minimum(gap, 0.0))
-        total = weight * normal + dashpots.stiffness
-        damped = dashpots.lag * (normal + dashpots.stiffness)
-        return cls(
-            total,
-            weight * shear,
-            (damped - earlier) / total,
-            (1 / weight - 1) * contacts.slip,
-            weight,
+    def apply(self, problem: StepProblem) -> StepProblem:
+        """See `Transform.apply`."""
+        return replace(
+            problem,
+            normal_stiffness=self.weight * problem.normal_stiffness,
+            shear_stiffness=self.weight * problem.shear_stiffness,
+            gap=problem.gap + self._lead(problem),
+            slip=problem.slip / self.weight,
         )
 
-    def unshifted(self, answer: StepAnswer, shift: Floats) -> StepAnswer:
+    def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
         """Return the answer with the gap and the elastic slip at the end of the step."""
         parted = (answer.state == OPEN) | (answer.state == BROKEN)
-        slip = np.where(parted, answer.slip, answer.slip - self.lead)
-        return replace(answer, gap=answer.gap + shift, slip=slip)
+        lead = (1 / self.weight - 1) * problem.slip
+        slip = np.where(parted, answer.slip, answer.slip - lead)
+        return replace(answer, gap=answer.gap - self._lead(problem), slip=slip)
+
+    def _lead(self, problem: StepProblem) -> Floats:
+        stretch = problem.gap - self.lift
+        held = np.where(self.pulls, stretch, np.minimum(stretch, 0.0))
+        return np.asarray((1 / self.weight - 1) * held)
+
+
+@dataclass(frozen=True)
+class RaisedFaces(Transform):
+    """Faces that ride up on each other as they slide: gaps count from where they are lifted to.
+
+    Attributes
+    ----------
+    lift
+        (m,) at the end of the step (m).
+    """
+
+    lift: Floats
+
+    def apply(self, problem: StepProblem) -> StepProblem:
+        """See `Transform.apply`."""
+        return replace(problem, gap=problem.gap - self.lift)
+
+    def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
+        """See `Transform.undo`."""
+        return replace(answer, gap=answer.gap + self.lift)
 
 
 def end_shares(weight: float, exact: bool, own: Bools, soft: Bools) -> Floats:

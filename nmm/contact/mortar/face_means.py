@@ -24,10 +24,11 @@ from nmm.contact.mortar.multiplier_basis import Entries, functions_along
 from nmm.contact.mortar.trace_space import Traces
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.step_problem import OPEN, Limits, StepAnswer, StepProblem
+from nmm.contact.problem.transform import Transform
 
 
 @dataclass(frozen=True, eq=False)
-class WeakFaces:
+class WeakFaces(Transform):
     """Functions of places at the contacts of a problem.
 
     Attributes
@@ -63,7 +64,7 @@ class WeakFaces:
             functions, csr_array((share, (function, point)), shape=(k, m)), _largest(functions)
         )
 
-    def wider(self, m: int) -> Self:
+    def _wider(self, m: int) -> Self:
         """Return the functions of a problem with further contacts at its end, which are alone."""
         more = m - self.functions.shape[1]
         if not more:
@@ -79,8 +80,19 @@ class WeakFaces:
             nearest=np.concatenate([self.nearest, np.arange(m - more, m)]),
         )
 
-    def joined(self, problem: StepProblem) -> StepProblem:
+    def apply(self, problem: StepProblem) -> StepProblem:
         """Return the problem of the means."""
+        return self._wider(problem.n_contacts)._means(problem)
+
+    def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
+        """Return the answer at the points; forces are those of the pressure there.
+
+        Gaps are those of the points: only their means are zero. What slid under load is made of
+        the functions, so that its work and the means of the slip that is left are right.
+        """
+        return self._wider(problem.n_contacts)._at_points(answer, problem)
+
+    def _means(self, problem: StepProblem) -> StepProblem:
         functions, share, limits = self.functions, self.share, problem.limits
         # Forces to start from: the pressure at the nearest point over all of the function.
         part = share[np.arange(len(self.nearest)), self.nearest]
@@ -103,15 +115,10 @@ class WeakFaces:
             compliant=problem.own_stiffness[self.nearest],
         )
 
-    def merged(self, answer: StepAnswer, joined: StepProblem, problem: StepProblem) -> StepAnswer:
-        """Return the answer at the points; forces are those of the pressure there.
-
-        Gaps are those of the points: only their means are zero. What slid under load is made of
-        the functions, so that its work and the means of the slip that is left are right.
-        """
+    def _at_points(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
         share, increment = self.share, answer.increment
         normal, shear = share.T @ answer.normal_force, share.T @ answer.shear_force
-        slid = self._made_of_functions(joined.slips(increment) - answer.slip)
+        slid = self._made_of_functions(share @ problem.slips(increment) - answer.slip)
         # The function with the largest part in a point's force says what the point does.
         size = np.abs(answer.normal_force) + np.abs(answer.shear_force)
         felt = csr_array(share.T)

@@ -16,13 +16,13 @@ from typing import Any
 
 import numpy as np
 
+from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.face_contacts import FaceContacts
 from nmm.contact.detection.joints import interval
 from nmm.contact.detection.narrow_phase import FACE, VERTEX_EDGE, VERTEX_VERTEX, Contacts
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import ANGLE, dot, rules_of
-from nmm.formulation import Formulation
 
 # Stations in [0, 1] and weights of Lobatto's rules: exact to degree 1, 3 and 5.
 LOBATTO = {
@@ -60,21 +60,18 @@ class Overlaps:
     length: Floats
 
 
-def face_points(formulation: Formulation) -> int:
-    """Points an overlap that integrate a uniform pressure on the traces of a cover exactly.
+def face_points(manifold: Manifold, wanted: str) -> int:
+    """Points an overlap that integrate a uniform pressure on the traces of fields exactly.
 
-    0 where corners carry contact. "auto" is faces for meshes, whose edges are short and many, and
-    corners for blocks.
+    0 where corners carry contact: ``wanted`` is "vertices", or "auto" and every block has covers of
+    its own; edges of meshes are short and many.
     """
-    cover = formulation.cover
-    wanted = formulation.contact.points
-    if wanted == "vertices" or (wanted == "auto" and cover.of_blocks):
+    if wanted == "vertices" or (wanted == "auto" and not manifold.shared_covers):
         return 0
-    # Hats add one degree to the polynomials, bilinear weights two; others are no polynomials.
-    known = {"triangles": 1, "graded": 1, "quads": 2} if cover.enrichment is None else {}
-    more = 0 if cover.of_blocks else known.get(cover.type, 5)
-    degree = max(cover.highest_degree + more, 1)
-    return int(np.clip((degree + 4) // 2, 2, max(LOBATTO)))
+    degree = manifold.trace_degree
+    if degree is None:
+        return max(LOBATTO)
+    return int(np.clip((max(degree, 1) + 4) // 2, 2, max(LOBATTO)))
 
 
 def faced(

@@ -84,6 +84,11 @@ class ContactPoints:
         """Which contacts are points of joints."""
         return self.key < 0
 
+    @property
+    def holds(self) -> Bools:
+        """Which contacts are bonds of joints that hold still."""
+        return np.asarray(self.is_joint & (self.damage < 1))
+
 
 PARTS = tuple(part.name for part in fields(ContactPoints))
 

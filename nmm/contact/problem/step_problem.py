@@ -49,6 +49,9 @@ class StepProblem:
         (m,) true where the stiffness is the joint's own: a law that every enforcement honours,
         ``N = normal_stiffness * gap`` up to the limit. False (or None for all) where it is a
         numerical penalty, which the exact enforcements replace by ``gap >= 0``.
+    start
+        (n,) unknowns near the answer, where the search for it starts; None where none are known.
+        No part of the problem: the answer is the same wherever the search starts.
     """
 
     matrix: csc_array
@@ -64,6 +67,7 @@ class StepProblem:
     normal_force: Floats
     shear_force: Floats
     compliant: Bools | None = None
+    start: Floats | None = None
 
     @property
     def n_contacts(self) -> int:

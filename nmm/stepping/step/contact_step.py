@@ -156,23 +156,23 @@ class Touching:
         held: "NullSpace | None",
         reach: float,
     ) -> "ContactSolution":
+        from nmm.contact.solution.request import StepRequest
+
         def near(increment: Floats) -> bool:
             return self._mover.after(equations, increment).motion <= reach
 
+        request = StepRequest(
+            matrix=equations.matrix,
+            force=equations.force,
+            solver=self._solver,
+            step=equations.step,
+            weight=1.0 if equations.step is None else equations.rule.contact_weight,
+            null_space=held,
+            breaking=breaking,
+            near=near,
+        )
         with self._clock.phase("solve"):
-            return self._contact.solve(
-                contacts,
-                equations.state,
-                equations.matrix,
-                equations.force,
-                self._solver,
-                breaking,
-                equations.step,
-                1.0 if equations.step is None else equations.rule.contact_weight,
-                halfway,
-                held,
-                near,
-            )
+            return self._contact.solve(contacts, equations.state, request, halfway)
 
     def _judged(
         self, equations: Equations, solved: "ContactSolution", held: "NullSpace | None"

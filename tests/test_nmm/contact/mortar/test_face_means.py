@@ -47,7 +47,7 @@ def faces(kind, degree, **options):
     contact = simulation.stepper.plan.contact
     state = initial_state(simulation.stepper.model.manifold)
     found = contact.candidates(state, 1e-6)
-    weak = WeakFaces.of(found, contact._partners.surface(state), contact._traces)
+    weak = WeakFaces.of(found, contact._partners.surface(state), contact.geometry.traces)
     return found, weak, contact, state
 
 
@@ -76,8 +76,8 @@ def determined(rows, stiffness):
 @pytest.mark.parametrize(("kind", "degree"), MESHES)
 def test_forces_of_the_functions_are_determined_where_those_of_points_are_not(kind, degree):
     found, weak, contact, state = faces(kind, degree)
-    normal = contact._rows(found, state, None).normal
-    stiffness = contact._model.stiffness.diagonal()
+    normal = contact.geometry.rows(found, state).normal
+    stiffness = contact.geometry.model.stiffness.diagonal()
     on_face = np.flatnonzero(found.length > 0)
     assert determined(normal[on_face], stiffness) < 1e-4
     assert determined((weak.share @ normal), stiffness) > 1e-2
@@ -87,7 +87,7 @@ def test_forces_of_the_functions_are_determined_where_those_of_points_are_not(ki
 def test_on_a_mesh_that_fits_the_face_places_are_its_nodes(degree):
     fitting = {"net": "", "size": 0.25, "nets": ""}
     _, _, contact, _ = faces("quads", degree, **fitting)
-    edges, traces = contact._sides.manifold.boundary, contact._traces
+    edges, traces = contact.geometry.sides.manifold.boundary, contact.geometry.traces
     assert isinstance(traces, Traces)
     # The square has 4 cells a side, the floor 16 x 4: as many intervals as edges.
     assert len(edges) == 16 + 40

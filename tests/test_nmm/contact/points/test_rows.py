@@ -51,7 +51,7 @@ def test_rows_of_a_rigid_translation_are_normal_and_tangent(cover: dict[str, obj
     assert contact is not None
     points = contact.candidates(ready.start, 1e-6)
     assert len(points) >= 2
-    normal, tangent = rows(points, contact._sides, ready.start.frames, manifold.n_unknowns)
+    normal, tangent = rows(points, contact.geometry.sides, ready.start.frames, manifold.n_unknowns)
     edges = manifold.boundary
     for body in range(manifold.n_bodies):
         sign = (edges.body[points.edge_a] == body) * 1.0 - (edges.body[points.edge_b] == body)

@@ -1,0 +1,191 @@
+"""Joints that are followed from the start: their contact points keep their place."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from integration.polygons import centroids
+from nmm.assembly.model import Model
+from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_points
+from nmm.contact.detection.narrow_phase import Contacts
+from nmm.contact.detection.pair_keys import pair_key, unordered_key
+from nmm.contact.detection.surface import Surface
+from nmm.contact.points.boundary_points import tangents
+from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.points.tracking import Apart
+from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN
+
+# A broken joint whose faces have slid by this share of its length is left to the search.
+SLID = 0.05
+
+
+@dataclass(frozen=True)
+class JointBook:
+    """Joints that are still followed.
+
+    Attributes
+    ----------
+    points
+        Their contact points, keys -1, -2, ...
+    joint
+        (m,) joint of each point.
+    pairs
+        (k,) keys of the vertex-edge pairs at the joints' ends, which the search reports too.
+    pair_joint
+        (k,) joint of each such pair.
+    lost
+        Points of joints that came apart; the search finds what touches there.
+    """
+
+    points: ContactPoints
+    joint: Ints
+    pairs: Ints
+    pair_joint: Ints
+    lost: ContactPoints
+
+    def hides(self, found: Contacts) -> Bools:
+        """Which found contacts a followed joint carries already."""
+        if not len(self.joint):
+            return np.zeros(len(found), dtype=bool)
+        alive = np.isin(self.pair_joint, self.joint)
+        return np.isin(found.key, self.pairs[alive])
+
+    def edges(self, n: int) -> Ints:
+        """Pairs of edges that followed joints carry, ``a * n + b`` with ``a < b``, sorted."""
+        return np.unique(unordered_key(self.points.edge_a, self.points.edge_b, n))
+
+    def holds(self, surface: Surface, vertex: Ints, edge: Ints) -> Bools:
+        """Which pairs (m,) are of an edge that ends at the vertex and one held to it by a joint."""
+        n = len(surface)
+        ends = vertex, surface.previous[vertex]
+        beside = np.stack([unordered_key(own, edge, n) for own in ends])
+        return np.asarray(np.isin(beside, self.edges(n)).any(axis=0))
+
+    def now(self, surface: Surface, apart_of: Apart) -> ContactPoints:
+        """Return the points with gap, slip and normal of the moved surface."""
+        p = self.points
+        if not len(p):
+            return p
+        normal, apart = surface.normal[p.edge_b], apart_of(p)
+        stretch = np.einsum("ij,ij->i", apart, tangents(normal))
+        held = p.damage < 1
+        return replace(
+            p,
+            normal=normal,
+            gap=np.einsum("ij,ij->i", apart, normal),
+            slip=np.where(held, stretch - p.slid, p.slip),
+        )
+
+    def keep(self, points: ContactPoints, surface: Surface, apart_of: Apart) -> "JointBook":
+        """Return the book with the answer's points; joints that came apart are given up."""
+        if not len(points) and not len(self.lost):
+            return self
+        apart = apart_of(points)
+        far = np.hypot(apart[:, 0], apart[:, 1]) > SLID * points.length
+        lost = far & (points.damage >= 1)
+        gone = np.isin(self.joint, self.joint[lost]) & (points.damage >= 1)
+        before = _turned(self.lost, surface, apart_of)
+        if not gone.any():
+            return replace(self, points=points, lost=before)
+        zero = np.zeros(int(gone.sum()))
+        apart_now = replace(
+            points.take(gone),
+            state=np.full(len(zero), int(BROKEN)),
+            normal_force=zero,
+            shear_force=zero,
+        )
+        return replace(
+            self,
+            points=points.take(~gone),
+            joint=self.joint[~gone],
+            lost=concatenate([before, apart_now]),
+        )
+
+    @property
+    def broken(self) -> int:
+        """Number of points whose bond is broken, lost ones included."""
+        return int((self.points.damage >= 1).sum()) + len(self.lost)
+
+
+def follow_joints(
+    surface: Surface,
+    model: Model,
+    interface_of: Callable[[Ints, Ints], Ints],
+    makes_joints: Bools,
+    bonded: Bools,
+    stations: str,
+) -> JointBook:
+    """Follow the stretches of edges that two bodies share.
+
+    Parameters
+    ----------
+    surface, model
+        Where the edges are at the start, and the materials behind them.
+    interface_of
+        From two edges to the index of their interface, negative without.
+    makes_joints, bonded
+        (n,) which interfaces make joints, and hold them together.
+    stations
+        "corners" or "gauss": where joints act along their edge.
+    """
+    joints = find_joints(surface)
+    interface = interface_of(joints.edge_a, joints.edge_b)
+    wanted = (interface >= 0) & makes_joints[np.maximum(interface, 0)]
+    joints, interface = joints.take(wanted), interface[wanted]
+    distance = _distance(model, joints)
+    points = joint_points(surface, joints, stations)
+    m = len(points)
+    vertex, edge, joint = joint_ends(surface, joints)
+    zeros = np.zeros(m)
+    held = bonded[interface[points.joint]]
+    found = ContactPoints(
+        edge_a=points.edge_a,
+        parameter_a=points.parameter_a,
+        edge_b=points.edge_b,
+        parameter_b=points.parameter_b,
+        normal=points.normal,
+        gap=points.gap,
+        slip=zeros,
+        length=points.length,
+        slenderness=points.length / distance[points.joint],
+        interface=interface[points.joint],
+        key=-1 - np.arange(m),
+        damage=np.where(held, 0.0, 1.0),
+        state=np.where(held, int(BONDED), int(OPEN)),
+        normal_force=zeros,
+        shear_force=zeros,
+        slid=zeros,
+        worn=zeros,
+        reference=zeros,
+    )
+    pairs = pair_key(surface, vertex, edge)
+    return JointBook(
+        found, points.joint, pairs, joint, lost=found.take(np.zeros(0, dtype=np.int64))
+    )
+
+
+def _distance(model: Model, joints: Joints) -> Floats:
+    """Return lengths (j,) of the stiffest material as soft as what lies across joints (m).
+
+    ``h = E_max (h_a / E_a + h_b / E_b)`` with the distances of both elements' middles from the
+    joint; where moduli are equal to the largest, the distance of the middles.
+    """
+    manifold, modulus = model.manifold, model.modulus
+    middle = centroids(manifold.elements)
+    a, b = (manifold.boundary.element[edge] for edge in (joints.edge_a, joints.edge_b))
+    far_a, far_b, apart = (
+        np.abs(np.einsum("ij,ij->i", offset, joints.normal))
+        for offset in (middle[a] - joints.start, middle[b] - joints.start, middle[a] - middle[b])
+    )
+    softness = modulus.max() / modulus
+    share = far_a / (far_a + far_b)
+    mixed = share * softness[a] + (1 - share) * softness[b]
+    return np.asarray(apart * np.where(softness[a] == softness[b], softness[a], mixed))
+
+
+def _turned(points: ContactPoints, surface: Surface, apart_of: Apart) -> ContactPoints:
+    """Return points with the normal and gap of the moved surface."""
+    normal, apart = surface.normal[points.edge_b], apart_of(points)
+    return replace(points, normal=normal, gap=np.einsum("ij,ij->i", apart, normal))

@@ -1,0 +1,228 @@
+"""Contact of one step: posed, solved, asked of the laws again, until nothing changes any more.
+
+What is posed stands: limits, springs, lifted faces. Between two solutions laws say what changes
+(`nmm.contact.laws.damage_iteration`) and which bonds break.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.enforcement.base import Enforcement
+from nmm.contact.enforcement.rebalanced import solve_rebalanced
+from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.record import ContactSolution
+from nmm.contact.laws.bonds import Laws, break_bonds
+from nmm.contact.laws.compliance import Softness
+from nmm.contact.laws.damage_iteration import Turns, slid_under_load
+from nmm.contact.laws.dashpots import Dashpots, RigidMass
+from nmm.contact.laws.time_weighting import RaisedFaces, TimeWeighting, end_shares
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.midpoint import Rows
+from nmm.contact.problem.balance import with_springs
+from nmm.contact.problem.coulomb import shear_bound
+from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
+from nmm.contact.problem.transform import Transform, solve_through
+from nmm.contact.solution.request import StepRequest
+from nmm.solvers.linear import LinearSolver
+
+
+@dataclass(frozen=True)
+class PosedStep:
+    """The problem of a step, and what is made of it before an enforcement sees it.
+
+    Attributes
+    ----------
+    problem
+        Springs, limits and rows of the contact points.
+    transforms
+        In the order of their application.
+    dashpots
+        Dampers among them; None without.
+    weight
+        (m,) share of the end of the step in the stretch of each spring.
+    """
+
+    problem: StepProblem
+    transforms: list[Transform]
+    dashpots: Dashpots | None
+    weight: Floats
+
+    def loss(self, contacts: ContactPoints, answer: StepAnswer) -> float:
+        """Energy (J) that dampers took in the step."""
+        if self.dashpots is None:
+            return 0.0
+        end = answer.normal_force
+        start = np.where(self.weight < 1, end, contacts.normal_force)
+        return self.dashpots.loss(self.problem.normal_stiffness, answer.gap, (start, end))
+
+
+class ContactSolver:
+    """Solves the contacts of the steps of a run.
+
+    Attributes
+    ----------
+    memory
+        What is kept from solution to solution; see `Memory`.
+    last
+        The problem that the enforcement solved last, and its answer.
+
+    Parameters
+    ----------
+    laws, softness
+        Interface laws, and how soft the bodies are that they join.
+    enforcement
+        Solves problems.
+    mass
+        Of the bodies, for dampers.
+    unknown_body
+        (n,) body of each unknown.
+    """
+
+    def __init__(
+        self,
+        laws: Laws,
+        softness: Softness,
+        enforcement: Enforcement,
+        mass: RigidMass,
+        unknown_body: Ints,
+    ) -> None:
+        self.memory = Memory()
+        self.last: tuple[StepProblem, StepAnswer] | None = None
+        self._laws, self._softness, self._enforcement = laws, softness, enforcement
+        self._mass, self._unknown_body = mass, unknown_body
+
+    def solve(
+        self,
+        contacts: ContactPoints,
+        rows: Rows,
+        request: StepRequest,
+        more: Sequence[Transform] = (),
+    ) -> ContactSolution:
+        """Solve a step; bonds that cannot hold break and it is solved again.
+
+        ``more`` are transforms besides those of laws: means over faces, conditions.
+        """
+        self.memory.moving = request.step is not None
+        turns, passes, loss = Turns(self._laws, contacts), 0, 0.0
+        start: Floats | None = None
+        while True:
+            posed = self._posed(turns, rows, request, more, start)
+            enforced = partial(self._enforced, posed.transforms, request.solver)
+            answer = solve_through(posed.transforms, posed.problem, enforced)
+            passes += answer.passes
+            sliding = slid_under_load(posed.problem, answer)
+            if answer.verdict.converged:
+                fault = turns.settled(answer, sliding)
+                answer = answer if fault is None else replace(answer, verdict=fault)
+            found = ContactSolution(turns.contacts, answer, passes, loss)
+            if not answer.verdict.converged:
+                return found
+            if not turns.done:
+                start = answer.increment
+                continue
+            broken, _ = self._laws.breaking(turns.contacts, answer, request.breaking == "worst")
+            if not broken.any():
+                loss += turns.loss(answer, sliding) + posed.loss(contacts, answer)
+                return replace(found, loss=loss, sliding=sliding, rows=rows)
+            if request.near is not None and not request.near(answer.increment):
+                return found
+            if request.breaking == "stop":
+                return replace(found, stopped=True)
+            loss += _stored(posed.problem, answer, broken)
+            contacts = break_bonds(contacts, broken)
+            turns, start = Turns(self._laws, contacts), None
+
+    def acting(self) -> csc_array | None:
+        """Return the matrix of the last system with the springs that acted in it."""
+        if self.last is None:
+            return None
+        problem, answer = self.last
+        closed = answer.normal_force != 0
+        bound = shear_bound(answer.normal_force, ~closed, problem.limits)
+        held = closed & (answer.state != SLIDE) & (bound > 0)
+        return with_springs(
+            problem,
+            np.where(closed, problem.normal_stiffness, 0.0),
+            np.where(held, problem.shear_stiffness, 0.0),
+        )
+
+    @property
+    def stiffest(self) -> float | None:
+        """Largest stiffness (N/m) of a contact that pressed in the last step, None without any."""
+        if self.last is None or self._enforcement.exact:
+            return None
+        problem, answer = self.last
+        pressed = answer.normal_force < 0
+        return float(problem.normal_stiffness[pressed].max()) if pressed.any() else None
+
+    def _posed(
+        self,
+        turns: Turns,
+        rows: Rows,
+        request: StepRequest,
+        more: Sequence[Transform],
+        start: Floats | None,
+    ) -> PosedStep:
+        """Return the problem of a step as laws stand, and its transforms."""
+        laws, contacts, exact = self._laws, turns.start, self._enforcement.exact
+        normal, shear, own = laws.springs(contacts, np.zeros(len(contacts), dtype=bool))
+        if exact:
+            share = self._softness.of_contacts(contacts, own)
+            normal, shear = share * normal, share * shear
+        problem = StepProblem(
+            matrix=request.matrix,
+            force=request.force,
+            normal_rows=rows.normal,
+            tangent_rows=rows.tangent,
+            gap=contacts.gap,
+            slip=contacts.slip,
+            normal_stiffness=normal,
+            shear_stiffness=shear,
+            limits=laws.limits(turns.contacts),
+            state=contacts.state,
+            normal_force=contacts.normal_force,
+            shear_force=contacts.shear_force,
+            compliant=own,
+            start=start,
+        )
+        transforms: list[Transform] = []
+        weight = end_shares(request.weight, exact, own, laws.softening(contacts))
+        if (weight < 1).any():
+            transforms.append(TimeWeighting(weight, turns.rise, contacts.holds))
+        dashpots = None
+        if request.step is not None and laws.damps:
+            damping = laws.damping(contacts)
+            dashpots = self._mass.dashpots(contacts, damping, normal, rows.normal, request.step)
+            transforms.append(dashpots)
+        if laws.dilates:
+            transforms.append(RaisedFaces(turns.lift))
+        if len(turns.asymmetric.index):
+            transforms.append(turns.asymmetric)
+        return PosedStep(problem, [*transforms, *more], dashpots, weight)
+
+    def _enforced(
+        self, transforms: list[Transform], solver: LinearSolver, problem: StepProblem
+    ) -> StepAnswer:
+        """Return the answer to a problem after all transforms."""
+        # A step that looks further and finds no other contacts asks the same again.
+        answer = self.memory.known(problem)
+        if answer is None:
+            body = self._unknown_body
+            for transform in transforms:
+                body = transform.of_unknowns(body)
+            started = self.memory.started(problem)
+            answer = solve_rebalanced(self._enforcement, started, solver, self.memory, body)
+        self.memory.answered = self.last = problem, answer
+        return answer
+
+
+def _stored(problem: StepProblem, answer: StepAnswer, broken: Bools) -> float:
+    """Energy (J) in the springs of bonds that break."""
+    normal = answer.normal_force**2 / problem.normal_stiffness
+    shear = answer.shear_force**2 / problem.shear_stiffness
+    return float((normal + shear)[broken].sum()) / 2

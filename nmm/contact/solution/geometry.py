@@ -1,0 +1,71 @@
+"""How contact points move with the unknowns: rows, distances, and means over faces."""
+
+from functools import partial
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.contact.detection.surface import Surface
+from nmm.contact.mortar.face_means import WeakFaces
+from nmm.contact.mortar.trace_space import Traces
+from nmm.contact.points.boundary_points import Sides
+from nmm.contact.points.contact_points import ContactPoints, rows
+from nmm.contact.points.joint_points import Stations
+from nmm.contact.points.midpoint import Rows, halfway_rows
+from nmm.contact.points.tracking import Apart, apart_on
+
+
+class ContactGeometry:
+    """Boundary points of a model as contact needs them.
+
+    Parameters
+    ----------
+    model, sides
+        The manifold and its boundary edges.
+    joints
+        Contact points of joints at the start.
+    bends
+        Whether faces bend between their ends: contacts then act at points of the material.
+    means
+        Whether exact conditions on faces are held in the mean.
+    """
+
+    def __init__(
+        self, model: Model, sides: Sides, joints: ContactPoints, bends: bool, means: bool
+    ) -> None:
+        self.model, self.sides, self.bends = model, sides, bends
+        self.traces = Traces.of(sides, model.modulus) if means else None
+        self._stations = Stations.of(sides, joints)
+
+    @property
+    def curved(self) -> bool:
+        """Whether any contact acts at a point of the material instead of on a chord."""
+        return self.bends or self._stations is not None
+
+    def rows(self, contacts: ContactPoints, state: State, midpoint: State | None = None) -> Rows:
+        """Return the rows of contacts in a state, or at the middle of a step."""
+        if midpoint is not None:
+            return halfway_rows(contacts, self.sides, self.model, state, midpoint)
+        stations = Stations.at(self.sides, contacts) if self.bends else self._stations
+        n_unknowns = self.model.manifold.n_unknowns
+        found = rows(contacts, self.sides, state.frames, n_unknowns, stations)
+        return Rows(*found, contacts.normal)
+
+    def apart(self, state: State, surface: Surface) -> Apart:
+        """Return how far apart the sides of joints are in a state."""
+        if self._stations is None:
+            return partial(apart_on, surface)
+        return partial(self._stations.apart, frames=state.frames, deformation=state.deformation)
+
+    def gaps(self, points: ContactPoints, state: State) -> Floats:
+        """Return the gaps (m,) of points that the search found, in m."""
+        if not self.bends:
+            return points.gap
+        apart = Stations.at(self.sides, points).apart(points, state.frames, state.deformation)
+        return np.asarray(np.einsum("ij,ij->i", apart, points.normal))
+
+    def face_means(self, contacts: ContactPoints, surface: Surface) -> WeakFaces | None:
+        """Return how exact conditions on faces of meshes are held in the mean; None elsewhere."""
+        return None if self.traces is None else WeakFaces.of(contacts, surface, self.traces)

@@ -1,0 +1,45 @@
+"""What a step asks of contact."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.contact.enforcement.null_space import NullSpace
+from nmm.contact.iteration.record import Breaking
+from nmm.solvers.linear import LinearSolver
+
+
+@dataclass(frozen=True)
+class StepRequest:
+    """Balance of a step without contact, ``matrix @ d = force``, and how it is to be solved.
+
+    Attributes
+    ----------
+    matrix, force
+        (n, n) and (n,).
+    solver
+        Factorises the matrices.
+    step
+        Its length (s); None in statics.
+    weight
+        Share of its end in the stretch of springs (`nmm.contact.laws.time_weighting`).
+    null_space
+        Conditions on the unknowns besides.
+    breaking
+        Which bonds break at a time: "all", the "worst" alone, or "stop": none, the step ends there
+        and is no equilibrium.
+    near
+        Whether an increment (n,) moves no further than contacts were sought: no bond is judged by
+        one that does. None: none does.
+    """
+
+    matrix: csc_array
+    force: Floats
+    solver: LinearSolver
+    step: float | None = None
+    weight: float = 1.0
+    null_space: NullSpace | None = None
+    breaking: Breaking = "all"
+    near: Callable[[Floats], bool] | None = None
