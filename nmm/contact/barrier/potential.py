@@ -7,6 +7,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.contact.problem.balance import relative_residual
+from nmm.contact.problem.coulomb import bound_slope, shear_bound
 from nmm.contact.problem.step_problem import StepProblem
 
 DEEPEST = 0.49
@@ -112,9 +113,7 @@ class Potential:
 
     def bound(self, normal: Floats) -> Floats:
         """Bound of the shear force that belongs to a normal force."""
-        limits = self.problem.limits
-        touches = (normal < 0) | (limits.tension > 0)
-        return np.where(touches, limits.cohesion, 0.0) - limits.friction * np.minimum(normal, 0.0)
+        return shear_bound(normal, normal < 0, self.problem.limits)
 
     def pull(self, gap: Floats, slip: Floats, bound: Floats | None = None) -> Pull:
         """Forces for a given bound of the friction, or for that of their own normal force."""
@@ -127,8 +126,7 @@ class Potential:
     ) -> Pull:
         """Forces for normal forces, their stiffness and a bound, which may follow them."""
         shear, stiff_t, sense = self.shear(slip, bound)
-        moves = (normal < 0) & follows
-        mixed = -self.problem.limits.friction * sense * stiff * moves
+        mixed = -bound_slope(normal, self.problem.limits) * sense * stiff * follows
         return Pull(normal, shear, stiff, stiff_t, mixed)
 
     def imbalance(self, increment: Floats, weight: Floats) -> float:

@@ -6,7 +6,7 @@ from typing import ClassVar
 import numpy as np
 from scipy.sparse import block_array, csc_array, diags_array
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Floats
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.iteration.answers import answer, singular_answer
 from nmm.contact.iteration.exact import START, exact_round
@@ -20,7 +20,7 @@ from nmm.contact.iteration.multiplier_rounds import (
     stiff_springs,
 )
 from nmm.contact.iteration.open_close import ActiveSet, changes, first_active_set
-from nmm.contact.problem.coulomb import shear_bound
+from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.errors import SolveError
@@ -137,9 +137,9 @@ def _saddle(
     regular = compliance + SOFT * np.concatenate([ease[0][closed], ease[1][stuck]])
 
     pull = np.where(active.closed, 0.0, limits.tension)
-    finite = np.where(active.sliding, limits.cohesion, 0.0)
-    constant = active.sign * finite
-    constant = np.where(active.closed | (limits.tension > 0), constant, 0.0)
+    # Without the friction of the unknown normal force: the bound under no pressure.
+    bound = shear_bound(np.zeros_like(pull), active.closed, limits)
+    constant = active.sign * np.where(active.sliding, bound, 0.0)
     load = problem.force - problem.normal_rows.T @ pull - problem.tangent_rows.T @ constant
     rhs = np.concatenate([load, -problem.gap[closed], -problem.slip[stuck]])
 
@@ -196,8 +196,8 @@ def _corrected(
     opens = normal > limits.tension + near_force
     closes = gap < stretch - near_gap
     is_open = np.where(active.closed, opens, ~closes)
-    bound = shear_bound(np.minimum(normal, limits.tension), is_open, limits)
-    smooth: Bools = (limits.friction == 0) & (limits.cohesion == 0)
+    bound = shear_bound(np.minimum(normal, limits.tension), ~is_open, limits)
+    smooth = frictionless(limits)
     elastic = np.where(own, shear / problem.shear_stiffness, 0.0)
     stays = active.sliding & (active.sign * (slip - elastic) >= -near_slip)
     held = active.closed | (limits.tension > 0)

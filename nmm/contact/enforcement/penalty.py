@@ -210,7 +210,7 @@ def _constant_forces(
     problem: StepProblem, springs: ActiveSet, normal: Floats
 ) -> tuple[Floats, Floats]:
     held = np.where(springs.closed, 0.0, problem.limits.tension)
-    bound = shear_bound(normal, ~springs.closed, problem.limits)
+    bound = shear_bound(np.where(springs.closed, normal, held), springs.closed, problem.limits)
     return held, np.where(springs.sliding, springs.sign * bound, 0.0)
 
 

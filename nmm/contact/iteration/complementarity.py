@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.row_products import stretched
 
@@ -74,13 +75,13 @@ class Complementarity:
     def of(cls, springs: CutSprings, exact: Bools, ease: Floats) -> "Complementarity":
         """Sides of the contacts of ``springs``."""
         limits = springs.problem.limits
-        bounded = np.isfinite(limits.cohesion) & ~_smooth(springs)
+        bounded = np.isfinite(limits.cohesion) & ~frictionless(limits)
         return cls(springs, exact, ease, np.stack([np.isfinite(limits.tension), bounded, bounded]))
 
     @property
     def smooth(self) -> Bools:
         """(m,) contacts that carry no shear force."""
-        return _smooth(self.springs)
+        return frictionless(self.springs.problem.limits)
 
     @property
     def compliance(self) -> Floats:
@@ -107,9 +108,8 @@ class Complementarity:
         ``slack`` and ``flow`` are those of the normal force.
         """
         limits = self.springs.problem.limits
-        closes = (limits.tension > 0) | (slack * self.ease[0] > flow)
-        bound = np.where(closes, limits.cohesion, 0.0) + limits.friction * np.maximum(-normal, 0.0)
-        return np.where(self.active[1], bound, 0.0)
+        closes = slack * self.ease[0] > flow
+        return np.where(self.active[1], shear_bound(normal, closes, limits), 0.0)
 
     def start(self, increment: Floats, trial: Floats) -> InteriorIterate:
         """Point well inside all sides.
@@ -157,8 +157,3 @@ class Complementarity:
         carried = springs.shifted(*np.where(self.exact, forces, shifts))
         error = lacks / largest if largest > 0 else 0.0
         return IterationResult(carried, increment, carried.defect(increment).size, 0, 0, "", error)
-
-
-def _smooth(springs: CutSprings) -> Bools:
-    limits = springs.problem.limits
-    return np.asarray((limits.friction == 0) & (limits.cohesion == 0))

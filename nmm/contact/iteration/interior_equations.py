@@ -4,6 +4,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.iteration.complementarity import SOFT, Complementarity, InteriorIterate
+from nmm.contact.problem.coulomb import bound_slope
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.row_products import pushed, stretched
 from nmm.solvers.linear import LinearSolver
@@ -31,8 +32,8 @@ class Linearised:
         self.problem, self.sides, self.at, self.solves = sides.springs.problem, sides, at, 0
         self._residuals()
         soft = np.where(sides.exact, SOFT * sides.ease, sides.compliance)
-        follows = sides.active[1] & (at.normal < 0) & coupled
-        self.slope = np.where(follows, self.problem.limits.friction, 0.0)
+        follows = sides.active[1] & coupled
+        self.slope = np.where(follows, bound_slope(at.normal, self.problem.limits), 0.0)
         self.ratio = np.where(sides.active, at.flow / at.slack, 0.0)
         self.spring_n = 1 / (soft[0] + self.ratio[0])
         spring_t = 1 / (soft[1] + self.ratio[1] + self.ratio[2])

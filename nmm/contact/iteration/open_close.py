@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.contact.problem.coulomb import shear_bound
+from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.step_problem import BONDED, SLIDE, STICK, StepProblem
 
 
@@ -37,7 +37,7 @@ def first_active_set(problem: StepProblem) -> ActiveSet:
     """Active set of the first pass: the states given, and what penetrates is closed."""
     held = np.isin(problem.state, (STICK, SLIDE, BONDED))
     closed = held | (problem.gap <= 0)
-    smooth = (problem.limits.friction == 0) & (problem.limits.cohesion == 0)
+    smooth = frictionless(problem.limits)
     sign = np.sign(np.where(problem.shear_force != 0, problem.shear_force, problem.slip))
     sliding = smooth | ((problem.state == SLIDE) & (sign != 0))
     return ActiveSet(closed, sliding, np.where(smooth, 0.0, sign) * sliding)
@@ -56,8 +56,8 @@ def next_active_set(
     normal = problem.normal_stiffness * gap
     shear = problem.shear_stiffness * slip
     opens = np.where(springs.closed, normal > limits.tension, normal >= limits.tension)
-    bound = shear_bound(np.minimum(normal, limits.tension), opens, limits)
-    smooth = (limits.friction == 0) & (limits.cohesion == 0)
+    bound = shear_bound(np.minimum(normal, limits.tension), ~opens, limits)
+    smooth = frictionless(limits)
     stays = springs.sliding & (springs.sign * shear >= bound)
     held = springs.closed | (limits.tension > 0)
     turned = held & (np.abs(shear) > bound)
@@ -71,7 +71,7 @@ def forces(
     """Normal and shear force that the springs carry at ``gap`` and ``slip``."""
     limits = problem.limits
     normal = np.where(springs.closed, problem.normal_stiffness * gap, limits.tension)
-    bound = shear_bound(normal, ~springs.closed, limits)
+    bound = shear_bound(normal, springs.closed, limits)
     at_bound = springs.sign * np.where(springs.sliding, bound, 0.0)
     carries = ~springs.sliding & (springs.closed | (limits.tension > 0))
     return normal, np.where(carries, problem.shear_stiffness * slip, at_bound)

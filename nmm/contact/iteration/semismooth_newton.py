@@ -1,7 +1,5 @@
 """Semismooth Newton on Coulomb's law: fast near a solution, not safe far from it."""
 
-import numpy as np
-
 from integration.arrays import Floats
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.matrix_pattern import SpringPattern
@@ -26,14 +24,7 @@ def polish(
     defect = springs.defect(increment)
     taken = solves = 0
     while taken < budget and defect.size > tolerance:
-        _, shear = springs.trial(increment)
-        is_open, sliding = springs.states(increment)
-        loose = is_open & (problem.limits.tension <= 0)
-        normal_spring = np.where(is_open, 0.0, springs.normal_stiffness)
-        shear_spring = np.where(sliding | loose, 0.0, springs.shear_stiffness)
-        pressed = springs.forces(increment)[0] < 0
-        drag = np.where(sliding & pressed, problem.limits.friction, 0.0) * normal_spring
-        matrix = pattern.matrix(problem, normal_spring, shear_spring, -np.sign(shear) * drag)
+        matrix = pattern.matrix(problem, *springs.tangent(increment))
         step = linear.factorise(matrix).refined(defect.force)
         taken, solves = taken + 1, solves + 1
         found = springs.defect(increment - step)

@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.contact.problem import residual_kernel
 from nmm.contact.problem.balance import weights
-from nmm.contact.problem.coulomb import project, shear_bound
+from nmm.contact.problem.coulomb import project, states, tangent
 from nmm.contact.problem.step_problem import StepProblem
 
 
@@ -74,10 +74,17 @@ class CutSprings:
 
     def states_of(self, normal: Floats, shear: Floats) -> tuple[Bools, Bools]:
         """The `states` that the forces of uncut springs mean."""
-        is_open = normal > self.problem.limits.tension
-        bounded = np.minimum(normal, self.problem.limits.tension)
-        bound = shear_bound(bounded, is_open, self.problem.limits)
-        return is_open, np.abs(shear) > bound
+        is_open, sliding, _ = states(normal, shear, self.problem.limits)
+        return is_open, sliding
+
+    def tangent(self, increment: Floats) -> tuple[Floats, Floats, Floats]:
+        """(m,) normal, shear and mixed stiffness (N/m) of the cut springs."""
+        acts, held, mixed = tangent(*self.trial(increment), self.problem.limits)
+        return (
+            acts * self.normal_stiffness,
+            held * self.shear_stiffness,
+            mixed * self.normal_stiffness,
+        )
 
     def defect(self, increment: Floats) -> "Defect":
         """Out-of-balance force of ``increment``."""

@@ -16,6 +16,21 @@ Index = npt.NDArray[Any]
 
 
 @nb.njit(cache=True)
+def projected(
+    normal: float, shear: float, tension: float, cohesion: float, friction: float
+) -> tuple[float, float]:
+    """`nmm.contact.problem.coulomb.project` of one contact."""
+    bound = cohesion
+    if normal > tension:
+        if tension <= 0.0:
+            bound = 0.0
+        normal = tension
+    if normal < 0.0:
+        bound -= friction * normal
+    return normal, min(max(shear, -bound), bound)
+
+
+@nb.njit(cache=True)
 def defect(
     increment: Floats,
     load: Floats,
@@ -53,14 +68,7 @@ def defect(
             sliding += tangent_entries[k] * increment[tangent_columns[k]]
         normal = normal_stiffness[c] * opening + normal_shift[c]
         shear = shear_stiffness[c] * sliding + shear_shift[c]
-        bound = cohesion[c]
-        if normal > tension[c]:
-            if tension[c] <= 0.0:
-                bound = 0.0
-            normal = tension[c]
-        if normal < 0.0:
-            bound -= friction[c] * normal
-        shear = min(max(shear, -bound), bound)
+        normal, shear = projected(normal, shear, tension[c], cohesion[c], friction[c])
         if normal != 0.0:
             for k in range(normal_pointers[c], normal_pointers[c + 1]):
                 contact[normal_columns[k]] += normal_entries[k] * normal
