@@ -88,6 +88,10 @@ class ArtificialJoints(Effect):
             self._stood = state.frames.angle.copy(), self.tie.matrix(state, self._n)
         return self._stood[1]
 
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._stood = None
+
     def force(self, state: State, end: Instant) -> Floats:
         """Forces of the joints as they stand."""
         return self.tie.force(state, self._n)

@@ -96,6 +96,19 @@ class Seams(Effect):
         self.glue.found["traction"] = multipliers[:size]
         return multipliers[size:]
 
+    def carried(self) -> dict[str, Floats]:
+        """See `Effect.carried`: the multipliers of the last solution."""
+        return {} if self.glue is None else dict(self.glue.found)
+
+    def carry(self, carried: dict[str, Floats]) -> None:
+        """See `Effect.carry`."""
+        if self.glue is not None:
+            self.glue.found.update(carried)
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._kept = None
+
 
 def _interfaces(setup: Setup, joints: Joints) -> tuple[Floats, Bools]:
     """Stiffness (j, 2) in Pa/m of joints that name one, zero elsewhere, and which are glued."""

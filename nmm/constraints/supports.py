@@ -34,6 +34,9 @@ if TYPE_CHECKING:
 # Spring of a support in Young's moduli times thickness: Shi's 10 to 1000, at the stiff end.
 STIFFNESS = 1000.0
 
+# Multipliers (k,) of each space as found last and as the step began (Pa).
+Carried = tuple[tuple[Floats | None, Floats | None], ...]
+
 
 class Supports(Effect):
     """All supports of a scene."""
@@ -130,6 +133,19 @@ class Supports(Effect):
         for shared in self._spaces:
             shared.values, multipliers = multipliers[: shared.size], multipliers[shared.size :]
         return multipliers
+
+    def carried(self) -> Carried:
+        """See `Effect.carried`: the last multipliers, and those before, of each space."""
+        return tuple((shared.values, shared.before) for shared in self._spaces)
+
+    def carry(self, carried: Carried) -> None:
+        """See `Effect.carry`."""
+        for shared, (values, before) in zip(self._spaces, carried, strict=True):
+            shared.values, shared.before = values, before
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._stood, self._known = None, []
 
     def energy(self, state: State) -> float:
         """Energy of the springs as they stand in ``state``, with places of its own instant."""

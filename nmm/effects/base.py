@@ -153,6 +153,22 @@ class Effect(ABC):
         """Return the state at the start of the run as the effect changes it."""
         raise NotImplementedError
 
+    def carried(self) -> Any:
+        """What the effect carries from accepted step to accepted step besides the bodies' state.
+
+        It is stored in checkpoints: arrays, numbers, texts, None, and tuples and mappings of these
+        by name, or dataclasses of them that `nmm.results.storage.values` knows.
+        """
+        raise NotImplementedError
+
+    def carry(self, carried: Any) -> None:
+        """Take back what `carried` returned."""
+        raise NotImplementedError
+
+    def forget(self) -> None:
+        """Drop what is kept for speed alone; answers stay as they are within their tolerance."""
+        raise NotImplementedError
+
 
 def defines(effect: Effect, hook: str) -> bool:
     """Say whether an effect has its own ``hook``."""

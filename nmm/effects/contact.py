@@ -20,7 +20,7 @@ from nmm.contact.detection.narrow_phase import Contacts, follow
 from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.tolerances import FLUSH
 from nmm.contact.enforcement.base import Enforcement, make_enforcement
-from nmm.contact.iteration.record import ContactRecord, ContactSolution
+from nmm.contact.iteration.record import ContactCarried, ContactRecord, ContactSolution
 from nmm.contact.laws.bonds import Laws
 from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.dashpots import RigidMass
@@ -189,6 +189,21 @@ class Contact(Effect):
         """
         self.record = record
         self._solver.memory.forget_answers()
+
+    def carried(self) -> ContactCarried:
+        """See `Effect.carried`."""
+        return ContactCarried(self.record, self._solver.memory.barrier_width)
+
+    def carry(self, carried: ContactCarried) -> None:
+        """See `Effect.carry`."""
+        self.record = carried.record
+        self._solver.memory.barrier_width = carried.barrier_width
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._solver.forget()
+        self._partners.forget()
+        self._last = None
 
     def motion(self, before: State, after: State) -> Motion:
         """Return the step last solved as the edges moved in it."""

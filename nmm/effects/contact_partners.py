@@ -61,6 +61,11 @@ class Partners:
         boundary = model.manifold.boundary
         self._region = model.manifold.element_region[boundary.element]
 
+    def forget(self) -> None:
+        """Drop the list of neighbours and the surfaces of states: kept for speed alone."""
+        self._neighbours = None
+        self._surfaces.forget()
+
     def surface(self, state: State) -> Surface:
         """Edges of a state; those at the start and at the end of a step are kept."""
         return self._surfaces.of(state)

@@ -80,6 +80,16 @@ class Integrator(ABC):
         return False
 
     @property
+    def restarts_at_impact(self) -> bool:
+        """Whether the step after contacts began or ended to push is like the first of a run.
+
+        Accelerations that are carried over it are those of waves that the step does not resolve:
+        they are large, and make velocities overshoot by their frequency times the step (Hilber and
+        Hughes 1978).
+        """
+        return self.carries
+
+    @property
     def contact_kick(self) -> tuple[float, float]:
         """Factors of ``dt a`` and ``a``, ``M a`` the contact force, in velocity and acceleration.
 

@@ -3,11 +3,11 @@
 What a scene does not name is not imported and has no arrays.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from time import perf_counter
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -132,6 +132,21 @@ class Plan:
         """Hand the multipliers of a solution to the effects whose conditions they hold."""
         for effect in self._with("border"):
             multipliers = effect.keep(multipliers)
+
+    def carried(self) -> dict[str, Any]:
+        """Return what the effects carry from step to step, by their names."""
+        return {effect.name: effect.carried() for effect in self._with("carried")}
+
+    def carry(self, carried: Mapping[str, Any]) -> None:
+        """Hand back what `carried` returned."""
+        for effect in self._with("carry"):
+            effect.carry(carried[effect.name])
+
+    def forget(self) -> None:
+        """Drop what is kept for speed alone."""
+        self.sums.clear()
+        for effect in self._with("forget"):
+            effect.forget()
 
     def work(self, before: State, after: State) -> float:
         """Return the work of all applied forces (J)."""

@@ -1,4 +1,4 @@
-"""What the contact solution keeps from step to step."""
+"""What the contact solution keeps from step to step: for speed, but for one choice."""
 
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
@@ -81,7 +81,7 @@ class Memory:
         The problem solved last and its answer: a step that finds no other contacts when it looks
         further asks the same again.
     barrier_width
-        Width of the barrier chosen in the first step (m).
+        Width of the barrier chosen in the first step (m). It is no cache: answers depend on it.
     """
 
     pattern: SpringPattern | None = None
@@ -123,6 +123,11 @@ class Memory:
     def forget_answers(self) -> None:
         """Drop all that was found: after a step that failed none of it is near the next answer."""
         self.found, self.answered = [], None
+
+    def forget_all(self) -> None:
+        """Drop what is kept for speed alone: patterns, factors and starts."""
+        self.forget_answers()
+        self.pattern, self.kept, self.moving, self._load = None, [], False, None
 
     def keep(self, increment: Floats, load: Floats) -> None:
         """Keep the unknowns found under a load, in place of what was found under it before."""

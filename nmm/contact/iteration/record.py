@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.joint_book import JointBook
@@ -46,6 +46,11 @@ class ContactSolution:
     sliding: Floats = field(default_factory=lambda: np.zeros(0))
     rows: Rows | None = None
 
+    @property
+    def pushing(self) -> Ints:
+        """Sorted keys of the contacts that push."""
+        return np.sort(self.contacts.key[self.answer.normal_force < 0])
+
 
 @dataclass(frozen=True)
 class ContactRecord:
@@ -62,3 +67,19 @@ class ContactRecord:
     book: JointBook
     found: Contacts | None = None
     known: ContactPoints | None = None
+
+
+@dataclass(frozen=True)
+class ContactCarried:
+    """All that contact carries from accepted step to accepted step.
+
+    Attributes
+    ----------
+    record
+        Joints and contacts.
+    barrier_width
+        See `nmm.contact.iteration.memory.Memory` (m).
+    """
+
+    record: ContactRecord
+    barrier_width: float | None = None

@@ -96,6 +96,11 @@ class ContactSolver:
         self._laws, self._softness, self._enforcement = laws, softness, enforcement
         self._mass, self._unknown_body = mass, unknown_body
 
+    def forget(self) -> None:
+        """Drop what is kept for speed alone, and the last problem with its answer."""
+        self.memory.forget_all()
+        self.last = None
+
     def solve(
         self,
         contacts: ContactPoints,

@@ -60,19 +60,24 @@ class Touching:
     ) -> None:
         self._current, self._mover, self._solver, self._clock = current, mover, solver, clock
         self._size, self._carries = size, carries
-        self._reach = FIRST_REACH * size
         self._held: NullSpace | None = None
 
     def follow(self, change: "Change") -> None:
         """Forget the conditions of the old model; how far bodies move in a step stays known."""
+        self.forget()
+
+    def reach(self, motion: float = 0.0) -> float:
+        """Return how far contacts are sought after a step that moved by ``motion`` (m)."""
+        return max(2 * motion, FIRST_REACH * self._size)
+
+    def forget(self) -> None:
+        """Drop what is kept for speed alone."""
         self._held = None
 
-    def accepted(self, motion: float) -> None:
-        """Take note of how far the last step moved (m)."""
-        self._reach = max(2 * motion, FIRST_REACH * self._size)
-
-    def attempt(self, equations: Equations, breaking: "Breaking") -> Attempt:
+    def attempt(self, equations: Equations, breaking: "Breaking", reach: float) -> Attempt:
         """Solve a step; ``breaking`` says which bonds break at a time.
+
+        Contacts are sought up to ``reach`` (m) at first.
 
         Raises
         ------
@@ -80,7 +85,7 @@ class Touching:
             Where the load moves a part that nothing holds.
         """
         contact, state = self._contact, equations.state
-        passes, halves, looks, reach = 0, 0, 0, self._reach
+        passes, halves, looks = 0, 0, 0
         contacts, halfway = self.candidates(state, reach, equations.step), None
         crossed: Pairs | None = None
         held = self._conditions(equations)

@@ -70,6 +70,10 @@ class Assembly:
 
     def __init__(self, current: Current) -> None:
         self._current = current
+        self.forget()
+
+    def forget(self) -> None:
+        """Drop the sums of matrices."""
         self._kept: tuple[float, tuple[csc_array, csc_array], csc_array] | None = None
         self._weighted: tuple[csc_array, float, csc_array] | None = None
         self._soft: tuple[Model, csc_array] | None = None

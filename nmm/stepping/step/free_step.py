@@ -44,6 +44,10 @@ class Alone:
         self._small, self._clock = small, clock
         self.factor: Factor | None = None
 
+    def forget(self) -> None:
+        """Drop the factor."""
+        self.factor = None
+
     def attempt(self, equations: Equations) -> Attempt:
         """Solve a step.
 

@@ -48,6 +48,11 @@ class Mover:
         self.vertices = vertex_points(model.manifold)
         self._places = KeptOfStates(self._placed)
 
+    def forget(self) -> None:
+        """Drop what is kept for speed alone."""
+        self._masses = None
+        self._places.forget()
+
     def after(self, equations: Equations, increment: Floats, push: Floats | None = None) -> Attempt:
         """Move by ``increment``; ``push`` (n,) is the contact force if its acceleration counts."""
         with self._clock.phase("update"):

@@ -10,11 +10,12 @@ from nmm.assembly.motion import MaterialPoints, State
 from nmm.effects.base import Instant
 from nmm.errors import SolveError
 from nmm.integrators.base import Integrator
-from nmm.integrators.shi import Shi
+from nmm.integrators.starting import rule_of
 from nmm.model.discretisation import Current, Discretisation
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.booking import booked
 from nmm.stepping.step.budget import Budget
+from nmm.stepping.step.carried import Carried
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.contact_step import Touching
 from nmm.stepping.step.equations import Assembly
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
 
 class Stepper:
-    """Solves steps of one plan; owns factors and what contact remembers.
+    """Solves steps of one plan; owns the workspace that may be dropped at any time.
 
     Attributes
     ----------
@@ -40,9 +41,6 @@ class Stepper:
         The linear solver, and whether displacements are small.
     budget
         What the run may cost.
-    anchored
-        Whether soft springs hold bodies in statics to where they stand
-        (`nmm.stepping.step.anchors`).
     reference
         (P, 2) the elements' vertices at the start (m).
     size
@@ -61,21 +59,43 @@ class Stepper:
     ) -> None:
         clock = Clock()
         self.solver, self.small, self.seconds = solver, small, clock.seconds
-        self.anchored = False
         self.budget = Budget()
         self.reference = discretisation.model.manifold.elements.points
         self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
         self._current, self._lay, self._clock = Current(discretisation), lay, clock
         self._integrator = integrator
-        self._starter = Shi(kinetic_factor=integrator.kinetic_factor)
-        self._begun = False
-        self._pushing = np.zeros(0, dtype=np.int64)
         self._assembly = Assembly(self._current)
         self._mover = Mover(self._current, solver, small or lay is not None, clock)
         self._alone = Alone(self._current, self._mover, solver, small, clock)
         self._touching = Touching(
             self._current, self._mover, solver, self.size, integrator.carries, clock
         )
+        self._carried = Carried(self._touching.reach())
+
+    @property
+    def carried(self) -> Carried:
+        """All that is carried from accepted step to accepted step besides the bodies' state."""
+        return replace(self._carried, effects=self.plan.carried())
+
+    def carry(self, carried: Carried) -> None:
+        """Go on from what was carried elsewhere, with nothing that was kept here."""
+        self._carried = replace(carried, effects={})
+        self.plan.carry(carried.effects)
+        self.forget()
+
+    def forget(self) -> None:
+        """Drop the workspace: factors, patterns, lists and starts that are kept for speed alone."""
+        for part in (self._assembly, self._mover, self._alone, self._touching, self.plan):
+            part.forget()
+
+    @property
+    def anchored(self) -> bool:
+        """Whether soft springs hold bodies in statics to where they stand (`anchors`)."""
+        return self._carried.anchored
+
+    @anchored.setter
+    def anchored(self, anchored: bool) -> None:
+        self._carried = replace(self._carried, anchored=anchored)
 
     @property
     def discretisation(self) -> Discretisation:
@@ -119,7 +139,7 @@ class Stepper:
             if self.plan.contact is None:
                 found = self._alone.attempt(equations)
             else:
-                found = self._touching.attempt(equations, breaking)
+                found = self._touching.attempt(equations, breaking, self._carried.reach)
         except SolveError as fault:
             rest = np.zeros_like(equations.force)
             singular = fault.singular
@@ -130,8 +150,7 @@ class Stepper:
 
     def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
         """Make an attempt the start of the next step; return it with its contacts as left."""
-        self._touching.accepted(attempt.motion)
-        self._begun = not (self._integrator.carries and self._struck(attempt))
+        self._carried = self._following(attempt)
         state, contact, contacts = attempt.state, self.plan.contact, None
         if contact is not None and attempt.solved is not None:
             contacts = contact.commit(attempt.solved, state)
@@ -154,13 +173,14 @@ class Stepper:
         self._mover.follow(change)
         self._touching.follow(change)
 
-    def _struck(self, attempt: Attempt) -> bool:
-        """Whether contacts began or ended to push in a step."""
-        if attempt.solved is None:
-            return False
-        solved, before = attempt.solved, self._pushing
-        self._pushing = np.sort(solved.contacts.key[solved.answer.normal_force < 0])
-        return not np.array_equal(self._pushing, before)
+    def _following(self, attempt: Attempt) -> Carried:
+        """Return what is carried on from an accepted step."""
+        carried, reach = self._carried, self._touching.reach(attempt.motion)
+        if attempt.solved is None or not self._integrator.restarts_at_impact:
+            return replace(carried, reach=reach, knows_start=True)
+        pushing = attempt.solved.pushing
+        struck = not np.array_equal(pushing, carried.pushing)
+        return replace(carried, reach=reach, knows_start=not struck, pushing=pushing)
 
     def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
@@ -193,15 +213,8 @@ class Stepper:
 
     @property
     def _rule(self) -> Integrator:
-        """The integrator of the step.
-
-        The first step is Shi's: no acceleration is known at its start, and it damps the waves of
-        loads that come all at once. Its error of the velocity, once of order 2 in the step, leaves
-        orders as they are. So is one after contacts began or ended to push, where the integrator
-        carries accelerations: those of waves that the step does not resolve are large, and make
-        velocities overshoot by their frequency times the step (Hilber and Hughes 1978).
-        """
-        return self._integrator if self._begun else self._starter
+        """The integrator of the step."""
+        return rule_of(self._integrator, self._carried.knows_start)
 
 
 def scaled_load(stepper: Stepper, factor: float) -> float | None:

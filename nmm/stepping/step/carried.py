@@ -1,0 +1,36 @@
+"""What a stepper carries from accepted step to accepted step besides the state of the bodies."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from integration.arrays import Ints
+
+
+@dataclass(frozen=True)
+class Carried:
+    """All of it; what else a stepper and its effects keep may be dropped at any time.
+
+    Attributes
+    ----------
+    reach
+        How far contacts are sought in the next step (m).
+    knows_start
+        Whether the acceleration at the start of the next step is known
+        (`nmm.integrators.starting`).
+    pushing
+        (p,) sorted keys of the contacts that pushed in the last step.
+    anchored
+        Whether soft springs hold bodies in statics to where they stand
+        (`nmm.stepping.step.anchors`).
+    effects
+        What effects carry, by their names; empty while a stepper goes on, as they hold it.
+    """
+
+    reach: float
+    knows_start: bool = False
+    pushing: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    anchored: bool = False
+    effects: Mapping[str, Any] = field(default_factory=dict)

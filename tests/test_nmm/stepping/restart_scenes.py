@@ -1,0 +1,295 @@
+"""Scenes that are stopped and gone on with: texts by name, each of a second or two.
+
+They are read by tests as a file beside them; together they have every effect that carries
+something from step to step.
+"""
+
+HEAD = """
+title = "restart"
+plane = "strain"
+[materials.rock]
+density = 2500
+young_modulus = "1 GPa"
+poisson_ratio = 0.2
+"""
+
+BRICK = """
+[[blocks]]
+name = "brick{number}"
+material = "rock"
+vertices = [[{left}, {low}], [{right}, {low}], [{right}, {high}], [{left}, {high}]]
+"""
+
+
+def bricks() -> str:
+    """Return two courses of bricks, the upper one shifted, a little above each other."""
+    places = [(0.0, 0.001), (0.505, 0.001), (1.01, 0.001), (0.25, 0.303), (0.755, 0.303)]
+    return "".join(
+        BRICK.format(number=number, left=x, right=x + 0.5, low=y, high=y + 0.3)
+        for number, (x, y) in enumerate(places)
+    )
+
+
+WALL = (
+    'duration = "40 ms"'
+    + HEAD
+    + """
+[inertia]
+[gravity]
+[contact]
+[interfaces.dry]
+friction_angle = "25 deg"
+[[blocks]]
+name = "floor"
+material = "rock"
+vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
+{bricks}
+[[supports]]
+name = "held"
+block = "floor"
+fix = ["x", "y"]
+[[initial_velocities]]
+block = "brick4"
+velocity = [1, 0]
+[[monitors]]
+name = "top"
+point = [1, 0.6]
+block = "brick4"
+[output]
+every_time = "10 ms"
+{checkpoint}
+[formulation.integrator]
+{integrator}
+[formulation.contact]
+enforcement = "{enforcement}"
+"""
+).replace("{bricks}", bricks())
+
+SLOPE = (
+    'duration = "60 ms"'
+    + HEAD
+    + """
+seed = 3
+[inertia]
+[gravity]
+[contact]
+[interfaces.joint]
+friction_angle = "15 deg"
+[[blocks]]
+name = "slope"
+material = "rock"
+vertices = [[0, 2], [30, 2], [30, 20], [16, 20], [8, 6], [0, 6]]
+[[blocks]]
+name = "base"
+material = "rock"
+vertices = [[-10, 0], [34, 0], [34, 2], [-10, 2]]
+[[joint_sets]]
+name = "one"
+block = "slope"
+dip = "35 deg"
+spacing = 4.5
+[[joint_sets]]
+name = "two"
+block = "slope"
+dip = "110 deg"
+spacing = 4.5
+[[supports]]
+name = "held"
+block = "base"
+fix = ["x", "y"]
+[output]
+every_steps = 5
+{checkpoint}
+[formulation.integrator]
+step = "2 ms"
+"""
+).replace("seed = 3\n[inertia]", "[inertia]")
+
+BEAM = (
+    HEAD
+    + """
+[interfaces.concrete]
+bonded = true
+cohesion = "4.7 MPa"
+tensile_strength = "2.9 MPa"
+friction_angle = "37 deg"
+[[tessellations]]
+name = "beam"
+material = "rock"
+region = [[0, 0], [0.4, 0], [0.4, 0.1], [0, 0.1]]
+blocks = 14
+seed = 1
+[[supports]]
+name = "pin"
+point = [0.05, 0]
+fix = ["x", "y"]
+[[supports]]
+name = "roller"
+point = [0.35, 0]
+fix = ["y"]
+[[loads]]
+name = "plate"
+kind = "edge"
+segment = [[0.19, 0.1], [0.21, 0.1]]
+traction = [0, "-5 MPa"]
+[contact]
+[loading]
+until = "failure"
+maximum_factor = 40
+[output]
+events = ["bond_breaks"]
+{checkpoint}
+[formulation.loading]
+increment = 1
+tolerance = 0.01
+"""
+)
+
+SOFTENING = """
+title = "bar"
+plane = "stress"
+thickness = 0.01
+[materials.rock]
+young_modulus = "30 GPa"
+poisson_ratio = 0.0
+[interfaces.i]
+law = "linear_softening"
+friction_angle = 0.6
+cohesion = 3e6
+tensile_strength = 3e6
+bonded = true
+fracture_energy = 100.0
+normal_stiffness = 3e15
+[[blocks]]
+name = "a"
+material = "rock"
+vertices = [[0, 0], [0.05, 0], [0.05, 0.01], [0, 0.01]]
+[[blocks]]
+name = "b"
+material = "rock"
+vertices = [[0.05, 0], [0.1, 0], [0.1, 0.01], [0.05, 0.01]]
+[[supports]]
+name = "left"
+segment = [[0, 0], [0, 0.01]]
+fix = ["x", "y"]
+[[supports]]
+name = "right"
+segment = [[0.1, 0], [0.1, 0.01]]
+fix = ["x", "y"]
+displacement = [8e-5, 0]
+[contact]
+[loading]
+until = 1.0
+[output]
+every_steps = 3
+{checkpoint}
+[formulation.loading]
+increment = 0.05
+tolerance = 1e-4
+"""
+
+MESH = (
+    'duration = "12 ms"'
+    + HEAD
+    + """
+[inertia]
+[gravity]
+[contact]
+[interfaces.any]
+friction_angle = "20 deg"
+[[blocks]]
+name = "floor"
+material = "rock"
+vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
+[[blocks]]
+name = "stone"
+material = "rock"
+vertices = [[0, 1e-5], [1, 1e-5], [1, 0.5], [0, 0.6]]
+[[initial_velocities]]
+block = "stone"
+velocity = [0.5, 0]
+[[supports]]
+name = "held"
+segment = [[-1, -1], [3, -1]]
+fix = ["x", "y"]
+[output]
+every_steps = 4
+{checkpoint}
+[formulation.cover]
+type = "triangles"
+size = 0.8
+degree = 1
+[formulation.integrator]
+step = "1 ms"
+[formulation.supports]
+method = "{method}"
+[formulation.contact]
+enforcement = "{enforcement}"
+"""
+)
+
+RELAXED = (
+    HEAD
+    + """
+[gravity]
+[contact]
+[interfaces.dry]
+friction_angle = "35 deg"
+[[blocks]]
+name = "floor"
+material = "rock"
+vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
+[[blocks]]
+name = "low"
+material = "rock"
+vertices = [[0, 0.001], [1, 0.001], [1, 0.5], [0, 0.5]]
+[[blocks]]
+name = "high"
+material = "rock"
+vertices = [[0.3, 0.502], [1.2, 0.502], [1.2, 1], [0.3, 1]]
+[[supports]]
+name = "held"
+block = "floor"
+fix = ["x", "y"]
+[[loads]]
+name = "push"
+kind = "point"
+point = [0.3, 0.75]
+block = "high"
+force = [2000, 0]
+[loading]
+until = 1.0
+[output]
+{checkpoint}
+[formulation.loading]
+increment = 0.1
+tolerance = 1e-3
+"""
+)
+
+SHI = 'step = "2 ms"'
+NEWMARK = 'type = "newmark"\nstep = "2 ms"'
+OWN_NEWMARK = 'type = "newmark"\nstep = "2 ms"\n[formulation.integrator.options]\ngamma = 0.6'
+ALPHA = 'type = "generalized_alpha"\nstep = "2 ms"'
+
+SCENES = {
+    "wall": WALL.replace("{integrator}", SHI).replace("{enforcement}", "penalty"),
+    "wall newmark": WALL.replace("{integrator}", NEWMARK).replace("{enforcement}", "penalty"),
+    "wall alpha": WALL.replace("{integrator}", ALPHA).replace("{enforcement}", "penalty"),
+    "wall carried": WALL.replace("{integrator}", OWN_NEWMARK).replace("{enforcement}", "cone"),
+    "wall cone": WALL.replace("{integrator}", SHI).replace("{enforcement}", "cone"),
+    "wall barrier": WALL.replace("{integrator}", SHI).replace("{enforcement}", "barrier"),
+    "wall augmented": WALL.replace("{integrator}", SHI).replace("{enforcement}", "augmented"),
+    "wall lagrange": WALL.replace("{integrator}", SHI).replace("{enforcement}", "lagrange"),
+    "slope": SLOPE,
+    "bonds break": BEAM,
+    "softening": SOFTENING,
+    "mesh": MESH.replace("{method}", "auto").replace("{enforcement}", "penalty"),
+    "mesh multipliers": MESH.replace("{method}", "lagrange").replace("{enforcement}", "cone"),
+    "relaxed": RELAXED,
+}
+
+
+def scene_of(name: str, checkpoint: str = "") -> str:
+    """Return the text of a scene with a line about checkpoints in its ``[output]``."""
+    return SCENES[name].replace("{checkpoint}", checkpoint)
