@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 STIFFNESS = 1000.0
 
 # Multipliers (k,) of each space as found last and as the step began (Pa).
-Carried = tuple[tuple[Floats | None, Floats | None], ...]
+LastMultipliers = tuple[tuple[Floats | None, Floats | None], ...]
 
 
 class Supports(Effect):
@@ -134,11 +134,11 @@ class Supports(Effect):
             shared.values, multipliers = multipliers[: shared.size], multipliers[shared.size :]
         return multipliers
 
-    def carried(self) -> Carried:
+    def carried(self) -> LastMultipliers:
         """See `Effect.carried`: the last multipliers, and those before, of each space."""
         return tuple((shared.values, shared.before) for shared in self._spaces)
 
-    def carry(self, carried: Carried) -> None:
+    def carry(self, carried: LastMultipliers) -> None:
         """See `Effect.carry`."""
         for shared, (values, before) in zip(self._spaces, carried, strict=True):
             shared.values, shared.before = values, before

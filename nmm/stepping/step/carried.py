@@ -10,7 +10,7 @@ from integration.arrays import Ints
 
 
 @dataclass(frozen=True)
-class Carried:
+class CarriedOver:
     """All of it; what else a stepper and its effects keep may be dropped at any time.
 
     Attributes

@@ -15,7 +15,7 @@ from nmm.model.discretisation import Current, Discretisation
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.booking import booked
 from nmm.stepping.step.budget import Budget
-from nmm.stepping.step.carried import Carried
+from nmm.stepping.step.carried import CarriedOver
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.contact_step import Touching
 from nmm.stepping.step.equations import Assembly
@@ -70,14 +70,14 @@ class Stepper:
         self._touching = Touching(
             self._current, self._mover, solver, self.size, integrator.carries, clock
         )
-        self._carried = Carried(self._touching.reach())
+        self._carried = CarriedOver(self._touching.reach())
 
     @property
-    def carried(self) -> Carried:
+    def carried(self) -> CarriedOver:
         """All that is carried from accepted step to accepted step besides the bodies' state."""
         return replace(self._carried, effects=self.plan.carried())
 
-    def carry(self, carried: Carried) -> None:
+    def carry(self, carried: CarriedOver) -> None:
         """Go on from what was carried elsewhere, with nothing that was kept here."""
         self._carried = replace(carried, effects={})
         self.plan.carry(carried.effects)
@@ -173,7 +173,7 @@ class Stepper:
         self._mover.follow(change)
         self._touching.follow(change)
 
-    def _following(self, attempt: Attempt) -> Carried:
+    def _following(self, attempt: Attempt) -> CarriedOver:
         """Return what is carried on from an accepted step."""
         carried, reach = self._carried, self._touching.reach(attempt.motion)
         if attempt.solved is None or not self._integrator.restarts_at_impact:
