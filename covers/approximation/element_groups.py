@@ -16,6 +16,8 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from integration.monomials import count, differentiate, evaluate, exponents
+from integration.polygons import Polygons, areas
+from integration.rules import PointRule, polygon_rule
 
 # Points evaluated at once.
 CHUNK = 8192
@@ -104,6 +106,13 @@ class ElementGroup(ABC):
     @abstractmethod
     def gradient_integrals(self) -> Floats:
         """Integrals of the gradient of ``phi_s`` (d, S, 2)."""
+
+    @abstractmethod
+    def gradient_rule(self, polygons: Polygons) -> PointRule:
+        """Points that integrate products of two gradients; ``owner`` counts within the group.
+
+        ``polygons`` are the manifold's elements.
+        """
 
     def displacement_rows(self, index: Ints, points: Floats) -> Floats:
         """``T`` (m, 2, L) at reference points."""
@@ -210,6 +219,13 @@ class PolynomialGroup(ElementGroup):
     def gradient_integrals(self) -> Floats:
         """See `ElementGroup.gradient_integrals`."""
         return np.stack([self._integrate(d) for d in self._derivatives], axis=-1)
+
+    def gradient_rule(self, polygons: Polygons) -> PointRule:
+        """See `ElementGroup.gradient_rule`: one point where gradients are constant, else Gauss."""
+        own = polygons.take(self.elements)
+        if self.degree > 1:
+            return polygon_rule(own, 2 * (self.degree - 1))
+        return PointRule(own.centroids, areas(own), np.arange(len(own)))
 
     @cached_property
     def _derivatives(self) -> tuple[Floats, Floats]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from covers.approximation.element_groups import ElementGroup, one_cover
 from integration.arrays import Floats, Ints
+from integration.polygons import Polygons
 from integration.rules import PointRule
 
 # Points whose functions are held in memory at once.
@@ -120,6 +121,10 @@ class QuadratureGroup(ElementGroup):
     def gradient_integrals(self) -> Floats:
         """See `ElementGroup.gradient_integrals`."""
         return self._integrals[3]
+
+    def gradient_rule(self, polygons: Polygons) -> PointRule:
+        """See `ElementGroup.gradient_rule`: the points of all its integrals."""
+        return self.rule
 
     @cached_property
     def _integrals(self) -> tuple[Floats, Floats, Floats, Floats]:

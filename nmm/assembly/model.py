@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
@@ -15,9 +16,14 @@ from integration.polygons import areas
 from nmm.assembly import element_matrices
 from nmm.assembly.blocks import Part, assemble
 from nmm.assembly.lumping import check_positive
+from nmm.assembly.matter import STRESS, Matter
 from nmm.assembly.patches import pressures
 from nmm.assembly.pressures import Pressures
 from nmm.errors import FormulationError
+from nmm.materials.base import History, Law
+
+if TYPE_CHECKING:
+    from nmm.assembly.motion import State
 
 # Volume is resisted in every point up to this many shear moduli, by pressures beyond: a Poisson
 # ratio of 1/3 in plane strain. No material in plane stress goes beyond.
@@ -48,6 +54,9 @@ class Model:
         Whether pressures on patches resist changes of volume (`nmm.assembly.pressures`).
     cut
         How the cut left a mathematical cover; None for blocks.
+    laws, law, plane
+        Laws, the law (E,) of each element and "stress" or "strain", for laws that are not linear;
+        without them all elements are linear.
     """
 
     manifold: Manifold
@@ -58,6 +67,9 @@ class Model:
     cut: CutCells | None = None
     lumped: bool = False
     projected: bool = False
+    laws: tuple[Law, ...] = ()
+    law: Ints | None = None
+    plane: str = "strain"
 
     @cached_property
     def stiffness(self) -> csc_array:
@@ -67,6 +79,63 @@ class Model:
         drained = self._matrix(element_matrices.stiffness, self.thickness * self.drained)
         held = csr_array(self.pressures.root @ self.pressures.divergence)
         return csc_array(drained + self.thickness * (held.T @ held))
+
+    @cached_property
+    def matter(self) -> Matter | None:
+        """Material points of the elements whose laws are not linear; None without any.
+
+        Raises
+        ------
+        FormulationError
+            Projected volumes: pressures on patches are linear in the strain.
+        """
+        if self.law is None or all(law.linear for law in self.laws):
+            return None
+        if self.projected and self.pressures is not None:
+            raise FormulationError(
+                '[cover] volumetric: "projected": with materials that are not linear: expected '
+                '"full", which resists volume at every material point: use it with degree 1 or 2'
+            )
+        straight = np.array([law.linear for law in self.laws])[self.law]
+        elastic = self.thickness * self.elasticity * straight[:, None, None]
+        rest = self._matrix(element_matrices.stiffness, elastic)
+        return Matter.of(self.manifold, self.laws, self.law, self.plane, self.thickness, rest)
+
+    def history(self) -> History:
+        """Return the internal variables of matter that nothing has happened to, (Q, h) by name."""
+        return {} if self.matter is None else self.matter.start()
+
+    def tangent(self, state: "State") -> csc_array:
+        """Stiffness (n_unknowns, n_unknowns) against sudden small motions from a state."""
+        if self.matter is None:
+            return self.stiffness
+        answer = self.matter.update(state.deformation, state.history, 0.0)
+        return self.matter.stiffness(answer.tangent)
+
+    def stress(self, state: "State", pressure: Floats | None = None) -> Floats:
+        """Mean stress (E, 3) of the elements in body axes, beyond the initial stress.
+
+        ``pressure`` (k,) is that of the patches where it is known better, see `pressure`.
+        """
+        found = self.mean_stress(state.deformation, pressure)
+        if self.matter is not None:
+            elements, means = self.matter.points.means(state.history[STRESS])
+            found[elements] = means
+        return found
+
+    def strain_energy(self, state: "State") -> float:
+        """Energy (J) stored in the material, but for what an initial stress counts by itself."""
+        q = state.deformation
+        if self.matter is None:
+            return float(q @ (self.stiffness @ q)) / 2
+        return self.matter.energy(q, state.history)
+
+    def dissipated(self, before: "State", after: "State") -> float:
+        """Work (J) of the stress in a step less what the material stores of it."""
+        if self.matter is None:
+            return 0.0
+        ends = (before.deformation, before.history), (after.deformation, after.history)
+        return self.matter.work(*ends) - self.strain_energy(after) + self.strain_energy(before)
 
     @cached_property
     def pressures(self) -> Pressures | None:

@@ -6,7 +6,8 @@ material, so that stiffness and mass are assembled once and a turned body keeps 
 stress (MacLaughlin and Sitar 1996 name the growth of the linear update that this avoids).
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -77,6 +78,9 @@ class State:
         (n,) unknowns of the deformation in body axes, without rigid part.
     velocity, acceleration
         (n,) rates of the unknowns in body axes.
+    history
+        Internal variables (Q, h) of material points by name, as the last accepted step left them
+        (`Model.history`); empty where all matter is linear.
     """
 
     time: float
@@ -85,6 +89,7 @@ class State:
     deformation: Floats
     velocity: Floats
     acceleration: Floats
+    history: Mapping[str, Floats] = field(default_factory=dict)
 
 
 def rotation_matrices(angle: Floats) -> Floats:

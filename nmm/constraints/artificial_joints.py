@@ -15,6 +15,7 @@ from integration.arrays import Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, material_points
+from nmm.constraints.linear_matter import check_linear
 from nmm.constraints.nitsche_interface import averages
 from nmm.constraints.tied_interfaces import pairs_of, shared_edges
 from nmm.constraints.ties import Pairs, Springs, Tie
@@ -62,6 +63,7 @@ class ArtificialJoints(Effect):
         joints = joints.take(own)
         degree, n = model.manifold.degree, model.manifold.n_unknowns
         if glue == "nitsche" and len(joints.edge_a):  # blocks that are not divided have none
+            check_linear(model, "[cover.options] glue", 'glue = "springs"')
             pairs, one, two, _ = pairs_of(model, joints, 2 * degree)
             tie, free = averages(model, pairs, (one, two))
             if free.any():

@@ -9,6 +9,7 @@ from covers.approximation.ghost import ghost, neighbours
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
+from nmm.constraints.linear_matter import check_linear
 from nmm.constraints.multiplier_space import multipliers, pieces_of, traction_degree
 from nmm.constraints.nitsche_penalty import least_penalty
 from nmm.constraints.support_methods import (
@@ -90,6 +91,7 @@ class Method:
             basis = multipliers(pieces, self.size, traction_degree(model), axes)
             shared = Tractions(int(basis.shape[1]))
             return Multipliers(name, place, axes, displacement, weight, basis, shared)
+        check_linear(model, "[supports] method", 'method = "lagrange" or "penalty"')
         hard = model.drained[:, :2, :2].max(axis=(1, 2))
         soft = np.minimum(hard, SOFTEST * model.elasticity[:, 2, 2])
         gamma = GAMMA[min(self.degree, 3)] if self.gamma is None else self.gamma

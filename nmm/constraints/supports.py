@@ -15,6 +15,7 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, at_point, on_block, on_segment
 from nmm.constraints.edge_supports import Method, method_of
+from nmm.constraints.linear_matter import method_for
 from nmm.constraints.support_methods import (
     Multipliers,
     Nitsche,
@@ -252,7 +253,10 @@ def _sharing(supports: list[Support]) -> list[Support]:
 def _method(setup: Setup) -> Method:
     cover = setup.formulation.cover
     mesh = not cover.of_blocks
-    return method_of(setup.formulation.supports, cover.finest, cover.highest_degree, mesh)
+    asked = setup.formulation.supports
+    if mesh:
+        asked = asked.model_copy(update={"method": method_for(setup.model, asked.method)})
+    return method_of(asked, cover.finest, cover.highest_degree, mesh)
 
 
 def _support(setup: Setup, support: "SceneSupport") -> Support:

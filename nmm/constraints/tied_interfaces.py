@@ -10,6 +10,7 @@ from integration.arrays import Floats, Ints
 from integration.segments import segment_rule
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state, material_points
+from nmm.constraints.linear_matter import check_linear, method_for
 from nmm.constraints.multiplier_space import Pieces, multipliers, traction_degree
 from nmm.constraints.multiplier_ties import MultiplierGlue, independent
 from nmm.constraints.nitsche_interface import averages
@@ -39,9 +40,10 @@ def glue(
     model: Model, joints: Joints, method: "Glue", size: float | None
 ) -> tuple[list[Tie], MultiplierGlue | None]:
     """Return what holds edges together; ``size`` is that of a mesh's cells, None for blocks (m)."""
-    if method.method == "spring":
+    kind = method_for(model, method.method)
+    if kind == "spring":
         return [springs(model, joints, glue_stiffness(model, joints, method))], None
-    if method.method == "lagrange":
+    if kind == "lagrange":
         return [], _multipliers(model, joints, size)
     return _averages(model, joints, method), None
 
@@ -73,6 +75,7 @@ def springs(model: Model, joints: Joints, spring: Floats) -> Springs:
 
 def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
     """Nitsche's terms, and springs where neither side has stress."""
+    check_linear(model, "[glue] method", 'method = "lagrange" or "spring"')
     order = max(ORDER, 2 * model.manifold.degree + 2)
     pairs, one, two, joint = pairs_of(model, joints, order)
     found, free = averages(model, pairs, (one, two), method.gamma)

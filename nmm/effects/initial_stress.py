@@ -1,5 +1,6 @@
 """Stress in blocks at the start of a run, constant in each, turning with the material."""
 
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
@@ -51,6 +52,13 @@ class InitialStress(Effect):
         """Return the stress of each element from those that it comes from; else as declared."""
         declared = InitialStress.from_setup(change.setup).stress
         return InitialStress(change.new, change.parentage.elements.mean(self.stress, declared))
+
+    def begin(self, state: State) -> State:
+        """Return the start with material points that know of the stress."""
+        matter = self._model.matter
+        if matter is None:
+            return state
+        return replace(state, history=matter.prestressed(state.history, self.stress))
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the constant internal force."""

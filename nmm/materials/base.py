@@ -1,23 +1,85 @@
 """What a material law is to the rest of the program."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
 
 from integration.arrays import Floats
 from nmm.registry import Registry
 
+History = Mapping[str, Floats]
+"""Internal variables of material points by name, each (m, h)."""
+
+
+class Response(NamedTuple):
+    """What a law answers at m material points.
+
+    Attributes
+    ----------
+    stress
+        (m, 3) Pa: xx, yy, xy.
+    tangent
+        (m, 3, 3) derivative of the stress by the strain (Pa).
+    history
+        Internal variables after the step, those that `Law.variables` names.
+    """
+
+    stress: Floats
+    tangent: Floats
+    history: History
+
 
 @dataclass(frozen=True)
 class Law(ABC):
-    """Base of stress-strain laws; a frozen set of parameters in SI units."""
+    """Base of stress-strain laws; a frozen set of parameters in SI units.
+
+    A linear law defines `stiffness` alone. One that remembers or bends defines `update` and
+    `variables` as well; its `stiffness` is then the elastic one, the unit of penalties and of
+    the first iteration. ``plane`` is "stress" or "strain" everywhere.
+    """
 
     @abstractmethod
     def stiffness(self, plane: str) -> Floats:
-        """Return the matrix (3, 3) from strain (xx, yy, 2 xy) to stress (xx, yy, xy), Pa.
+        """Return the elastic matrix (3, 3) from strain (xx, yy, 2 xy) to stress (Pa)."""
 
-        ``plane`` is "stress" or "strain".
+    @property
+    def linear(self) -> bool:
+        """Whether stress is `stiffness` times strain, so that matrices are made once."""
+        return type(self).update is Law.update
+
+    def variables(self, plane: str) -> History:
+        """Return the internal variables of one point at the start, (h,) each."""
+        return {}
+
+    def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
+        """Return stress, tangent and internal variables at the end of a step.
+
+        It is asked many times in a step, always with the variables of its start: a law keeps
+        nothing by itself.
+
+        Parameters
+        ----------
+        strain
+            (m, 3) whole strain at the end of the step (xx, yy, 2 xy), not its increment.
+        history
+            Internal variables at the start of the step.
+        step
+            Length of the step (s); 0 in statics, where no time passes.
         """
+        matrix = self.stiffness(plane)
+        return Response(strain @ matrix.T, np.tile(matrix, (len(strain), 1, 1)), history)
+
+    def energy(self, stress: Floats, history: History, plane: str) -> Floats:
+        """Return the stored energy (m,) in J/m3 at a stress (m, 3) with internal variables.
+
+        What work leaves beyond it counts as dissipated. Here it is that of the elastic strain by
+        the plane `stiffness`.
+        """
+        elastic = stress @ np.linalg.inv(self.stiffness(plane))
+        return np.asarray((elastic * stress).sum(axis=1) / 2)
 
     def kolosov(self, plane: str) -> float:
         """Return Kolosov's constant of singular fields; laws that have none give that of nu = 0.
@@ -33,5 +95,10 @@ class Law(ABC):
 
 
 MATERIAL_LAWS = Registry[Callable[..., Law]](
-    "material law", Law, {"elastic": "nmm.materials.elastic:Elastic"}
+    "material law",
+    Law,
+    {
+        "elastic": "nmm.materials.elastic:Elastic",
+        "von_mises": "nmm.materials.von_mises:VonMises",
+    },
 )

@@ -1,11 +1,12 @@
 """From a scene and a formulation to a model that can be stepped."""
 
-from typing import TYPE_CHECKING
+from dataclasses import MISSING, fields, is_dataclass
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from nmm.assembly.model import Model
-from nmm.errors import Fault, SceneError
+from nmm.errors import Fault, FormulationError, SceneError
 from nmm.materials.base import MATERIAL_LAWS, Law
 from nmm.model.covering import local_functions
 from nmm.model.from_polygons import covered
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
     from nmm.scene.solids import Material
 
 block_functions = local_functions
+
+# Constants of a scene's material that not every law has.
+WHERE_GIVEN = ("yield_stress", "hardening_modulus")
 
 
 def build_model(scene: "Scene", formulation: "Formulation", regions: "Regions") -> Model:
@@ -49,7 +53,31 @@ def _finite(name: str, law: Law, scene: "Scene") -> Law:
 
 
 def material_law(item: "Material") -> Law:
-    """Return the law of a scene's material."""
-    constants = {"young_modulus": item.young_modulus, "poisson_ratio": item.poisson_ratio}
+    """Return the law of a scene's material.
+
+    Raises
+    ------
+    FormulationError
+        Constants that the law does not have, or lacks.
+    """
+    given = {name: getattr(item, name) for name in WHERE_GIVEN if getattr(item, name) is not None}
+    constants = {"young_modulus": item.young_modulus, "poisson_ratio": item.poisson_ratio, **given}
+    kind = cast(Any, MATERIAL_LAWS.load(item.law))
+    if is_dataclass(kind):
+        known = {field.name: field for field in fields(kind) if field.init}
+        for name in given:
+            if name not in known:
+                having = [law for law in MATERIAL_LAWS.names() if _has(law, name)]
+                expected = f"a law that has it: {', '.join(having)}"
+                fault = Fault(f'law "{item.law}"', name, expected, "set law, or remove it")
+                raise FormulationError(fault)
+        for name in WHERE_GIVEN:
+            if name in known and name not in given and known[name].default is MISSING:
+                fault = Fault(f'law "{item.law}"', f"no {name}", "one", f"add {name}")
+                raise FormulationError(fault)
     law: Law = MATERIAL_LAWS.make(item.law, item.options, **constants)
     return law
+
+
+def _has(law: str, constant: str) -> bool:
+    return constant in {field.name for field in fields(cast(Any, MATERIAL_LAWS.load(law)))}

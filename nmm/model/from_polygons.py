@@ -94,4 +94,7 @@ def covered(
         cut=covering.cut,
         lumped=lumped,
         projected=cover.volumetric == "projected",
+        laws=tuple(laws),
+        law=of_element,
+        plane=plane,
     )

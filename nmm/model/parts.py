@@ -20,7 +20,10 @@ if TYPE_CHECKING:
     from nmm.scene.model import Scene
 
 # Keys that name a part or change it.
-NAMING = ("law", "type", "functions", "degree", "enforcement", "fracture_energy", "options")
+NAMING = (
+    *("law", "type", "functions", "degree", "enforcement", "fracture_energy", "options"),
+    *("yield_stress", "hardening_modulus"),
+)
 
 
 def check_parts(scene: "Scene", formulation: "Formulation") -> None:

@@ -34,7 +34,8 @@ class Material(Frozen):
     """Law and constants of the inside of blocks."""
 
     law: PartName = Field(
-        default="elastic", description='"elastic", or "module:Name" of a law of one\'s own'
+        default="elastic",
+        description='"elastic", "von_mises", or "module:Name" of a law of one\'s own',
     )
     density: Density | None = Field(
         default=None, gt=0, description="a density in kg/m3, > 0", examples=example("kg/m^3")
@@ -44,6 +45,18 @@ class Material(Frozen):
     )
     poisson_ratio: Number = Field(
         gt=-1, le=0.5, description="Poisson's ratio in (-1, 0.5]", examples=[0.2]
+    )
+    yield_stress: Stress | None = Field(
+        default=None,
+        gt=0,
+        description='a yield stress in uniaxial tension in Pa, > 0, of "von_mises"',
+        examples=["250 MPa"],
+    )
+    hardening_modulus: Stress | None = Field(
+        default=None,
+        ge=0,
+        description="a slope of stress over plastic strain in Pa, >= 0; none is perfectly plastic",
+        examples=["2 GPa"],
     )
     options: Options = Field(default={}, description="a table of options of a law of one's own")
 

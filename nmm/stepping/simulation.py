@@ -280,7 +280,7 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
         scene, formulation = shifted(scene, -origin), shifted(formulation, -origin)
     model = build_model(scene, formulation, regions)
     built = perf_counter()
-    start = initial_state(model.manifold)
+    start = replace(initial_state(model.manifold), history=model.history())
     if scene.inertia is not None:
         start = replace(start, load_factor=1.0)
     setup = Setup(
@@ -307,6 +307,11 @@ def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
     if formulation.rotation.update != "linear":
         return None
     check_remap(plan)
+    if model.matter is not None:
+        raise FormulationError(
+            '[rotation] update: "linear": with a material that is not linear: expected elastic '
+            'materials: blocks laid anew forget their strain: use update = "exact"'
+        )
     functions = block_functions(formulation.cover)
     if formulation.cover.type != "block" or functions.degree > 1:
         raise FormulationError(

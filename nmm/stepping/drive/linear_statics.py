@@ -21,6 +21,7 @@ from nmm.constraints.tied_interfaces import glue, shared_edges
 from nmm.effects.base import Effect, Instant, defines
 from nmm.effects.field_loads import FieldLoad
 from nmm.effects.loads import Load, Loads
+from nmm.errors import FormulationError
 from nmm.formulation import Glue, Solver
 from nmm.model.plan import Plan
 from nmm.model.solver_settings import solver_for
@@ -84,7 +85,13 @@ def equilibrium(
     ------
     SolveError
         No equilibrium: a part is free and the load moves it.
+    FormulationError
+        A material that is not linear.
     """
+    if model.matter is not None:
+        raise FormulationError(
+            "linear statics: a material that is not linear: expected elastic laws: run a scene"
+        )
     start = initial_state(model.manifold)
     n = model.manifold.n_unknowns
     held, force = csc_array((n, n)), np.zeros(n)

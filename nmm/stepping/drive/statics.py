@@ -282,7 +282,11 @@ class Settled:
 
 
 def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> Settled:
-    """Find equilibrium in the moved place: solve, move, and correct until nothing moves."""
+    """Find equilibrium in the moved place: solve, move, and correct until nothing moves.
+
+    Corrections are no steps of the load: what matter remembers is that of the step's start for all
+    of them, and what the last one made of it is kept.
+    """
     contacts: ContactPoints | None = None
     rounding = _rounding(stepper)
     total = attempt = stepper.attempt(state, end, None, breaking)
@@ -297,7 +301,7 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
         if attempt.motion <= SETTLED * total.motion + rounding:
             return Settled(total, contacts)
         last, way = attempt, way + attempt.motion
-        attempt = stepper.attempt(attempt.state, end, None, breaking)
+        attempt = stepper.attempt(_remembering(attempt.state, state), end, None, breaking)
         steady = steady + 1 if attempt.motion > SHRINKS * last.motion else 0
         total, count = _joined(total, attempt), count + 1
         if stepper.anchored and steady >= STEADY and way > COLLAPSE * stepper.size:
@@ -305,6 +309,11 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
             return Settled(replace(total, converged=False, sentence=sentence), contacts, True)
     sentence = f"the moved place is not in equilibrium after {count} corrections"
     return Settled(replace(total, converged=False, sentence=sentence), contacts)
+
+
+def _remembering(moved: State, start: State) -> State:
+    """Return a state with what matter remembers of the start."""
+    return replace(moved, history=start.history) if start.history else moved
 
 
 def _rounding(stepper: Stepper) -> float:

@@ -39,8 +39,9 @@ class Ledger:
 
     Attributes
     ----------
-    work, friction_loss
-        Work of loads, weight and driven supports; what friction, dashpots and breaking bonds took.
+    work, friction_loss, material_loss
+        Work of loads, weight and driven supports; what friction, dashpots and breaking bonds took;
+        and what material points did, which flow or suffer damage.
     integration_loss, contact_loss
         What time integration took, but for contact; and what springs of contact lost beyond
         friction: both are part of what is missing in the balance, and negative where energy came.
@@ -63,6 +64,7 @@ class Ledger:
 
     work: float = 0.0
     friction_loss: float = 0.0
+    material_loss: float = 0.0
     integration_loss: float = 0.0
     contact_loss: float = 0.0
     energies: Mapping[str, float] = field(default_factory=dict)
@@ -96,6 +98,7 @@ class Ledger:
             self,
             work=work,
             friction_loss=self.friction_loss + loss,
+            material_loss=self.material_loss + model.dissipated(before, after),
             energies=stored(plan, model, stands),
             stored_first=stored_first,
             steps=self.steps + 1,
@@ -124,19 +127,24 @@ class Ledger:
     def balance(self) -> float:
         """Return (work - gain of stored energy - lost) over the largest of them in the run.
 
-        Lost is what friction, softening and damping took.
+        Lost is what friction, softening, damping and flowing material took.
         """
         return -self._made / self.throughput if self.throughput else 0.0
 
     @property
     def _made(self) -> float:
-        return sum(self.energies.values()) - self.stored_first + self.friction_loss - self.work
+        return sum(self.energies.values()) - self.stored_first + self.dissipated - self.work
+
+    @property
+    def dissipated(self) -> float:
+        """Energy (J) that friction, damping, breaking and flowing material took."""
+        return self.friction_loss + self.material_loss
 
     def weighed(self, time: float) -> "Ledger":
         """Return the totals with the size of the energies, and how much came from nowhere."""
         total = sum(self.energies.values())
         largest = max(
-            self.throughput, abs(self.work), abs(total), abs(self.stored_first), self.friction_loss
+            self.throughput, abs(self.work), abs(total), abs(self.stored_first), self.dissipated
         )
         now = self._made, self.given
         return replace(
@@ -158,9 +166,8 @@ class Ledger:
 
 def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
     """Return the energies (J) of a state by name."""
-    q = state.deformation
     lifted = plan.lifted_energy(model, state)
-    strain = float(q @ (model.stiffness @ q)) / 2 + lifted
+    strain = model.strain_energy(state) + lifted
     return {
         "kinetic_energy": plan.energy("inertia", state),
         "strain_energy": strain + plan.energy("initial stress", state),

@@ -153,6 +153,8 @@ class Recorder:
             "residual": attempt.residual,
             **self.ledger.row,
         }
+        if after.history:
+            row["material_loss"] = self.ledger.material_loss
         if attempt.booked is not None:
             row["integration_loss"] = self.ledger.integration_loss
         if contacts is not None:
@@ -213,7 +215,7 @@ class Recorder:
         """Return the mean Cauchy stress (E, 3) of the elements in global axes (Pa)."""
         model, initial = self.stepper.model, self.stepper.plan.initial_stress
         pressure = self.stepper.plan.pressure(model, state)
-        stress = model.mean_stress(state.deformation, pressure)
+        stress = model.stress(state, pressure)
         if initial is not None:
             stress = stress + initial.stress
         return turned_stress(stress, state.frames.angle[model.manifold.element_body])

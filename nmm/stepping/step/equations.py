@@ -1,9 +1,12 @@
-"""The equations of one step but for contact: elasticity, inertia, supports and loads."""
+"""The equations of one step but for contact: material, inertia, supports and loads.
+
+Matter that is not linear enters by its `Linearisation` at an iterate of the step: the equations
+stay linear in the whole increment, whatever the iterate.
+"""
 
 from dataclasses import dataclass, replace
 from operator import is_not
 
-import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
@@ -12,6 +15,31 @@ from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
 from nmm.model.discretisation import Current
+
+
+@dataclass(frozen=True)
+class Linearisation:
+    """Internal forces near an iterate of a step, ``force + stiffness @ d`` of its increment.
+
+    Attributes
+    ----------
+    stiffness
+        (n, n) tangent.
+    force
+        (n,) that the line has at the start of the step: that of the stress there, where it is one.
+    start
+        (n,) of the stress at the start of the step.
+    """
+
+    stiffness: csc_array
+    force: Floats
+    start: Floats
+
+    @classmethod
+    def linear(cls, model: Model, state: State) -> "Linearisation":
+        """Return that of linear matter, the same at all iterates."""
+        force = model.stiffness @ state.deformation
+        return cls(model.stiffness, force, force)
 
 
 @dataclass(frozen=True)
@@ -27,7 +55,8 @@ class InertiaTerms:
     weight, contact_factor
         See `nmm.integrators.base`.
     gain
-        (n,) by how much forces other than elasticity grow in the step; None where they do not.
+        (n,) by how much all forces but the matrix grow in the step, what its tangent misses of
+        the material among them; None where nothing does.
     """
 
     mass: csc_array
@@ -76,55 +105,63 @@ class Assembly:
         """Drop the sums of matrices."""
         self._kept: tuple[float, tuple[csc_array, csc_array], csc_array] | None = None
         self._weighted: tuple[csc_array, float, csc_array] | None = None
-        self._soft: tuple[Model, csc_array] | None = None
+        self._soft: tuple[csc_array, csc_array] | None = None
 
     def of(
-        self, state: State, end: Instant, step: float | None, rule: Integrator, anchored: bool
+        self,
+        state: State,
+        end: Instant,
+        step: float | None,
+        rule: Integrator,
+        anchored: bool,
+        matter: Linearisation | None = None,
     ) -> Equations:
-        """Return the equations of a step; ``anchored``: see `nmm.stepping.step.anchors`."""
+        """Return the equations of a step; ``anchored``: see `nmm.stepping.step.anchors`.
+
+        ``matter`` is None where it is linear.
+        """
         model, plan = self._current.model, self._current.plan
-        force = self._applied(state, end)
+        line = Linearisation.linear(model, state) if matter is None else matter
+        force = plan.force(state, end) - line.force
         if step is None or plan.inertia is None:
-            held = self._anchored() if anchored else model.stiffness
+            held = self._anchored(line.stiffness) if anchored else line.stiffness
             return Equations(state, end, step, rule, plan.matrix(state, held), force)
-        return self._in_time(Equations(state, end, step, rule, model.stiffness, force))
+        given = Equations(state, end, step, rule, line.stiffness, force)
+        return self._in_time(given, line, matter is None)
 
-    def _applied(self, state: State, end: Instant) -> Floats:
-        """Return the forces (n,) of all effects less those of elasticity at the start."""
-        model, plan = self._current.model, self._current.plan
-        return np.asarray(plan.force(state, end) - model.stiffness @ state.deformation)
-
-    def _in_time(self, static: Equations) -> Equations:
+    def _in_time(self, static: Equations, line: Linearisation, linear: bool) -> Equations:
         """Return the equations with inertia, over the factor of contact forces."""
         plan, rule, state, step = self._current.plan, static.rule, static.state, static.step
         assert step is not None
         assert plan.inertia is not None
         weight, force, gain, mass = rule.end_weight, static.force, None, plan.inertia.mass
-        if weight < 1 or not plan.steady:
-            earlier = self._applied(state, Instant(state.time, state.load_factor))
-            gain = None if plan.steady else force - earlier
+        steady = plan.steady and linear
+        if weight < 1 or not steady:
+            earlier = plan.force(state, Instant(state.time, state.load_factor)) - line.start
+            gain = None if steady else force - earlier
             force = force if weight == 1 else weight * force + (1 - weight) * earlier
         velocity = rule.kinetic_factor * state.velocity
         momentum = mass @ rule.momentum(velocity, state.acceleration, step)
         factor = rule.mass_factor(step)
-        base = self._base(factor / weight, mass)
+        base = self._base(line.stiffness, factor / weight, mass)
         share = 1.0 if plan.contact is None else rule.contact_factor
         terms = InertiaTerms(mass, factor, momentum, weight, share, gain)
         matrix = self._times(weight / share, plan.matrix(state, base))
         return replace(static, matrix=matrix, force=(force + momentum) / share, inertia=terms)
 
-    def _anchored(self) -> csc_array:
-        """Return elasticity with anchors."""
-        model = self._current.model
-        if self._soft is None or self._soft[0] is not model:
+    def _anchored(self, stiffness: csc_array) -> csc_array:
+        """Return a stiffness with anchors."""
+        kept = self._soft
+        if kept is None or kept[0] is not stiffness:
             from nmm.stepping.step.anchors import anchors
 
-            self._soft = model, csc_array(model.stiffness + anchors(model))
-        return self._soft[1]
+            kept = stiffness, csc_array(stiffness + anchors(self._current.model))
+            self._soft = kept
+        return kept[1]
 
-    def _base(self, mass_factor: float, mass: csc_array) -> csc_array:
-        """Return elasticity and inertia, which stay as long as the step's length does."""
-        parts = (self._current.model.stiffness, mass)
+    def _base(self, stiffness: csc_array, mass_factor: float, mass: csc_array) -> csc_array:
+        """Return stiffness and inertia, which stay as long as both and the step's length do."""
+        parts = (stiffness, mass)
         kept = self._kept
         if kept is None or kept[0] != mass_factor or any(map(is_not, kept[1], parts)):
             kept = mass_factor, parts, csc_array(parts[0] + mass_factor * mass)

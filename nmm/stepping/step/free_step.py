@@ -106,7 +106,7 @@ class Alone:
     ) -> Apart | None:
         """Solution with rigid motions apart where rounding would spoil the stress; else None."""
         model = self._current.model
-        if not self._small or model.manifold.n_bodies == 1:
+        if not self._small or model.manifold.n_bodies == 1 or model.matter is not None:
             return None
         bodies = rigid_bodies(model)
         if rounding(factor, bodies, increment, force) <= ROUNDED:

@@ -18,9 +18,10 @@ from nmm.stepping.step.budget import Budget
 from nmm.stepping.step.carried import CarriedOver
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.contact_step import Touching
-from nmm.stepping.step.equations import Assembly
+from nmm.stepping.step.equations import Assembly, Equations, Linearisation
 from nmm.stepping.step.free_step import Alone
 from nmm.stepping.step.mover import Mover
+from nmm.stepping.step.newton import Solution, newton
 from nmm.stepping.step.remap import Lay, remapped, with_stress_so_far
 from nmm.stepping.step.trial import Attempt
 
@@ -133,20 +134,33 @@ class Stepper:
             When the run may cost no more.
         """
         self.budget.check()
-        with self._clock.phase("assembly"):
-            equations = self._assembly.of(state, end, step, self._rule, self.anchored)
-        try:
-            if self.plan.contact is None:
-                found = self._alone.attempt(equations)
-            else:
-                found = self._touching.attempt(equations, breaking, self._carried.reach)
-        except SolveError as fault:
-            rest = np.zeros_like(equations.force)
-            singular = fault.singular
-            return Attempt(False, str(fault), state, rest, 0.0, np.nan, 1, singular=singular)
+
+        def solve(matter: Linearisation | None) -> Solution:
+            with self._clock.phase("assembly"):
+                rule = self._rule
+                equations = self._assembly.of(state, end, step, rule, self.anchored, matter)
+            return equations, self._solved(equations, breaking)
+
+        matter = self.model.matter
+        if matter is None:
+            equations, found = solve(None)
+        else:
+            equations, found = newton(matter, state, step, solve, self._clock)
         if not found.converged or equations.inertia is None:
             return found
         return replace(found, booked=booked(equations, found.increment, found.solved))
+
+    def _solved(self, equations: Equations, breaking: "Breaking") -> Attempt:
+        """Solve equations, with contact where the scene has it."""
+        try:
+            if self.plan.contact is None:
+                return self._alone.attempt(equations)
+            return self._touching.attempt(equations, breaking, self._carried.reach)
+        except SolveError as fault:
+            rest, singular = np.zeros_like(equations.force), fault.singular
+            return Attempt(
+                False, str(fault), equations.state, rest, 0.0, np.nan, 1, singular=singular
+            )
 
     def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
         """Make an attempt the start of the next step; return it with its contacts as left."""

@@ -34,7 +34,9 @@ class Attempt:
     booked
         Work of inertia and contact; None in statics.
     singular
-        Whether the load moves a part that nothing holds.
+        Whether the load moves a part that nothing holds, or matter flows without end.
+    imbalances
+        Relative out-of-balance force of matter after each iteration; empty where it is linear.
     """
 
     converged: bool
@@ -47,3 +49,4 @@ class Attempt:
     solved: "ContactSolution | None" = None
     booked: Booked | None = None
     singular: bool = False
+    imbalances: tuple[float, ...] = ()

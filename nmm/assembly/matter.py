@@ -1,0 +1,152 @@
+"""Matter that laws answer for point by point: stress, tangent and internal variables of elements.
+
+Only elements whose laws are not linear have such points; the stiffness of the others is one matrix.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from covers.approximation.manifold import Manifold
+from integration.arrays import Floats, Ints
+from nmm.assembly.stress_points import StressPoints
+from nmm.errors import FormulationError
+from nmm.materials.base import History, Law, Response
+
+STRESS = "stress"
+"""Stress (Q, 3) of the last accepted step, in body axes (Pa), beyond the initial stress."""
+INITIAL = "initial_strain"
+"""Elastic strain (Q, 3) of the initial stress; absent where there is none."""
+
+
+@dataclass(frozen=True)
+class Matter:
+    """Material points of elements whose laws are not linear.
+
+    Attributes
+    ----------
+    laws
+        Laws that are not linear.
+    law
+        (Q,) the law of each point.
+    points
+        Q points.
+    elastic
+        (Q, 3, 3) elastic stress from strain (Pa).
+    plane, thickness
+        "stress" or "strain"; m.
+    rest
+        Stiffness (n, n) of all other elements.
+    """
+
+    laws: tuple[Law, ...]
+    law: Ints
+    points: StressPoints
+    elastic: Floats
+    plane: str
+    thickness: float
+    rest: csc_array
+
+    @classmethod
+    def of(
+        cls,
+        manifold: Manifold,
+        laws: Sequence[Law],
+        law: Ints,
+        plane: str,
+        thickness: float,
+        rest: csc_array,
+    ) -> Self:
+        """Return the points of a manifold whose elements (E,) have each a ``law``."""
+        bent = [number for number, one in enumerate(laws) if not one.linear]
+        points = StressPoints.of(manifold, np.isin(law, bent))
+        own = np.searchsorted(bent, law[points.rule.owner])
+        chosen = tuple(laws[number] for number in bent)
+        elastic = np.array([one.stiffness(plane) for one in chosen])[own]
+        return cls(chosen, own, points, elastic, plane, thickness, rest)
+
+    def start(self) -> dict[str, Floats]:
+        """Return the history of matter that nothing has happened to: (Q, h) by name.
+
+        A law whose variable is narrower than another's of the same name uses its first columns.
+        """
+        found = {STRESS: np.zeros((len(self.law), 3))}
+        for number, law in enumerate(self.laws):  # a handful of laws
+            for name, value in law.variables(self.plane).items():
+                if name in (STRESS, INITIAL):
+                    raise FormulationError(
+                        f'law {type(law).__name__}: variable "{name}": expected another name than '
+                        f'"{STRESS}" and "{INITIAL}", which the program keeps itself: rename it'
+                    )
+                known = found.get(name, np.zeros((len(self.law), 0)))
+                more = max(len(value) - known.shape[1], 0)
+                found[name] = np.pad(known, ((0, 0), (0, more)))
+                found[name][self.law == number, : len(value)] = value
+        return found
+
+    def prestressed(self, history: History, stress: Floats) -> dict[str, Floats]:
+        """Return the history with an initial stress (E, 3) of the elements."""
+        of_point = stress[self.points.rule.owner][:, :, None]
+        strain = np.asarray(np.linalg.solve(self.elastic, of_point), dtype=float)[:, :, 0]
+        return {**history, INITIAL: strain}
+
+    def update(self, deformation: Floats, history: History, step: float) -> Response:
+        """Return what all points answer to the unknowns (n,) at the end of a step (s).
+
+        The stress is that beyond the initial stress, and part of the new history.
+        """
+        strain, initial = self.points.strain(deformation), history.get(INITIAL)
+        whole = strain if initial is None else strain + initial
+        stress, tangent = np.empty_like(strain), np.empty((len(strain), 3, 3))
+        after = {name: value.copy() for name, value in history.items() if name != INITIAL}
+        for number, law in enumerate(self.laws):  # a handful of laws
+            at = np.flatnonzero(self.law == number)
+            answer = law.update(whole[at], self._own(law, history, at), self.plane, step)
+            stress[at], tangent[at] = answer.stress, answer.tangent
+            for name, value in answer.history.items():
+                after[name][at, : value.shape[1]] = value
+        if initial is not None:
+            stress, after[INITIAL] = stress - self._initial(initial), initial
+        after[STRESS] = stress
+        return Response(stress, tangent, after)
+
+    def force(self, deformation: Floats, stress: Floats) -> Floats:
+        """Return the internal force (n,) of unknowns (n,) and of the stress (Q, 3) of points."""
+        return self.rest @ deformation + self.thickness * self.points.force(stress)
+
+    def stiffness(self, tangent: Floats) -> csc_array:
+        """Return the tangent stiffness (n, n); of tangents (Q, 3, 3) the symmetric part acts."""
+        symmetric = (tangent + np.swapaxes(tangent, 1, 2)) / 2
+        return csc_array(self.rest + self.thickness * self.points.matrix(symmetric))
+
+    def energy(self, deformation: Floats, history: History) -> float:
+        """Return the stored energy (J), but for what an initial stress counts by itself."""
+        strain, initial = self.points.strain(deformation), history.get(INITIAL)
+        density = np.zeros(len(strain))
+        known = np.zeros_like(strain) if initial is None else self._initial(initial)
+        whole = history[STRESS] + known
+        for number, law in enumerate(self.laws):
+            at = np.flatnonzero(self.law == number)
+            density[at] = law.energy(whole[at], self._own(law, history, at), self.plane)
+        if initial is not None:
+            density -= (known * (strain + initial / 2)).sum(axis=1)
+        stored = self.thickness * float(self.points.rule.weights @ density)
+        return stored + float(deformation @ (self.rest @ deformation)) / 2
+
+    def work(self, start: tuple[Floats, History], end: tuple[Floats, History]) -> float:
+        """Return the work (J) on points from deformations (n,) and histories at both ends."""
+        mean = (start[1][STRESS] + end[1][STRESS]) / 2
+        force = self.thickness * self.points.force(mean)
+        elastic = [float(one @ (self.rest @ one)) / 2 for one in (end[0], start[0])]
+        return float(force @ (end[0] - start[0])) + elastic[0] - elastic[1]
+
+    def _own(self, law: Law, history: History, at: Ints) -> dict[str, Floats]:
+        """Return the variables of a law at its points."""
+        widths = law.variables(self.plane)
+        return {name: history[name][at, : len(value)] for name, value in widths.items()}
+
+    def _initial(self, strain: Floats) -> Floats:
+        return np.asarray(np.einsum("qij,qj->qi", self.elastic, strain))

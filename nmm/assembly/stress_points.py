@@ -1,0 +1,135 @@
+"""Material points: where elements ask a law for stress, and how it acts on the unknowns."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from covers.approximation.element_groups import ElementGroup
+from covers.approximation.manifold import Manifold
+from integration.arrays import Bools, Floats, Ints
+from integration.rules import PointRule
+from nmm.assembly.blocks import Part, assemble
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Elements of one group that have equally many points.
+
+    Attributes
+    ----------
+    at
+        (k, q) their points among all.
+    unknowns
+        (k, L) of each element.
+    rows
+        (k, q, 3, L) strain (xx, yy, 2 xy) of the unknowns.
+    """
+
+    at: Ints
+    unknowns: Ints
+    rows: Floats
+
+
+@dataclass(frozen=True)
+class StressPoints:
+    """Points of some elements of a manifold, element after element.
+
+    Attributes
+    ----------
+    rule
+        Q points and weights (m2); ``owner`` are elements of the manifold, sorted.
+    batches
+        The elements with their strains.
+    offset
+        (C + 1,) first unknown of each cover.
+    """
+
+    rule: PointRule
+    batches: tuple[Batch, ...]
+    offset: Ints
+
+    @classmethod
+    def of(cls, manifold: Manifold, chosen: Bools) -> Self:
+        """Return the points of the chosen elements (E,)."""
+        parts = [_part(group, manifold, chosen) for group in manifold.groups]
+        owner, points, weights = (
+            np.concatenate([getattr(part[0], name) for part in parts])
+            for name in ("owner", "points", "weights")
+        )
+        order = np.argsort(owner, kind="stable")
+        place = np.empty_like(order)
+        place[order] = np.arange(len(order))
+        rule = PointRule(points[order], weights[order], owner[order])
+        batches: list[Batch] = []
+        first = 0
+        for group, (own, index) in zip(manifold.groups, parts, strict=True):
+            at = place[first : first + len(index)]
+            batches.extend(_batches(group, own.points, index, at))
+            first += len(index)
+        return cls(rule, tuple(batches), manifold.cover_offset)
+
+    def __len__(self) -> int:
+        return len(self.rule.owner)
+
+    def strain(self, deformation: Floats) -> Floats:
+        """Strain (Q, 3) of the unknowns (n,)."""
+        found = np.empty((len(self), 3))
+        for part in self.batches:
+            local = deformation[part.unknowns][:, None, :, None]
+            found[part.at] = (part.rows @ local)[..., 0]
+        return found
+
+    def force(self, stress: Floats) -> Floats:
+        """Integral of ``B^T sigma`` (n,) of a stress (Q, 3), per unit thickness."""
+        n = int(self.offset[-1])
+        weighted, total = self.rule.weights[:, None] * stress, np.zeros(n)
+        for part in self.batches:
+            k, q, _, length = part.rows.shape
+            rows = part.rows.reshape(k, 3 * q, length)
+            local = weighted[part.at].reshape(k, 1, 3 * q) @ rows
+            total += np.bincount(part.unknowns.ravel(), local.ravel(), minlength=n)
+        return total
+
+    def matrix(self, tangent: Floats) -> csc_array:
+        """Integral of ``B^T D B`` (n, n) of symmetric tangents (Q, 3, 3), per unit thickness."""
+        weighted, parts = self.rule.weights[:, None, None] * tangent, []
+        for part in self.batches:
+            k, q, _, length = part.rows.shape
+            rows = part.rows.reshape(k, 3 * q, length)
+            stress = (weighted[part.at] @ part.rows).reshape(k, 3 * q, length)
+            parts.append(Part(part.unknowns, np.swapaxes(rows, 1, 2) @ stress, np.arange(k)))
+        return assemble(parts, int(self.offset[-1]), self.offset)
+
+    def means(self, values: Floats) -> tuple[Ints, Floats]:
+        """Return the elements (k,) that have points and the means (k, h) of values (Q, h)."""
+        elements, place = np.unique(self.rule.owner, return_inverse=True)
+        weights = self.rule.weights
+        area = np.bincount(place, weights)
+        sums = [np.bincount(place, weights * column) for column in values.T]
+        return elements, np.stack(sums, axis=1) / area[:, None]
+
+
+def _part(group: ElementGroup, manifold: Manifold, chosen: Bools) -> tuple[PointRule, Ints]:
+    """Points of a group's chosen elements, and the number of their element in the group."""
+    rule = group.gradient_rule(manifold.elements)
+    kept = chosen[group.elements[rule.owner]]
+    index = rule.owner[kept]
+    return PointRule(rule.points[kept], rule.weights[kept], group.elements[index]), index
+
+
+def _batches(group: ElementGroup, points: Floats, index: Ints, at: Ints) -> Iterator[Batch]:
+    """Batches of a group; points (m, 2) in its elements ``index`` (m,), ``at`` among all."""
+    own, first, count = np.unique(index, return_index=True, return_counts=True)
+    for q in np.unique(count):  # a handful of numbers of points
+        alike = np.flatnonzero(count == q)
+        chosen = (first[alike, None] + np.arange(q)).ravel()
+        gradient = group.gradient_rows(index[chosen], points[chosen])
+        rows = np.stack(
+            [gradient[:, 0, 0], gradient[:, 1, 1], gradient[:, 0, 1] + gradient[:, 1, 0]], axis=1
+        )
+        unknowns = group.unknowns[own[alike]]
+        shape = (len(alike), int(q), 3, unknowns.shape[1])
+        yield Batch(at[chosen].reshape(shape[:2]), unknowns, rows.reshape(shape))

@@ -1,0 +1,24 @@
+"""Nitsche's terms take the traction of a linear material: others are held without them."""
+
+from nmm.assembly.model import Model
+from nmm.errors import FormulationError
+
+
+def method_for(model: Model, asked: str) -> str:
+    """Return "lagrange" for "auto" where some material is not linear, else what is ``asked``."""
+    return "lagrange" if asked == "auto" and model.matter is not None else asked
+
+
+def check_linear(model: Model, place: str, instead: str) -> None:
+    """Refuse Nitsche's terms beside a material that is not linear.
+
+    Raises
+    ------
+    FormulationError
+        Naming the ``place`` in the formulation, and what to use ``instead``.
+    """
+    if model.matter is not None:
+        raise FormulationError(
+            f'{place}: "nitsche": its traction is that of a linear material, and some here is not: '
+            f"expected a method that reads no stress: use {instead}"
+        )

@@ -1,0 +1,68 @@
+"""Radial return of von Mises plasticity in plane strain, all points at once."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats
+
+# Share of the yield stress by which rounding leaves a stress beyond it: such a point is elastic.
+BEYOND = 1e-10
+VOLUME = np.array([1.0, 1.0, 0.0])
+# From strain (xx, yy, 2 xy) to the deviatoric strain (xx, yy, xy) where nothing strains along z.
+DEVIATOR = np.array([[2 / 3, -1 / 3, 0.0], [-1 / 3, 2 / 3, 0.0], [0.0, 0.0, 0.5]])
+# Components xy count twice in the norm of a tensor (xx, yy, xy, zz).
+TWICE = np.array([1.0, 1.0, 2.0, 1.0])
+
+
+@dataclass(frozen=True)
+class Returned:
+    """Stresses (m, 4: xx, yy, xy, zz) back at the yield surface, with tangent (m, 3, 3).
+
+    ``plastic_strain`` (m, 4) is (xx, yy, 2 xy, zz), ``accumulated`` (m,).
+    """
+
+    stress: Floats
+    tangent: Floats
+    plastic_strain: Floats
+    accumulated: Floats
+
+
+def radial_return(
+    strain: Floats,
+    plastic: Floats,
+    accumulated: Floats,
+    constants: tuple[float, float, float, float],
+) -> Returned:
+    """Return stresses to the yield surface (Wilkins 1964; tangent of Simo and Taylor 1985).
+
+    Parameters
+    ----------
+    strain, plastic, accumulated
+        (m, 3) whole strain, (m, 4) plastic strain and (m,) accumulated plastic strain before.
+    constants
+        Young's modulus, Poisson's ratio, yield stress, hardening modulus.
+    """
+    e, nu, yields, hardens = constants
+    shear, bulk = e / 2 / (1 + nu), e / 3 / (1 - 2 * nu)
+    elastic = np.column_stack([strain, np.zeros(len(strain))]) - plastic
+    elastic[:, 2] /= 2
+    volume = elastic[:, [0, 1, 3]].sum(axis=1)
+    trial = 2 * shear * (elastic - volume[:, None] / 3 * np.array([1, 1, 0, 1]))
+    norm = np.sqrt((TWICE * trial**2).sum(axis=1))
+    size = np.sqrt(1.5) * norm
+    limit = yields + hardens * accumulated
+    flows = size > limit * (1 + BEYOND)
+    more = np.where(flows, (size - limit) / (3 * shear + hardens), 0.0)
+    way = trial / np.where(norm > 0, norm, 1.0)[:, None]
+    left = 1 - 3 * shear * more / np.where(flows, size, 1.0)
+    stress = left[:, None] * trial + bulk * volume[:, None] * np.array([1, 1, 0, 1])
+    grown = plastic + np.sqrt(1.5) * more[:, None] * way * TWICE
+    softer = np.where(flows, 3 * shear / (3 * shear + hardens) - (1 - left), 0.0)
+    along = way[:, :3]
+    tangent = (
+        bulk * np.outer(VOLUME, VOLUME)
+        + 2 * shear * left[:, None, None] * DEVIATOR
+        - 2 * shear * softer[:, None, None] * along[:, :, None] * along[:, None, :]
+    )
+    return Returned(stress, tangent, grown, accumulated + more)

@@ -1,0 +1,182 @@
+"""Newton's method on matter that is not linear, about the solution of a step with its contacts.
+
+Each iteration solves a whole linear step, contact, friction and supports included, with the tangent
+at the iterate; its unknown is the whole increment. What is out of balance afterwards is only what
+the tangent missed of the internal forces. History is read at the start of the step by all
+iterations and belongs to the state that is found: nothing is kept by an attempt that fails.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.assembly.matter import STRESS, Matter
+from nmm.assembly.motion import State
+from nmm.materials.base import Response
+from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.equations import Equations, Linearisation
+from nmm.stepping.step.trial import Attempt
+
+Solution = tuple[Equations, Attempt]
+
+# Out-of-balance force of matter, as a share of the forces, at which an iterate is the solution;
+# and, where it falls no more for rounding, the largest that is taken.
+BALANCED, ROUNDED = 1e-10, 1e-7
+# Iterations of a step; plasticity takes four to eight.
+MOST = 30
+# A full step is taken when it leaves at most this share of its slope; else it is shortened, at most
+# so often, down to this share of it.
+SLOPE, TRIALS, SHORTEST = 0.8, 6, 0.05
+# Stiffness against the last iteration's motion, as a share of the elastic one, that shows flow.
+FLOWS = 1e-2
+
+
+@dataclass(frozen=True)
+class _Iterate:
+    """An increment (n,) of the step with what matter answers, and its internal force (n,)."""
+
+    increment: Floats
+    response: Response
+    force: Floats
+
+
+def newton(
+    matter: Matter,
+    state: State,
+    step: float | None,
+    solve: Callable[[Linearisation | None], Solution],
+    clock: Clock,
+) -> Solution:
+    """Solve a step from ``state`` of ``step`` seconds, None in statics.
+
+    ``solve`` solves the equations with matter linearised.
+
+    Returns
+    -------
+    The last equations and their solution, with the history of matter at its end.
+    """
+
+    def at(increment: Floats) -> _Iterate:
+        with clock.phase("material"):
+            whole = state.deformation + increment
+            answer = matter.update(whole, state.history, step or 0.0)
+            return _Iterate(increment, answer, matter.force(whole, answer.stress))
+
+    start = matter.force(state.deformation, state.history[STRESS])
+    elastic = matter.stiffness(matter.elastic)
+    scale = _scale(elastic)
+    now, way, passes = at(np.zeros_like(start)), np.zeros_like(start), 0
+    imbalances: list[float] = []
+    while True:
+        line = _line(matter, now, start, clock)
+        equations, found = solve(line)
+        passes += found.passes
+        if not found.converged and not _goes_on(found):
+            flows = _flow(elastic, line, way)
+            said = f"{flows}; {found.sentence}" if flows else found.sentence
+            found = replace(found, sentence=said, singular=found.singular or bool(flows))
+            return equations, replace(found, passes=passes, imbalances=tuple(imbalances))
+        then = at(found.increment)
+        missed = then.force - line.force - line.stiffness @ then.increment
+        size = max(np.linalg.norm(scale * one) for one in (then.force, start, equations.force))
+        imbalances.append(float(np.linalg.norm(scale * missed) / size) if size else 0.0)
+        found = replace(found, passes=passes, imbalances=tuple(imbalances))
+        if _balanced(imbalances):
+            after = replace(found.state, history=then.response.history)
+            return equations, replace(
+                found, state=after, residual=max(found.residual, imbalances[-1])
+            )
+        way = then.increment - now.increment
+        if len(imbalances) == MOST or not np.isfinite(missed).all():
+            flows = _flow(elastic, line, way)
+            said = (
+                f"matter is {imbalances[-1]:.1e} of the forces out of balance after "
+                f"{len(imbalances)} iterations"
+            )
+            return equations, replace(
+                found,
+                converged=False,
+                state=state,
+                sentence=f"{flows}; {said}" if flows else said,
+                singular=bool(flows),
+            )
+        now = _searched(equations, line, now, then, at)
+
+
+def _goes_on(found: Attempt) -> bool:
+    """Whether an iteration goes on though its solution is no step: a bond may yet hold."""
+    return found.solved is not None and found.solved.stopped
+
+
+def _line(matter: Matter, at: _Iterate, start: Floats, clock: Clock) -> Linearisation:
+    with clock.phase("assembly"):
+        stiffness = matter.stiffness(at.response.tangent)
+    return Linearisation(stiffness, at.force - stiffness @ at.increment, start)
+
+
+def _scale(elastic: csc_array) -> Floats:
+    """(n,) factors by which forces on unknowns of all kinds compare."""
+    diagonal = elastic.diagonal()
+    return np.asarray(1 / np.sqrt(np.where(diagonal > 0, diagonal, np.inf)))
+
+
+def _balanced(imbalances: list[float]) -> bool:
+    last = imbalances[-1]
+    if last <= BALANCED:
+        return True
+    stalls = len(imbalances) > 1 and last > 0.5 * imbalances[-2]
+    return last <= ROUNDED and stalls
+
+
+def _searched(
+    equations: Equations,
+    line: Linearisation,
+    now: _Iterate,
+    then: _Iterate,
+    at: Callable[[Floats], _Iterate],
+) -> _Iterate:
+    """Return the next iterate: the whole step, or less where the forces overshoot along it.
+
+    Contact and support forces are held as the solution has them, so that the slope of the energy
+    along the step is ``-p A p`` at its start and what matter adds to its line at any share of it.
+    """
+    way = then.increment - now.increment
+    share = _share_of_matter(equations)
+    curved = float(way @ (equations.matrix @ way))
+    bent = line.stiffness @ way
+
+    def slope(one: _Iterate, part: float) -> float:
+        missed = one.force - now.force - part * bent
+        return (part - 1) * curved + share * float(way @ missed)
+
+    found, part, ends = then, 1.0, [(0.0, -curved), (1.0, slope(then, 1.0))]
+    for _ in range(TRIALS):
+        last = ends[1][1]
+        if curved <= 0 or last <= SLOPE * curved or part <= SHORTEST:
+            break
+        (low, falls), (high, rises) = ends
+        part = max(low - falls * (high - low) / (rises - falls), SHORTEST)
+        found = at(now.increment + part * way)
+        now_slope = slope(found, part)
+        if abs(now_slope) <= SLOPE * curved:
+            break
+        ends = [ends[0], (part, now_slope)] if now_slope > 0 else [(part, now_slope), ends[1]]
+    return found
+
+
+def _share_of_matter(equations: Equations) -> float:
+    """Factor of the tangent in the matrix of a step."""
+    terms = equations.inertia
+    return 1.0 if terms is None else terms.weight / terms.contact_factor
+
+
+def _flow(elastic: csc_array, line: Linearisation, way: Floats) -> str:
+    """Say how little of its elastic stiffness matter has against a motion (n,); empty if enough."""
+    whole = float(way @ (elastic @ way))
+    left = float(way @ (line.stiffness @ way)) / whole if whole > 0 else 1.0
+    return (
+        f"matter flows with {max(left, 0.0):.1e} of its elastic stiffness" if left < FLOWS else ""
+    )

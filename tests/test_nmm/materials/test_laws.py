@@ -1,0 +1,131 @@
+"""Stress-strain laws: properties of all of them, and von Mises against closed forms."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from nmm.errors import FormulationError
+from nmm.materials.elastic import Elastic
+from nmm.materials.von_mises import VonMises
+from nmm.testing.laws import check_law, start_of
+
+STEEL = VonMises(200e9, 0.3, 250e6, 20e9)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        Elastic(1e9, 0.3),
+        VonMises(1e9, 0.3, 1e6),
+        VonMises(1e9, 0.0, 1e6, 1e8),
+        VonMises(1e9, 0.49, 1e5, 1e9),
+    ],
+    ids=["elastic", "perfectly plastic", "hardening", "nearly incompressible"],
+)
+def test_laws_keep_what_every_law_must(law):
+    check_law(law)
+
+
+@dataclass(frozen=True)
+class ElasticTangent(VonMises):
+    """A wrong law: its tangent is not that of its stress."""
+
+    def update(self, strain, history, plane, step):
+        found = super().update(strain, history, plane, step)
+        return found._replace(tangent=np.tile(self.stiffness(plane), (len(strain), 1, 1)))
+
+
+@dataclass(frozen=True)
+class Forgetful(VonMises):
+    """A wrong law: it leaves one of its variables out."""
+
+    def update(self, strain, history, plane, step):
+        found = super().update(strain, history, plane, step)
+        return found._replace(history={"stress_zz": found.history["stress_zz"]})
+
+
+@dataclass(frozen=True)
+class Generous(Elastic):
+    """A wrong law: paths around a loop give energy, as its matrix is not symmetric."""
+
+    def update(self, strain, history, plane, step):
+        matrix = self.stiffness(plane)
+        bent = matrix + np.array([[0, 0, 0], [0, 0, 0], [0.5, 0, 0]]) * self.young_modulus
+        first = np.abs(strain).max(axis=1) == 0
+        tangent = np.where(first[:, None, None], matrix, bent)
+        return (
+            super()
+            .update(strain, history, plane, step)
+            ._replace(stress=strain @ bent.T, tangent=tangent)
+        )
+
+
+@pytest.mark.parametrize(
+    ("law", "said"),
+    [
+        (ElasticTangent(1e9, 0.3, 1e6), "no derivative"),
+        (Forgetful(1e9, 0.3, 1e6), "variables"),
+        (Generous(1e9, 0.3), "of its energy"),
+    ],
+)
+def test_a_wrong_law_is_told(law, said):
+    with pytest.raises(AssertionError, match=said):
+        check_law(law, planes=("stress",))
+
+
+def followed(law, plane, strains):
+    """Stresses (k, 3) of one point along strains (k, 3), and its variables at the end."""
+    history, found = start_of(law, plane, 1), []
+    for strain in strains:
+        answer = law.update(np.array([strain]), history, plane, 0.0)
+        history = answer.history
+        found.append(answer.stress[0])
+    return np.array(found), history
+
+
+def test_one_way_strain_yields_and_hardens_as_its_closed_form():
+    # sx - sy = yield at e = Y / 2G; then K + 4/3 G H / (3 G + H), from the radial flow.
+    shear, bulk = STEEL.young_modulus / 2.6, STEEL.young_modulus / 1.2
+    first, h = 250e6 / (2 * shear), STEEL.hardening_modulus
+    slope = bulk + 4 / 3 * shear * h / (3 * shear + h)
+    at = np.array([0.5, 1.0, 2.0, 5.0]) * first
+    expected = (bulk + 4 / 3 * shear) * np.minimum(at, first) + slope * np.maximum(at - first, 0)
+    found, _ = followed(STEEL, "strain", [(e, 0, 0) for e in at])
+    np.testing.assert_allclose(found[:, 0], expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("plane", ["stress", "strain"])
+def test_pure_shear_yields_at_the_stress_over_the_root_of_three(plane):
+    perfect = replace(STEEL, hardening_modulus=0.0)
+    found, history = followed(perfect, plane, [(0, 0, 0.01), (0, 0, 0.03)])
+    np.testing.assert_allclose(found[:, 2], 250e6 / np.sqrt(3), rtol=1e-12)
+    # g_p / sqrt 3 with g_p = g - tau / G.
+    way = (0.03 - found[1, 2] / (200e9 / 2.6)) / np.sqrt(3)
+    assert history["accumulated_plastic_strain"][0, 0] == pytest.approx(way, rel=1e-12)
+
+
+def test_plane_stress_is_the_solid_without_stress_across():
+    # Against the radial return with the strain across searched by bisection: another algorithm.
+    from nmm.materials.radial_return import radial_return
+
+    law, strain = STEEL, np.array([[3e-3, -1e-3, 2e-3]])
+    constants = (law.young_modulus, law.poisson_ratio, law.yield_stress, law.hardening_modulus)
+    low, high = -5e-3, 5e-3
+    for _ in range(80):
+        across = (low + high) / 2
+        # A strain across is one of opposite sign in the plastic strain that is taken off.
+        shifted = np.array([[0, 0, 0, -across]])
+        found = radial_return(strain, shifted, np.zeros(1), constants)
+        low, high = (across, high) if found.stress[0, 3] < 0 else (low, across)
+    projected, _ = followed(law, "stress", strain)
+    np.testing.assert_allclose(projected[0], found.stress[0, :3], rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("constants", "said"),
+    [((1e9, 0.3, 0.0), "yield_stress: 0.0"), ((1e9, 0.3, 1e6, -1.0), "hardening_modulus: -1.0")],
+)
+def test_constants_that_make_no_sense_are_refused(constants, said):
+    with pytest.raises(FormulationError, match=said):
+        VonMises(*constants)
