@@ -99,6 +99,6 @@ MATERIAL_LAWS = Registry[Callable[..., Law]](
     Law,
     {
         "elastic": "nmm.materials.elastic:Elastic",
-        "von_mises": "nmm.materials.von_mises:VonMises",
+        "von_mises": "nmm.materials.von_mises:VonMisesPlasticity",
     },
 )

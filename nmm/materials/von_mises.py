@@ -13,7 +13,7 @@ from nmm.materials.radial_return import radial_return
 
 
 @dataclass(frozen=True)
-class VonMises(Elastic):
+class VonMisesPlasticity(Elastic):
     """Yield where ``sqrt(3/2 s : s)`` reaches ``yield_stress + hardening_modulus * p``.
 
     The step is implicit (backward Euler): the radial return in plane strain, the return projected

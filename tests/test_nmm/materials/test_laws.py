@@ -7,19 +7,19 @@ import pytest
 
 from nmm.errors import FormulationError
 from nmm.materials.elastic import Elastic
-from nmm.materials.von_mises import VonMises
+from nmm.materials.von_mises import VonMisesPlasticity
 from nmm.testing.laws import check_law, start_of
 
-STEEL = VonMises(200e9, 0.3, 250e6, 20e9)
+STEEL = VonMisesPlasticity(200e9, 0.3, 250e6, 20e9)
 
 
 @pytest.mark.parametrize(
     "law",
     [
         Elastic(1e9, 0.3),
-        VonMises(1e9, 0.3, 1e6),
-        VonMises(1e9, 0.0, 1e6, 1e8),
-        VonMises(1e9, 0.49, 1e5, 1e9),
+        VonMisesPlasticity(1e9, 0.3, 1e6),
+        VonMisesPlasticity(1e9, 0.0, 1e6, 1e8),
+        VonMisesPlasticity(1e9, 0.49, 1e5, 1e9),
     ],
     ids=["elastic", "perfectly plastic", "hardening", "nearly incompressible"],
 )
@@ -28,7 +28,7 @@ def test_laws_keep_what_every_law_must(law):
 
 
 @dataclass(frozen=True)
-class ElasticTangent(VonMises):
+class ElasticTangent(VonMisesPlasticity):
     """A wrong law: its tangent is not that of its stress."""
 
     def update(self, strain, history, plane, step):
@@ -37,7 +37,7 @@ class ElasticTangent(VonMises):
 
 
 @dataclass(frozen=True)
-class Forgetful(VonMises):
+class Forgetful(VonMisesPlasticity):
     """A wrong law: it leaves one of its variables out."""
 
     def update(self, strain, history, plane, step):
@@ -128,4 +128,4 @@ def test_plane_stress_is_the_solid_without_stress_across():
 )
 def test_constants_that_make_no_sense_are_refused(constants, said):
     with pytest.raises(FormulationError, match=said):
-        VonMises(*constants)
+        VonMisesPlasticity(*constants)
