@@ -1,6 +1,6 @@
 """Energies of barrier contact: forces and curvatures that grow smoothly towards a wall."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -62,10 +62,20 @@ class Potential:
         return np.asarray(self.problem.own_stiffness | (self.problem.limits.tension > 0))
 
     @cached_property
+    def behind(self) -> Floats:
+        """(m,) by how much walls were moved back (m)."""
+        deep = np.maximum(-self.problem.gap - DEEPEST * self.width, 0.0)
+        return np.asarray(deep * ~self.spring)
+
+    @cached_property
     def offset(self) -> Floats:
         """(m,) distance of the wall behind touching (m)."""
-        behind = np.maximum(-self.problem.gap - DEEPEST * self.width, 0.0)
-        return np.asarray(self.width / 2 + behind * ~self.spring)
+        return np.asarray(self.width / 2 + self.behind)
+
+    @property
+    def shifted(self) -> StepProblem:
+        """The step with gaps counted from where walls without width would stand."""
+        return replace(self.problem, gap=self.problem.gap + self.behind)
 
     @cached_property
     def stretch(self) -> Floats:
@@ -75,7 +85,7 @@ class Potential:
     @property
     def deep(self) -> int:
         """Number of contacts whose wall was moved."""
-        return int((self.offset > self.width / 2).sum())
+        return int((self.behind > 0).sum())
 
     def distance(self, gap: Floats) -> Floats:
         """(m,) distance to the wall over the width; infinite for springs."""

@@ -1,14 +1,15 @@
-"""Three methods in turn for one step of a barrier, quickest first, surest last."""
+"""Newton's method on a barrier, and the interior point that finds a start near enough for it."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.barrier.descent import Descent
 from nmm.contact.barrier.newton import Newton, Start
-from nmm.contact.barrier.path import Path, Point
 from nmm.contact.barrier.potential import Potential
+from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
+from nmm.contact.iteration.interior_point import InteriorPoint
+from nmm.contact.iteration.multiplier_rounds import compliances
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
@@ -16,10 +17,10 @@ from nmm.solvers.linear import LinearSolver
 
 QUICK, PATIENT, LONG = 20, 40, 40
 """Most steps of the first attempt, of the second, and of the path before it."""
-GOAL = 3e-3
+GOAL = 1e-3
 """Product of force and distance at which the path is left, over largest force and width."""
 BOUNDS = 6
-"""Most friction bounds that are held before the descent."""
+"""Most friction bounds that are held before the search is given up."""
 
 
 @dataclass(frozen=True)
@@ -27,8 +28,8 @@ class Search:
     """One search for the balance of a `Potential`.
 
     Newton's method on unknowns and forces begins at the springs that the rough solution balanced:
-    near, while a step is like the last. Otherwise an interior point finds most states first. Both
-    say when they fail, and descent inside the walls for held friction bounds starts from rest.
+    near, while a step is like the last. Otherwise an interior point finds most states first, on
+    the central path of the exact problem down to the width of the barrier.
     """
 
     well: Potential
@@ -42,50 +43,43 @@ class Search:
         passes: int,
         solved: tuple[StepProblem, StepAnswer] | None = None,
     ) -> IterationResult:
-        """Unknowns in balance, or the last of the descent, always before the walls.
+        """Unknowns in balance, or no motion, which crosses no wall.
 
         ``solved`` is the last problem with its answer, where it was of the same step.
         """
         well = self.well
         springs = CutSprings.of(well.problem)
         newton = Newton(well, self.pattern, self.linear, springs.weight)
+        path = InteriorPoint(_sides(well), self.pattern, self.linear)
         starts = [] if solved is None else [_end(newton, *solved)]
         increment = None
         for start in [*starts, _cut(newton, rough)]:
             if increment is None:
                 increment = newton.run(start, self.tolerance, min(QUICK, passes), patient=False)
-        path = Path(well.problem, well.offset - well.width / 2, self.pattern, self.linear)
-        if increment is None and well.problem.n_contacts and not well.spring.any():
+        if increment is None and well.problem.n_contacts:
             increment = self._inside(newton, path, rough, passes)
+        if increment is None:
+            increment = np.zeros_like(well.problem.force)
         steps = newton.factorisations + path.factorisations
-        made, solves = rough.factorisations + steps, newton.solves + 2 * path.factorisations
         story = f"{newton.factorisations} Newton steps"
         if path.factorisations:
             story = f"an interior point of {path.factorisations} and {story}"
-        if increment is not None:
-            size = well.imbalance(increment, springs.weight)
-            return IterationResult(springs, increment, size, solves, made, story)
-        descent = Descent(self.pattern, self.linear, springs.weight)
-        bound = well.bound(rough.springs.forces(rough.increment)[0])
-        increment, size, updates = descent.balanced(
-            well, np.zeros_like(well.problem.force), bound, self.tolerance, passes
-        )
-        made, solves = made + descent.factorisations, solves + descent.factorisations
-        story = f"{story}, then {descent.factorisations} of descent and {updates} friction bounds"
+        size, solves = well.imbalance(increment, springs.weight), newton.solves + path.solves
+        made = rough.factorisations + steps
         return IterationResult(springs, increment, size, solves, made, story)
 
     def _inside(
-        self, newton: Newton, path: Path, rough: IterationResult, passes: int
+        self, newton: Newton, path: InteriorPoint, rough: IterationResult, passes: int
     ) -> Floats | None:
         """Unknowns (n,) by way of the interior point."""
         size = GOAL * self.well.scale * self.well.width**2
-        begun = path.start(rough.springs, rough.increment)
-        point = path.followed(begun, size, min(LONG, passes))
+        trial = np.stack(rough.springs.forces(rough.increment))
+        point = path.centred(path.sides.start(rough.increment, trial), size, min(LONG, passes))
         if point is None:
             return None
-        start = _free(newton, path, point)
+        start = _free(newton, point)
         found = newton.run(start, self.tolerance, min(PATIENT, passes), patient=True)
-        bound = self.well.bound(-point.pressure)
+        bound = self.well.bound(point.normal)
         for _ in range(BOUNDS):
             if found is not None:
                 break
@@ -95,10 +89,20 @@ class Search:
         return found
 
 
-def _free(newton: Newton, path: Path, point: Point) -> Start:
+def _sides(well: Potential) -> Complementarity:
+    """The exact problem, its walls where those of the barrier are but for their width."""
+    problem = well.shifted
+    springs = CutSprings.of(problem)
+    stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
+    ease = np.where(well.spring, 1 / stiffness, np.stack(compliances(problem)))
+    return Complementarity.of(springs, ~well.spring, ease)
+
+
+def _free(newton: Newton, point: InteriorIterate) -> Start:
     """Start at a point of the path."""
-    gap, slip = point.distance - path.behind, point.ahead - point.back
-    trials = newton.curves.trials(gap, slip, -point.pressure, point.shear)
+    gap = point.flow[0] - newton.well.behind
+    slip = point.flow[1] - point.flow[2]
+    trials = newton.curves.trials(gap, slip, point.normal, point.shear)
     return Start(point.increment, trials)
 
 

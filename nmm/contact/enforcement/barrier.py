@@ -31,8 +31,8 @@ class Barrier(Enforcement):
     Normal forces follow ``b(x) = -(x - w)^2 ln(x / w)``, ``x = gap + w/2``: they act within
     half a width ``w`` of touching and grow without bound at ``gap = -w/2``, which no step reaches.
     Friction is a smooth function of the slip that meets Coulomb's bound at a slip of ``w/2``.
-    Three methods are tried in turn (`Search`): Newton's on unknowns and forces together, the same
-    after an interior point has found most states, and descent inside the walls.
+    Newton's method on unknowns and forces together finds the balance (`Search`), from the last step
+    or from where the interior point of `Cone` stands once it has found most states.
 
     Gaps are wrong by up to ``w/2`` and sticking slips by up to ``w/2``: these are the numbers to
     choose ``w`` by. Contacts with a tension limit or a stiffness of their own are springs.
@@ -44,7 +44,7 @@ class Barrier(Enforcement):
         with contact would press in (compliance times force); before, of the largest motion; and
         anew where that turns out a hundred times as large.
     max_passes
-        Most Newton steps of each method; in the descent, for one friction bound and of bounds.
+        Most Newton steps of each attempt.
     tolerance
         Largest relative out-of-balance force (-).
     """

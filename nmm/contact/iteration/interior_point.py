@@ -19,6 +19,7 @@ from nmm.contact.iteration.interior_equations import Linearised
 from nmm.contact.iteration.semismooth_newton import polish
 from nmm.contact.problem.cut_springs import IterationResult
 from nmm.contact.problem.matrix_pattern import SpringPattern
+from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
 
 NEAR = 0.995
@@ -33,6 +34,12 @@ SPREAD = 10.0
 """Products within this factor of their mean are not corrected."""
 PATIENCE = 8
 """Steps without halving the mean product after which a path is left."""
+WHOLE = 0.9
+"""A step longer than this may end a path that is followed to a given product."""
+DEEP, LEFT = 0.3, 1e-3
+"""Parts of a given product at which the path is aimed at least, and below which it was left."""
+STUCK = 1e-4
+"""Length of a step at which nothing holds a part: the load drives it away from all contacts."""
 DISTANCES = (1.0, 10.0, 0.1, 3.0)
 """Starts, as multiples of the usual slack and flow. Without dilatancy a path can turn back; one
 from elsewhere mostly leads past that place."""
@@ -75,6 +82,26 @@ class InteriorPoint:
             story=f"interior point with {self.factorisations} factorisations",
         )
 
+    def centred(
+        self, point: InteriorIterate, product: float, budget: int
+    ) -> InteriorIterate | None:
+        """Point near the path whose mean product of slack and flow (J) is down to ``product``.
+
+        None where the path cannot be followed that far, as of a part that nothing holds.
+        """
+        length = 1.0
+        for _ in range(budget):
+            kappa = self.sides.mean(point)
+            if kappa <= product and length > WHOLE:
+                return point
+            if not kappa > LEFT * product or length < STUCK:
+                return None
+            try:
+                point, length = self._moved(point, kappa, length < JAM, DEEP * product)
+            except SolveError:
+                return None
+        return None
+
     def _followed(
         self, point: InteriorIterate, best: IterationResult, budget: int, goal: Goal
     ) -> IterationResult:
@@ -103,7 +130,7 @@ class InteriorPoint:
         return end if end.size < found.size else found
 
     def _moved(
-        self, point: InteriorIterate, kappa: float, jammed: bool
+        self, point: InteriorIterate, kappa: float, jammed: bool, floor: float = 0.0
     ) -> tuple[InteriorIterate, float]:
         """Point after predictor, corrector and corrections of centrality, and how far it went."""
         sides, products = self.sides, point.slack * point.flow
@@ -113,7 +140,7 @@ class InteriorPoint:
             return affine, 0.0
         ahead = sides.length(point, affine)
         shrink = (sides.mean(point.moved(affine, ahead)) / kappa) ** 3
-        centre = kappa * (1.0 if jammed else min(max(shrink, 1e-8), 1.0))
+        centre = max(floor, kappa * (1.0 if jammed else min(max(shrink, 1e-8), 1.0)))
         along = affine.slack * affine.flow if ahead > JAM and not jammed else 0.0
         targets = centre - along - products
         step = system.step(targets)
