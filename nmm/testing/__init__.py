@@ -1,4 +1,53 @@
-"""What parts are held to: oracles and property suites.
+"""What parts are held to: oracles and property suites, for built-in parts and those of one's own.
 
-Oracles share nothing with what they judge; every kind of exchangeable part has a suite.
+Oracles share nothing with what they judge; every kind of exchangeable part has a suite of one line,
+which raises an `AssertionError` that names the property, the number found and the tolerance.
 """
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from nmm.testing.covers import check_cover as check_cover
+    from nmm.testing.effects import check_effect as check_effect
+    from nmm.testing.effects import check_effect_of as check_effect_of
+    from nmm.testing.enforcements import check_enforcement as check_enforcement
+    from nmm.testing.enforcements import check_smooth_enforcement as check_smooth_enforcement
+    from nmm.testing.integrators import check_integrator as check_integrator
+    from nmm.testing.interface_laws import check_interface_law as check_interface_law
+    from nmm.testing.outputs import check_output as check_output
+    from nmm.testing.solvers import check_solver as check_solver
+
+_HOME = {
+    "check_cover": "covers",
+    "check_effect": "effects",
+    "check_effect_of": "effects",
+    "check_enforcement": "enforcements",
+    "check_integrator": "integrators",
+    "check_interface_law": "interface_laws",
+    "check_output": "outputs",
+    "check_smooth_enforcement": "enforcements",
+    "check_solver": "solvers",
+}
+
+__all__ = [
+    "check_cover",
+    "check_effect",
+    "check_effect_of",
+    "check_enforcement",
+    "check_integrator",
+    "check_interface_law",
+    "check_output",
+    "check_smooth_enforcement",
+    "check_solver",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'nmm.testing' has no attribute {name!r}")
+    return getattr(import_module(f"nmm.testing.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

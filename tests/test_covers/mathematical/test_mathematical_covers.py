@@ -15,7 +15,9 @@ from covers.mathematical.moving_least_squares import MovingLeastSquares
 from covers.mathematical.quads import Quads
 from covers.mathematical.registry import COVERS, cover_class
 from covers.mathematical.triangles import Triangles
-from integration.monomials import count, evaluate
+from integration.monomials import evaluate
+from nmm.testing import check_cover
+from nmm.testing.covers import random_points
 
 BOUNDS = [[0.0, 0.0], [2.0, 1.0]]
 TURNED = {"angle": 0.3, "shift": (0.2, 0.7)}
@@ -71,96 +73,18 @@ EXAMPLES = {
 }
 
 
-def random_points(cover, number, seed=0):
-    """Cells and points inside them, uniform over cells."""
-    random = np.random.default_rng(seed)
-    cells = random.integers(0, len(cover.cell_vertices), number)
-    corners = cover.vertices[cover.cell_vertices[cells]]
-    share = random.dirichlet(np.ones(corners.shape[1]), number)
-    return cells, np.einsum("mk,mki->mi", share, corners)
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_a_cover_keeps_what_every_cover_promises(name):
+    check_cover(EXAMPLES[name]())
 
 
-@pytest.fixture(params=list(EXAMPLES), scope="module")
-def cover(request):
-    return EXAMPLES[request.param]()
-
-
-def test_weights_sum_to_one_and_gradients_to_zero(cover):
-    weights, gradients = cover.evaluate(*random_points(cover, 300))
-    # A sum of k terms of size one; quadratic fits lose three digits to the moment matrix.
-    np.testing.assert_allclose(weights.sum(axis=1), 1, atol=1e-12)
-    np.testing.assert_allclose(gradients.sum(axis=1), 0, atol=1e-10)
-
-
-def test_gradients_are_differences_of_weights(cover):
-    cells, points = random_points(cover, 300)
-    gradients = cover.weight_gradients(cells, points)
-    step = 1e-5
-    for axis in (0, 1):
-        away = step * np.eye(2)[axis]
-        change = cover.weights(cells, points + away) - cover.weights(cells, points - away)
-        # Second differences of weights are below 1e3 per m2, third below 1e5: 1e-5 in all.
-        np.testing.assert_allclose(gradients[..., axis], change / (2 * step), atol=2e-5)
-
-
-def test_weights_combine_to_all_polynomials_of_the_claimed_precision_and_not_beyond(cover):
-    cells, points = random_points(cover, 3000)
-    weights = np.zeros((len(points), cover.n_patches + 1))
-    np.put_along_axis(weights, cover.cell_patches[cells], cover.weights(cells, points), axis=1)
-    values = weights[:, :-1]
-    degree = cover.precision + 1
-    wanted = evaluate(points, degree)
-    coefficients = np.linalg.lstsq(values, wanted, rcond=1e-9)[0]
-    miss = np.abs(values @ coefficients - wanted).max(axis=0)
-    assert miss[: count(degree - 1)].max() < 1e-9
-    assert miss[count(degree - 1) :].max() > 1e-5  # x2 alone may be in the span, not all
-
-
-def test_patch_centres_reproduce_the_coordinates(cover):
-    if cover.precision == 0:
-        pytest.skip("Shepard's weights have no linear precision")
-    cells, points = random_points(cover, 300)
-    centres = cover.patch_centre[cover.cell_patches[cells]]
-    field = np.einsum("mk,mki->mi", cover.weights(cells, points), centres)
-    np.testing.assert_allclose(field, points, atol=1e-12)
-
-
-def test_tables_are_the_weights_in_any_coordinates(cover):
-    cells, points = random_points(cover, 200)
-    origin, scale = points + np.array([0.05, -0.02]), np.linspace(0.05, 2.0, len(points))
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_weights_that_are_no_polynomials_have_no_tables(name):
+    cover = EXAMPLES[name]()
     if cover.weight_degree is None:
+        cells, points = random_points(cover, 5)
         with pytest.raises(ValueError, match="no polynomials"):
-            cover.weight_tables(cells, origin, scale)
-        return
-    table, degree = cover.weight_tables(cells, origin, scale)
-    assert degree == cover.weight_degree
-    values = evaluate((points - origin) / scale[:, None], degree)
-    found = np.einsum("mK,mkK->mk", values, table)
-    np.testing.assert_allclose(found, cover.weights(cells, points), atol=1e-12)
-
-
-def test_weights_are_continuous_across_edges_and_vanish_outside_their_patch(cover):
-    edges = cover.edges
-    inner = np.flatnonzero((edges.left >= 0) & (edges.right >= 0))
-    points = 0.7 * cover.vertices[edges.start[inner]] + 0.3 * cover.vertices[edges.end[inner]]
-    spread = np.zeros((2, len(inner), cover.n_patches + 1))
-    for side, cells in enumerate((edges.left[inner], edges.right[inner])):
-        weights = cover.weights(cells, points)
-        np.put_along_axis(spread[side], cover.cell_patches[cells], weights, axis=1)
-    np.testing.assert_allclose(spread[0, :, :-1], spread[1, :, :-1], atol=1e-12)
-
-
-def test_patches_lie_within_their_size(cover):
-    corners = cover.vertices[cover.cell_vertices]
-    active = cover.cell_patches >= 0
-    away = corners[:, None] - cover.patch_centre[cover.cell_patches][:, :, None]
-    reach = np.linalg.norm(away, axis=3).max(axis=2)
-    if cover.disc_radius is None:
-        assert (reach <= cover.patch_size[cover.cell_patches] * (1 + 1e-12)).all()
-    else:
-        near = np.linalg.norm(away, axis=3).min(axis=2)
-        size = cover.patch_size[cover.cell_patches]
-        assert (near[active] < size[active] + 0.3).all()
+            cover.weight_tables(cells, points, np.ones(5))
 
 
 def test_regular_covers_hold_the_box_and_their_cells_are_congruent():
@@ -208,7 +132,7 @@ def test_spline_gradients_are_continuous_across_spans():
     for cells in (edges.left[inner], edges.right[inner]):
         spread = np.zeros((len(inner), cover.n_patches, 2))
         for axis in (0, 1):
-            gradient = cover.weight_gradients(cells, points)[..., axis]
+            gradient = cover.evaluate(cells, points)[1][..., axis]
             np.put_along_axis(spread[..., axis], cover.cell_patches[cells], gradient, axis=1)
         slopes.append(spread)
     np.testing.assert_allclose(slopes[0], slopes[1], atol=1e-12)
@@ -305,7 +229,8 @@ def test_a_graded_net_is_fine_at_its_foci_and_grows_no_faster_than_asked():
         allowed = np.minimum(0.01 + 0.3 * np.maximum(off + steps / 2 - 0.05, 0), 0.15)
         assert (steps <= allowed * (1 + 1e-6)).all()
         assert steps[off < 0.04] == pytest.approx(0.01, rel=0.05)
-        assert steps.max() == pytest.approx(0.15, rel=0.2) if axis == 0 else True
+        if axis == 0:  # the box is wide enough for the coarsest cells along x alone
+            assert steps.max() == pytest.approx(0.15, rel=0.2)
 
 
 def test_a_graded_net_without_focus_is_even():

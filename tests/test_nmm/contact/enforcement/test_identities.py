@@ -239,14 +239,6 @@ def test_free_block_in_statics_is_named_and_not_solved(name: str) -> None:
     assert "unknown 1" in answer.verdict.sentence
 
 
-@pytest.mark.parametrize("name", ALL)
-def test_block_without_contacts_needs_no_contact_solution(name: str) -> None:
-    problem = make_problem(2 * np.eye(3), [1.0, 2.0, 3.0], np.zeros((0, 3)), np.zeros((0, 3)))
-    answer = make_enforcement(name).solve(problem, make_solver())
-    assert answer.verdict.converged
-    np.testing.assert_allclose(answer.increment, [0.5, 1.0, 1.5], rtol=1e-12)
-
-
 @pytest.mark.parametrize("name", EXACT)
 def test_more_contacts_than_unknowns_do_no_harm(name: str) -> None:
     # a rigid bar (y, rotation) on five points: pressures not determined, balance is

@@ -1,6 +1,5 @@
 """Every enforcement against the enumeration of all contact states, and against the law's words."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,62 +10,23 @@ from nmm.contact.iteration import anderson_kernel as mixing_kernel
 from nmm.contact.problem.balance import relative_residual, with_springs
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.matrix_pattern import SpringPattern
-from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.solvers.linear import make_solver
+from nmm.testing import check_enforcement, check_smooth_enforcement
 from nmm.testing.contact_oracle import all_solutions, is_one_of, obeys, random_problem
+from nmm.testing.enforcements import balance
 
 SOFT = {"penalty"}
 SMOOTH = {"barrier"}
 SHARP = sorted(set(ENFORCEMENTS.names()) - SMOOTH)
 
 
-def balance(problem: StepProblem, answer: StepAnswer) -> float:
-    rest = problem.out_of_balance(answer.increment, answer.normal_force, answer.shear_force)
-    size = np.linalg.norm(problem.force) + np.linalg.norm(problem.matrix @ answer.increment)
-    return float(np.linalg.norm(rest) / size)
-
-
 @pytest.mark.parametrize("name", SHARP)
-@pytest.mark.parametrize("seed", range(25))
-def test_finds_a_solution_wherever_enumeration_finds_one(name: str, seed: int) -> None:
-    problem, exact = random_problem(seed), name not in SOFT
-    solutions = all_solutions(problem, exact)
-    answer = make_enforcement(name).solve(problem, make_solver())
-    assert answer.verdict.converged == bool(solutions), answer.verdict.sentence
-    # forces are of order one and the tolerance is 1e-8 of the largest: 1e-6 leaves a condition
-    # number of 100 between out-of-balance force and contact force
-    assert is_one_of(answer, solutions, 1e-6)
-    assert balance(problem, answer) < 1e-8
+def test_an_enforcement_keeps_what_every_one_promises(name: str) -> None:
+    check_enforcement(make_enforcement(name), exact=name not in SOFT)
 
 
-@pytest.mark.parametrize("name", SHARP)
-@pytest.mark.parametrize("seed", range(100, 115))
-def test_bonds_and_own_stiffness_obey_the_law(name: str, seed: int) -> None:
-    problem, exact = random_problem(seed, bonded=True, own=True), name not in SOFT
-    answer = make_enforcement(name).solve(problem, make_solver())
-    assert answer.verdict.converged, answer.verdict.sentence
-    assert obeys(problem, answer, exact, 1e-6)
-    assert balance(problem, answer) < 1e-8
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_barrier_tends_to_an_exact_solution_with_its_width(seed: int) -> None:
-    problem = random_problem(seed)
-    problem = replace(problem, gap=np.abs(problem.gap))  # nothing begins beyond the barrier
-    solutions = all_solutions(problem, exact=True)
-    errors = []
-    for width in (1e-2, 1e-4):
-        answer = make_enforcement("barrier", {"width": width}).solve(problem, make_solver())
-        assert answer.verdict.converged, answer.verdict.sentence
-        assert balance(problem, answer) < 1e-7
-        assert answer.gap.min() > -width / 2 - 1e-12
-        # stiffness of the random matrices is below 30, so a gap w/2 is a force of 15 w at most,
-        # in each of up to eight directions
-        assert is_one_of(answer, solutions, 120 * width)
-        errors.append(
-            min(np.abs(answer.normal_force - n).max() for n in (s.normal_force for s in solutions))
-        )
-    assert errors[1] < 0.1 * errors[0] + 1e-9
+def test_the_barrier_tends_to_an_exact_solution_with_its_width() -> None:
+    check_smooth_enforcement(lambda width: make_enforcement("barrier", {"width": width}))
 
 
 @pytest.mark.parametrize("seed", range(60))
@@ -79,22 +39,6 @@ def test_open_close_iteration_never_claims_a_state_that_is_not_one(seed: int) ->
     else:
         assert answer.verdict.code in ("cycle", "passes")
         assert answer.verdict.contacts or answer.verdict.code == "passes"
-
-
-def test_warm_start_and_kept_factor_change_the_cost_and_not_the_answer() -> None:
-    from nmm.contact.iteration.memory import Memory
-
-    problem, memory, solver = random_problem(7), Memory(), make_solver()
-    for name in SHARP:
-        enforcement = make_enforcement(name)
-        cold = enforcement.solve(problem, solver)
-        warm = replace(
-            problem, normal_force=cold.normal_force, shear_force=cold.shear_force, state=cold.state
-        )
-        again = enforcement.solve(warm, solver, memory)
-        third = enforcement.solve(warm, solver, memory)
-        np.testing.assert_allclose(again.normal_force, cold.normal_force, atol=1e-6)
-        np.testing.assert_array_equal(third.state, again.state)
 
 
 @pytest.mark.parametrize("seed", range(8))
