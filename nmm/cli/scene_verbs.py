@@ -203,6 +203,8 @@ def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) ->
     yield f"run: {'dynamic' if dynamic else 'static'}, plane {scene.plane}"
     if dynamic:
         yield f"integrator: {chosen.integrator.type}, step {chosen.integrator.step:g} s"
+        if scene.contact is not None:
+            yield from _rule_among_contacts(chosen)
         yield f"duration: {scene.duration:g} s"
     elif scene.loading is not None:
         yield f"loading: until {scene.loading.until}, increment {chosen.loading.increment:g}"
@@ -211,6 +213,16 @@ def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) ->
     yield f"cover: {chosen.cover.type}, {chosen.cover.functions}"
     yield f"blocks: {blocks:,}"
     yield f"elements: {elements:,}"
+
+
+def _rule_among_contacts(chosen: "Formulation") -> Iterator[str]:
+    """Yield what an integrator that carries accelerations does in a scene with contact."""
+    from nmm.integrators.base import make_integrator
+
+    rule = make_integrator(chosen.integrator)
+    if rule.among_contacts is not rule:
+        weight = rule.among_contacts.end_weight
+        yield f"  with contact: carries no acceleration, forces act with {weight:.4g} of the end"
 
 
 def _faults(place: Path, formulation: Path | None) -> list[str]:

@@ -15,7 +15,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.contact.detection.crossing import Motion, crossings_in
+from nmm.contact.detection.crossing import Motion, crossings_in, over_seams
 from nmm.contact.detection.narrow_phase import Contacts, follow
 from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.tolerances import FLUSH
@@ -226,6 +226,7 @@ class Contact(Effect):
         )
         new &= self._partners.interfaces(found.vertex, found.edge) >= 0
         new &= ~book.holds(surface, found.vertex, found.edge)
+        new &= ~over_seams(found, motion, (known.edge_a, known.edge_b))
         return (found.vertex[new], found.edge[new]) if new.any() else None
 
     def passage(self, motion: Motion) -> str:

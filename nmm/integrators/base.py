@@ -90,6 +90,16 @@ class Integrator(ABC):
         return self.carries
 
     @property
+    def among_contacts(self) -> "Integrator":
+        """The rule of scenes with contact; one that carries accelerations names another here.
+
+        An impact that the step does not resolve leaves accelerations of its frequency squared; a
+        rule that carries them overshoots and makes energy (Hilber and Hughes 1978), which decays
+        only later. Rules that carry none never do.
+        """
+        return self
+
+    @property
     def contact_kick(self) -> tuple[float, float]:
         """Factors of ``dt a`` and ``a``, ``M a`` the contact force, in velocity and acceleration.
 

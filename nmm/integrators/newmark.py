@@ -33,6 +33,14 @@ class Newmark(Integrator):
         return abs(self.gamma - 2 * self.beta) > 1e-12 or self.gamma > 1
 
     @property
+    def among_contacts(self) -> Integrator:
+        """The member of the same damping that carries no acceleration, ``gamma = 2 beta``."""
+        if not self.carries:
+            return self
+        weight = min(self.contact_weight, 1.0)
+        return Newmark(self.kinetic_factor, weight / 2, weight)
+
+    @property
     def end_weight(self) -> float:
         """``gamma``, or 1 where the acceleration carries the start's forces."""
         return 1.0 if self.carries else self.gamma

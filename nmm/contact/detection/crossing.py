@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.neighbour_list import near_pairs
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import DEPTH, cross
+from nmm.contact.detection.tolerances import ANGLE, DEPTH, FLUSH, cross
 
 ROUNDING = 1e-9
 """Share of the depth by which another edge must be nearer: a corner lies as far from both."""
@@ -129,6 +129,54 @@ def crossings_in(motion: Motion, share: float) -> Crossings:
         depth = np.column_stack([c0[hit], allowed[hit]]) / length[:, None]
         hit = hit[~_along_another(before, after, pairs, v[hit], e[hit], deep[hit], depth)]
     return Crossings(v[hit], e[hit], np.minimum(touch, deep)[hit])
+
+
+def over_seams(
+    found: Crossings, motion: Motion, pairs: tuple[Ints, Ints], share: float = FLUSH
+) -> Bools:
+    """Which crossings (m,) are corners that slide from one body on to the next, flush with it.
+
+    The corner of a block on a floor lies lower than it by its own penetration. Where the floor ends
+    and another body goes on at its level, it comes in through the side of that body just below the
+    end of it, and the corners of both floors come in through the side of the block just above its
+    corner: no more than ``share`` of the thickness. The floor that goes on bears it.
+
+    Parameters
+    ----------
+    found, motion
+        The crossings of a step.
+    pairs
+        Vertex and edge (k,) of the contacts of the step.
+    share
+        Of the thickness of the thinner body, up to which faces are flush.
+    """
+    before, edge, vertex = motion.before, found.edge, found.vertex
+    flush = share * np.minimum(before.thickness[vertex], before.thickness[edge])
+    over = np.zeros(len(found), dtype=bool)
+    for corner, beyond in ((edge, before.previous[edge]), (before.next[edge], before.next[edge])):
+        either = (vertex[:, None] == pairs[0]) | (corner[:, None] == pairs[0])
+        one, other = np.nonzero((_apart(motion, found, corner) < flush)[:, None] & either)
+        floor, low = pairs[1][other], flush[one]
+        turn = cross(before.direction[floor], before.direction[beyond[one]])
+        level = np.abs(turn) < np.sin(ANGLE)
+        for point in (vertex[one], corner[one]):
+            level &= np.abs(_height(before, point, floor)) < low
+        over[one[level]] = True
+    return over
+
+
+def _apart(motion: Motion, found: Crossings, corner: Ints) -> Floats:
+    """Distances (m,) of the crossing vertices from other ones when they cross (m)."""
+    time = found.fraction[:, None]
+    offset = (1 - time) * (motion.before.start[found.vertex] - motion.before.start[corner])
+    offset += time * (motion.after.start[found.vertex] - motion.after.start[corner])
+    return np.asarray(np.hypot(*offset.T))
+
+
+def _height(surface: Surface, vertex: Ints, edge: Ints) -> Floats:
+    """Signed distance (m,) of vertices from the lines of edges (m), positive outside."""
+    offset = surface.start[vertex] - surface.start[edge]
+    return np.asarray((offset * surface.normal[edge]).sum(axis=1))
 
 
 def _along_another(

@@ -64,12 +64,13 @@ class Stepper:
         self.reference = discretisation.model.manifold.elements.points
         self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
         self._current, self._lay, self._clock = Current(discretisation), lay, clock
-        self._integrator = integrator
+        among = discretisation.plan.contact is not None
+        self._integrator = integrator.among_contacts if among else integrator
         self._assembly = Assembly(self._current)
         self._mover = Mover(self._current, solver, small or lay is not None, clock)
         self._alone = Alone(self._current, self._mover, solver, small, clock)
         self._touching = Touching(
-            self._current, self._mover, solver, self.size, integrator.carries, clock
+            self._current, self._mover, solver, self.size, self._integrator.carries, clock
         )
         self._carried = CarriedOver(self._touching.reach())
 
