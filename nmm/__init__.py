@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from nmm.scene import Scene as Scene
     from nmm.scene import parse_scene as parse_scene
     from nmm.scene import read_scene as read_scene
+    from nmm.stepping.resume import resume as resume
     from nmm.stepping.run import Run as Run
     from nmm.stepping.run import run as run
 
@@ -32,6 +33,7 @@ _HOME = {
     "read_formulation": "nmm.formulation",
     "read_run": "nmm.results",
     "read_scene": "nmm.scene",
+    "resume": "nmm.stepping.resume",
     "run": "nmm.stepping.run",
 }
 
@@ -46,6 +48,7 @@ __all__ = [
     "read_formulation",
     "read_run",
     "read_scene",
+    "resume",
     "run",
 ]
 

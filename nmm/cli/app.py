@@ -1,12 +1,14 @@
 """The verbs of the command line. What they need is imported inside them, so that help is fast."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from nmm.cli import scene_verbs, study_verbs, verification_verbs
-from nmm.cli.scene_verbs import AllowCode, FormulationFile, SceneFile, allowed, read_formulation
+from nmm.cli.scene_verbs import AllowCode, FormulationFile, allowed, read_formulation
 from nmm.cli.terminal import (
     console,
     faults_told,
@@ -16,6 +18,7 @@ from nmm.cli.terminal import (
     tell_next,
     tell_run,
 )
+from nmm.errors import NmmError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,6 +26,7 @@ if TYPE_CHECKING:
     from nmm.results import StoredRun
     from nmm.results.sink import RunData
     from nmm.scene import Scene
+    from nmm.stepping.run import Run
 
 app = typer.Typer(
     help="Numerical manifold method in 2D: blocks, joints, contact and fracture.",
@@ -61,7 +65,7 @@ scene_verbs.register(app)
 
 @app.command()
 def run(
-    scene: SceneFile,
+    scene: Annotated[Path | None, typer.Argument(help="Scene file, TOML.", metavar="SCENE")] = None,
     formulation: FormulationFile = None,
     out: Out = None,
     quiet: Quiet = False,
@@ -72,15 +76,31 @@ def run(
         float | None,
         typer.Option(min=0, help="Seconds after which the run ends with what it has."),
     ] = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="RUN",
+            help="Go on with a run that was stopped from the last checkpoint in its folder; "
+            "its scene has [output] checkpoint.",
+        ),
+    ] = None,
     allow_code: AllowCode = None,
 ) -> None:
-    """Run a scene; write its folder with pictures and ParaView files.
+    """Run a scene, or go on with a run; write its folder with pictures and ParaView files.
 
     Exit code 2 when a step could not be solved, 3 when the budget was spent, 4 when the structure
     collapsed, 5 when an audit of energy, momentum or balance failed; what was written stays.
     """
-    with faults_told(), allowed(scene, allow_code):
-        _run(scene, formulation, out or _free(RUNS / scene.stem), quiet, steps, budget)
+    with faults_told():
+        if resume is not None:
+            _refuse_beside_resume(scene, formulation, out)
+            with allowed(resume / "scene.toml", allow_code):
+                _resume(resume, quiet, steps, budget)
+            return
+        if scene is None:
+            raise NmmError("SCENE: missing: expected a scene file, or --resume with a run folder")
+        with allowed(scene, allow_code):
+            _run(scene, formulation, out or _free(RUNS / scene.stem), quiet, steps, budget)
 
 
 @app.command()
@@ -142,17 +162,50 @@ def _run(
     budget: float | None = None,
 ) -> None:
     import nmm
-    from nmm.results.summary import render
-    from nmm.stepping.drive.verdict import EXIT_CODES
 
     scene = nmm.read_scene(place)
     chosen = read_formulation(formulation)
+    with _stopped_told(out), progress_bar(quiet, steps) as progress:
+        done = nmm.run(scene, chosen, out=out, progress=progress, budget=budget)
+    _tell_done(scene, done, out, quiet)
+
+
+def _resume(folder: Path, quiet: bool, steps: bool, budget: float | None) -> None:
+    import nmm
+
+    with _stopped_told(folder), progress_bar(quiet, steps) as progress:
+        done = nmm.resume(folder, progress=progress, budget=budget)
+    _tell_done(nmm.read_scene(folder / "scene.toml"), done, folder, quiet)
+
+
+def _refuse_beside_resume(scene: Path | None, formulation: Path | None, out: Path | None) -> None:
+    given = {"SCENE": scene, "--formulation": formulation, "--out": out}
+    for name, value in given.items():
+        if value is not None:
+            raise NmmError(
+                f"{name}: {value}: expected none beside --resume, which takes what the folder "
+                "holds: leave it out, or run the scene anew without --resume"
+            )
+
+
+@contextmanager
+def _stopped_told(out: Path) -> Iterator[None]:
+    """Tell what can be done with a run that the user stops."""
     try:
-        with progress_bar(quiet, steps) as progress:
-            done = nmm.run(scene, chosen, out=out, progress=progress, budget=budget)
+        yield
     except KeyboardInterrupt:
         typer.secho(f"stopped; what was written can be drawn: nmm plot {out}", err=True)
+        if (out / "checkpoint.npz").exists():
+            typer.secho(f"it goes on from its last checkpoint: nmm run --resume {out}", err=True)
         raise typer.Exit(130) from None
+
+
+def _tell_done(scene: "Scene", done: "Run", out: Path, quiet: bool) -> None:
+    """Draw a run that has ended, tell of it, and leave with its exit code."""
+    import nmm
+    from nmm.results.summary import render
+    from nmm.stepping.drive.verdict import EXIT_CODES
+
     # Drawn from the folder, as `nmm plot` does, which knows the covers too.
     files = [*_draw(nmm.read_run(out), out, scene), *_paraview(done, out)]
     tell_run(scene, done)
@@ -189,7 +242,6 @@ def _draw(
 
 def _scene_of(stored: "StoredRun", tell: "Callable[[str], None]") -> "Scene | None":
     """Read the scene of a run again; a run is drawn without one that cannot be read."""
-    from nmm.errors import NmmError
     from nmm.results.storage.files import SCENE
     from nmm.scene import parse_scene
 
@@ -210,8 +262,6 @@ def _paraview(
 
 
 def _frame_exists(frame: int | None, count: int) -> None:
-    from nmm.errors import NmmError
-
     if frame is not None and not -count <= frame < count:
         raise NmmError(f"--frame {frame}: expected {-count} to {count - 1}: the run has {count}")
 

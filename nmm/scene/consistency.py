@@ -159,6 +159,11 @@ def _output(data: Tables) -> Iterator[Finding]:
     if "every_time" in output and not moves:
         remedy = "use every_steps, or add [inertia]; growing loads have no time"
         yield ("output", "every_time"), "no [inertia]", "a scene that moves in time", remedy
+    checkpoint = _table(output, "checkpoint")
+    if "every_time" in checkpoint and "inertia" not in data:
+        remedy = "use every_steps; growing loads have no time"
+        place = ("output", "checkpoint", "every_time")
+        yield place, "no [inertia]", "a scene that moves in time", remedy
     if output.get("events") and "contact" not in data:
         remedy = "remove events, or add [contact]"
         yield ("output", "events"), "no [contact]", "a scene with contact", remedy

@@ -4,11 +4,37 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from nmm.scene.fields import Count, Frozen, PartName, Time
+from nmm.scene.fields import Count, Frozen, PartName, Time, fault
 
 Event = Literal["first_contact", "first_slip", "bond_breaks", "state_changes"]
+
+
+class CheckpointTable(Frozen):
+    """How often a run stores all that it needs to go on from there.
+
+    A run that asks for it drops, wherever it stores that, what it keeps for speed alone, so that it
+    and one that was stopped and goes on give the same bytes; its results differ from those of a run
+    without checkpoints within the tolerance of the solution.
+    """
+
+    every_time: Time | None = Field(
+        default=None,
+        gt=0,
+        description="a time in s, > 0; of runs with inertia",
+        examples=["0.5 s"],
+    )
+    every_steps: Count | None = Field(
+        default=None, gt=0, description="a number of steps, > 0", examples=[50]
+    )
+
+    @model_validator(mode="after")
+    def _asks(self) -> CheckpointTable:
+        if self.every_time is None and self.every_steps is None:
+            remedy = "write for example { every_steps = 50 }"
+            raise fault("neither every_time nor every_steps", "one of them", remedy)
+        return self
 
 
 class OutputTable(Frozen):
@@ -41,6 +67,11 @@ class OutputTable(Frozen):
         description='a list of "von_mises", "principal_stress", "mean_stress", "crack_opening" and '
         '"module:Class" of outputs of one\'s own: what frames hold beside displacement and stress',
         examples=[["von_mises", "crack_opening"]],
+    )
+
+    checkpoint: CheckpointTable | None = Field(
+        default=None,
+        description="[output.checkpoint]: how often all is stored that a run goes on from",
     )
 
     @property

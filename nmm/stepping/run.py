@@ -10,9 +10,11 @@ from nmm.assembly.motion import State
 from nmm.formulation import Formulation
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import MemorySink, Sink
+from nmm.results.storage.run_folder import RunFolder
 from nmm.results.summary import Summary
 from nmm.solvers.threads import one_thread
-from nmm.stepping.simulation import Progress, prepare
+from nmm.stepping.run_state import RunState
+from nmm.stepping.simulation import Progress, Simulation, prepare
 from nmm.stepping.step.stepper import Stepper
 from nmm.trust import allowing, beside, given
 
@@ -134,11 +136,22 @@ def _run(
     simulation = prepare(scene, formulation or scene.formulation or Formulation())
     if budget is not None:
         simulation.stepper.budget.seconds = budget
-    memory = MemorySink()
     folder = None if out is None else simulation.folder(Path(out))
+    return finished(simulation, MemorySink(), folder, progress)
+
+
+def finished(
+    simulation: Simulation,
+    memory: MemorySink,
+    folder: RunFolder | None,
+    progress: Progress,
+    stood: RunState | None = None,
+) -> Run:
+    """Run a simulation to its end, from its start or from where it ``stood``."""
     sinks: list[Sink] = [memory] if folder is None else [memory, folder]
+    store = {} if folder is None else {"store": folder.checkpoint}
     try:
-        state = simulation.run(sinks, progress)
+        state = simulation.run(sinks, progress, **store, stood=stood)
     except BaseException as fault:
         if folder is not None:
             folder.stop(fault)

@@ -30,12 +30,16 @@ from nmm.model.several_meshes import net_class
 from nmm.model.solver_settings import cures, solver_for, warnings
 from nmm.results.frame import Topology
 from nmm.results.sink import Sink
-from nmm.results.storage.run_folder import RunFolder
+from nmm.results.storage import files
+from nmm.results.storage.checkpoint import damaged
+from nmm.results.storage.run_folder import RunFolder, checkpoint_header
+from nmm.results.storage.values import Arrays
 from nmm.results.summary import Summary
 from nmm.results.tee import FramesOnly, Tee
 from nmm.scene import scene_hash
 from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
+from nmm.stepping.checkpoints import Checkpoints, checkpoint_choice
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.drive.static_theorem import load_bound
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
@@ -50,6 +54,7 @@ from nmm.stepping.reports.output import (
     storage,
 )
 from nmm.stepping.reports.recorder import Monitor, Recorder, Totals, monitors
+from nmm.stepping.run_state import RunState
 from nmm.stepping.step.budget import Budget
 from nmm.stepping.step.remap import Lay, check_remap
 from nmm.stepping.step.stepper import Stepper, scaled_load
@@ -99,31 +104,62 @@ class Simulation:
             summary=self.identity(),
         )
 
-    def run(self, sinks: list[Sink], progress: Progress) -> State:
-        """Run to the end, or to the step that cannot be solved; return the last state."""
+    def reopened(self, path: Path) -> tuple[RunFolder, RunState]:
+        """Return the run folder at ``path`` as it was at its checkpoint, and where it stood.
+
+        Raises
+        ------
+        StorageError, DamageError
+            See `RunFolder.reopened`.
+        """
+        known = self.identity()
+        folder, arrays = RunFolder.reopened(path, known, checkpoint_header(known))
+        try:
+            return folder, RunState.from_arrays(arrays).checked(self.stepper.model)
+        except ValueError as fault:
+            folder.close()
+            raise damaged(path / files.CHECKPOINT, str(fault)) from fault
+
+    def run(
+        self,
+        sinks: list[Sink],
+        progress: Progress,
+        store: Callable[[Arrays], None] = lambda arrays: None,
+        stood: RunState | None = None,
+    ) -> State:
+        """Run to the end, or to the step that cannot be solved; return the last state.
+
+        ``store`` takes checkpoints; ``stood`` is where the run goes on, None from its start.
+        """
         bound = self._failure_bound()
         sink: Sink = Tee(sinks)
         if self.origin.any():
             sink = MovedBack(sink, self.origin)
-        sink.begin(
-            Topology(
-                elements=self.stepper.model.manifold.elements,
-                element_region=self.stepper.model.manifold.element_region,
-                region_material=np.asarray(self.regions.material, dtype=np.int64),
-                material_names=tuple(self.scene.materials),
-                region_names=tuple(self.regions.name),
-            )
-        )
         output = self.scene.output
         declared = Declared.of(output.quantities if output else ())
         recorder = Recorder(
             self.stepper, sink, self.monitors, choice=self._choice(), declared=declared
         )
-        recorder.frame(self.start, "load" if self.scene.inertia is None else "dynamic", None)
-        state, verdict = self._advance(recorder, progress)
+        if stood is None:
+            sink.begin(self.topology)
+            stage = "load" if self.scene.inertia is None else "dynamic"
+            recorder.frame(self.start, stage, None)
+        checkpoints = Checkpoints(self.stepper, recorder, self._checkpoint_choice(), store)
+        state, verdict = self._advance(recorder, progress, checkpoints, stood)
         summary = self._summary(recorder, state, verdict)
         sink.finish(replace(summary, failure_bound=bound))
         return state
+
+    @property
+    def topology(self) -> Topology:
+        """The elements that frames belong to, at the start of the run."""
+        return Topology(
+            elements=self.stepper.model.manifold.elements,
+            element_region=self.stepper.model.manifold.element_region,
+            region_material=np.asarray(self.regions.material, dtype=np.int64),
+            material_names=tuple(self.scene.materials),
+            region_names=tuple(self.regions.name),
+        )
 
     def _failure_bound(self) -> float | None:
         """Return the load factor that no run until failure can pass; None of other runs."""
@@ -135,17 +171,28 @@ class Simulation:
         self.stepper.seconds["bound"] = perf_counter() - begun
         return None if found is None else found.factor
 
-    def _advance(self, recorder: Recorder, progress: Progress) -> tuple[State, RunVerdict]:
+    def _advance(
+        self,
+        recorder: Recorder,
+        progress: Progress,
+        checkpoints: Checkpoints,
+        stood: RunState | None,
+    ) -> tuple[State, RunVerdict]:
         stepper, scene = self.stepper, self.scene
+        at = None if stood is None else checkpoints.go_on(stood)
+        stepper.budget.taken = recorder.steps
         if scene.inertia is not None:
             assert scene.duration is not None
-            step = self.formulation.integrator.step
-            times = Schedule(scene.duration, step)
-            at = InTime.at_start(self.start, times)
-            return run_in_time(stepper, recorder, at, times, progress)
+            times = Schedule(scene.duration, self.formulation.integrator.step)
+            begun = at or checkpoints.begin(InTime.at_start(self.start, times))
+            assert isinstance(begun, InTime)
+            return run_in_time(stepper, recorder, begun, times, progress, checkpoints.keep)
         loads = self._load_schedule()
-        under = UnderLoad.at_start(self.start, loads)
-        state, verdict = run_load(stepper, recorder, under, loads, progress, self.regions.name)
+        under = at or checkpoints.begin(UnderLoad.at_start(self.start, loads))
+        assert isinstance(under, UnderLoad)
+        state, verdict = run_load(
+            stepper, recorder, under, loads, progress, self.regions.name, checkpoints.keep
+        )
         loading = scene.loading
         if verdict.code == FAILURE and loading is not None and loading.motion_after_failure:
             self._show_failure(recorder, state, verdict, loading.motion_after_failure, progress)
@@ -186,6 +233,13 @@ class Simulation:
         if self.scene.inertia is None or self.scene.duration is None:
             return choice_under_loads(self.scene.output)
         return choice_in_time(self.scene.output, self.start.time, self.scene.duration)
+
+    def _checkpoint_choice(self) -> Choice | None:
+        """Return after which steps a checkpoint is stored."""
+        asked = None if self.scene.output is None else self.scene.output.checkpoint
+        if asked is None:
+            return None
+        return checkpoint_choice(asked, self.start.time, self.scene.inertia is not None)
 
     @property
     def storage(self) -> Storage:

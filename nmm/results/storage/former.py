@@ -7,7 +7,7 @@ whose parts are links to elsewhere, is refused.
 import re
 from pathlib import Path
 
-from nmm.errors import StorageError
+from nmm.errors import DamageError, StorageError
 from nmm.results.storage import files
 from nmm.results.storage.mark import Mark
 from nmm.results.storage.writing import told
@@ -18,7 +18,8 @@ _PICTURES = (
     "|stress_(mises|xx|yy|xy|major|minor)"
 )
 _WRITTEN = {
-    ".": rf"{files.TOPOLOGY_NAME.pattern}|history\.csv|scene\.toml|formulation\.toml|run\.json",
+    ".": rf"{files.TOPOLOGY_NAME.pattern}|history\.csv|scene\.toml|formulation\.toml|run\.json"
+    r"|checkpoint\.npz",
     files.FRAMES: files.FRAME_NAME.pattern,
     files.PICTURES: rf"({_PICTURES})\.png",
     files.PARAVIEW: r"(blocks|contacts)(_[0-9]{6,}\.vtu|\.pvd)",
@@ -61,6 +62,30 @@ def delete(folder: Path) -> None:
         place = folder / name
         for path in list(place.iterdir()) if place.is_dir() else ():
             if pattern.fullmatch(path.name) and (path.is_file() or path.is_symlink()):
+                with told(path):
+                    path.unlink()
+
+
+def delete_after(folder: Path, topologies: int, frames: int) -> None:
+    """Delete all topologies and frames but so many, which are to be there.
+
+    Raises
+    ------
+    DamageError
+        When one of them is missing.
+    """
+    for place, name, count, named in (
+        (folder, files.TOPOLOGY_NAME, topologies, files.topology_name),
+        (folder / files.FRAMES, files.FRAME_NAME, frames, files.frame_name),
+    ):
+        found = files.numbered(place, name)
+        if lost := sorted(set(range(count)) - set(found)):
+            raise DamageError(
+                f"{place / named(lost[0])}: missing: expected it as the run wrote it before its "
+                "checkpoint: restore it or run the scene again"
+            )
+        for number, path in found.items():
+            if number >= count:
                 with told(path):
                     path.unlink()
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.errors import DamageError
 from nmm.results.storage.writing import told, write_text
 
 
@@ -28,6 +29,39 @@ class HistoryFile:
         self._names: list[str] = []
         self._handle: int | None = None
         self._size = 0
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names in the head so far."""
+        return tuple(self._names)
+
+    @classmethod
+    def cut(cls, path: Path, columns: Sequence[str], rows: int) -> "HistoryFile":
+        """Return the writer of a file that goes on after its first rows, under these columns.
+
+        Raises
+        ------
+        DamageError
+            When it holds fewer rows, or rows of other columns.
+        """
+        made = cls(path)
+        if not columns:
+            path.unlink(missing_ok=True)
+            return made
+        with told(path):
+            lines = path.read_text(encoding="utf-8").split("\n")[:-1] if path.exists() else []
+        table = list(csv.reader(lines[: rows + 1]))
+        wide = len(columns)
+        if len(table) <= rows or table[0][:wide] != list(columns):
+            raise DamageError(
+                f"{path}: {max(len(table) - 1, 0)} lines of it can be read: expected the {rows} "
+                "before the checkpoint under the same columns: restore it or run the scene again"
+            )
+        # Columns that came later stand behind the others.
+        content = "".join(_line(cells[:wide]) for cells in table)
+        write_text(path, content)
+        made._open(list(columns), len(content.encode()))
+        return made
 
     def append(self, values: Mapping[str, float]) -> None:
         """Hand one row to the system.
@@ -65,10 +99,14 @@ class HistoryFile:
         names, padding = [*self._names, *fresh], "," * len(fresh)
         content = _line(names) + "".join(f"{line}{padding}\n" for line in old)
         write_text(self.path, content)
+        self._open(names, len(content.encode()))
+
+    def _open(self, names: list[str], size: int) -> None:
+        """Append from now on to what stands in the file."""
         self.close()
         with told(self.path):
             self._handle = os.open(self.path, os.O_WRONLY | os.O_APPEND)
-        self._names, self._size = names, len(content.encode())
+        self._names, self._size = names, size
 
 
 def _write(handle: int, line: bytes) -> None:

@@ -1,7 +1,8 @@
 """The folder of a run, written while the run goes.
 
 Layout: `run.json` with the version of this layout, `scene.toml` and `formulation.toml` as run,
-`topology.npz`, `frames/000000.npz`, ..., `history.csv`, `summary.json`; `.lock` while a run writes.
+`topology.npz`, `frames/000000.npz`, ..., `history.csv`, `summary.json`; `checkpoint.npz`
+where the scene asks for it; `.lock` while a run writes.
 Every file but the history is put in place whole, the history grows by whole lines, so a run that
 was killed can be read up to its last step.
 """
@@ -16,9 +17,17 @@ from warnings import warn
 from nmm.errors import NmmError, NmmWarning
 from nmm.results.frame import Frame, Topology
 from nmm.results.storage import files, former
+from nmm.results.storage.checkpoint import (
+    CHECKPOINT_FORMAT,
+    Checkpoint,
+    CheckpointHeader,
+    read_checkpoint,
+    write_checkpoint,
+)
 from nmm.results.storage.history import HistoryFile
 from nmm.results.storage.lock import FolderLock
 from nmm.results.storage.mark import Mark
+from nmm.results.storage.values import Arrays
 from nmm.results.storage.writing import ToDisk, told, write_text
 from nmm.results.summary import REPLACING, STOPPED, Summary
 
@@ -71,6 +80,50 @@ class RunFolder:
             self._lock.release()
             raise
         self._history = HistoryFile(self.path / files.HISTORY)
+
+    @classmethod
+    def reopened(
+        cls, path: Path, summary: Summary, expected: CheckpointHeader
+    ) -> tuple["RunFolder", Arrays]:
+        """Return a folder as it was at its checkpoint, to go on writing, and what that holds.
+
+        What was written after the checkpoint is deleted.
+
+        Raises
+        ------
+        StorageError
+            When another run is writing to it, there is no checkpoint, or it is of another version,
+            scene or formulation.
+        DamageError
+            When the checkpoint, or something written before it, was cut off or altered.
+        """
+        lock = FolderLock(path / files.LOCK)
+        try:
+            checkpoint = read_checkpoint(path, expected)
+            header = checkpoint.header
+            former.delete_after(path, header.topologies, header.frames)
+            history = HistoryFile.cut(path / files.HISTORY, header.columns, header.rows)
+            folder = cls.__new__(cls)
+            folder.path, folder._summary, folder._lock = path, summary, lock
+            folder._topologies, folder._frames = header.topologies, header.frames
+            folder._rows, folder._history, folder._disk = header.rows, history, ToDisk()
+            folder._write(files.SUMMARY, summary.to_json())
+        except BaseException:
+            lock.release()
+            raise
+        return folder, checkpoint.arrays
+
+    def checkpoint(self, arrays: Arrays) -> None:
+        """Store what the run goes on from when it is stopped after this."""
+        self._disk.sync()
+        header = replace(
+            checkpoint_header(self._summary),
+            topologies=self._topologies,
+            frames=self._frames,
+            rows=self._rows,
+            columns=self._history.columns,
+        )
+        write_checkpoint(self.path / files.CHECKPOINT, Checkpoint(header, arrays))
 
     def begin(self, topology: Topology) -> None:
         """Write the elements as the topology of the frames to come."""
@@ -144,3 +197,11 @@ class RunFolder:
     def _write(self, name: str, content: str) -> None:
         write_text(self.path / name, content)
         self._disk.wrote(self.path / name)
+
+
+def checkpoint_header(summary: Summary) -> CheckpointHeader:
+    """Return the header of checkpoints of a run, of which ``summary`` is known beforehand."""
+    version = summary.versions["nmm-framework"]
+    return CheckpointHeader(
+        CHECKPOINT_FORMAT, version, summary.scene_hash, summary.formulation_hash
+    )

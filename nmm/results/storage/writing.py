@@ -57,8 +57,8 @@ def told(path: Path) -> Iterator[None]:
         raise StorageError(f"{path}: cannot be written, {reason}: expected {expected}") from fault
 
 
-def write_bytes(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all.
+def write_bytes(path: Path, content: bytes, to_disk: bool = False) -> None:
+    """Write a file whole or not at all; ``to_disk``: outlive a power cut from then on.
 
     Raises
     ------
@@ -69,7 +69,11 @@ def write_bytes(path: Path, content: bytes) -> None:
     with told(path):
         try:
             scratch.write_bytes(content)
+            if to_disk:
+                _sync(scratch)
             os.replace(scratch, path)
+            if to_disk:
+                _sync(path.parent)
         except BaseException:
             with suppress(OSError):
                 scratch.unlink(missing_ok=True)
@@ -81,12 +85,12 @@ def write_text(path: Path, content: str) -> None:
     write_bytes(path, content.encode())
 
 
-def write_arrays(path: Path, arrays: Mapping[str, npt.ArrayLike]) -> None:
+def write_arrays(path: Path, arrays: Mapping[str, npt.ArrayLike], to_disk: bool = False) -> None:
     """Write an .npz as `write_bytes` does; the same arrays give the same bytes."""
     buffer = io.BytesIO()
     named: dict[str, Any] = {name: np.asarray(array) for name, array in arrays.items()}
     np.savez(buffer, **named)
-    write_bytes(path, buffer.getvalue())
+    write_bytes(path, buffer.getvalue(), to_disk)
 
 
 class ToDisk:

@@ -1,0 +1,74 @@
+"""When a run stores where it stands, and how it goes on from there.
+
+A run that stores goes on from what it has stored, with an empty workspace, just as one does that
+was stopped: so both take the same steps, bit by bit.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeVar, cast
+
+from nmm.results.storage.values import Arrays
+from nmm.stepping.drive.dynamics import InTime
+from nmm.stepping.drive.statics import UnderLoad
+from nmm.stepping.reports.output import Choice
+from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.run_state import RunState
+from nmm.stepping.step.stepper import Stepper
+
+if TYPE_CHECKING:
+    from nmm.scene.output import CheckpointTable
+
+At = TypeVar("At", InTime, UnderLoad)
+
+
+def checkpoint_choice(asked: "CheckpointTable", begin: float, in_time: bool) -> Choice:
+    """Return after which steps is stored; time counts in dynamics alone."""
+    return Choice(begin, asked.every_time if in_time else None, asked.every_steps)
+
+
+@dataclass
+class Checkpoints:
+    """Stores where a run stands.
+
+    Attributes
+    ----------
+    stepper, recorder
+        Of the run.
+    choice
+        After which steps it is stored; None is never.
+    store
+        Takes what is stored.
+    """
+
+    stepper: Stepper
+    recorder: Recorder
+    choice: Choice | None
+    store: Callable[[Arrays], None]
+    _periods: int = 0
+
+    def begin(self, at: At) -> At:
+        """Store the start of a run, so that it can go on whenever it is stopped."""
+        return at if self.choice is None else self._stored(at)
+
+    def keep(self, at: At) -> At:
+        """Store where the run stands, if it is time; return from where it goes on."""
+        if self.choice is None:
+            return at
+        time, steps, before = at.state.time, self.recorder.totals.taken, self._periods
+        self._periods = max(before, self.choice.periods(time))
+        due = self.choice.takes(time, steps, before, frozenset())
+        return self._stored(at) if due else at
+
+    def go_on(self, state: RunState) -> InTime | UnderLoad:
+        """Take up a run where it stood."""
+        self.stepper.carry(state.carried)
+        self.recorder.totals = state.totals
+        if self.choice is not None:
+            self._periods = self.choice.periods(state.at.state.time)
+        return state.at
+
+    def _stored(self, at: At) -> At:
+        arrays = RunState(at, self.stepper.carried, self.recorder.totals).to_arrays()
+        self.store(arrays)
+        return cast(At, self.go_on(RunState.from_arrays(arrays)))

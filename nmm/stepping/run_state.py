@@ -1,0 +1,103 @@
+"""All of a run that matters: what a checkpoint stores and a run goes on from."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
+
+from nmm.results.storage.values import Arrays, Kinds, decoded, encoded
+from nmm.stepping.drive.dynamics import InTime
+from nmm.stepping.drive.statics import UnderLoad
+from nmm.stepping.reports.recorder import Totals
+from nmm.stepping.step.carried import CarriedOver
+
+if TYPE_CHECKING:
+    from nmm.assembly.model import Model
+    from nmm.contact.points.contact_points import ContactPoints
+
+
+@dataclass(frozen=True)
+class RunState:
+    """Where a run stands. What is not in it may be dropped without changing an answer.
+
+    Attributes
+    ----------
+    at
+        The last accepted state with its contacts, and what decides the next step.
+    carried
+        What the stepper and the effects carry besides.
+    totals
+        Of what was recorded.
+    """
+
+    at: InTime | UnderLoad
+    carried: CarriedOver
+    totals: Totals
+
+    def to_arrays(self) -> Arrays:
+        """Return it as arrays by name."""
+        return encoded(self, KINDS)
+
+    def checked(self, model: "Model") -> "RunState":
+        """Return it, if it fits a model.
+
+        Raises
+        ------
+        ValueError
+            When its arrays have other sizes, or contacts of edges that the model does not have.
+        """
+        state, manifold = self.at.state, model.manifold
+        unknowns, bodies = (manifold.n_unknowns,), manifold.n_bodies
+        vectors = state.deformation, state.velocity, state.acceleration
+        places = state.frames.centre.shape == (bodies, 2) and state.frames.angle.shape == (bodies,)
+        if any(one.shape != unknowns for one in vectors) or not places:
+            raise ValueError(f"it is not of {manifold.n_unknowns} unknowns and {bodies} bodies")
+        edges = len(manifold.boundary.body)
+        for points in _contact_points(self):
+            sizes = {len(getattr(points, part.name)) for part in fields(points)}
+            sides = points.edge_a, points.edge_b
+            if len(sizes) > 1 or any(len(s) and not 0 <= s.min() <= s.max() < edges for s in sides):
+                raise ValueError("its contacts are not of this model")
+        return self
+
+    @classmethod
+    def from_arrays(cls, arrays: Arrays) -> "RunState":
+        """Return what `to_arrays` made these of.
+
+        Raises
+        ------
+        ValueError
+            When they were not made by it.
+        """
+        found = decoded(arrays, KINDS)
+        if not isinstance(found, cls):
+            raise ValueError(f"it holds a {type(found).__name__}")
+        return found
+
+
+def _contact_points(run: RunState) -> Iterator["ContactPoints"]:
+    """Yield all contact points that a state holds."""
+    carried = run.carried.effects.get("contact")
+    found = [run.at.contacts]
+    if carried is not None:
+        book = carried.record.book
+        found += [book.points, book.lost, carried.record.known]
+    yield from (points for points in found if points is not None)
+
+
+_PLACES = {
+    "nmm.assembly.motion": ("State", "Frames"),
+    "nmm.contact.detection.narrow_phase": ("Contacts",),
+    "nmm.contact.detection.face_contacts": ("FaceContacts",),
+    "nmm.contact.iteration.record": ("ContactRecord", "ContactCarried"),
+    "nmm.contact.points.contact_points": ("ContactPoints",),
+    "nmm.contact.points.joint_book": ("JointBook",),
+    "nmm.stepping.drive.dynamics": ("InTime",),
+    "nmm.stepping.drive.statics": ("UnderLoad", "Rest"),
+    "nmm.stepping.reports.ledger": ("Ledger", "Rise"),
+    "nmm.stepping.reports.output": ("Watch",),
+    "nmm.stepping.reports.recorder": ("Totals",),
+    "nmm.stepping.run_state": ("RunState",),
+    "nmm.stepping.step.carried": ("CarriedOver",),
+}
+KINDS: Kinds = {name: f"{module}:{name}" for module, names in _PLACES.items() for name in names}
+"""Dataclasses that a state may hold; no other is made of what a file says."""
