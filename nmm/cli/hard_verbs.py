@@ -25,7 +25,8 @@ def verify_hard(
 ) -> None:
     """Run classes of hard cases, or list them; write the scenes that miss to a folder.
 
-    Where ``out`` is a file NAME.md, it becomes a page of the manual in place of that.
+    Where ``out`` is a file NAME.jsonl a record of each case is added to it in place of that; where
+    it is a file NAME.md it becomes a page of the manual, of files of records if they are named.
 
     Raises
     ------
@@ -33,10 +34,14 @@ def verify_hard(
         With code 1 when a case misses.
     """
     from nmm.verification.hard.page import write_page
+    from nmm.verification.hard.records import SUFFIX, append_record
     from nmm.verification.hard.running import chosen_cases, judged
 
     if listed:
         _list()
+        return
+    if names and all(name.endswith(SUFFIX) for name in names):
+        _tell_records([Path(name) for name in names], out)
         return
     seeds = list(seeds)
     how = " ".join([*names, f"--first {seeds[0]} --seeds {len(seeds)}", *["--slow"] * slow])
@@ -47,8 +52,14 @@ def verify_hard(
         _tell(finding)
         if out is not None and out.suffix == ".md":
             write_page(found, out, how)  # anew with each, so that a run that is stopped leaves it
-        if out is not None and out.suffix != ".md" and not finding.passed:
+        elif out is not None and out.suffix == SUFFIX:
+            append_record(finding, out)
+        elif out is not None and not finding.passed:
             _keep(finding, out)
+    _sum_up(found)
+
+
+def _sum_up(found: "list[Finding]") -> None:
     missed = [finding for finding in found if not finding.passed]
     seconds = sum(finding.seconds for finding in found)
     console().print(
@@ -58,6 +69,18 @@ def verify_hard(
     )
     if missed:
         raise typer.Exit(1)
+
+
+def _tell_records(paths: list[Path], out: Path | None) -> None:
+    """Sum up records, or make the page of them: nothing is run."""
+    from nmm.verification.hard.page import write_page
+    from nmm.verification.hard.records import read_records
+
+    found = read_records(paths)
+    if out is None:
+        _sum_up(found)
+    else:
+        typer.echo(write_page(found, out, "CLASS --out NAME.jsonl"))
 
 
 def _list() -> None:

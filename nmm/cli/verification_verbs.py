@@ -47,8 +47,9 @@ def verify(
 
     Runs of more than a few seconds need --slow, or the benchmark's full name.
 
-    With --hard, generated scenes with oracles that need no answer; --out takes those that miss, or
-    a file NAME.md the page of the manual.
+    With --hard, generated scenes with oracles that need no answer; --out takes those that miss, a
+    file NAME.jsonl records of all, a file NAME.md the page of the manual: also of records, where
+    they are the NAMEs.
 
     Your own: derive a class from nmm.verification.Case, and name it module:Class. Naming it here
     lets its module run; case folders are data, and parts of one's own in them need --allow-code.

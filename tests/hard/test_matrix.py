@@ -7,10 +7,13 @@ from hypothesis import strategies as st
 
 from nmm.contact.enforcement.base import ENFORCEMENTS
 from nmm.contact.enforcement.penalty import Penalty
+from nmm.errors import NmmError
+from nmm.verification.base import limit
 from nmm.verification.hard.base import HardCase
 from nmm.verification.hard.motion import overlap, prepared, ran
 from nmm.verification.hard.page import write_page
 from nmm.verification.hard.parts import enforcements, with_parts
+from nmm.verification.hard.records import append_record, read_records
 from nmm.verification.hard.reducing import reduced
 from nmm.verification.hard.registry import HARD
 from nmm.verification.hard.running import chosen_cases, judged
@@ -143,6 +146,27 @@ def test_the_page_lists_what_misses_and_what_crashes(tmp_path):
     page = write_page(findings, tmp_path / "page.md", "seams").read_text()
     assert "| `seams` | crashed | 1 | IndexError: no such thing |" in page
     assert "| block | 0/1 |" in page
+
+
+def test_a_page_of_records_is_that_of_the_findings_themselves(tmp_path):
+    made = [("pieces", case) for _, case in chosen_cases(["pieces"], [0])][:3]
+    wrong = HardCase("wrong", {}, lambda scene: {"area": limit(float("nan"), 1.0, "no number")}, {})
+    findings = [judged(group, case) for group, case in [*made, ("seams", wrong)]]
+    for number, finding in enumerate(findings):  # in two files, and one of them twice
+        append_record(finding, tmp_path / f"{number % 2}.jsonl")
+    append_record(findings[0], tmp_path / "1.jsonl")
+    read = read_records(sorted(tmp_path.glob("*.jsonl")))
+    assert [one.passed for one in read] == [False, True, True, True]
+    # Of another order of cases, rows of parts stand in another order.
+    pages = [write_page(some, tmp_path / "p.md", "x").read_text() for some in (findings, read)]
+    assert sorted(pages[0].splitlines()) == sorted(pages[1].splitlines())
+
+
+def test_a_line_that_is_no_record_is_told_with_its_number(tmp_path):
+    path = tmp_path / "spoilt.jsonl"
+    path.write_text('{"class": "seams"}\n')
+    with pytest.raises(NmmError, match=r"spoilt.jsonl, line 1: .*expected a record"):
+        read_records([path])
 
 
 @pytest.mark.parametrize("form", ["triangles", "quads"])

@@ -17,7 +17,8 @@ nothing is left out: what misses here is not to be relied on.
 - `nmm verify --hard --list` names the classes; `nmm verify --hard CLASS --first 100 --seeds 20`
   runs others, `--part NAME` those with a part, `--slow` the larger ones too.
 - `--out FOLDER` takes the scene of each case that misses, and the smallest one found that still
-  does; `--out NAME.md` takes this page.
+  does; `--out NAME.md` takes this page; `--out NAME.jsonl` adds a record of each case, and
+  `nmm verify --hard *.jsonl --out NAME.md` makes this page of records that were made in pieces.
 - A part that joins a registry joins the matrix. A class is one module and one line in
   `nmm.verification.hard.registry`.
 
