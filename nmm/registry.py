@@ -6,7 +6,7 @@ anything of it is called.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
 from difflib import get_close_matches
 from importlib import import_module
 from importlib.metadata import entry_points
@@ -24,6 +24,7 @@ Part = TypeVar("Part")
 # What an option may be, by the annotation of its field; other annotations are left to the part.
 READ = {
     "float": ((int, float), "a number"),
+    "tuple[float, ...]": ((list, tuple), "a list of numbers"),
     "int": ((int,), "a whole number"),
     "str": ((str,), "a text"),
     "bool": ((bool,), "true or false"),
@@ -131,6 +132,7 @@ class Registry(Generic[Part]):
         place = f'{self.kind} "{name}"'
         if is_dataclass(kind):
             _check_options(place, kind, options, given)
+            options = _nested(place, kind, options)
         try:
             return kind(**given, **options)
         except NmmError:
@@ -151,6 +153,23 @@ class Registry(Generic[Part]):
 def above_zero(default: float) -> Any:
     """Return the field of an option that must be above zero."""
     return field(default=default, metadata={ABOVE_ZERO: True})
+
+
+def _nested(place: str, kind: Any, options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options with tables in them made into the dataclasses that are their defaults."""
+    made = dict(options)
+    for item in fields(kind):
+        if item.name not in options or item.default_factory is MISSING:
+            continue
+        default, given = item.default_factory(), options[item.name]
+        if not is_dataclass(default) or isinstance(given, type(default)):
+            continue
+        within = f"{place}: {item.name}"
+        if not isinstance(given, Mapping):
+            raise FormulationError(Fault(within, repr(given), "a table of options", "write one"))
+        _check_options(within, type(default), given, {})
+        made[item.name] = replace(cast(Any, default), **_nested(within, type(default), given))
+    return made
 
 
 def _check_options(

@@ -305,6 +305,34 @@ def test_no_two_public_classes_of_all_rooms_share_a_name():
     assert twice.keys() >= TAKEN_TWICE, f"{TAKEN_TWICE - twice.keys()}: take them off the list"
 
 
+def numbers_of(path: Path) -> Iterator[tuple[str, str]]:
+    """Names in capitals that a file gives values, and the values as they are written."""
+    for node in ast.parse(path.read_text()).body:
+        if not isinstance(node, ast.Assign | ast.AnnAssign) or node.value is None:
+            continue
+        targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+        for target in targets:
+            names, values = [target], [node.value]
+            if isinstance(target, ast.Tuple):
+                several = isinstance(node.value, ast.Tuple)
+                names = target.elts
+                values = node.value.elts if several else [node.value] * len(names)
+            for name, value in zip(names, values, strict=True):
+                if isinstance(name, ast.Name) and name.id.isupper():
+                    yield name.id, ast.unparse(value)
+
+
+@pytest.mark.parametrize("package", ["nmm/contact", "nmm/solvers"])
+def test_a_number_means_the_same_in_all_rooms_of(package):
+    found: dict[str, dict[str, str]] = {}
+    for path in sorted((ROOT / package).rglob("*.py")):
+        for name, value in numbers_of(path):
+            found.setdefault(name, {})[path.relative_to(ROOT).as_posix()] = value
+    twice = {name: homes for name, homes in found.items() if len({*homes.values()}) > 1}
+    assert found
+    assert not twice, "one name, several meanings: " + str(twice)
+
+
 # Lists of cases are as long as there are cases.
 LISTS = {"nmm/verification/problems", "nmm/verification/hard"}
 

@@ -19,7 +19,7 @@ from nmm.solvers.linear import Factor
 
 # Rounding of elastic forces, as a share of the load, from which rigid motions are kept apart.
 ROUNDED = 1e-12
-DIRECTIONS, ROUNDS = 12, 6
+DIRECTIONS, RESTARTS = 12, 6
 # Share of the diagonal of ``int u . v`` below which unknowns displace nothing.
 NOTHING = 1e-14
 
@@ -123,7 +123,7 @@ def solve_apart(
         rhs,
         directions=DIRECTIONS,
         tolerance=1e-15,
-        rounds=ROUNDS,
+        rounds=RESTARTS,
         start=np.zeros(n + r + k),
     )
     size = float(np.linalg.norm(rhs))

@@ -8,23 +8,11 @@ from integration.arrays import Floats
 from nmm.contact.barrier.curve import Curves, Spot, with_forces
 from nmm.contact.barrier.potential import Potential
 from nmm.contact.iteration.multiplier_rounds import compliances, stiff_springs
+from nmm.contact.iteration.options import DEFAULT, BarrierOptions
 from nmm.contact.problem.balance import length
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.errors import SolveError
 from nmm.solvers.linear import Factor, LinearSolver
-
-STIFF = 30.0
-"""Springs of the trials over the inverse compliance of their contact."""
-GROWTH, FREE = 2.0, 6
-"""What a step may leave of the least miss, in so many first steps; later ones must reduce it."""
-HALVINGS = 10
-"""Most halvings of a step."""
-CHORDS, GAIN = 3, 0.6
-"""Most solutions more with a factor, each of which must leave less than this part."""
-NEAR = 1e-5
-"""Miss, relative to the load, below which the gaps themselves are tried for balance."""
-SHORT, LOOK, SLOW = 0.1, 3, 0.5
-"""Two steps shorter than this, or so many that leave more than this part, end an attempt."""
 
 Trials = tuple[Floats, Floats]
 
@@ -64,13 +52,19 @@ class Newton:
     """
 
     def __init__(
-        self, well: Potential, pattern: SpringPattern, linear: LinearSolver, weight: Floats
+        self,
+        well: Potential,
+        pattern: SpringPattern,
+        linear: LinearSolver,
+        weight: Floats,
+        options: BarrierOptions = DEFAULT.barrier,
     ) -> None:
+        self.options = options
         self.well, self.pattern, self.linear = well, pattern, linear.unsymmetric()
         springs = stiff_springs(well.problem, 1.0)
         self.weight, self.own = springs.weight, weight
         self.soft = tuple(1 / c for c in compliances(well.problem))
-        self.curves = Curves(well, STIFF * self.soft[0], STIFF * self.soft[1])
+        self.curves = Curves(well, options.stiff * self.soft[0], options.stiff * self.soft[1])
         self.size = length(self.weight * well.problem.force) or 1.0
         self.bound: Floats | None = None
         self.factorisations = self.solves = 0
@@ -89,15 +83,18 @@ class Newton:
                 factor = self._factor(at)
             except SolveError:
                 return None
-            most = GROWTH * least if patient and count < FREE else 0.0
+            most = self.options.growth * least if patient and count < self.options.free else 0.0
             new, part = self._along(at, self._step(at, factor), most)
             if new is None:
                 return None
             at = self._chords(new, factor, tolerance)
             found, parts = [*found, at.miss], [*parts, part]
             least = min(least, at.miss)
-            slow = count >= LOOK - 1 and at.miss > SLOW * found[-1 - LOOK]
-            if not patient and (slow or max(parts[-2:]) < SHORT):
+            slow = (
+                count >= self.options.look - 1
+                and at.miss > self.options.slow * found[-1 - self.options.look]
+            )
+            if not patient and (slow or max(parts[-2:]) < self.options.short):
                 return None
         return at.increment if self._balanced(at, tolerance) else None
 
@@ -109,7 +106,7 @@ class Newton:
         self.bound = bound
         at = self._state(start.increment, start.trials)
         for _ in range(budget):
-            if at.miss <= NEAR * self.size:
+            if at.miss <= self.options.near * self.size:
                 break
             try:
                 factor = self._factor(at)
@@ -132,7 +129,7 @@ class Newton:
         return _State(increment, trials, spot, rest, gap, slip, miss)
 
     def _balanced(self, at: _State, tolerance: float) -> bool:
-        if not at.miss <= NEAR * self.size:
+        if not at.miss <= self.options.near * self.size:
             return False
         return self.well.imbalance(at.increment, self.own) <= tolerance
 
@@ -166,7 +163,7 @@ class Newton:
         """State after the largest part of ``step`` that misses less, or ``most`` at most."""
         if not np.isfinite(step[0]).all():
             return None, 0.0
-        for part in 0.5 ** np.arange(HALVINGS):
+        for part in 0.5 ** np.arange(self.options.halvings):
             new = self._moved(at, step, float(part))
             if new.miss < max((1 - 0.1 * part) * at.miss, most):
                 return new, float(part)
@@ -174,11 +171,11 @@ class Newton:
 
     def _chords(self, at: _State, factor: Factor, tolerance: float) -> _State:
         """State after further solutions with ``factor``, while they are worth it."""
-        for _ in range(CHORDS):
+        for _ in range(self.options.chords):
             if self._balanced(at, tolerance):
                 break
             new = self._moved(at, self._step(at, factor), 1.0)
-            if not new.miss < GAIN * at.miss:
+            if not new.miss < self.options.gain * at.miss:
                 break
             at = new
         return at

@@ -10,17 +10,11 @@ from nmm.contact.barrier.potential import Potential
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_point import InteriorPoint
 from nmm.contact.iteration.multiplier_rounds import compliances
+from nmm.contact.iteration.options import BarrierOptions, InteriorOptions
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.solvers.linear import LinearSolver
-
-QUICK, PATIENT, LONG = 20, 40, 40
-"""Most steps of the first attempt, of the second, and of the path before it."""
-GOAL = 1e-3
-"""Product of force and distance at which the path is left, over largest force and width."""
-BOUNDS = 6
-"""Most friction bounds that are held before the search is given up."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +30,8 @@ class Search:
     pattern: SpringPattern
     linear: LinearSolver
     tolerance: float
+    options: BarrierOptions
+    interior: InteriorOptions
 
     def run(
         self,
@@ -47,15 +43,17 @@ class Search:
 
         ``solved`` is the last problem with its answer, where it was of the same step.
         """
-        well = self.well
+        well, options = self.well, self.options
         springs = CutSprings.of(well.problem)
-        newton = Newton(well, self.pattern, self.linear, springs.weight)
-        path = InteriorPoint(_sides(well), self.pattern, self.linear)
+        newton = Newton(well, self.pattern, self.linear, springs.weight, options)
+        path = InteriorPoint(_sides(well), self.pattern, self.linear, self.interior)
         starts = [] if solved is None else [_end(newton, *solved)]
         increment = None
         for start in [*starts, _cut(newton, rough)]:
             if increment is None:
-                increment = newton.run(start, self.tolerance, min(QUICK, passes), patient=False)
+                increment = newton.run(
+                    start, self.tolerance, min(options.quick, passes), patient=False
+                )
         if increment is None and well.problem.n_contacts:
             increment = self._inside(newton, path, rough, passes)
         if increment is None:
@@ -72,20 +70,25 @@ class Search:
         self, newton: Newton, path: InteriorPoint, rough: IterationResult, passes: int
     ) -> Floats | None:
         """Unknowns (n,) by way of the interior point."""
-        size = GOAL * self.well.scale * self.well.width**2
+        options = self.options
+        size = options.goal * self.well.scale * self.well.width**2
         trial = np.stack(rough.springs.forces(rough.increment))
-        point = path.centred(path.sides.start(rough.increment, trial), size, min(LONG, passes))
+        point = path.centred(
+            path.sides.start(rough.increment, trial, self.interior.within),
+            size,
+            min(options.path, passes),
+        )
         if point is None:
             return None
         start = _free(newton, point)
-        found = newton.run(start, self.tolerance, min(PATIENT, passes), patient=True)
+        found = newton.run(start, self.tolerance, min(options.patient, passes), patient=True)
         bound = self.well.bound(point.normal)
-        for _ in range(BOUNDS):
+        for _ in range(options.bounds):
             if found is not None:
                 break
-            start, normal = newton.under_bound(start, bound, min(LONG, passes))
+            start, normal = newton.under_bound(start, bound, min(options.held, passes))
             bound = self.well.bound(normal)
-            found = newton.run(start, self.tolerance, min(QUICK, passes), patient=False)
+            found = newton.run(start, self.tolerance, min(options.quick, passes), patient=False)
         return found
 
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from nmm.contact.enforcement.base import Enforcement
+from nmm.contact.enforcement.iterative import IterativeEnforcement
 from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.answers import answer, singular_answer
 from nmm.contact.iteration.exact import exact_round
@@ -22,7 +22,7 @@ from nmm.solvers.linear import LinearSolver
 
 
 @dataclass(frozen=True)
-class Augmented(Enforcement):
+class Augmented(IterativeEnforcement):
     """Uzawa's iteration on penalty springs (Lin 1995; Amadei, Lin, Dwyer 1996).
 
     ``lambda <- lambda + p d`` after every round, the shear multiplier cut at Coulomb's bound; a
@@ -70,11 +70,20 @@ class Augmented(Enforcement):
         budget = IterationBudget(400, 20, 0) if self.rescue else IterationBudget()
         try:
             at = converged_rounds(
-                at, linear_solver, memory, goal, self.max_rounds, self.growth, budget
+                at,
+                linear_solver,
+                memory,
+                goal,
+                self.max_rounds,
+                self.growth,
+                budget,
+                self.iterations,
             )
             how = f"{at.count} rounds"
             if self.rescue and not at.meets(goal):
-                at, rest = exact_round(problem, linear_solver, memory, goal, self.rescue)
+                at, rest = exact_round(
+                    problem, linear_solver, memory, goal, self.rescue, self.iterations
+                )
                 how = f"{how}, then {rest}"
         except SolveError as fault:
             return singular_answer(at.result.springs, linear_solver, fault)

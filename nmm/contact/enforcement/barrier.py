@@ -7,7 +7,7 @@ import numpy as np
 
 from nmm.contact.barrier.potential import Potential
 from nmm.contact.barrier.search import Search
-from nmm.contact.enforcement.base import Enforcement
+from nmm.contact.enforcement.iterative import IterativeEnforcement
 from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.answers import free_part, singular_answer, worst_contacts
 from nmm.contact.iteration.cut_spring_solver import solve_springs
@@ -25,7 +25,7 @@ TOO_THIN = 1e-2
 
 
 @dataclass(frozen=True)
-class Barrier(Enforcement):
+class Barrier(IterativeEnforcement):
     """A smooth barrier in place of the constraint (Li et al. 2020, equations 5, 6, 11, 14).
 
     Normal forces follow ``b(x) = -(x - w)^2 ln(x / w)``, ``x = gap + w/2``: they act within
@@ -59,11 +59,16 @@ class Barrier(Enforcement):
     ) -> StepAnswer:
         """Balance the step from roughly settled springs, or in the end from no motion."""
         problem.check()
-        memory = memory or Memory()
+        memory, steer = memory or Memory(), self.iterations
         springs = stiff_springs(problem, 1.0)
         try:
             rough = solve_springs(
-                springs, linear_solver, memory, 1e-2, budget=IterationBudget(20, 2, 0)
+                springs,
+                linear_solver,
+                memory,
+                1e-2,
+                budget=IterationBudget(20, 2, 0),
+                options=steer,
             )
         except SolveError as fault:
             return singular_answer(springs, linear_solver, fault)
@@ -77,7 +82,14 @@ class Barrier(Enforcement):
         if force > 0:  # blocks that fly do not yet say how hard they will meet
             memory.barrier_width = width
         well = Potential(problem, width, max(force, width / ease) / width)
-        search = Search(well, memory.pattern_of(problem), linear_solver, self.tolerance)
+        search = Search(
+            well,
+            memory.pattern_of(problem),
+            linear_solver,
+            self.tolerance,
+            steer.barrier,
+            steer.interior,
+        )
         found = search.run(rough, self.max_passes, memory.again(problem))
         return _Outcome(self, well, linear_solver, found).answer(memory)
 

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from nmm.contact.enforcement.base import Enforcement
+from nmm.contact.enforcement.iterative import IterativeEnforcement
 from nmm.contact.iteration.answers import answer, singular_answer
-from nmm.contact.iteration.exact import START, exact_round
+from nmm.contact.iteration.exact import exact_round
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import exact_goal, rounds_verdict, stiff_springs
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
@@ -15,7 +15,7 @@ from nmm.solvers.linear import LinearSolver
 
 
 @dataclass(frozen=True)
-class Cone(Enforcement):
+class Cone(IterativeEnforcement):
     """Forces in the cone ``|T| <= c - mu N, N <= t``, gaps and slips exactly complementary to them.
 
     An interior point finds them from nowhere in fifteen to thirty factorisations, whatever the
@@ -50,8 +50,12 @@ class Cone(Enforcement):
         memory = memory or Memory()
         goal = exact_goal(problem, self.tolerance, self.gap_tolerance)
         try:
-            at, how = exact_round(problem, linear_solver, memory, goal, self.max_factorisations)
+            at, how = exact_round(
+                problem, linear_solver, memory, goal, self.max_factorisations, self.iterations
+            )
         except SolveError as fault:
-            return singular_answer(stiff_springs(problem, START), linear_solver, fault)
+            return singular_answer(
+                stiff_springs(problem, self.iterations.rounds.start), linear_solver, fault
+            )
         verdict = rounds_verdict(at, linear_solver, memory, goal, how)
         return answer(at.result, linear_solver, verdict)

@@ -7,9 +7,9 @@ import numpy as np
 from scipy.sparse import block_array, csc_array, diags_array
 
 from integration.arrays import Floats
-from nmm.contact.enforcement.base import Enforcement
+from nmm.contact.enforcement.iterative import IterativeEnforcement
 from nmm.contact.iteration.answers import answer, singular_answer
-from nmm.contact.iteration.exact import START, exact_round
+from nmm.contact.iteration.exact import exact_round
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import (
     MultiplierIterate,
@@ -34,7 +34,7 @@ REFINEMENTS = 10
 
 
 @dataclass(frozen=True)
-class Lagrange(Enforcement):
+class Lagrange(IterativeEnforcement):
     """Contact forces as unknowns: ``[K G; G^T 0] [d; lambda] = [F; -gap]`` (Cai, Liang, Ma 2000).
 
     A pass solves the system of the closed contacts, with a shear multiplier where they stick and
@@ -77,9 +77,13 @@ class Lagrange(Enforcement):
         at, how = self._active_set(stiff_springs(problem, 1.0), linear_solver)
         if at is None or not at.meets(goal):
             try:
-                at, rest = exact_round(problem, linear_solver, memory, goal, self.rescue)
+                at, rest = exact_round(
+                    problem, linear_solver, memory, goal, self.rescue, self.iterations
+                )
             except SolveError as fault:
-                return singular_answer(stiff_springs(problem, START), linear_solver, fault)
+                return singular_answer(
+                    stiff_springs(problem, self.iterations.rounds.start), linear_solver, fault
+                )
             how = f"{how}, then {rest}"
         verdict = rounds_verdict(at, linear_solver, memory, goal, how)
         return answer(at.result, linear_solver, verdict)

@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.enforcement.base import Enforcement
+from nmm.contact.enforcement.iterative import IterativeEnforcement
 from nmm.contact.iteration.answers import spring_answer
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.open_close import (
@@ -31,7 +31,7 @@ REMEDY = "allow more passes, shorten the step or use the cone enforcement"
 
 
 @dataclass(frozen=True)
-class Penalty(Enforcement):
+class Penalty(IterativeEnforcement):
     """Springs at closed contacts, states found by open-close iteration (Shi 1988).
 
     A pass solves the linear system of the present states: a normal spring at closed contacts, a
@@ -73,7 +73,9 @@ class Penalty(Enforcement):
         memory = memory or Memory()
         if self.iteration == "open_close":
             return _OpenClose(self, problem, linear_solver, memory.pattern_of(problem)).run()
-        return spring_answer(CutSprings.of(problem), linear_solver, memory, self.tolerance)
+        return spring_answer(
+            CutSprings.of(problem), linear_solver, memory, self.tolerance, self.iterations
+        )
 
 
 class _OpenClose:

@@ -6,8 +6,8 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.contact.enforcement.base import Enforcement
-from nmm.contact.iteration.cut_spring_solver import SMALL
 from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.options import SMALL
 from nmm.contact.problem.balance import length, weights
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.solvers.linear import LinearSolver

@@ -14,23 +14,11 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.iteration.memory import KeptFactor, Memory
-from nmm.contact.iteration.modified_newton import Chord, Patience
+from nmm.contact.iteration.modified_newton import Chord
+from nmm.contact.iteration.options import DEFAULT, AlternationOptions, Patience
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.errors import SolveError
 from nmm.solvers.linear import Factor, LinearSolver
-
-WIDE, NARROW = 20, 20
-"""Solves in a row with the factor of all springs, and with that of those that act."""
-SLOW = Patience(ahead=10, below=1e-3)
-"""When the first is left before its turn is over: where most states are right and it is slow."""
-LOST = Patience(ahead=40)
-"""When the second is: it would take long, because states are wrong."""
-QUICK = 0.1
-"""Reduction after which the second is renewed at once, without the first in between."""
-REST = 1e-6
-"""Part of their stiffness left to springs that do not act, so that nothing comes free."""
-DRAG = 0.02
-"""Part of the shear stiffness left where contacts slide: some of them may stick in the end."""
 
 
 @dataclass(frozen=True)
@@ -62,9 +50,10 @@ class Alternation:
         memory: Memory,
         tolerance: float,
         increment: Floats,
+        options: AlternationOptions = DEFAULT.alternation,
     ) -> None:
         self.springs, self.linear, self.memory = springs, linear, memory
-        self.tolerance = tolerance
+        self.tolerance, self.options = tolerance, options
         self.increment, self.defect = increment, springs.defect(increment)
         self.solves = self.factorisations = 0
 
@@ -76,19 +65,19 @@ class Alternation:
         SolveError
             When even with all springs acting the load moves a free part.
         """
-        kept = self._all_acting()
-        self._steps(kept.factor, min(WIDE, budget.solves), SLOW)
+        kept, options = self._all_acting(), self.options
+        self._steps(kept.factor, min(options.wide, budget.solves), options.slow)
         narrow = 0
         while self._open and narrow < budget.factors and self.solves < budget.solves:
             before, narrow = self.defect.size, narrow + 1
             factor = self._acting()
             if factor is not None:
-                self._steps(factor, NARROW, LOST)
-            if self._open and not self.defect.size < QUICK * before:
+                self._steps(factor, options.narrow, options.lost)
+            if self._open and not self.defect.size < options.renewed * before:
                 if not kept.as_new(self.springs.problem):
                     self.memory.forget(kept)
                     kept = self._all_acting()
-                self._steps(kept.factor, WIDE)
+                self._steps(kept.factor, options.wide)
         story = f"{self.solves} solves with {self.factorisations or 'no'} new factors"
         return IterationResult(
             self.springs,
@@ -113,12 +102,12 @@ class Alternation:
 
     def _acting(self) -> Factor | None:
         """Factor with the springs that act where the search stands; None where it has none."""
-        springs = self.springs
+        springs, rest = self.springs, self.options.rest
         pattern = self.memory.pattern_of(springs.problem)
         is_open, sliding = springs.states(self.increment)
         loose = is_open & (springs.problem.limits.tension <= 0)
-        normal = np.where(is_open, REST, 1.0) * springs.normal_stiffness
-        left = np.where(loose, REST, np.where(sliding, DRAG, 1.0))
+        normal = np.where(is_open, rest, 1.0) * springs.normal_stiffness
+        left = np.where(loose, rest, np.where(sliding, self.options.drag, 1.0))
         shear = left * springs.shear_stiffness
         self.factorisations += 1
         try:
@@ -127,7 +116,7 @@ class Alternation:
             return None
 
     def _steps(self, factor: Factor, budget: int, patience: Patience | None = None) -> None:
-        chord = Chord(self.springs, factor, self.increment, self.defect)
+        chord = Chord(self.springs, factor, self.increment, self.defect, self.options)
         chord.run(budget, self.tolerance, patience)
         self.solves += chord.solves
         self.increment, self.defect = chord.increment, chord.defect

@@ -5,6 +5,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.options import DEFAULT, IterationOptions
 from nmm.contact.problem.coulomb import label
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.rounding import rounding
@@ -17,11 +18,15 @@ PASSES = 3
 
 
 def spring_answer(
-    springs: CutSprings, linear: LinearSolver, memory: Memory, tolerance: float
+    springs: CutSprings,
+    linear: LinearSolver,
+    memory: Memory,
+    tolerance: float,
+    options: IterationOptions = DEFAULT,
 ) -> StepAnswer:
     """Settle ``springs`` and judge the outcome."""
     try:
-        found = solve_springs(springs, linear, memory, tolerance)
+        found = solve_springs(springs, linear, memory, tolerance, options=options)
     except SolveError as fault:
         return singular_answer(springs, linear, fault)
     return answer(found, linear, judge(found, linear, memory, tolerance))

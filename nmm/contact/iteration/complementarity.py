@@ -14,12 +14,6 @@ from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.row_products import stretched
 
-SOFT = 1e-7
-"""Compliance left to exact contacts in the matrix, as a part of their own: redundant contacts do
-no harm then (Friedlander, Orban 2012)."""
-WITHIN = 0.7
-"""Part of its bound that a shear force may take up at the start."""
-
 
 @dataclass(frozen=True)
 class InteriorIterate:
@@ -111,7 +105,7 @@ class Complementarity:
         closes = slack * self.ease[0] > flow
         return np.where(self.active[1], shear_bound(normal, closes, limits), 0.0)
 
-    def start(self, increment: Floats, trial: Floats) -> InteriorIterate:
+    def start(self, increment: Floats, trial: Floats, within: float) -> InteriorIterate:
         """Point well inside all sides.
 
         Parameters
@@ -121,6 +115,8 @@ class Complementarity:
         trial
             (2, m) forces of these springs (N). Their root mean square tells how large forces
             are; all slack and flow is at least of that order.
+        within
+            Part (-) of its bound that a shear force may take up.
         """
         springs, scale, limits = self.springs, self.ease, self.springs.problem.limits
         normal, shear = trial
@@ -132,7 +128,7 @@ class Complementarity:
         w = np.maximum(springs.problem.gaps(increment) - stretch, typical**2 * scale[0] / p)
         normal = np.where(self.active[0], pull - p, normal)
         bound = self.bound(normal, p, w)
-        shear = np.where(self.active[1], np.clip(shear, -WITHIN * bound, WITHIN * bound), shear)
+        shear = np.where(self.active[1], np.clip(shear, -within * bound, within * bound), shear)
         shear = np.where(self.smooth, 0.0, shear)
         stretch = (shear - springs.shear_shift) * self.compliance[1]
         slip = springs.problem.slips(increment) - stretch

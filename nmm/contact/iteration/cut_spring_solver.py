@@ -13,23 +13,11 @@ from nmm.contact.iteration.alternation import Alternation, IterationBudget
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.options import DEFAULT, SMALL, IterationOptions
 from nmm.contact.iteration.semismooth_newton import polish
 from nmm.contact.iteration.warm_start import start_from
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.solvers.linear import LinearSolver
-
-SMALL = 120
-"""Unknowns up to which Newton's method is tried first."""
-FEW = 200
-"""Contacts up to which it is tried first from a start that is near."""
-FINE = 1e-13
-"""Relative out-of-balance force at which Newton's method need not go on."""
-
-FIRST = 6
-"""Factors of acting springs after which the interior point is asked where they are."""
-
-LOOSE = 1e-4
-"""Out-of-balance force at which the interior point has found most states."""
 
 
 def solve_springs(
@@ -39,6 +27,7 @@ def solve_springs(
     tolerance: float,
     start: Floats | None = None,
     budget: IterationBudget | None = None,
+    options: IterationOptions = DEFAULT,
 ) -> IterationResult:
     """Return unknowns whose cut spring forces balance the step within ``tolerance``, or the best.
 
@@ -52,17 +41,23 @@ def solve_springs(
     given = near if start is None else start
     increment = start_from(springs, memory.found, memory.moving) if given is None else given
     small = len(increment) <= SMALL
-    if small or (near is not None and springs.problem.n_contacts <= FEW):
-        quick = _polished(springs, linear, memory, increment)
+    if small or (near is not None and springs.problem.n_contacts <= options.springs.few):
+        quick = _polished(springs, linear, memory, increment, options)
         if quick.size <= tolerance:
             return _kept(quick, memory)
-    first = replace(budget, factors=min(budget.factors, FIRST)) if budget.interior else budget
-    found = Alternation(springs, linear, memory, tolerance, increment).run(first)
+    first = (
+        replace(budget, factors=min(budget.factors, options.springs.first))
+        if budget.interior
+        else budget
+    )
+    found = Alternation(springs, linear, memory, tolerance, increment, options.alternation).run(
+        first
+    )
     if found.size <= tolerance and small:
-        end = _polished(springs, linear, memory, found.increment)
+        end = _polished(springs, linear, memory, found.increment, options)
         found = replace(found, increment=end.increment, size=end.size)
     elif not found.size <= tolerance and budget.interior > 0:
-        found = _inside(found, linear, memory, tolerance, budget)
+        found = _inside(found, linear, memory, tolerance, budget, options)
     return _kept(found, memory)
 
 
@@ -72,28 +67,37 @@ def _inside(
     memory: Memory,
     tolerance: float,
     budget: IterationBudget,
+    options: IterationOptions,
 ) -> IterationResult:
     """Best of the interior point, broken off near the end for chord steps, and gone on with."""
     springs, problem, best = found.springs, found.springs.problem, found
     stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
     sides = Complementarity.of(springs, np.zeros(problem.n_contacts, dtype=bool), 1 / stiffness)
-    start = inside_start(sides, linear, memory)
-    for balance in (LOOSE, tolerance):
-        method = InteriorPoint(sides, memory.pattern_of(problem), linear)
+    start = inside_start(sides, linear, memory, options)
+    for balance in (options.springs.loose, tolerance):
+        method = InteriorPoint(sides, memory.pattern_of(problem), linear, options.interior)
         if best.size > balance:
             best = _joined(best, method.run(start, budget.interior, Goal(max(balance, tolerance))))
         if best.size <= tolerance:
             break
-        rest = replace(budget, factors=FIRST)
+        rest = replace(budget, factors=options.springs.first)
         best = _joined(
-            best, Alternation(springs, linear, memory, tolerance, best.increment).run(rest)
+            best,
+            Alternation(
+                springs, linear, memory, tolerance, best.increment, options.alternation
+            ).run(rest),
         )
         if best.size <= tolerance:
             break
     return best
 
 
-def inside_start(sides: Complementarity, linear: LinearSolver, memory: Memory) -> InteriorIterate:
+def inside_start(
+    sides: Complementarity,
+    linear: LinearSolver,
+    memory: Memory,
+    options: IterationOptions = DEFAULT,
+) -> InteriorIterate:
     """Start of the interior point: as if all contacts were springs that pull and push.
 
     Exact ones are as stiff there as what they join. Raises `SolveError` when the load moves a
@@ -108,7 +112,7 @@ def inside_start(sides: Complementarity, linear: LinearSolver, memory: Memory) -
     )
     kept, _ = memory.factor_of(alike, linear)
     increment = kept.factor.solve(springs.problem.force)
-    return sides.start(increment, np.stack(alike.forces(increment)))
+    return sides.start(increment, np.stack(alike.forces(increment)), options.interior.within)
 
 
 def _joined(before: IterationResult, then: IterationResult) -> IterationResult:
@@ -122,10 +126,14 @@ def _joined(before: IterationResult, then: IterationResult) -> IterationResult:
 
 
 def _polished(
-    springs: CutSprings, linear: LinearSolver, memory: Memory, increment: Floats
+    springs: CutSprings,
+    linear: LinearSolver,
+    memory: Memory,
+    increment: Floats,
+    options: IterationOptions,
 ) -> IterationResult:
     pattern = memory.pattern_of(springs.problem)
-    return polish(springs, pattern, linear.unsymmetric(), increment, FINE)
+    return polish(springs, pattern, linear.unsymmetric(), increment, options.springs.fine)
 
 
 def _kept(found: IterationResult, memory: Memory) -> IterationResult:

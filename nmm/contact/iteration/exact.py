@@ -12,7 +12,7 @@ import numpy as np
 
 from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.complementarity import Complementarity
-from nmm.contact.iteration.cut_spring_solver import FINE, SMALL, inside_start
+from nmm.contact.iteration.cut_spring_solver import inside_start
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import (
@@ -23,17 +23,9 @@ from nmm.contact.iteration.multiplier_rounds import (
     multiplier_round,
     stiff_springs,
 )
+from nmm.contact.iteration.options import DEFAULT, SMALL, IterationOptions
 from nmm.contact.problem.step_problem import StepProblem
 from nmm.solvers.linear import LinearSolver
-
-START, AGAIN = 10.0, 100.0
-"""Stiffness over compliance of the springs of the first round; and where a step is solved again."""
-STIFF = 100.0
-"""The same of rounds that finish what the interior point leaves."""
-SLIGHT = 1e-5
-"""The same of springs that only carry the forces of the interior point."""
-ROUNDS, FEW = 12, 3
-"""Most rounds in small problems and at the end, and where the step is solved again."""
 
 
 def exact_round(
@@ -42,6 +34,7 @@ def exact_round(
     memory: Memory,
     goal: Goal,
     factorisations: int = 100,
+    options: IterationOptions = DEFAULT,
 ) -> tuple[MultiplierIterate, str]:
     """Forces within ``goal`` or the best found, and how they were found.
 
@@ -55,41 +48,47 @@ def exact_round(
     SolveError
         When even with all contacts acting the load moves a free part.
     """
+    rounds = options.rounds
     small, again = len(problem.force) <= SMALL, memory.again(problem)
     if again:
         problem = replace(problem, start=again[1].increment)
     at, how = None, ""
     if small or again:
-        first = first_round(stiff_springs(problem, AGAIN if again else START))
-        at = _rounds(first, linear, memory, goal, ROUNDS if small else FEW)
+        first = first_round(stiff_springs(problem, rounds.again if again else rounds.start))
+        at = _rounds(first, linear, memory, goal, options, rounds.most if small else rounds.few)
         if at.meets(goal):
             return at, f"{at.count} rounds"
         how = f"{at.count} rounds, then "
-    at = interior_round(at, problem, linear, memory, goal, factorisations)
+    at = interior_round(at, problem, linear, memory, goal, factorisations, options)
     how = f"{how}{at.result.story}"
     if at.meets(goal):
         return at, how
-    more = _rounds(_stiffer(at), linear, memory, goal)
+    more = _rounds(_stiffer(at, rounds.stiff), linear, memory, goal, options, rounds.most)
     if more.meets(goal):
         return more, f"{how}, then {more.count - at.count} rounds"
     return at, f"{how}; {more.count - at.count} rounds from there did not help"
 
 
 def _rounds(
-    at: MultiplierIterate, linear: LinearSolver, memory: Memory, goal: Goal, count: int = ROUNDS
+    at: MultiplierIterate,
+    linear: LinearSolver,
+    memory: Memory,
+    goal: Goal,
+    options: IterationOptions,
+    count: int,
 ) -> MultiplierIterate:
     budget = IterationBudget(300, 12, 0)
     most = at.count + count
-    return converged_rounds(at, linear, memory, goal, most, 10.0, budget)
+    return converged_rounds(at, linear, memory, goal, most, 10.0, budget, options)
 
 
-def _stiffer(at: MultiplierIterate) -> MultiplierIterate:
+def _stiffer(at: MultiplierIterate, scale: float) -> MultiplierIterate:
     """The same forces as multipliers of stiff springs."""
     springs = at.result.springs
     exact = ~springs.problem.own_stiffness
     forces = springs.forces(at.result.increment)
     shifts = (np.where(exact, force, 0.0) for force in forces)
-    stiff = stiff_springs(springs.problem, STIFF).shifted(*shifts)
+    stiff = stiff_springs(springs.problem, scale).shifted(*shifts)
     return replace(at, result=replace(at.result, springs=stiff))
 
 
@@ -100,15 +99,18 @@ def interior_round(
     memory: Memory,
     goal: Goal,
     budget: int,
+    options: IterationOptions = DEFAULT,
 ) -> MultiplierIterate:
     """Exact forces by the interior point, at the cost of the rounds before it and its own.
 
     Small problems are finished to rounding by rounds of Newton's method.
     """
-    springs, ease = stiff_springs(problem, SLIGHT), np.stack(compliances(problem))
+    springs, ease = stiff_springs(problem, options.rounds.slight), np.stack(compliances(problem))
     sides = Complementarity.of(springs, ~problem.own_stiffness, ease)
-    start, before = inside_start(sides, linear, memory), at or first_round(springs)
-    found = InteriorPoint(sides, memory.pattern_of(problem), linear).run(start, budget, goal)
+    start, before = inside_start(sides, linear, memory, options), at or first_round(springs)
+    found = InteriorPoint(sides, memory.pattern_of(problem), linear, options.interior).run(
+        start, budget, goal
+    )
     found = replace(
         found,
         solves=before.result.solves + found.solves,
@@ -121,7 +123,14 @@ def interior_round(
     if len(problem.force) > SMALL:
         return best
     for _ in range(2):
-        tried = multiplier_round(_stiffer(best), linear, memory, FINE, IterationBudget(0, 0, 0))
+        tried = multiplier_round(
+            _stiffer(best, options.rounds.stiff),
+            linear,
+            memory,
+            options.springs.fine,
+            IterationBudget(0, 0, 0),
+            options,
+        )
         if not max(tried.result.size, tried.error) < max(best.result.size, best.error):
             break
         best = tried

@@ -3,7 +3,7 @@
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.iteration.complementarity import SOFT, Complementarity, InteriorIterate
+from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.problem.coulomb import bound_slope
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.row_products import pushed, stretched
@@ -27,16 +27,17 @@ class Linearised:
         pattern: SpringPattern,
         linear: LinearSolver,
         at: InteriorIterate,
+        soft: float,
         coupled: bool = True,
     ) -> None:
         self.problem, self.sides, self.at, self.solves = sides.springs.problem, sides, at, 0
         self._residuals()
-        soft = np.where(sides.exact, SOFT * sides.ease, sides.compliance)
+        give = np.where(sides.exact, soft * sides.ease, sides.compliance)
         follows = sides.active[1] & coupled
         self.slope = np.where(follows, bound_slope(at.normal, self.problem.limits), 0.0)
         self.ratio = np.where(sides.active, at.flow / at.slack, 0.0)
-        self.spring_n = 1 / (soft[0] + self.ratio[0])
-        spring_t = 1 / (soft[1] + self.ratio[1] + self.ratio[2])
+        self.spring_n = 1 / (give[0] + self.ratio[0])
+        spring_t = 1 / (give[1] + self.ratio[1] + self.ratio[2])
         self.spring_t = np.where(sides.smooth, 0.0, spring_t)
         self.mixed = self.spring_t * (self.ratio[2] - self.ratio[1]) * self.slope
         springs = (self.spring_n, self.spring_t, self.mixed * self.spring_n)

@@ -16,33 +16,12 @@ import numpy as np
 
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_equations import Linearised
+from nmm.contact.iteration.options import DEFAULT, InteriorOptions
 from nmm.contact.iteration.semismooth_newton import polish
 from nmm.contact.problem.cut_springs import IterationResult
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
-
-NEAR = 0.995
-"""Part of the way to the boundary that a step may take."""
-JAM = 0.1
-"""Length of a step after which the next one only recentres, with bounds that do not move."""
-CORRECTIONS = 2
-"""Most corrections a step, each the price of a solve."""
-REACH, GAIN = 0.3, 0.03
-"""How much longer a corrected step is meant to become, and must become to be taken."""
-SPREAD = 10.0
-"""Products within this factor of their mean are not corrected."""
-PATIENCE = 8
-"""Steps without halving the mean product after which a path is left."""
-WHOLE = 0.9
-"""A step longer than this may end a path that is followed to a given product."""
-DEEP, LEFT = 0.3, 1e-3
-"""Parts of a given product at which the path is aimed at least, and below which it was left."""
-STUCK = 1e-4
-"""Length of a step at which nothing holds a part: the load drives it away from all contacts."""
-DISTANCES = (1.0, 10.0, 0.1, 3.0)
-"""Starts, as multiples of the usual slack and flow. Without dilatancy a path can turn back; one
-from elsewhere mostly leads past that place."""
 
 
 @dataclass(frozen=True)
@@ -61,15 +40,20 @@ class InteriorPoint:
     """One search for forces on the springs and sharp contacts of ``sides``."""
 
     def __init__(
-        self, sides: Complementarity, pattern: SpringPattern, linear: LinearSolver
+        self,
+        sides: Complementarity,
+        pattern: SpringPattern,
+        linear: LinearSolver,
+        options: InteriorOptions = DEFAULT.interior,
     ) -> None:
+        self.options = options
         self.sides, self.pattern, self.linear = sides, pattern, linear.unsymmetric()
         self.factorisations = self.solves = 0
 
     def run(self, start: InteriorIterate, budget: int, goal: Goal) -> IterationResult:
         """Follow paths with at most ``budget`` factorisations in all; return the best found."""
         best = self.sides.judged(start)
-        for distance in DISTANCES:
+        for distance in self.options.distances:
             slack, flow = distance * start.slack, distance * start.flow
             at = replace(start, slack=slack, flow=flow)
             best = self._followed(at, best, budget, goal)
@@ -89,15 +73,17 @@ class InteriorPoint:
 
         None where the path cannot be followed that far, as of a part that nothing holds.
         """
-        length = 1.0
+        options, length = self.options, 1.0
         for _ in range(budget):
             kappa = self.sides.mean(point)
-            if kappa <= product and length > WHOLE:
+            if kappa <= product and length > options.whole:
                 return point
-            if not kappa > LEFT * product or length < STUCK:
+            if not kappa > options.left * product or length < options.stuck:
                 return None
             try:
-                point, length = self._moved(point, kappa, length < JAM, DEEP * product)
+                point, length = self._moved(
+                    point, kappa, length < options.jam, options.deep * product
+                )
             except SolveError:
                 return None
         return None
@@ -107,13 +93,17 @@ class InteriorPoint:
     ) -> IterationResult:
         """Best of what is known and of the path from ``point``."""
         length, tried, mark, idle = 1.0, 1e-3, np.inf, 0
-        while self.factorisations < budget and goal.distance(best) > 1 and idle <= PATIENCE:
+        while (
+            self.factorisations < budget
+            and goal.distance(best) > 1
+            and idle <= self.options.patience
+        ):
             kappa = self.sides.mean(point)
             # Contacts that can neither open nor slide leave a linear step: there is no path.
             if kappa <= 0:
                 break
             idle, mark = (0, kappa) if kappa < 0.5 * mark else (idle + 1, mark)
-            point, length = self._moved(point, kappa, length < JAM)
+            point, length = self._moved(point, kappa, length < self.options.jam)
             if not np.isfinite(point.increment).all():
                 break
             found = self.sides.judged(point)
@@ -133,26 +123,26 @@ class InteriorPoint:
         self, point: InteriorIterate, kappa: float, jammed: bool, floor: float = 0.0
     ) -> tuple[InteriorIterate, float]:
         """Point after predictor, corrector and corrections of centrality, and how far it went."""
-        sides, products = self.sides, point.slack * point.flow
-        system = Linearised(sides, self.pattern, self.linear, point, coupled=not jammed)
+        sides, options, products = self.sides, self.options, point.slack * point.flow
+        system = Linearised(sides, self.pattern, self.linear, point, options.soft, not jammed)
         affine = system.step(-products)
         if not np.isfinite(affine.increment).all():
             return affine, 0.0
         ahead = sides.length(point, affine)
         shrink = (sides.mean(point.moved(affine, ahead)) / kappa) ** 3
         centre = max(floor, kappa * (1.0 if jammed else min(max(shrink, 1e-8), 1.0)))
-        along = affine.slack * affine.flow if ahead > JAM and not jammed else 0.0
+        along = affine.slack * affine.flow if ahead > options.jam and not jammed else 0.0
         targets = centre - along - products
         step = system.step(targets)
-        length = min(1.0, NEAR * sides.length(point, step))
-        for _ in range(CORRECTIONS):
-            tried = point.moved(step, min(1.0, length + REACH))
+        length = min(1.0, options.boundary * sides.length(point, step))
+        for _ in range(options.corrections):
+            tried = point.moved(step, min(1.0, length + options.reach))
             off = tried.slack * tried.flow
-            wanted = np.clip(off, centre / SPREAD, centre * SPREAD) - off
-            targets = targets + np.maximum(wanted, -SPREAD * centre)
+            wanted = np.clip(off, centre / options.spread, centre * options.spread) - off
+            targets = targets + np.maximum(wanted, -options.spread * centre)
             longer = system.step(targets)
-            reached = min(1.0, NEAR * sides.length(point, longer))
-            if reached < length + GAIN:
+            reached = min(1.0, options.boundary * sides.length(point, longer))
+            if reached < length + options.gain:
                 break
             step, length = longer, reached
         self.factorisations += 1

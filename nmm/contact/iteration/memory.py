@@ -13,7 +13,7 @@ from nmm.solvers.linear import Factor, LinearSolver
 
 DRIFT = 1.25
 """A kept factor serves while no diagonal entry of the matrix has changed by more than this."""
-KEPT = 4
+FACTORS_KEPT = 4
 """Factors kept."""
 TURN = 1e-3
 """A kept factor is as good as new while the rows have changed by less than this part."""
@@ -113,7 +113,7 @@ class Memory:
         normal, shear = springs.normal_stiffness, springs.shear_stiffness
         factor = solver.factorise(pattern.matrix(springs.problem, normal, shear))
         kept = KeptFactor(factor, solver, springs, springs.weight**-2)
-        self.kept = [kept, *self.kept[: KEPT - 1]]
+        self.kept = [kept, *self.kept[: FACTORS_KEPT - 1]]
         return kept, True
 
     def forget(self, kept: KeptFactor) -> None:

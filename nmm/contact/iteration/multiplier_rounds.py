@@ -8,23 +8,16 @@ from scipy.sparse import csr_array
 from integration.arrays import Floats
 from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.answers import judge
-from nmm.contact.iteration.cut_spring_solver import SMALL, solve_springs
+from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.interior_point import Goal
 from nmm.contact.iteration.memory import Memory
+from nmm.contact.iteration.options import DEFAULT, SMALL, IterationOptions
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.step_problem import StepProblem, Verdict
 from nmm.solvers.linear import LinearSolver
 
-STIFFEST = 100.0
-"""Largest factor by which rounds may stiffen springs: beyond, a round costs more than it gains."""
-GAIN = 0.02
-"""Part of the error that a round must leave at most for its springs to stay as they are."""
-NEAR = 3.0
-"""Errors this many times the tolerance are likely within it after the next round."""
 UNHELD = 1e13
 """Compliance times stiffness of a contact from which an unknown is held by rounding alone."""
-FAILURES = 2
-"""Rounds that may miss their own tolerance before the iteration is given up."""
 
 
 @dataclass(frozen=True)
@@ -132,11 +125,12 @@ def multiplier_round(
     memory: Memory,
     tolerance: float,
     budget: IterationBudget | None = None,
+    options: IterationOptions = DEFAULT,
 ) -> MultiplierIterate:
     """Settle the springs and measure by how much their forces differ from the multipliers."""
     before = last.result
     start = before.increment if last.count else None
-    found = solve_springs(before.springs, linear, memory, tolerance, start, budget)
+    found = solve_springs(before.springs, linear, memory, tolerance, start, budget, options)
     total = replace(
         found,
         solves=before.solves + found.solves,
@@ -180,6 +174,7 @@ def converged_rounds(
     max_rounds: int,
     growth: float,
     budget: IterationBudget | None = None,
+    options: IterationOptions = DEFAULT,
 ) -> MultiplierIterate:
     """Repeat rounds until balance and error meet their tolerances; return the last.
 
@@ -190,17 +185,20 @@ def converged_rounds(
     SolveError
         When even with all springs acting the load moves a free part.
     """
+    steer = options.rounds
     inner, stiffness, failures = max(1e-4, goal.balance), 1.0, 0
     while at.count < max_rounds:
-        last, at = at, multiplier_round(at, linear, memory, inner, budget)
+        last, at = at, multiplier_round(at, linear, memory, inner, budget, options)
         failures += at.result.size > inner
-        if at.meets(goal) or failures > FAILURES or at.count == max_rounds:
+        if at.meets(goal) or failures > steer.failures or at.count == max_rounds:
             break
-        fine = at.error <= NEAR * goal.error
+        fine = at.error <= steer.near * goal.error
         inner = goal.balance if fine else float(np.clip(0.1 * at.error, goal.balance, inner))
         if at.error <= goal.error:
             continue
-        times = min(growth, STIFFEST / stiffness) if at.error > GAIN * last.error else 1.0
+        times = (
+            min(growth, steer.stiffest / stiffness) if at.error > steer.gain * last.error else 1.0
+        )
         at = updated(at, times)
         stiffness *= times
     return at

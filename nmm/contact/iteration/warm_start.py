@@ -11,7 +11,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.contact.problem.cut_springs import CutSprings
 
-RIDGE = 1e-10
+MIX_RIDGE = 1e-10
 """Part of the trace that keeps the least squares regular where the last steps were alike."""
 
 
@@ -43,7 +43,7 @@ def start_from(springs: CutSprings, known: list[Floats], mixes: bool) -> Floats:
     trace = float(np.trace(products))
     if not (np.isfinite(trace) and trace > 0.0):
         return points[best]
-    products += RIDGE * trace * np.eye(len(others))
+    products += MIX_RIDGE * trace * np.eye(len(others))
     share = np.linalg.solve(products, -np.einsum("ik,k->i", ways, rest))
     steps = np.stack([points[i] - points[best] for i in others])
     mixed = points[best] + np.einsum("i,ik->k", share, steps)

@@ -11,10 +11,10 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.contact.laws.bonds import Laws
-from nmm.contact.laws.fixed_point import FixedPoint
 from nmm.contact.laws.tension_compression import AsymmetricSprings
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
+from nmm.solvers.anderson import FixedPoint
 
 MOST = 200
 """Turns after which a step is given up."""

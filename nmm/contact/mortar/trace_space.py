@@ -20,7 +20,7 @@ from nmm.contact.points.boundary_points import Sides
 KINK = 0.5
 # Cosine between the functions at two corners from which on they count as alike. Under Hertz's
 # cylinder pressures of degree 0 are off by 1 % at most with 0.3, by 3 % with 0.1, 13 % with 0.5.
-ALIKE = 0.3
+ALIKE_COSINE = 0.3
 
 # What covers weigh at a corner, as a vector of length one.
 Weights = dict[int, float]
@@ -117,9 +117,9 @@ def _unlike(corners: list[Weights]) -> list[int]:
     """Corners of a face that are places: both ends, and those unlike the place before."""
     chosen = [0]
     for k in range(1, len(corners) - 1):  # corners, once a run
-        if _cosine(corners[chosen[-1]], corners[k]) <= ALIKE:
+        if _cosine(corners[chosen[-1]], corners[k]) <= ALIKE_COSINE:
             chosen.append(k)
-    if len(chosen) > 1 and _cosine(corners[chosen[-1]], corners[-1]) > ALIKE:
+    if len(chosen) > 1 and _cosine(corners[chosen[-1]], corners[-1]) > ALIKE_COSINE:
         chosen.pop()
     return [*chosen, len(corners) - 1]
 

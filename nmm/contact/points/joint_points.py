@@ -16,7 +16,7 @@ from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
 
 # Rows of chord and material that differ by less than this share of the largest are the same.
-ALIKE = 1e-12
+SAME_ROWS = 1e-12
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ def _material(sides: Sides, edge: Ints, parameter: Floats) -> MaterialPoints:
 
 def _differ(values: Floats, others: Floats) -> bool:
     off = np.abs(values - others).max(initial=0.0)
-    return bool(off > ALIKE * np.abs(others).max(initial=0.0))
+    return bool(off > SAME_ROWS * np.abs(others).max(initial=0.0))
 
 
 def _padded(values: Any, width: int) -> Any:

@@ -21,7 +21,7 @@ from nmm.solvers.threads import one_thread
 class Factorised(Panels):
     """Panels of a factor and the plan they belong to."""
 
-    kernels: ClassVar[tuple[str, ...]] = fronts.KERNELS
+    kernels: ClassVar[tuple[str, ...]] = fronts.CHOLESKY_KERNELS
 
     def _fill(self, outside: Borrowed, rhs: Floats, solution: Floats) -> None:
         p = self.plan
@@ -48,7 +48,7 @@ class Cholesky(LinearSolver):
         panels, stack = Loan(plan.panel_start[-1]), Loan(plan.stack_size)
         with one_thread():
             bad = fronts.factorise(
-                addresses(*fronts.KERNELS),
+                addresses(*fronts.CHOLESKY_KERNELS),
                 *words(),
                 matrix.data,
                 plan.source,

@@ -15,15 +15,15 @@ from integration.arrays import Bools, Floats, Ints
 Index = npt.NDArray[np.int32]
 
 LANDMARKS = 8
-SMALL = 100
+SMALL_PART = 100
 """Nodes of a part that is not cut any more."""
-WORST = 0.3
+LARGEST_SEPARATOR = 0.3
 """Part of the nodes beyond which a separator does not pay."""
 LINES, SHIFTS = 6, (0.5, 0.45, 0.55)
 """Directions and places of the lines that are tried where a separator is heavy."""
 HEAVY = 5000.0
 """Cubed mean weight of nodes times root of their number, above which trying lines pays."""
-UNEVEN = 3.0
+UNEVEN_HALVES = 3.0
 """Price of uneven halves: of two equal separators the one nearer the middle is taken."""
 
 
@@ -100,12 +100,12 @@ def _bisected(
     begin, end = [0], [n]
     while len(begin):
         a, b = begin.pop(), end.pop()
-        if b - a <= SMALL:
+        if b - a <= SMALL_PART:
             continue
         mine = order[a:b].copy()
         side = _best_line(ptr, graph, mine, place[mine], weight, shifts, mark)
         count = np.bincount(side, minlength=3)
-        if count[2] > WORST * (b - a) or count[0] == 0 or count[1] == 0:
+        if count[2] > LARGEST_SEPARATOR * (b - a) or count[0] == 0 or count[1] == 0:
             continue
         at = np.array([a, a + count[0], a + count[0] + count[1]])
         for k in range(b - a):
@@ -147,7 +147,7 @@ def _best_line(
             if right == m or right == 0:
                 continue
             touching, lighter, size = _separator(ptr, graph, mine, side, weight, mark)
-            price = size * (1 + UNEVEN * (max(right, m - right) / m - 0.5))
+            price = size * (1 + UNEVEN_HALVES * (max(right, m - right) / m - 0.5))
             if price < least:
                 least = price
                 best = np.where(touching & (side == lighter), 2, side)

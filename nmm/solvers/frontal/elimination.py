@@ -21,7 +21,7 @@ from nmm.solvers.frontal.scatter import Shape, lower_places, upper_places
 
 Index = npt.NDArray[np.int32]
 
-ALIKE = 0.75
+ALIKE_COLUMNS = 0.75
 """Part of their rows that columns share which are eliminated together. Entries that round to zero
 drop out of sums of matrices, so the columns of one cover are not quite equal."""
 WORTH = 3e5
@@ -240,7 +240,7 @@ def _groups(indptr: Index, indices: Index) -> Ints:
                 a += 1
             else:
                 b += 1
-        if common < most and (not coupled or common < ALIKE * most):
+        if common < most and (not coupled or common < ALIKE_COLUMNS * most):
             node += 1
             head = j
         node_of[j] = node

@@ -7,7 +7,7 @@ import numpy.typing as npt
 from integration.arrays import Floats, Ints
 from nmm.solvers.frontal.blas import Index, call5, call8, call10, call11
 
-KERNELS = "dpotrf", "dtrsm", "dsyrk", "dtrsv", "dgemv"
+CHOLESKY_KERNELS = "dpotrf", "dtrsm", "dsyrk", "dtrsv", "dgemv"
 
 
 @nb.njit(cache=True)

@@ -26,7 +26,7 @@ as the fronts do, 1e-11 to 4e-7; each turn of refinement takes off that part of 
 class FactorisedLU(Panels):
     """Panels of both factors, exchanged rows, and the plan they belong to."""
 
-    kernels: ClassVar[tuple[str, ...]] = lu_fronts.KERNELS
+    kernels: ClassVar[tuple[str, ...]] = lu_fronts.LU_KERNELS
     swaps: Index
 
     def _fill(self, outside: Borrowed, rhs: Floats, solution: Floats) -> None:
@@ -71,7 +71,7 @@ def _factorised(matrix: csc_array) -> FactorisedLU | None:
     swaps = np.empty(matrix.shape[0], dtype=np.int32)
     with one_thread():
         bad = lu_fronts.factorise(
-            addresses(*lu_fronts.KERNELS),
+            addresses(*lu_fronts.LU_KERNELS),
             *words(),
             matrix.data,
             *plan.places,

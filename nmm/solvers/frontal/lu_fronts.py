@@ -13,7 +13,7 @@ from integration.arrays import Floats, Ints
 from nmm.solvers.frontal.blas import Index, call6, call8, call11, call13
 from nmm.solvers.frontal.fronts import add, runs
 
-KERNELS = "dgetrf", "dtrsm", "dgemm", "dtrsv", "dgemv"
+LU_KERNELS = "dgetrf", "dtrsm", "dgemm", "dtrsv", "dgemv"
 
 
 @nb.njit(cache=True)

@@ -9,7 +9,7 @@ from nmm.solvers.frontal.elimination import Fronts, skew
 
 SKEW = 1e-12
 """Part of the largest entry by which a symmetric matrix and its mirror image may differ."""
-MOST = 4
+PLANS_KEPT = 4
 
 
 @dataclass
@@ -52,5 +52,5 @@ def _known(matrix: csc_array) -> Kept | None:
 def _planned(matrix: csc_array, mirrored: bool) -> Kept:
     kept = Kept(Fronts.of(matrix, mirrored), False)
     PLANS.insert(0, kept)
-    del PLANS[MOST:]
+    del PLANS[PLANS_KEPT:]
     return kept

@@ -10,7 +10,7 @@ import numpy as np
 
 from integration.arrays import Floats
 
-KEPT = 2**25
+SPARE_NUMBERS = 2**25
 """Most numbers that are kept without a user, 256 MB."""
 SPARE: deque[Floats] = deque()
 
@@ -27,7 +27,7 @@ class Loan:
 
     def __del__(self) -> None:
         SPARE.append(self.numbers)
-        while SPARE and sum(map(len, tuple(SPARE))) > KEPT:
+        while SPARE and sum(map(len, tuple(SPARE))) > SPARE_NUMBERS:
             SPARE.popleft()
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.modified_newton import Patience
+from nmm.contact.iteration.options import Patience
 from nmm.contact.iteration.warm_start import start_from
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.testing.contact_oracle import random_problem

@@ -9,7 +9,7 @@ from scipy.spatial import Delaunay
 from integration.arrays import Ints
 from nmm.solvers.frontal import elimination
 from nmm.solvers.frontal.cholesky import Cholesky, Factorised
-from nmm.solvers.frontal.dissection import SMALL, dissect
+from nmm.solvers.frontal.dissection import SMALL_PART, dissect
 
 
 def graph(first: Ints, second: Ints, n: int) -> csc_array:
@@ -44,8 +44,8 @@ def test_separators_leave_small_parts_that_are_not_connected(made: csc_array) ->
     np.testing.assert_array_equal(np.sort(np.concatenate([inside, separators])), np.arange(n))
     parts, label = connected_components(made[inside][:, inside])
     # Parts whose separator does not pay are left whole; on planar graphs they are few and small.
-    assert np.bincount(label).max() <= 4 * SMALL
-    assert parts >= n // (4 * SMALL)
+    assert np.bincount(label).max() <= 4 * SMALL_PART
+    assert parts >= n // (4 * SMALL_PART)
 
 
 def test_separators_of_a_grid_are_short() -> None:

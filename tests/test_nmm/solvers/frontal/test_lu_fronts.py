@@ -174,7 +174,7 @@ def test_room_of_a_factor_that_is_gone_is_used_again() -> None:
 
 
 def test_room_without_a_user_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workspace, "KEPT", 1000)
+    monkeypatch.setattr(workspace, "SPARE_NUMBERS", 1000)
     for size in (300, 500, 800, 2000):
         one, other = Loan(size), Loan(size)
         del one, other

@@ -1,0 +1,144 @@
+"""Anderson's acceleration (1965; Walker, Ni 2011) of fixed-point iterations, in compiled code."""
+
+from dataclasses import dataclass, field
+
+import numba as nb
+import numpy as np
+
+from integration.arrays import Floats
+
+RIDGE = 1e-12
+"""Part of the trace that keeps the least squares regular."""
+
+
+@dataclass
+class Anderson:
+    """Least squares over the last iterates of ``x <- x + correction(x)``.
+
+    The correction of an iteration ``x <- x - M^-1 F(x)`` is ``-M^-1 F``: inner products in ``M``
+    of corrections are products of a correction with a residual ``F``, so that no product with
+    ``M`` is needed. A plain fixed point has ``M = 1``: its residual is minus its correction.
+    """
+
+    depth: int
+    sums: Floats = field(init=False)
+    corrections: Floats = field(init=False)
+    gram: Floats = field(init=False)
+    count: int = 0
+
+    def start(self, n: int) -> None:
+        """Make room for vectors of ``n`` unknowns."""
+        self.sums, self.corrections = np.empty((2, self.depth, n))
+        self.gram = np.zeros((self.depth, self.depth))
+
+    def add(self, step: Floats, new: Floats, old: Floats, after: Floats, before: Floats) -> None:
+        """Remember a step in the place of the oldest.
+
+        ``new`` and ``old`` are the corrections, ``after`` and ``before`` the residuals.
+        """
+        at, self.count = self.count % self.depth, self.count + 1
+        used = min(self.count, self.depth)
+        _add(self.sums, self.corrections, self.gram, at, used, step, new, old, after, before)
+
+    def mixed(self, correction: Floats, residual: Floats) -> Floats:
+        """Step that combines ``correction`` with the remembered ones (least squares in ``M``)."""
+        used = min(self.count, self.depth)
+        return np.asarray(
+            _mixed(self.sums, self.corrections, self.gram, used, correction, residual)
+        )
+
+
+@dataclass
+class FixedPoint:
+    """Solve ``x = image(x)`` for a short vector.
+
+    Attributes
+    ----------
+    history
+        Differences of iterates that are combined.
+    """
+
+    history: Anderson = field(default_factory=lambda: Anderson(8))
+    _last: tuple[Floats, Floats] | None = None
+
+    def next(self, point: Floats, image: Floats) -> Floats:
+        """Return where to evaluate the image next, given that of ``point``."""
+        correction = image - point
+        if self._last is None:
+            self.history.start(len(point))
+        else:
+            before, old = self._last
+            self.history.add(point - before, correction, old, -correction, -old)
+        self._last = point, correction
+        return np.asarray(point + self.history.mixed(correction, -correction))
+
+
+@nb.njit(cache=True)
+def _add(
+    sums: Floats,
+    corrections: Floats,
+    gram: Floats,
+    at: int,
+    used: int,
+    step: Floats,
+    new: Floats,
+    old: Floats,
+    force_new: Floats,
+    force_old: Floats,
+) -> None:
+    """Put step, change of correction and their products in place ``at`` of ``used``."""
+    for i in range(len(step)):
+        corrections[at, i] = new[i] - old[i]
+        sums[at, i] = step[i] + corrections[at, i]
+    for j in range(used):
+        total = 0.0
+        for i in range(len(step)):
+            total -= corrections[j, i] * (force_new[i] - force_old[i])
+        gram[at, j] = gram[j, at] = total
+
+
+@nb.njit(cache=True)
+def _mixed(
+    sums: Floats, corrections: Floats, gram: Floats, used: int, correction: Floats, force: Floats
+) -> Floats:
+    """``correction`` combined with the remembered steps.
+
+    The normal equations are solved by elimination with the largest pivot; where they are not
+    finite or vanish the correction stays as it is.
+    """
+    trace = 0.0
+    for k in range(used):
+        trace += gram[k, k]
+    result = correction.copy()
+    if used == 0 or not (np.isfinite(trace) and trace > 0.0):
+        return result
+    table = np.empty((used, used + 1))
+    for k in range(used):
+        table[k, :used] = gram[k, :used]
+        table[k, k] += RIDGE * trace
+        total = 0.0
+        for i in range(len(force)):
+            total -= corrections[k, i] * force[i]
+        table[k, used] = total
+    for k in range(used):
+        best = k
+        for row in range(k + 1, used):
+            if abs(table[row, k]) > abs(table[best, k]):
+                best = row
+        if not abs(table[best, k]) > 0.0:
+            return result
+        for column in range(k, used + 1):
+            table[k, column], table[best, column] = table[best, column], table[k, column]
+        for row in range(k + 1, used):
+            share = table[row, k] / table[k, k]
+            for column in range(k, used + 1):
+                table[row, column] -= share * table[k, column]
+    for k in range(used - 1, -1, -1):
+        for column in range(k + 1, used):
+            table[k, used] -= table[k, column] * table[column, used]
+        table[k, used] /= table[k, k]
+    for k in range(used):
+        share = table[k, used]
+        for i in range(len(result)):
+            result[i] -= share * sums[k, i]
+    return result

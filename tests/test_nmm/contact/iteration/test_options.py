@@ -1,0 +1,62 @@
+"""Numbers of the iterations are options: tables of ``[contact.options.iterations]``."""
+
+import pytest
+
+from nmm.contact.enforcement.base import make_enforcement
+from nmm.contact.enforcement.cone import Cone
+from nmm.contact.iteration.options import DEFAULT
+from nmm.errors import FormulationError
+from nmm.formulation import parse_formulation
+from nmm.solvers.linear import make_solver
+from nmm.testing.contact_oracle import random_problem
+
+TEXT = """
+[contact]
+enforcement = "cone"
+[contact.options.iterations.interior]
+boundary = 0.9
+[contact.options.iterations.alternation]
+wide = 5
+slow = { ahead = 20 }
+"""
+
+
+def test_tables_of_a_formulation_reach_the_iterations() -> None:
+    method = parse_formulation(TEXT).contact
+    made = make_enforcement(method.enforcement, method.options)
+    assert isinstance(made, Cone)
+    assert made.iterations.interior.boundary == 0.9
+    assert made.iterations.alternation.wide == 5
+    assert made.iterations.alternation.slow.ahead == 20
+    # what is not named keeps its default, in tables within tables too
+    assert made.iterations.alternation.slow.below == DEFAULT.alternation.slow.below
+    assert made.iterations.rounds == DEFAULT.rounds
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"iterations": {"interior": {"bondary": 0.9}}}, 'did you mean "boundary"'),
+        ({"iterations": {"interior": {"boundary": -1.0}}}, "a number > 0"),
+        ({"iterations": {"interior": {"boundary": "wide"}}}, "a number"),
+        ({"iterations": {"inside": {}}}, "one of alternation, springs, interior, rounds, barrier"),
+        ({"iterations": 3}, "a table of options"),
+    ],
+)
+def test_a_wrong_option_is_named_with_its_table(options: dict, said: str) -> None:
+    with pytest.raises(FormulationError, match=said) as fault:
+        make_enforcement("cone", options)
+    assert 'enforcement "cone": iterations' in str(fault.value)
+
+
+def test_options_change_what_a_step_costs_and_not_its_answer() -> None:
+    problem = next(p for p in map(random_problem, range(50)) if p.n_contacts == 4)
+    plain = make_enforcement("cone").solve(problem, make_solver())
+    options = {"iterations": {"interior": {"boundary": 0.5}, "rounds": {"most": 1}}}
+    slow = make_enforcement("cone", options).solve(problem, make_solver())
+    assert plain.verdict.converged
+    assert slow.verdict.converged
+    assert slow.factorisations > plain.factorisations
+    # resultants are unique where forces are not: both answers are within 1e-8 of the load
+    moved = abs(plain.increment).max()
+    assert abs(slow.increment - plain.increment).max() < 1e-6 * moved
