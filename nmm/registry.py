@@ -67,7 +67,7 @@ class Registry(Generic[Part]):
         FormulationError
             When the name is not known, may not or cannot be imported, or is no part of this kind.
         """
-        target = self.table.get(name) or self._installed().get(name) or name
+        target = self.table.get(name) or self.installed().get(name) or name
         module, separator, attribute = target.partition(":")
         if not separator:
             near = get_close_matches(name, self.table, n=1)
@@ -143,7 +143,8 @@ class Registry(Generic[Part]):
             why = f"{type(fault).__name__}: {' '.join(str(fault).split())}"
             raise FormulationError(Fault(place, text, expected, why)) from fault
 
-    def _installed(self) -> dict[str, str]:
+    def installed(self) -> dict[str, str]:
+        """Return the names that installed packages offer, and what they stand for."""
         return {
             entry.name: entry.value
             for entry in entry_points(group=f"nmm.{self.kind.replace(' ', '_')}")

@@ -45,6 +45,7 @@ ROOMS = (
     "outputs",
     "results",
     "model",
+    "catalogue",
     "stepping",
     "plots",
     "study",

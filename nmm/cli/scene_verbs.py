@@ -92,7 +92,37 @@ def bound(
         _bound(scene, formulation)
 
 
-VERBS = (new, check, explain, bound)
+def parts(
+    words: Annotated[
+        list[str] | None, typer.Argument(help="Words that a line must have.", metavar="WORD")
+    ] = None,
+    allow_code: AllowCode = None,
+) -> None:
+    """List the parts that can be exchanged: covers, laws, solvers, effects, outputs and others."""
+    with faults_told(), allowed(Path("scene"), allow_code):
+        _parts(words or [], allow_code or [])
+
+
+def _parts(words: list[str], modules: list[str]) -> None:
+    from nmm.catalogue import parts as listed
+    from nmm.errors import NmmError, printable
+
+    try:
+        found = listed(modules)
+    except Exception as fault:  # the code of a module may raise anything
+        why = f"{type(fault).__name__}: {fault}"
+        raise NmmError(f"--allow-code: {why}: expected a module beside you or installed") from fault
+    kept = [one for one in found if all(word.lower() in str(one).lower() for word in words)]
+    if not kept:
+        raise NmmError(f"nmm parts: {' '.join(words)}: expected words of a part: leave some out")
+    columns = [(one.kind, one.name, one.origin, one.module) for one in kept]
+    widths = [max(map(len, column)) for column in zip(*columns, strict=True)]
+    for cells, one in zip(columns, kept, strict=True):
+        aligned = "  ".join(map(str.ljust, cells, widths))
+        typer.echo(printable(f"{aligned}  {one.says}".rstrip()))
+
+
+VERBS = (new, check, explain, bound, parts)
 
 
 def register(app: typer.Typer) -> None:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from nmm.testing.enforcements import check_smooth_enforcement as check_smooth_enforcement
     from nmm.testing.integrators import check_integrator as check_integrator
     from nmm.testing.interface_laws import check_interface_law as check_interface_law
+    from nmm.testing.laws import check_law as check_law
     from nmm.testing.outputs import check_output as check_output
     from nmm.testing.solvers import check_solver as check_solver
 
@@ -25,6 +26,7 @@ _HOME = {
     "check_enforcement": "enforcements",
     "check_integrator": "integrators",
     "check_interface_law": "interface_laws",
+    "check_law": "laws",
     "check_output": "outputs",
     "check_smooth_enforcement": "enforcements",
     "check_solver": "solvers",
@@ -37,6 +39,7 @@ __all__ = [
     "check_enforcement",
     "check_integrator",
     "check_interface_law",
+    "check_law",
     "check_output",
     "check_smooth_enforcement",
     "check_solver",

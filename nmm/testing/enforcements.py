@@ -45,8 +45,8 @@ def check_enforcement(
     enforcement
         With its options.
     exact
-        Whether gaps are closed exactly, else by the springs of the problem; as its ``multipliers``
-        say when not given. One that smooths the law over a width: `check_smooth_enforcement`.
+        Whether gaps are closed exactly, else by the springs of the problem; as it says itself when
+        not given. One that smooths the law over a width: `check_smooth_enforcement`.
     seeds
         Of the random problems.
 
@@ -55,7 +55,7 @@ def check_enforcement(
     AssertionError
         Naming the property that is not kept, the problem, by how much, and what was tolerated.
     """
-    sharp = enforcement.multipliers if exact is None else exact
+    sharp = enforcement.exact if exact is None else exact
     for seed in seeds:
         _one_of_all(enforcement, seed, sharp)
     for seed in range(100, 115):
