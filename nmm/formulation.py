@@ -26,9 +26,9 @@ from nmm.scene.fields import Count, Frozen, Number, PartName, Text, Time
 class SupportMethod(Frozen):
     """How supports along edges are imposed; points are held by springs."""
 
-    method: PartName = Field(
+    method: Literal["auto", "penalty", "nitsche", "lagrange"] = Field(
         default="auto",
-        description=f'"auto", "penalty", "nitsche", "lagrange" {OWN}; auto is springs for blocks, '
+        description='"auto", "penalty", "nitsche" or "lagrange"; auto is springs for blocks, '
         "Nitsche's method for meshes, multipliers for meshes of materials that are not linear",
         examples=["nitsche"],
     )
@@ -46,10 +46,10 @@ class SupportMethod(Frozen):
 class Glue(Frozen):
     """How blocks are glued whose interface is bonded and names no stiffness, without contact."""
 
-    method: PartName = Field(
+    method: Literal["auto", "spring", "nitsche", "lagrange"] = Field(
         default="auto",
-        description=f'"auto", "spring", "nitsche", "lagrange" {OWN}; auto is Nitsche\'s method, '
-        "and springs where functions have no strain; multipliers for materials that are not linear",
+        description='"auto", "spring", "nitsche" or "lagrange"; auto is Nitsche\'s method, and '
+        "springs where functions have no strain; multipliers for materials that are not linear",
         examples=["nitsche"],
     )
     stiffness: Number | None = Field(

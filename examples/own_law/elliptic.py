@@ -12,11 +12,7 @@ from nmm.interfaces.mohr_coulomb import MohrCoulomb
 class Elliptic(MohrCoulomb):
     """``(sigma / f_t)^2 + (tau / c)^2 <= 1`` in tension; Mohr-Coulomb in compression."""
 
-    def overload(
-        self, normal_force: Floats, shear_force: Floats, length: Floats, thickness: float
-    ) -> Floats:
-        """Return how far out of the ellipse the forces are."""
-        pull = normal_force / (self.tensile_strength * length * thickness)
-        shear = shear_force / (self.cohesion * length * thickness)
-        pressed = super().overload(normal_force, shear_force, length, thickness)
-        return np.where(normal_force > 0, np.hypot(pull, shear), pressed)
+    def overload(self, pull: Floats, shear: Floats) -> Floats:
+        """Return how far out of the ellipse the stresses are."""
+        ellipse = np.hypot(pull / self.tensile_strength, shear / self.cohesion)
+        return np.where(pull > 0, ellipse, super().overload(pull, shear))

@@ -21,8 +21,8 @@ from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.tolerances import FLUSH
 from nmm.contact.enforcement.base import Enforcement, make_enforcement
 from nmm.contact.iteration.record import ContactCarried, ContactRecord, ContactSolution
-from nmm.contact.laws.bonds import Laws
 from nmm.contact.laws.compliance import Softness
+from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import RigidMass
 from nmm.contact.mortar.segments import face_points
 from nmm.contact.points.contact_points import ContactPoints, concatenate
@@ -53,7 +53,7 @@ class Contact(Effect):
     def __init__(
         self,
         model: Model,
-        laws: Laws,
+        laws: ContactLaws,
         partners: Partners,
         enforcement: Enforcement,
         stations: str,
@@ -70,6 +70,7 @@ class Contact(Effect):
             partners.interfaces,
             laws.makes_joints,
             laws.bonded,
+            laws.initial,
             stations,
         )
         self.record, self._unbonded = ContactRecord(book), book.broken
@@ -87,7 +88,7 @@ class Contact(Effect):
         method, manifold = setup.formulation.contact, setup.model.manifold
         unit = float(setup.model.modulus.max()) * setup.model.thickness
         penalty, bond = method.normal_penalty * unit, method.bond_stiffness * unit
-        laws = Laws(
+        laws = ContactLaws(
             laws=[interface_law(item) for item in setup.scene.interfaces.values()],
             thickness=setup.model.thickness,
             normal_penalty=penalty,
@@ -142,7 +143,8 @@ class Contact(Effect):
         found, interface = self._partners.search(
             state, 2 * reach, step, record.book, record.found, crossed
         )
-        new = searched_points(found, interface, surface)
+        loose = np.zeros(len(found), dtype=bool)
+        new = searched_points(found, interface, self._laws.initial(interface, loose), surface)
         if self._laws.stiff:
             new = self._laws.sized(new, surface)
         new = replace(new, gap=self.geometry.gaps(new, state))
@@ -172,7 +174,7 @@ class Contact(Effect):
     def commit(self, solved: ContactSolution, state: State) -> ContactPoints:
         """Keep the accepted contacts as the start of the next step, and return them."""
         bonded = self._laws.bonded[solved.contacts.interface]
-        done = answered(solved.contacts, solved.answer, bonded, solved.sliding)
+        done = answered(solved.contacts, solved.answer, bonded)
         surface = self._partners.surface(state)
         apart = self.geometry.apart(state, surface)
         self.record = ContactRecord(
@@ -259,7 +261,7 @@ class Contact(Effect):
     def near(self, state: State, reach: float) -> tuple[tuple[csr_array, csr_array], Limits]:
         """Return rows and strength of contacts that bonds hold or that are open by ``reach``."""
         _, contacts = self._sought(state, reach)
-        contacts = contacts.take(contacts.holds | (contacts.gap <= reach))
+        contacts = contacts.take(contacts.bonded | (contacts.gap <= reach))
         through = self.geometry.rows(contacts, state)
         return (through.normal, through.tangent), self._laws.strength(contacts)
 

@@ -1,19 +1,25 @@
-"""What an interface law is to contact: limits of force, and when a bond breaks."""
+"""What an interface law is to contact: limits of force, what it remembers, when a bond breaks."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import final
 
 import numpy as np
 
-from integration.arrays import Floats
-from nmm.interfaces.limits import Limits
+from integration.arrays import Bools, Floats
+from nmm.interfaces.history import CUMULATIVE_SLIP, KEPT, History, HistoryColumn
+from nmm.interfaces.response import InterfaceResponse, Traction
 from nmm.registry import Registry
 
 
 @dataclass(frozen=True)
 class InterfaceLaw(ABC):
     """Base of interface laws; a frozen set of parameters in SI units.
+
+    A law says what holds while its history stands (`response`) and how the history goes on
+    (`evolved`); a solution of contact is repeated until both agree. `update` is the two together at
+    a point.
 
     Attributes
     ----------
@@ -50,8 +56,10 @@ class InterfaceLaw(ABC):
     dilation_slip: float = float("inf")
     damping: float = 0.0
 
-    softens: ClassVar[bool] = False
-    """Whether strength is lost by and by; such a law defines `secant` and `damaged`."""
+    @property
+    def columns(self) -> Mapping[str, HistoryColumn]:
+        """What the law remembers of a contact beside its bond and its plastic slip."""
+        return {"cumulative_slip": CUMULATIVE_SLIP} if self.dilation_angle else {}
 
     @property
     def makes_joints(self) -> bool:
@@ -59,45 +67,82 @@ class InterfaceLaw(ABC):
         return self.bonded or self.cohesion > 0 or self.normal_stiffness is not None
 
     @abstractmethod
-    def limits(self, length: Floats, damage: Floats, thickness: float) -> Limits:
-        """Return the largest forces of contacts with ``length`` and ``damage`` (m,)."""
+    def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
+        """Return springs and limits of contacts while their ``history`` stands.
 
-    @abstractmethod
-    def overload(
-        self, normal_force: Floats, shear_force: Floats, length: Floats, thickness: float
-    ) -> Floats:
-        """Return force over strength (m,) of intact bonds; above 1 a bond cannot hold."""
+        ``stiffness`` (m,) is that of the whole bonds in the normal direction (Pa/m).
+        """
 
-    def friction(self, damage: Floats) -> Floats:
-        """Return the tangent (m,) of the friction angle: residual where the bond is broken."""
-        intact, residual = np.tan(self.friction_angle), np.tan(self._residual_angle)
-        held = ~np.asarray(self.bonded) | (damage < 1)
-        return np.asarray(np.where(held, intact, residual), dtype=float)
-
-    def secant(self, damage: Floats, stiffness: Floats) -> Floats:
-        """Return the share (m,) of the normal stiffness (Pa/m) left to bonds that are open."""
-        raise NotImplementedError
-
-    def damaged(
-        self, damage: Floats, opening: Floats, sliding: Floats, stiffness: Floats
-    ) -> Floats:
-        """Return the damage (m,) after an opening and a sliding from bonds with ``damage``.
+    def evolved(
+        self, history: History, gap: Floats, sliding: Floats, stiffness: Floats
+    ) -> dict[str, Floats]:
+        """Return the history after a step.
 
         Parameters
         ----------
-        damage
-            (m,) at the start of the step.
-        opening
-            (m,) gap of the bond at the end of it, elastic part and crack (m).
+        history
+            At the start of the step.
+        gap
+            (m,) at the end of it, elastic part and crack (m).
         sliding
-            (m,) by how much it slid in the step beyond its elastic stretch, >= 0 (m).
+            (m,) by how far it slid in the step beyond its elastic stretch, with its sign (m).
         stiffness
-            (m,) of the whole bond in the normal direction (Pa/m).
+            (m,) of the whole bonds in the normal direction (Pa/m).
         """
-        raise NotImplementedError
+        after = dict(history) | {"plastic_slip": history["plastic_slip"] + sliding}
+        if "cumulative_slip" in self.columns:
+            after["cumulative_slip"] = history["cumulative_slip"] + np.abs(sliding)
+        return after
+
+    def overload(self, pull: Floats, shear: Floats) -> Floats:
+        """Return stress over strength (m,) of intact bonds (Pa); above 1 a bond breaks at once."""
+        return np.zeros(len(pull))
+
+    @final
+    def update(
+        self, history: History, gap: Floats, slip: Floats, stiffness: tuple[Floats, Floats]
+    ) -> Traction:
+        """Return traction, tangent and history after a gap (m,) and a slip (m,) in m.
+
+        ``slip`` counts from where the contact began; ``stiffness`` (Pa/m) of normal and shear
+        spring: the law's own, or that of the formulation's bonds.
+        """
+        from nmm.interfaces.return_mapping import mapped
+
+        return mapped(self, history, gap, slip, stiffness)
+
+    @final
+    def initial(self, bonded: Bools) -> dict[str, Floats]:
+        """Return the history (m,) of contacts that a bond holds, or none."""
+        return {
+            name: np.where(bonded, column.bonded, column.loose).astype(
+                bool if name == "bonded" else float
+            )
+            for name, column in (KEPT | dict(self.columns)).items()
+        }
+
+    @final
+    def broken(self, history: History) -> dict[str, Floats]:
+        """Return the history (m,) of bonds that broke at once."""
+        loose = self.initial(np.zeros(len(history["bonded"]), dtype=bool))
+        lost = {name for name, column in self.columns.items() if column.loose != column.bonded}
+        return dict(history) | {name: loose[name] for name in ("bonded", *lost)}
+
+    def friction(self, history: History) -> Floats:
+        """Return the tangent (m,) of the friction angle: residual where the bond is broken."""
+        held = history["bonded"] | (not self.bonded)
+        return np.asarray(np.where(held, np.tan(self.friction_angle), np.tan(self.residual_angle)))
+
+    def rise(self, history: History) -> Floats:
+        """Return by how much sliding has lifted the faces (m,), in m."""
+        if not self.dilation_angle:
+            return np.zeros(len(history["bonded"]))
+        lifting = np.minimum(history["cumulative_slip"], self.dilation_slip)
+        return np.asarray(np.tan(self.dilation_angle) * lifting)
 
     @property
-    def _residual_angle(self) -> float:
+    def residual_angle(self) -> float:
+        """Friction angle (rad) of broken bonds."""
         residual = self.residual_friction_angle
         return self.friction_angle if residual is None else residual
 

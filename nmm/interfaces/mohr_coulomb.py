@@ -6,7 +6,9 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.interfaces.base import InterfaceLaw
+from nmm.interfaces.history import History
 from nmm.interfaces.limits import Limits
+from nmm.interfaces.response import InterfaceResponse
 
 
 @dataclass(frozen=True)
@@ -17,29 +19,27 @@ class MohrCoulomb(InterfaceLaw):
     carries no pull and friction alone; an unbonded contact keeps its cohesion while it is closed.
     """
 
-    def limits(self, length: Floats, damage: Floats, thickness: float) -> Limits:
+    def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
         """Return no limit for intact bonds, and the residual limits for the others."""
-        intact = self.bonded & (damage < 1)
-        kept = 0.0 if self.bonded else self.cohesion * thickness * length
-        return Limits(
+        intact = history["bonded"]
+        kept = 0.0 if self.bonded else self.cohesion
+        limits = Limits(
             tension=np.where(intact, np.inf, 0.0),
             cohesion=np.where(intact, np.inf, kept),
-            friction=self.friction(damage),
+            friction=self.friction(history),
         )
+        return InterfaceResponse(limits, np.ones(len(intact)), self.rise(history))
 
-    def overload(
-        self, normal_force: Floats, shear_force: Floats, length: Floats, thickness: float
-    ) -> Floats:
+    def overload(self, pull: Floats, shear: Floats) -> Floats:
         """Return the larger of pull over tensile strength and shear over shear strength."""
-        area = length * thickness
-        shear_strength = self.cohesion * area - normal_force * np.tan(self.friction_angle)
+        shear_strength = self.cohesion - pull * np.tan(self.friction_angle)
         return np.maximum(
-            _ratio(normal_force, self.tensile_strength * area),
-            _ratio(np.abs(shear_force), np.maximum(shear_strength, 0.0)),
+            _ratio(pull, self.tensile_strength),
+            _ratio(np.abs(shear), np.maximum(shear_strength, 0.0)),
         )
 
 
-def _ratio(force: Floats, strength: Floats) -> Floats:
-    """Force over strength; without strength any force above zero is too much."""
+def _ratio(stress: Floats, strength: float | Floats) -> Floats:
+    """Stress over strength; without strength any stress above zero is too much."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(force <= 0, 0.0, force / strength)
+        return np.where(stress <= 0, 0.0, stress / strength)

@@ -1,15 +1,17 @@
 """Bonds that lose their strength by and by, over an opening that the fracture energy fixes."""
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import SceneError
+from nmm.interfaces.history import DAMAGE, History, HistoryColumn
 from nmm.interfaces.limits import Limits
 from nmm.interfaces.mohr_coulomb import MohrCoulomb
+from nmm.interfaces.response import InterfaceResponse
 
 
 @dataclass(frozen=True)
@@ -24,8 +26,6 @@ class Softening(MohrCoulomb):
     slip. With the bond, friction passes from its peak to its residual angle.
     """
 
-    softens: ClassVar[bool] = True
-
     def __post_init__(self) -> None:
         if not self.bonded or not self.fracture_energy or not self.tensile_strength:
             raise SceneError(
@@ -39,32 +39,44 @@ class Softening(MohrCoulomb):
     def curve(self) -> tuple[Floats, Floats]:
         """Crack widths in units of fracture energy over strength, and share of strength there."""
 
-    def limits(self, length: Floats, damage: Floats, thickness: float) -> Limits:
-        """Return what is left of the strength."""
-        left, area = self._left(damage), length * thickness
-        intact, residual = np.tan(self.friction_angle), np.tan(self._residual_angle)
-        return Limits(
-            tension=left * self.tensile_strength * area,
-            cohesion=left * self.cohesion * area,
+    @property
+    def columns(self) -> Mapping[str, HistoryColumn]:
+        """See `InterfaceLaw.columns`."""
+        return {**super().columns, "damage": DAMAGE}
+
+    def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
+        """Return what is left of the strength, and the secant of an open bond."""
+        damage = history["damage"]
+        left = self._left(damage)
+        strength, crack = left * self.tensile_strength, stiffness * damage * self._widths[-1]
+        intact, residual = np.tan(self.friction_angle), np.tan(self.residual_angle)
+        limits = Limits(
+            tension=strength,
+            cohesion=left * self.cohesion,
             friction=left * intact + (1 - left) * residual,
         )
+        open_share = np.where(damage < 1, strength / (strength + crack), 1.0)
+        return InterfaceResponse(limits, open_share, self.rise(history))
 
-    def overload(
-        self, normal_force: Floats, shear_force: Floats, length: Floats, thickness: float
-    ) -> Floats:
+    def overload(self, pull: Floats, shear: Floats) -> Floats:
         """Return zeros: nothing breaks at once."""
-        return np.zeros(len(length))
+        return np.zeros(len(pull))
 
-    def secant(self, damage: Floats, stiffness: Floats) -> Floats:
-        """See `InterfaceLaw.secant`: force over opening, in units of the elastic spring."""
-        width = damage * self._widths[-1]
-        left = self._left(damage) * self.tensile_strength
-        return np.asarray(left / (left + stiffness * width))
+    def evolved(
+        self, history: History, gap: Floats, sliding: Floats, stiffness: Floats
+    ) -> dict[str, Floats]:
+        """See `InterfaceLaw.evolved`; the width of a crack is its opening less the elastic part."""
+        after = super().evolved(history, gap, sliding, stiffness)
+        held = history["bonded"]
+        damage = np.ones_like(gap)
+        columns = (history["damage"], gap, sliding, stiffness)
+        damage[held] = self._damaged(*(column[held] for column in columns))
+        return after | {"damage": damage, "bonded": held & (damage < 1)}
 
-    def damaged(
+    def _damaged(
         self, damage: Floats, opening: Floats, sliding: Floats, stiffness: Floats
     ) -> Floats:
-        """See `InterfaceLaw.damaged`; the width of a crack is its opening less the elastic part.
+        """Return the damage (m,) of bonds.
 
         Raises
         ------
@@ -83,7 +95,7 @@ class Softening(MohrCoulomb):
             )
         passed = np.clip((opening[:, None] - opening_at[:, :-1]) / span, 0.0, 1.0)
         width = passed @ np.diff(self._widths)
-        slid = sliding / self._slip_width if self.cohesion else np.zeros_like(sliding)
+        slid = np.abs(sliding) / self._slip_width if self.cohesion else np.zeros_like(sliding)
         return np.asarray(np.clip(np.maximum(width / self._widths[-1], damage + slid), damage, 1.0))
 
     @property

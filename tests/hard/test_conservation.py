@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from scipy.sparse import csc_array, csr_array
 
-from nmm.contact.laws.dashpots import Dashpots
-from nmm.contact.laws.time_weighting import MeanSprings
-from nmm.contact.points.contact_points import PARTS, ContactPoints
+from nmm.contact.laws.time_weighting import TimeWeighting
+from nmm.contact.problem.step_problem import StepProblem
+from nmm.interfaces.limits import Limits
 from nmm.scene import parse_scene
 from nmm.stepping.run import run
 from nmm.verification import text
@@ -35,11 +36,13 @@ def test_a_spring_never_works_more_than_it_has_stored(weight):
     random = np.random.default_rng(7)
     m, k = 10_000, random.uniform(0.1, 10.0, 10_000)
     start, end = random.normal(size=(2, m))
-    arrays = {name: np.zeros(m) for name in PARTS}
-    points = ContactPoints(**{**arrays, "gap": start, "damage": np.ones(m)})
-    none = Dashpots(np.zeros(m), np.zeros(m))
-    springs = MeanSprings.of(points, (k, k), np.full(m, weight), np.zeros(m), none)
-    force = np.minimum(springs.normal * (end - springs.lag), 0.0)
+    none, open_ = np.zeros(m), np.zeros(m, dtype=np.int64)
+    rows, limits = csr_array((m, 1)), Limits(none, none, none)
+    problem = StepProblem(
+        csc_array((1, 1)), np.zeros(1), rows, rows, start, none, k, k, limits, open_, none, none
+    )
+    mean = TimeWeighting(np.full(m, weight), none, np.zeros(m, dtype=bool)).apply(problem)
+    force = np.minimum(mean.normal_stiffness * (mean.gap + end - start), 0.0)
     # Force on the bodies is -N along the gap: the spring does -N (g1 - g0) on them.
     work = -force * (end - start)
     given = k * (np.minimum(start, 0) ** 2 - np.minimum(end, 0) ** 2) / 2

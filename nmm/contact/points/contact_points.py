@@ -1,7 +1,7 @@
 """Contact points of a step: where they are, what gap and slip they have, which rows move them."""
 
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -9,6 +9,7 @@ from scipy.sparse import csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import Frames
 from nmm.contact.points.boundary_points import Sides
+from nmm.interfaces.history import History
 
 if TYPE_CHECKING:
     from nmm.contact.points.joint_points import Stations
@@ -30,25 +31,21 @@ class ContactPoints:
         (m,) stretch of the shear spring at the start of the step (m).
     length
         (m,) tributary length (m); zero where a contact is a mere vertex.
-    slenderness
-        (m,) tributary length over the distance between the middles of the two elements, less by
-        as much as these are softer than the stiffest material: what the penalty is multiplied by.
+    spring_factor
+        (m,) what the penalty is multiplied by: tributary length over the distance between the
+        middles of the two elements, less by as much as these are softer than the stiffest material.
         1 for a mere vertex.
     interface
         (m,) index among the scene's interfaces.
     key
         (m,) identity over steps; joints count -1, -2, ... and the others are not negative.
-    damage
-        (m,) of the bond: 0 intact, 1 broken or never bonded.
     state, normal_force, shear_force
         (m,) what the last step left, the warm start of this one.
-    slid
-        (m,) part of the stretch of a bond that is no longer elastic (m).
-    worn
-        (m,) way slid under load, back and forth added (m).
     reference
         (m,) overlap that no step has made, as a gap (m), not positive; see
         `nmm.contact.points.reference_gap`.
+    history
+        What interface laws remember: columns (m,) by name (`nmm.interfaces.history`).
     """
 
     edge_a: Ints
@@ -59,16 +56,14 @@ class ContactPoints:
     gap: Floats
     slip: Floats
     length: Floats
-    slenderness: Floats
+    spring_factor: Floats
     interface: Ints
     key: Ints
-    damage: Floats
     state: Ints
     normal_force: Floats
     shear_force: Floats
-    slid: Floats
-    worn: Floats
     reference: Floats
+    history: History
 
     def __len__(self) -> int:
         return len(self.gap)
@@ -77,7 +72,9 @@ class ContactPoints:
         """Return some of the contacts."""
         if index.dtype == bool and index.all():
             return self
-        return ContactPoints(*(getattr(self, name)[index] for name in PARTS))
+        history = {name: column[index] for name, column in self.history.items()}
+        parts: dict[str, Any] = {name: getattr(self, name)[index] for name in PARTS}
+        return ContactPoints(**parts, history=history)
 
     @property
     def is_joint(self) -> Bools:
@@ -85,12 +82,12 @@ class ContactPoints:
         return self.key < 0
 
     @property
-    def holds(self) -> Bools:
+    def bonded(self) -> Bools:
         """Which contacts are bonds of joints that hold still."""
-        return np.asarray(self.is_joint & (self.damage < 1))
+        return np.asarray(self.history["bonded"])
 
 
-PARTS = tuple(part.name for part in fields(ContactPoints))
+PARTS = tuple(part.name for part in fields(ContactPoints) if part.name != "history")
 
 
 def concatenate(parts: list[ContactPoints]) -> ContactPoints:
@@ -98,9 +95,13 @@ def concatenate(parts: list[ContactPoints]) -> ContactPoints:
     some = [part for part in parts if len(part)] or parts[:1]
     if len(some) == 1:
         return some[0]
-    return ContactPoints(
-        *(np.concatenate([getattr(part, name) for part in some]) for name in PARTS)
-    )
+    joined: dict[str, Any] = {
+        name: np.concatenate([getattr(part, name) for part in some]) for name in PARTS
+    }
+    history = {
+        name: np.concatenate([part.history[name] for part in some]) for name in some[0].history
+    }
+    return ContactPoints(**joined, history=history)
 
 
 def rows(

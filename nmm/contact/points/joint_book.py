@@ -16,6 +16,7 @@ from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.tracking import Apart
 from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN
+from nmm.interfaces.history import History
 
 # A broken joint whose faces have slid by this share of its length is left to the search.
 SLID = 0.05
@@ -70,12 +71,11 @@ class JointBook:
             return p
         normal, apart = surface.normal[p.edge_b], apart_of(p)
         stretch = np.einsum("ij,ij->i", apart, tangents(normal))
-        held = p.damage < 1
         return replace(
             p,
             normal=normal,
             gap=np.einsum("ij,ij->i", apart, normal),
-            slip=np.where(held, stretch - p.slid, p.slip),
+            slip=np.where(p.bonded, stretch - p.history["plastic_slip"], p.slip),
         )
 
     def keep(self, points: ContactPoints, surface: Surface, apart_of: Apart) -> "JointBook":
@@ -84,8 +84,8 @@ class JointBook:
             return self
         apart = apart_of(points)
         far = np.hypot(apart[:, 0], apart[:, 1]) > SLID * points.length
-        lost = far & (points.damage >= 1)
-        gone = np.isin(self.joint, self.joint[lost]) & (points.damage >= 1)
+        lost = far & ~points.bonded
+        gone = np.isin(self.joint, self.joint[lost]) & ~points.bonded
         before = _turned(self.lost, surface, apart_of)
         if not gone.any():
             return replace(self, points=points, lost=before)
@@ -106,7 +106,7 @@ class JointBook:
     @property
     def broken(self) -> int:
         """Number of points whose bond is broken, lost ones included."""
-        return int((self.points.damage >= 1).sum()) + len(self.lost)
+        return int((~self.points.bonded).sum()) + len(self.lost)
 
 
 def follow_joints(
@@ -115,6 +115,7 @@ def follow_joints(
     interface_of: Callable[[Ints, Ints], Ints],
     makes_joints: Bools,
     bonded: Bools,
+    initial: Callable[[Ints, Bools], History],
     stations: str,
 ) -> JointBook:
     """Follow the stretches of edges that two bodies share.
@@ -127,6 +128,8 @@ def follow_joints(
         From two edges to the index of their interface, negative without.
     makes_joints, bonded
         (n,) which interfaces make joints, and hold them together.
+    initial
+        From interfaces (m,) and bonds that hold to what their laws remember at first.
     stations
         "corners" or "gauss": where joints act along their edge.
     """
@@ -149,16 +152,14 @@ def follow_joints(
         gap=points.gap,
         slip=zeros,
         length=points.length,
-        slenderness=points.length / distance[points.joint],
+        spring_factor=points.length / distance[points.joint],
         interface=interface[points.joint],
         key=-1 - np.arange(m),
-        damage=np.where(held, 0.0, 1.0),
         state=np.where(held, int(BONDED), int(OPEN)),
         normal_force=zeros,
         shear_force=zeros,
-        slid=zeros,
-        worn=zeros,
         reference=zeros,
+        history=initial(interface[points.joint], held),
     )
     pairs = pair_key(surface, vertex, edge)
     return JointBook(

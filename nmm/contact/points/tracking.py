@@ -12,29 +12,30 @@ from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN, StepAnswer
+from nmm.interfaces.history import History
 
 # From points to where their sides a are from their sides b (m, 2).
 Apart = Callable[[ContactPoints], Floats]
 
 # What a contact that goes on keeps.
-CARRIED = ("slip", "state", "normal_force", "shear_force", "worn")
+CARRIED = ("slip", "state", "normal_force", "shear_force")
 
 
 def searched_points(
-    found: Contacts, interface: Ints, surface: Surface | None = None
+    found: Contacts, interface: Ints, history: History, surface: Surface | None = None
 ) -> ContactPoints:
-    """Return found contacts as points without memory.
+    """Return found contacts as points that remember what contacts without bond do at first.
 
     Those that stand for a stretch of a face are as stiff as that is long: as stiff as a vertex of
     the body with the shorter edges on ``surface`` when it is half of such an edge.
     """
     m = len(found.gap)
     zeros = np.zeros(m)
-    length, parameter_a, slenderness = zeros, zeros, np.ones(m)
+    length, parameter_a, factor = zeros, zeros, np.ones(m)
     if isinstance(found, FaceContacts) and surface is not None:
         length, parameter_a = found.length, found.parameter_a
         grain = np.minimum(surface.grain[found.vertex], surface.grain[found.edge])
-        slenderness = np.where(length > 0, length / grain, 1.0)
+        factor = np.where(length > 0, length / grain, 1.0)
     return ContactPoints(
         edge_a=found.vertex,
         parameter_a=parameter_a,
@@ -44,51 +45,50 @@ def searched_points(
         gap=found.gap,
         slip=zeros,
         length=length,
-        slenderness=slenderness,
+        spring_factor=factor,
         interface=interface,
         key=found.key,
-        damage=np.ones(m),
         state=np.full(m, int(OPEN)),
         normal_force=zeros,
         shear_force=zeros,
-        slid=zeros,
-        worn=zeros,
         reference=zeros,
+        history=history,
     )
 
 
 def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> ContactPoints:
-    """Return the new points with state, forces and slip of the old points they continue."""
+    """Return the new points with state, forces, slip and history of the old ones they continue.
+
+    A point that goes on under another interface keeps no history.
+    """
     if len(old) == len(new) and np.array_equal(predecessor, np.arange(len(new))):
-        return replace(new, **{name: getattr(old, name) for name in CARRIED})
+        return replace(new, history=old.history, **{name: getattr(old, name) for name in CARRIED})
+    if not len(old):
+        return new
     known = predecessor >= 0
     source = np.where(known, predecessor, 0)
+    alike = known & (old.interface[source] == new.interface)
+    history = {
+        name: np.where(alike, old.history[name][source], first)
+        for name, first in new.history.items()
+    }
+    kept: dict[str, Any] = {
+        name: np.where(known, getattr(old, name)[source], getattr(new, name)) for name in CARRIED
+    }
+    return replace(new, history=history, **kept)
 
-    def kept(name: str) -> Any:
-        first = getattr(new, name)
-        return np.where(known, getattr(old, name)[source], first) if len(old) else first
 
-    return replace(new, **{name: kept(name) for name in CARRIED})
-
-
-def answered(
-    points: ContactPoints, answer: StepAnswer, bonded: Bools, sliding: Floats
-) -> ContactPoints:
-    """Return the points as an answer leaves them.
-
-    ``bonded`` (m,) were held by a bond once; ``sliding`` (m,) is how far each slid under load (m).
-    """
-    parted = bonded & points.is_joint & (answer.state == OPEN)
+def answered(points: ContactPoints, answer: StepAnswer, once_bonded: Bools) -> ContactPoints:
+    """Return the points as an answer leaves them; ``once_bonded`` (m,) had a bond at the start."""
+    parted = once_bonded & points.is_joint & (answer.state == OPEN)
     state = np.where(parted, int(BROKEN), answer.state)
     return replace(
         points,
         gap=answer.gap,
         slip=answer.slip,
-        state=np.where(points.damage < 1, int(BONDED), state),
+        state=np.where(points.bonded, int(BONDED), state),
         normal_force=answer.normal_force,
         shear_force=answer.shear_force,
-        slid=points.slid + np.where(points.is_joint, sliding, 0.0),
-        worn=points.worn + np.abs(sliding),
     )
 
 

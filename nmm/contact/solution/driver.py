@@ -1,7 +1,7 @@
 """Contact of one step: posed, solved, asked of the laws again, until nothing changes any more.
 
 What is posed stands: limits, springs, lifted faces. Between two solutions laws say what changes
-(`nmm.contact.laws.damage_iteration`) and which bonds break.
+(`nmm.contact.laws.history_iteration`) and which bonds break.
 """
 
 from collections.abc import Sequence
@@ -16,10 +16,10 @@ from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.enforcement.rebalanced import solve_rebalanced
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.record import ContactSolution
-from nmm.contact.laws.bonds import Laws, break_bonds
 from nmm.contact.laws.compliance import Softness
-from nmm.contact.laws.damage_iteration import Turns, slid_under_load
+from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import Dashpots, RigidMass
+from nmm.contact.laws.history_iteration import HistoryIteration, slid_under_load
 from nmm.contact.laws.time_weighting import RaisedFaces, TimeWeighting, end_shares
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.midpoint import Rows
@@ -85,7 +85,7 @@ class ContactSolver:
 
     def __init__(
         self,
-        laws: Laws,
+        laws: ContactLaws,
         softness: Softness,
         enforcement: Enforcement,
         mass: RigidMass,
@@ -113,34 +113,34 @@ class ContactSolver:
         ``more`` are transforms besides those of laws: means over faces, conditions.
         """
         self.memory.moving = request.step is not None
-        turns, passes, loss = Turns(self._laws, contacts), 0, 0.0
+        iteration, passes, loss = HistoryIteration(self._laws, contacts), 0, 0.0
         start: Floats | None = None
         while True:
-            posed = self._posed(turns, rows, request, more, start)
+            posed = self._posed(iteration, rows, request, more, start)
             enforced = partial(self._enforced, posed.transforms, request.solver)
             answer = solve_through(posed.transforms, posed.problem, enforced)
             passes += answer.passes
             sliding = slid_under_load(posed.problem, answer)
             if answer.verdict.converged:
-                fault = turns.settled(answer, sliding)
+                fault = iteration.settled(answer, sliding)
                 answer = answer if fault is None else replace(answer, verdict=fault)
-            found = ContactSolution(turns.contacts, answer, passes, loss)
+            found = ContactSolution(iteration.contacts, answer, passes, loss)
             if not answer.verdict.converged:
                 return found
-            if not turns.done:
+            if not iteration.done:
                 start = answer.increment
                 continue
-            broken, _ = self._laws.breaking(turns.contacts, answer, request.breaking == "worst")
+            broken = self._laws.breaking(iteration.contacts, answer, request.breaking == "worst")
             if not broken.any():
-                loss += turns.loss(answer, sliding) + posed.loss(contacts, answer)
+                loss += iteration.loss(answer, sliding) + posed.loss(contacts, answer)
                 return replace(found, loss=loss, sliding=sliding, rows=rows)
             if request.near is not None and not request.near(answer.increment):
                 return found
             if request.breaking == "stop":
                 return replace(found, stopped=True)
             loss += _stored(posed.problem, answer, broken)
-            contacts = break_bonds(contacts, broken)
-            turns, start = Turns(self._laws, contacts), None
+            contacts = self._laws.break_bonds(contacts, broken)
+            iteration, start = HistoryIteration(self._laws, contacts), None
 
     def acting(self) -> csc_array | None:
         """Return the matrix of the last system with the springs that acted in it."""
@@ -148,7 +148,7 @@ class ContactSolver:
             return None
         problem, answer = self.last
         closed = answer.normal_force != 0
-        bound = shear_bound(answer.normal_force, ~closed, problem.limits)
+        bound = shear_bound(answer.normal_force, closed, problem.limits)
         held = closed & (answer.state != SLIDE) & (bound > 0)
         return with_springs(
             problem,
@@ -167,15 +167,15 @@ class ContactSolver:
 
     def _posed(
         self,
-        turns: Turns,
+        iteration: HistoryIteration,
         rows: Rows,
         request: StepRequest,
         more: Sequence[Transform],
         start: Floats | None,
     ) -> PosedStep:
         """Return the problem of a step as laws stand, and its transforms."""
-        laws, contacts, exact = self._laws, turns.start, self._enforcement.exact
-        normal, shear, own = laws.springs(contacts, np.zeros(len(contacts), dtype=bool))
+        laws, contacts, exact = self._laws, iteration.start, self._enforcement.exact
+        normal, shear, own = iteration.springs
         if exact:
             share = self._softness.of_contacts(contacts, own)
             normal, shear = share * normal, share * shear
@@ -188,7 +188,7 @@ class ContactSolver:
             slip=contacts.slip,
             normal_stiffness=normal,
             shear_stiffness=shear,
-            limits=laws.limits(turns.contacts),
+            limits=iteration.response.limits,
             state=contacts.state,
             normal_force=contacts.normal_force,
             shear_force=contacts.shear_force,
@@ -196,18 +196,18 @@ class ContactSolver:
             start=start,
         )
         transforms: list[Transform] = []
-        weight = end_shares(request.weight, exact, own, laws.softening(contacts))
+        weight = end_shares(request.weight, exact, own, iteration.softening)
         if (weight < 1).any():
-            transforms.append(TimeWeighting(weight, turns.rise, contacts.holds))
+            transforms.append(TimeWeighting(weight, iteration.before.rise, contacts.bonded))
         dashpots = None
         if request.step is not None and laws.damps:
             damping = laws.damping(contacts)
             dashpots = self._mass.dashpots(contacts, damping, normal, rows.normal, request.step)
             transforms.append(dashpots)
-        if laws.dilates:
-            transforms.append(RaisedFaces(turns.lift))
-        if len(turns.asymmetric.index):
-            transforms.append(turns.asymmetric)
+        if iteration.response.rise.any():
+            transforms.append(RaisedFaces(iteration.response.rise))
+        if (asymmetric := iteration.asymmetric) is not None:
+            transforms.append(asymmetric)
         return PosedStep(problem, [*transforms, *more], dashpots, weight)
 
     def _enforced(

@@ -181,12 +181,12 @@ class Strength(Case):
     friction: ClassVar[float] = 37.0
 
     def overload(self, sigma: Floats, tau: Floats) -> Floats:
-        """Force over strength of joints of 1 m2 under tractions (Pa)."""
+        """Stress over strength of joints under tractions (Pa)."""
         from nmm.interfaces.mohr_coulomb import MohrCoulomb
 
         angle = float(np.radians(self.friction))
         law = MohrCoulomb(angle, self.cohesion, self.tensile, bonded=True)
-        return law.overload(sigma, tau, np.ones(len(sigma)), 1.0)
+        return law.overload(sigma, tau)
 
     def shear_strength(self, sigma: float) -> float:
         """Shear stress at which a joint under ``sigma`` fails (Pa)."""

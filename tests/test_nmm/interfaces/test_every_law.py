@@ -2,19 +2,22 @@
 
 import pytest
 
-from nmm.interfaces.base import INTERFACE_LAWS
+from nmm.interfaces.mohr_coulomb import MohrCoulomb
+from nmm.interfaces.softening import BilinearSoftening, LinearSoftening
 from nmm.testing import check_interface_law
 
-BOND = {"cohesion": 2e6, "tensile_strength": 1e6, "bonded": True, "fracture_energy": 100.0}
+BOND = {"friction_angle": 0.6, "cohesion": 4e6, "tensile_strength": 3e6, "bonded": True}
+LAWS = [
+    MohrCoulomb(friction_angle=0.6),
+    MohrCoulomb(friction_angle=0.6, cohesion=1e5),
+    MohrCoulomb(**BOND, residual_friction_angle=0.4),
+    MohrCoulomb(friction_angle=0.6, dilation_angle=0.1, dilation_slip=1e-5),
+    LinearSoftening(**BOND, fracture_energy=100.0, residual_friction_angle=0.4),
+    LinearSoftening(**BOND, fracture_energy=100.0, dilation_angle=0.1),
+    BilinearSoftening(**BOND, fracture_energy=100.0, shear_fracture_energy=300.0),
+]
 
 
-@pytest.mark.parametrize("name", INTERFACE_LAWS.names())
-@pytest.mark.parametrize("residual", [None, 0.2])
-def test_a_law_of_bonds_keeps_what_every_law_promises(name, residual):
-    check_interface_law(
-        INTERFACE_LAWS.make(name, friction_angle=0.6, residual_friction_angle=residual, **BOND)
-    )
-
-
-def test_a_law_of_joints_without_bonds_keeps_what_every_law_promises():
-    check_interface_law(INTERFACE_LAWS.make("mohr_coulomb", friction_angle=0.6, cohesion=1e5))
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+def test_built_in_laws_keep_what_contact_expects(law):
+    check_interface_law(law)

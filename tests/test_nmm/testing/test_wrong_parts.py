@@ -376,25 +376,37 @@ def test_a_wrong_output_is_told(words):
 BOND = {"friction_angle": 0.6, "cohesion": 2e6, "tensile_strength": 1e6, "bonded": True}
 
 
-class Hardening(MohrCoulomb):
-    def limits(self, length, damage, thickness):
-        found = super().limits(length, damage, thickness)
-        return replace(found, tension=length * thickness * (1 + damage))
+class Negative(MohrCoulomb):
+    def friction(self, history):
+        return super().friction(history) - 1.0
+
+
+class Gossiping(MohrCoulomb):
+    def friction(self, history):
+        return np.full(len(history["bonded"]), 1e5 * abs(np.mean(history["plastic_slip"])))
 
 
 class Fragile(MohrCoulomb):
-    def overload(self, normal_force, shear_force, length, thickness):
-        return 1e-6 * np.abs(normal_force) + np.abs(shear_force)
+    def overload(self, pull, shear):
+        return 1e-6 * np.abs(pull) + np.abs(shear)
 
 
 class OneSided(MohrCoulomb):
-    def overload(self, normal_force, shear_force, length, thickness):
-        return super().overload(normal_force, np.maximum(shear_force, 0), length, thickness)
+    def overload(self, pull, shear):
+        return super().overload(pull, np.maximum(shear, 0))
 
 
 class Healing(LinearSoftening):
-    def damaged(self, damage, opening, sliding, stiffness):
-        return 0.5 * super().damaged(damage, opening, sliding, stiffness)
+    def evolved(self, history, gap, sliding, stiffness):
+        after = super().evolved(history, gap, sliding, stiffness)
+        return after | {"damage": np.where(gap < 0, 0.0, after["damage"])}
+
+
+class Spoiled(LinearSoftening):
+    def evolved(self, history, gap, sliding, stiffness):
+        after = super().evolved(history, gap, sliding, stiffness)
+        history["damage"][:] = after["damage"]
+        return after
 
 
 class Tough(LinearSoftening):
@@ -404,10 +416,12 @@ class Tough(LinearSoftening):
 
 
 LAWS = {
-    "grows by": Hardening,
+    "friction -0.316: expected none below zero": Negative,
+    "points know of each other": Gossiping,
     "pressure alone overloads": Fragile,
     "sign of shear": OneSided,
-    "damage falls": Healing,
+    "damage, which grows, fell": Healing,
+    "update changed damage it got": Spoiled,
     "over its fracture energy": Tough,
 }
 

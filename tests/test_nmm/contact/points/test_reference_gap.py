@@ -17,7 +17,8 @@ def points(gap, key=0, reference=0.0, length=0.0, edges=(0, 2)):
     arrays = {name: np.zeros(1) for name in PARTS}
     found = {"gap": [gap], "reference": [reference], "length": [length]}
     found |= {"key": [key], "edge_a": [edges[0]], "edge_b": [edges[1]]}
-    return ContactPoints(**arrays | {name: np.array(value) for name, value in found.items()})
+    arrays |= {name: np.array(value) for name, value in found.items()}
+    return ContactPoints(**arrays, history={})
 
 
 def follow(new, old=None, continues=False, stiffness=(1.0, 1.0)):

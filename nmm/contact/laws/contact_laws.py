@@ -1,0 +1,256 @@
+"""Which laws act at contact points: limits, springs, history, and bonds that break for good."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.surface import Surface
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.problem.step_problem import BROKEN, Limits, StepAnswer
+from nmm.interfaces.base import InterfaceLaw
+from nmm.interfaces.history import KEPT, History, HistoryColumn
+from nmm.interfaces.response import InterfaceResponse
+
+# Loads on bonds of a symmetric structure agree to rounding only; those within this of the worst
+# break together, so that a symmetric mesh stays symmetric.
+TIE = 1e-6
+
+
+@dataclass(frozen=True)
+class ContactLaws:
+    """Interface laws of a scene and the springs that carry them.
+
+    Attributes
+    ----------
+    laws
+        One for each interface.
+    thickness
+        m.
+    normal_penalty, shear_penalty
+        N/m of a vertex contact.
+    normal_bond, shear_bond
+        Pa m of a joint whose law has no stiffness of its own: its spring is this times the joint's
+        length over the distance of the blocks' middles, so that between Voronoi blocks a uniform
+        strain gives a uniform stress on all joints (Kawai 1978).
+    """
+
+    laws: Sequence[InterfaceLaw]
+    thickness: float
+    normal_penalty: float
+    shear_penalty: float
+    normal_bond: float
+    shear_bond: float
+
+    def initial(self, interface: Ints, bonded: Bools) -> History:
+        """Return the history (m,) of contacts that a bond holds, or none."""
+        found: dict[str, Any] = {}
+        for number, law in enumerate(self.laws):
+            for name, column in law.initial(bonded).items():
+                kept = found.setdefault(name, np.zeros(len(bonded), dtype=column.dtype))
+                found[name] = np.where(interface == number, column, kept)
+        return found
+
+    def response(self, contacts: ContactPoints, stiffness: Floats) -> InterfaceResponse:
+        """Return limits (N), springs and lift of contacts while their history stands.
+
+        ``stiffness`` (m,) is that of the whole bonds (N/m).
+        """
+        m = len(contacts)
+        tension, cohesion, friction, rise = (np.zeros(m) for _ in range(4))
+        open_share = np.ones(m)
+        # Cohesion is lost with the joint: what is found by search has none.
+        area = self._areas(contacts)
+        for law, index, history in self._by_law(contacts):
+            own = law.response(history, _over(stiffness, area)[index])
+            tension[index] = _times(own.limits.tension, area[index])
+            cohesion[index] = _times(own.limits.cohesion, area[index])
+            friction[index] = own.limits.friction
+            open_share[index], rise[index] = own.open_share, own.rise
+        return InterfaceResponse(Limits(tension, cohesion, friction), open_share, rise)
+
+    def evolved(
+        self, contacts: ContactPoints, gap: Floats, sliding: Floats, stiffness: Floats
+    ) -> History:
+        """Return the history after a step; see `InterfaceLaw.evolved`.
+
+        ``stiffness`` (m,) is that of the whole bonds (N/m).
+        """
+        after = {name: column.copy() for name, column in contacts.history.items()}
+        area = self._areas(contacts)
+        for law, index, history in self._by_law(contacts):
+            spring = _over(stiffness, area)[index]
+            for name, column in law.evolved(history, gap[index], sliding[index], spring).items():
+                after[name][index] = column
+        return after
+
+    @cached_property
+    def evolving(self) -> dict[str, HistoryColumn]:
+        """Columns on which the response of laws hangs within a step."""
+        return {name: one for law in self.laws for name, one in law.columns.items()}
+
+    def remembering(self, name: str) -> Bools:
+        """(n,) which laws have a column."""
+        return np.array([name in law.columns for law in self.laws], dtype=bool)
+
+    def strength(self, contacts: ContactPoints) -> Limits:
+        """Return the limits with the strength of intact bonds, which has none within a step."""
+        limits = self.response(contacts, self.springs(contacts)[0]).limits
+        tension, cohesion = limits.tension.copy(), limits.cohesion.copy()
+        for law, index, _ in self._by_law(contacts):
+            area = contacts.length[index] * self.thickness
+            tension[index] = np.minimum(tension[index], law.tensile_strength * area)
+            cohesion[index] = np.where(
+                np.isfinite(cohesion[index]), cohesion[index], law.cohesion * area
+            )
+        return Limits(tension, cohesion, limits.friction)
+
+    def springs(self, contacts: ContactPoints) -> tuple[Floats, Floats, Bools]:
+        """Return normal and shear stiffness (N/m) of whole bonds, and which are a law's own."""
+        own = contacts.is_joint.copy()
+        normal = np.where(own, self.normal_bond, self.normal_penalty) * contacts.spring_factor
+        shear = np.where(own, self.shear_bond, self.shear_penalty) * contacts.spring_factor
+        for law, index in self._stiff_laws(contacts):
+            assert law.normal_stiffness is not None
+            ratio = (law.shear_stiffness or law.normal_stiffness) / law.normal_stiffness
+            joint = index[contacts.is_joint[index]]
+            normal[joint] = law.normal_stiffness * contacts.length[joint] * self.thickness
+            shear[index] = normal[index] * ratio
+            own[index] = True
+        return normal, shear, own
+
+    def normal_stiffness(self, contacts: ContactPoints) -> Floats:
+        """Return the normal stiffness (m,) of whole bonds (N/m)."""
+        return self.springs(contacts)[0]
+
+    def sized(self, contacts: ContactPoints, surface: Surface) -> ContactPoints:
+        """Return found contacts as stiff as their laws ask for.
+
+        A stretch of a face has its length; a mere vertex stands for half the edge that faces the
+        other body, or half the other's if that is shorter, so that the two corners of a face that
+        lies on a longer one carry all of it.
+        """
+        spring_factor = contacts.spring_factor.copy()
+        for law, index in self._stiff_laws(contacts):
+            assert law.normal_stiffness is not None
+            some = contacts.take(index)
+            mere = _half_edge(surface, some.edge_a, some.edge_b)
+            length = np.where(some.length > 0, some.length, mere)
+            spring = law.normal_stiffness * length * self.thickness
+            spring_factor[index] = spring / self.normal_penalty
+        return replace(contacts, spring_factor=spring_factor)
+
+    @cached_property
+    def stiff(self) -> bool:
+        """Whether any law has a stiffness of its own."""
+        return any(law.normal_stiffness is not None for law in self.laws)
+
+    def energy(self, contacts: ContactPoints, own_only: bool = False) -> float:
+        """Energy (J) that comes back when the contacts are unloaded.
+
+        With ``own_only`` of those alone whose stiffness is a law's: exact contacts are no springs,
+        what they overlap by, within a tolerance, stores nothing.
+        """
+        normal, shear, own = self.springs(contacts)
+        bonded = contacts.bonded
+        if self.evolving:
+            away = bonded & (contacts.gap > 0)
+            normal = normal * np.where(away, self.response(contacts, normal).open_share, 1.0)
+        acts = (contacts.normal_force != 0) | (contacts.shear_force != 0)
+        acts &= own | (not own_only)
+        stretch = np.where(bonded, contacts.gap, np.minimum(contacts.gap, 0.0))
+        elastic = normal * stretch**2 + shear * contacts.slip**2
+        return float(elastic[acts].sum() / 2)
+
+    @cached_property
+    def makes_joints(self) -> Bools:
+        """(n,) whether shared edges of each law are followed as joints."""
+        return np.array([law.makes_joints for law in self.laws], dtype=bool)
+
+    @cached_property
+    def bonded(self) -> Bools:
+        """(n,) whether joints of each law hold together at the start."""
+        return np.array([law.bonded for law in self.laws], dtype=bool)
+
+    @cached_property
+    def damps(self) -> bool:
+        """Whether any law has damping."""
+        return any(law.damping for law in self.laws)
+
+    def damping(self, contacts: ContactPoints) -> Floats:
+        """Return the share (m,) of critical damping of each contact."""
+        return np.array([law.damping for law in self.laws])[contacts.interface]
+
+    def breaking(self, contacts: ContactPoints, answer: StepAnswer, worst_only: bool) -> Bools:
+        """Return which intact bonds (m,) cannot hold the forces of an answer.
+
+        With ``worst_only`` the most loaded ones alone, the others being judged again after the
+        forces have moved: the order of failure then does not depend on the load increment.
+        """
+        load = np.zeros(len(contacts))
+        bonds = np.flatnonzero(contacts.bonded)
+        area = contacts.length[bonds] * self.thickness
+        for number, law in enumerate(self.laws if len(bonds) else ()):
+            mine = contacts.interface[bonds] == number
+            index = bonds[mine]
+            forces = (answer.normal_force[index], answer.shear_force[index])
+            load[index] = law.overload(*(force / area[mine] for force in forces))
+        over = load > 1
+        if worst_only and over.any():
+            over &= load >= load.max() * (1 - TIE)
+        return over
+
+    def break_bonds(self, contacts: ContactPoints, broken: Bools) -> ContactPoints:
+        """Return the contacts with some bonds broken for good, their forces gone."""
+        history = {name: column.copy() for name, column in contacts.history.items()}
+        for law, index, own in self._by_law(contacts):
+            gone, lost = broken[index], law.broken(own)
+            for name, column in lost.items():
+                history[name][index[gone]] = column[gone]
+        return replace(
+            contacts,
+            history=history,
+            state=np.where(broken, int(BROKEN), contacts.state),
+            normal_force=np.where(broken, 0.0, contacts.normal_force),
+            shear_force=np.where(broken, 0.0, contacts.shear_force),
+            slip=np.where(broken, 0.0, contacts.slip),
+        )
+
+    def _areas(self, contacts: ContactPoints) -> Floats:
+        """Return the area (m,) in m2 of joints; zero of what is found by search."""
+        return np.where(contacts.is_joint, contacts.length * self.thickness, 0.0)
+
+    def _stiff_laws(self, contacts: ContactPoints) -> list[tuple[InterfaceLaw, Ints]]:
+        return [
+            (law, np.flatnonzero(contacts.interface == number))
+            for number, law in enumerate(self.laws)
+            if law.normal_stiffness is not None
+        ]
+
+    def _by_law(self, contacts: ContactPoints) -> Iterator[tuple[InterfaceLaw, Ints, History]]:
+        """Yield each law with its contacts and their history, columns of its own alone."""
+        for number, law in enumerate(self.laws):
+            index = np.flatnonzero(contacts.interface == number)
+            names = [*KEPT, *law.columns]
+            yield law, index, {name: contacts.history[name][index] for name in names}
+
+
+def _over(force: Floats, area: Floats) -> Floats:
+    """Force, or stiffness, over area (m,); itself where there is none."""
+    return np.asarray(force / np.where(area > 0, area, 1.0))
+
+
+def _times(stress: Floats, area: Floats) -> Floats:
+    """Stress, which may be without limit, times area (m,); zero where there is none."""
+    return np.where(area > 0, stress * np.where(area > 0, area, 1.0), 0.0)
+
+
+def _half_edge(surface: Surface, vertex: Ints, edge: Ints) -> Floats:
+    """Half the length (m,) of the edge at a vertex that faces ``edge``, or of that if shorter."""
+    before, along = surface.previous[vertex], surface.direction[edge]
+    faces = [np.einsum("ij,ij->i", surface.direction[own], along) for own in (vertex, before)]
+    facing = np.where(faces[0] <= faces[1], vertex, before)
+    return np.asarray(np.minimum(surface.length[facing], surface.length[edge]) / 2)

@@ -1,0 +1,135 @@
+"""Fixed-point iteration on what interface laws remember, within a step.
+
+Every solution is that of a history that stands; what it should have been follows from it. Under
+softening of slope ``h`` against a structure of stiffness ``S`` the changes shrink by ``h / S`` an
+iteration: they vanish as long as the structure is stable, and acceleration makes that quick.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from integration.arrays import Bools, Floats
+from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.tension_compression import AsymmetricSprings
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
+from nmm.interfaces.history import History
+from nmm.solvers.anderson import FixedPoint
+
+MOST = 200
+"""Solutions after which a step is given up."""
+UNCHANGED = 1e-9
+"""Change of a column, beside one or the largest length, that is as good as none."""
+
+
+class HistoryIteration:
+    """History of the contacts of one step, solution by solution.
+
+    Attributes
+    ----------
+    start, contacts
+        The contacts at the start of the step, and with the history of this solution.
+    springs
+        Normal and shear stiffness (m,) of whole bonds (N/m), and which are a law's own.
+    before, response
+        What the laws answer by the history at the start, and by that of this solution.
+    done
+        Whether the last answer agrees with the history it was found with.
+    """
+
+    def __init__(self, laws: ContactLaws, start: ContactPoints) -> None:
+        self._laws = laws
+        self.start = self.contacts = start
+        self.springs = laws.springs(start)
+        self.before = self.response = laws.response(start, self.springs[0])
+        self.done = False
+        self._count = 0
+        self._iteration = FixedPoint()
+        self._index = {
+            name: np.flatnonzero(
+                laws.remembering(name)[start.interface]
+                & ~(column.grows & (start.history[name] >= column.most))
+            )
+            for name, column in laws.evolving.items()
+        }
+
+    @property
+    def softening(self) -> Bools:
+        """Which contacts are bonds that lose their strength in the course of solutions."""
+        return self.start.bonded & np.isfinite(self.before.limits.tension)
+
+    @property
+    def asymmetric(self) -> AsymmetricSprings | None:
+        """Bonds that are softer open than pressed; None without any."""
+        share = self.before.open_share
+        index = np.flatnonzero(self.start.bonded & (share < 1 - 1e-9))
+        return AsymmetricSprings(index, share[index]) if len(index) else None
+
+    def settled(self, answer: StepAnswer, sliding: Floats) -> Verdict | None:
+        """Take note of an answer; return a verdict when there have been too many."""
+        image = self._laws.evolved(self.start, answer.gap, sliding, self.springs[0])
+        change, size = self._change(answer, image)
+        self.done = change <= UNCHANGED
+        self._count += 1
+        if self.done:
+            self.contacts = replace(self.contacts, history=image)
+            return None
+        if self._count == MOST:
+            sentence = (
+                f"what interface laws remember still changed by {change:.1e} after {MOST} "
+                "solutions of the step; shorten the step or the load increment"
+            )
+            return Verdict(False, "passes", sentence)
+        self._follow(image, size)
+        return None
+
+    def _change(self, answer: StepAnswer, image: History) -> tuple[float, dict[str, float]]:
+        """Largest change of a column, each beside its size, and the sizes."""
+        now, size, change = self.contacts.history, dict[str, float](), 0.0
+        for name, column in self._laws.evolving.items():
+            lengths = (answer.gap, image[name])
+            largest = max(float(np.abs(one).max(initial=0.0)) for one in lengths)
+            size[name] = (largest or 1.0) if column.metres else 1.0
+            at = self._index[name]
+            off = np.abs(image[name][at] - now[name][at]).max(initial=0.0) / size[name]
+            change = max(change, float(off))
+        return change, size
+
+    def _follow(self, image: History, size: dict[str, float]) -> None:
+        """Choose the history of the next solution."""
+        columns, now = self._laws.evolving, self.contacts.history
+        point, target = (
+            np.concatenate([one[name][at] / size[name] for name, at in self._index.items()])
+            for one in (now, image)
+        )
+        ends = np.cumsum([len(at) for at in self._index.values()])
+        following = np.split(self._iteration.next(point, target), ends[:-1])
+        history = dict(now)
+        for (name, at), values in zip(self._index.items(), following, strict=True):
+            least = self.start.history[name][at] if columns[name].grows else -np.inf
+            history[name] = now[name].copy()
+            history[name][at] = np.clip(size[name] * values, least, columns[name].most)
+        self.contacts = replace(self.contacts, history=history)
+        self.response = self._laws.response(self.contacts, self.springs[0])
+
+    def loss(self, answer: StepAnswer, sliding: Floats) -> float:
+        """Energy (J) that friction and softening took in the step."""
+        rubbed = np.abs(answer.shear_force * sliding)
+        soft = self.softening
+        if not soft.any():
+            return float(rubbed.sum())
+        before = self.start.take(soft)
+        normal = (before.normal_force + answer.normal_force[soft]) / 2
+        shear = (before.shear_force + answer.shear_force[soft]) / 2
+        after = replace(self.contacts.take(soft), gap=answer.gap[soft], slip=answer.slip[soft])
+        slipped = after.slip - before.slip + sliding[soft]
+        work = normal @ (after.gap - before.gap) + shear @ slipped
+        stored = self._laws.energy(after) - self._laws.energy(before)
+        return float(rubbed[~soft].sum() + work - stored)
+
+
+def slid_under_load(problem: StepProblem, answer: StepAnswer) -> Floats:
+    """How far (m,) contacts slid beyond the elastic stretch; zero where nothing presses or rubs."""
+    loaded = (answer.normal_force != 0) | (answer.shear_force != 0)
+    return np.where(loaded, problem.slips(answer.increment) - answer.slip, 0.0)

@@ -1,0 +1,104 @@
+"""An interface law at a point: traction, tangent and history after a given gap and slip.
+
+A step of a run finds what slides from the balance of bodies; at a point alone it follows from the
+law: the shear spring slides by as much as its bound asks for, which what it slides may change.
+"""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.interfaces.history import History
+from nmm.interfaces.response import Traction
+
+if TYPE_CHECKING:
+    from nmm.interfaces.base import InterfaceLaw
+
+ROUNDS, CLOSE = 60, 1e-14
+"""Most secants to what slides, and the part of the largest trial stress at which they end."""
+NUDGE = 1e-6
+"""Part of a gap, or slip, by which the history that belongs to it is differenced."""
+
+# Normal and shear stiffness (m,) in Pa/m.
+Stiffness = tuple[Floats, Floats]
+
+
+def mapped(
+    law: "InterfaceLaw", history: History, gap: Floats, slip: Floats, stiffness: Stiffness
+) -> Traction:
+    """See `InterfaceLaw.update`."""
+    after = _after(law, history, gap, slip, stiffness)
+    traction, slope = _traction(law, history, after, gap, slip, stiffness)
+    tangent = np.zeros((len(gap), 2, 2))
+    tangent[:, 0, 0], tangent[:, 1, 1] = slope, stiffness[1]
+    # While the history stands springs are linear; what it changes is differenced.
+    for column, there in enumerate((gap, slip)):
+        nudge = NUDGE * (np.abs(there) + 1e-3 * np.abs(there).max(initial=1e-12))
+        sides = []
+        for sign in (1, -1):
+            moved = [gap, slip]
+            moved[column] = there + sign * nudge
+            other = _after(law, history, moved[0], moved[1], stiffness)
+            sides.append(_traction(law, history, other, gap, slip, stiffness)[0])
+        tangent[:, :, column] += (sides[0] - sides[1]) / (2 * nudge[:, None])
+    return Traction(traction, tangent, after)
+
+
+def _after(
+    law: "InterfaceLaw", history: History, gap: Floats, slip: Floats, stiffness: Stiffness
+) -> dict[str, Floats]:
+    """Return the history after a gap and a slip: what slid, and bonds that broke at once."""
+    trial = stiffness[1] * (slip - history["plastic_slip"])
+    sign, least, most = np.sign(trial), np.zeros_like(trial), np.abs(trial) / stiffness[1]
+    close = CLOSE * float(np.abs(trial).max(initial=0.0))
+
+    def slid(sliding: Floats) -> tuple[dict[str, Floats], Floats]:
+        after = law.evolved(history, gap, sign * sliding, stiffness[0])
+        bound = _pull(law, history, after, gap, stiffness)[2]
+        return after, np.abs(trial) - stiffness[1] * sliding - bound
+
+    over, under = slid(least)[1], slid(most)[1]
+    slides = over > 0
+    over, under = np.where(slides, over, 0.0), np.where(slides, under, -1.0)
+    at = np.zeros_like(trial)
+    for _ in range(ROUNDS):  # regula falsi; the end that stays counts half (Illinois)
+        chord = np.minimum(under - over, -np.finfo(float).tiny)
+        at = np.where(slides, most - under * (most - least) / chord, 0.0)
+        excess = slid(at)[1]
+        more = excess > 0
+        if not slides.any() or np.abs(excess[slides]).max() <= close:
+            break
+        least, over = np.where(more, at, least), np.where(more, excess, over / 2)
+        most, under = np.where(more, most, at), np.where(more, under / 2, excess)
+    after, _ = slid(at)
+    force, _ = _traction(law, history, after, gap, slip, stiffness)
+    breaks = history["bonded"] & (law.overload(force[:, 0], force[:, 1]) > 1)
+    broken = law.broken(after) | {"plastic_slip": slip}
+    return {name: np.where(breaks, broken[name], after[name]) for name in after}
+
+
+def _traction(
+    law: "InterfaceLaw",
+    before: History,
+    after: History,
+    gap: Floats,
+    slip: Floats,
+    stiffness: Stiffness,
+) -> tuple[Floats, Floats]:
+    """Return pull and shear (m, 2) in Pa, and the derivative of the pull by the gap."""
+    pull, slope, _ = _pull(law, before, after, gap, stiffness)
+    return np.stack([pull, stiffness[1] * (slip - after["plastic_slip"])], axis=1), slope
+
+
+def _pull(
+    law: "InterfaceLaw", before: History, after: History, gap: Floats, stiffness: Stiffness
+) -> tuple[Floats, Floats, Floats]:
+    """Return the pull, its derivative and the shear's bound: limits as they are afterwards.
+
+    An open bond is loaded on the secant that the step began with.
+    """
+    secant = law.response(before, stiffness[0]).open_share
+    response = replace(law.response(after, stiffness[0]), open_share=secant)
+    return response.pull(gap, before["bonded"], stiffness[0])
