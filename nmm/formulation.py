@@ -28,8 +28,8 @@ class SupportMethod(Frozen):
 
     method: Literal["auto", "penalty", "nitsche", "lagrange"] = Field(
         default="auto",
-        description='"auto", "penalty", "nitsche" or "lagrange"; auto is springs for blocks, '
-        "Nitsche's method for meshes, multipliers for meshes of materials that are not linear",
+        description='"auto", "penalty", "nitsche" or "lagrange"; auto is Nitsche\'s method for '
+        "meshes of linear materials, else springs",
         examples=["nitsche"],
     )
     stiffness: Number | None = Field(
@@ -49,7 +49,7 @@ class Glue(Frozen):
     method: Literal["auto", "spring", "nitsche", "lagrange"] = Field(
         default="auto",
         description='"auto", "spring", "nitsche" or "lagrange"; auto is Nitsche\'s method, and '
-        "springs where functions have no strain; multipliers for materials that are not linear",
+        "springs where functions have no strain or a material is not linear",
         examples=["nitsche"],
     )
     stiffness: Number | None = Field(

@@ -91,7 +91,7 @@ class Method:
             basis = multipliers(pieces, self.size, traction_degree(model), axes)
             shared = Tractions(int(basis.shape[1]))
             return Multipliers(name, place, axes, displacement, weight, basis, shared)
-        check_linear(model, "[supports] method", 'method = "lagrange" or "penalty"')
+        check_linear(model, "[supports] method", 'method = "penalty"')
         hard = model.drained[:, :2, :2].max(axis=(1, 2))
         soft = np.minimum(hard, SOFTEST * model.elasticity[:, 2, 2])
         gamma = GAMMA[min(self.degree, 3)] if self.gamma is None else self.gamma

@@ -255,7 +255,9 @@ def _method(setup: Setup) -> Method:
     mesh = not cover.of_blocks
     asked = setup.formulation.supports
     if mesh:
-        asked = asked.model_copy(update={"method": method_for(setup.model, asked.method)})
+        asked = asked.model_copy(
+            update={"method": method_for(setup.model, asked.method, "penalty")}
+        )
     return method_of(asked, cover.finest, cover.highest_degree, mesh)
 
 

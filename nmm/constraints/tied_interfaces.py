@@ -40,7 +40,7 @@ def glue(
     model: Model, joints: Joints, method: "Glue", size: float | None
 ) -> tuple[list[Tie], MultiplierGlue | None]:
     """Return what holds edges together; ``size`` is that of a mesh's cells, None for blocks (m)."""
-    kind = method_for(model, method.method)
+    kind = method_for(model, method.method, "spring")
     if kind == "spring":
         return [springs(model, joints, glue_stiffness(model, joints, method))], None
     if kind == "lagrange":
@@ -75,7 +75,7 @@ def springs(model: Model, joints: Joints, spring: Floats) -> Springs:
 
 def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
     """Nitsche's terms, and springs where neither side has stress."""
-    check_linear(model, "[glue] method", 'method = "lagrange" or "spring"')
+    check_linear(model, "[glue] method", 'method = "spring"')
     order = max(ORDER, 2 * model.manifold.degree + 2)
     pairs, one, two, joint = pairs_of(model, joints, order)
     found, free = averages(model, pairs, (one, two), method.gamma)

@@ -68,9 +68,10 @@ def test_a_bar_pulled_beyond_yield_keeps_its_plastic_strain(cover):
     at = found.history["load_factor"]
     strain = 300e6 / E + 50e6 / H
     # Springs of supports give by 1e-3 / 2 of the stress over E; meshes hold by multipliers.
-    # Fields of moving least squares miss the multipliers' by half a per cent on so few points.
-    loose = {"dda": 1e-3, "dda degree 2": 1e-3, "meshless": 1e-2}.get(cover, 1e-9)
+    # Springs of supports give by some 1e-3 of the stress over E.
+    loose = 1e-2 if cover == "meshless" else 1e-3
     assert way[at == 1.0][0] == pytest.approx(2 * strain, rel=loose)
+    # Moving least squares bend beside springs; all else has one stress.
     kept = 1e-2 if cover == "meshless" else 1e-9
     assert way[-1] == pytest.approx(2 * 50e6 / H, rel=kept)
     # Work per volume: what flows at the mean of both stresses, less what hardening stores.
@@ -222,7 +223,7 @@ def test_initial_stress_counts_in_the_yield():
     text += '[[initial_stresses]]\nblock = "all"\nstress = ["200 MPa", 0, 0]\n'
     found = run(text, "triangles degree 1")
     strain = 100e6 / E + 50e6 / H
-    assert found.history["monitor:tip:ux"][-1] == pytest.approx(2 * strain, rel=1e-8)
+    assert found.history["monitor:tip:ux"][-1] == pytest.approx(2 * strain, rel=2e-3)  # springs
     np.testing.assert_allclose(found.frames[-1].stress[:, 0], 300e6, rtol=1e-8)
     assert abs(found.summary.energy_balance) < 1e-8
 
