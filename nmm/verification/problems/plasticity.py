@@ -42,7 +42,7 @@ def roller(name: str, segment: Sequence[tuple[float, float]], axis: str) -> str:
 
 
 @dataclass(frozen=True)
-class Bar(SceneCase):
+class PlasticBar(SceneCase):
     """A bar is pulled beyond its yield stress and let go: it keeps its plastic strain.
 
     A block of discontinuous deformation analysis, one material point at its centroid, does as the
@@ -98,7 +98,7 @@ class Bar(SceneCase):
 
 
 @dataclass(frozen=True)
-class Beam(SceneCase):
+class PlasticBeam(SceneCase):
     """A beam under two loads fails at one and a half of the moment at which it first yields.
 
     Half of it is modelled. Between the loads the moment is constant and nothing shears.
