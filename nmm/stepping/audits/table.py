@@ -28,7 +28,7 @@ class Threshold:
 THRESHOLDS: dict[str, Threshold] = {
     "energy_made_in_step": Threshold(
         "rise of stored energy and losses less work in one step, over the turnover",
-        1e-5,
+        1e-6,
         1e-2,
         "dynamics",
     ),
