@@ -181,6 +181,7 @@ class Contact(Effect):
             book=self.record.book.keep(done.take(done.is_joint), surface, apart),
             found=self._last,
             known=done.take(~done.is_joint),
+            stored=solved.answer.stored,
         )
         return concatenate([done, self.record.book.lost])
 
@@ -274,8 +275,8 @@ class Contact(Effect):
             return None
 
     def energy(self, state: State) -> float:
-        """Energy of the springs of the contacts as last committed (J)."""
+        """Energy of contacts as last committed (J): of springs, and of an enforcement's own."""
         record = self.record
         known = [] if record.known is None else [record.known]
         points = concatenate([record.book.points, *known])
-        return self._laws.energy(points, own_only=self._exact)
+        return self._laws.energy(points, own_only=self._exact) + record.stored

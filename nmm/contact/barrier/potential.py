@@ -106,6 +106,17 @@ class Potential:
         pull = k * np.minimum(gap, self.stretch)
         return np.where(self.spring, pull, force), np.where(self.spring, held, curve)
 
+    def stored(self, gap: Floats, slip: Floats) -> float:
+        """Energy (J) whose slopes are the forces, of slips up to the bound of friction as it is.
+
+        Springs are counted elsewhere.
+        """
+        x = np.clip(self.distance(gap), 1e-100, 1.0)
+        pressed = -self.scale * self.width**2 * (x - 1) ** 2 * np.log(x)
+        y = np.minimum(np.abs(slip) / (self.width / 2), 1.0)
+        bound = np.where(self.spring, 0.0, self.bound(self.normal(gap)[0]))
+        return float((pressed + bound * self.width / 2 * (y**2 - y**3 / 3)).sum())
+
     def shear(self, slip: Floats, bound: Floats) -> tuple[Floats, Floats, Floats]:
         """Force, stiffness and sense (force over bound) of every contact along its tangent."""
         k, half = self.problem.shear_stiffness, self.width / 2

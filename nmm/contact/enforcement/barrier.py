@@ -124,6 +124,7 @@ class _Outcome:
             verdict=self._verdict(memory),
             factorisations=self.found.factorisations,
             solver=self.linear.name,
+            stored=well.stored(gap, slip),
         )
 
     def _verdict(self, memory: Memory) -> Verdict:

@@ -62,11 +62,14 @@ class ContactRecord:
         Joints.
     found, known
         Contacts of the last search, and the same as points with forces and slip.
+    stored
+        See `StepAnswer.stored` (J).
     """
 
     book: JointBook
     found: Contacts | None = None
     known: ContactPoints | None = None
+    stored: float = 0.0
 
 
 @dataclass(frozen=True)

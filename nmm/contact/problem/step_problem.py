@@ -193,6 +193,8 @@ class StepAnswer:
         Matrices factorised; fewer than passes where a factor was kept.
     solver
         Name of the linear solver.
+    stored
+        Energy (J) at the end in the enforcement's own potential, besides springs of contacts.
     """
 
     increment: Floats
@@ -206,3 +208,4 @@ class StepAnswer:
     verdict: Verdict
     factorisations: int = 0
     solver: str = ""
+    stored: float = 0.0

@@ -95,6 +95,23 @@ def test_stiffnesses_are_the_derivatives_of_the_forces() -> None:
         np.testing.assert_allclose(part, slope, rtol=1e-5, atol=1e-5)
 
 
+def test_forces_are_the_slopes_of_the_energy_they_store() -> None:
+    problem, width = frictional(3), 1e-2
+    well, h = Potential(problem, width, 50.0), 1e-8
+    random = np.random.default_rng(1)
+    gap = random.uniform(-0.45, 0.45, problem.n_contacts) * width
+    slip = random.uniform(-0.45, 0.45, problem.n_contacts) * width
+    still = np.zeros_like(slip)
+    direction = random.normal(size=len(gap))
+    # Along gaps without slip, then along slips, which are elastic below half a width.
+    pressed = (
+        well.stored(gap + h * direction, still) - well.stored(gap - h * direction, still)
+    ) / 2
+    assert pressed / h == pytest.approx(float(well.normal(gap)[0] @ direction), rel=1e-6)
+    slipped = (well.stored(gap, slip + h * direction) - well.stored(gap, slip - h * direction)) / 2
+    assert slipped / h == pytest.approx(float(well.pull(gap, slip).shear @ direction), rel=1e-6)
+
+
 def test_contact_that_starts_deep_comes_out_and_is_counted() -> None:
     problem = make_problem(np.eye(2), [0.0, -1.0], [[0.0, 1.0]], [[1.0, 0.0]], gap=[-0.5])
     answer = make_enforcement("barrier", {"width": 1e-3}).solve(problem, make_solver())
