@@ -4,6 +4,7 @@ import ast
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -116,6 +117,7 @@ def imports_of(path: Path, root: Path, types: bool = True) -> Iterator[Import]:
                 yield Import(importer, f"{base}.{alias.name}", place)
 
 
+@cache
 def all_imports(root: Path) -> list[Import]:
     files = [path for package in PACKAGES for path in sorted((root / package).rglob("*.py"))]
     return [found for path in files for found in imports_of(path, root)]
@@ -227,6 +229,7 @@ def test_a_right_import_passes(tmp_path, path, line):
     ]
 
 
+@cache
 def runtime_imports(root: Path) -> set[tuple[str, str]]:
     """Pairs of modules of which the first imports the second, at once or when it is needed."""
     files = [path for package in PACKAGES for path in (root / package).rglob("*.py")]
