@@ -5,7 +5,7 @@ Median of interleaved repeats after a warm-up, CPU seconds of one process. Colum
 grid, tree      vertex-edge pairs within 2 % of a cell, by the compiled grid and by shapely's tree
 list            `NeighbourList.update` that finds that nothing has moved far
 narrow, arrays  the contacts among the pairs, compiled and by whole arrays
-remeasure       new gaps of the same contacts; follow: their predecessors
+follow          predecessors of the contacts
 joints          joints with all that is needed to find them
 crossing        crossings of a step of 1 % of a cell
 
@@ -27,9 +27,10 @@ import shapely
 from integration.polygons import Polygons
 from nmm.contact.detection.crossing import find_crossings
 from nmm.contact.detection.joints import find_joints
-from nmm.contact.detection.narrow_phase import find_contacts, follow, remeasure
-from nmm.contact.detection.neighbour_list import NeighbourList, near_pairs, near_pairs_by_tree
-from nmm.contact.detection.surface import Surface, polygon_surface
+from nmm.contact.detection.narrow_phase import find_contacts, follow
+from nmm.contact.detection.neighbour_list import NeighbourList, near_pairs
+from nmm.contact.detection.surface import Surface
+from nmm.testing.contact_search import near_pairs_by_tree, polygon_surface
 
 SKIN, REACH = 0.02, 0.01
 
@@ -63,7 +64,6 @@ def tasks(surface: Surface) -> dict[str, Callable[[], object]]:
         "list": lambda: neighbours.update(fresh()),
         "narrow": lambda: find_contacts(fresh(), vertex, edge, REACH, last=found),
         "arrays": lambda: find_contacts(fresh(), vertex, edge, REACH, last=found, compiled=False),
-        "remeasure": lambda: remeasure(fresh(), found),
         "follow": lambda: follow(found, found),
         "joints": lambda: find_joints(fresh()),
         "crossing": lambda: find_crossings(fresh(), after),

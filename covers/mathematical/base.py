@@ -96,10 +96,6 @@ class Cover(ABC):
         """Weights (m, k) at ``points`` (m, 2), each in the cell of the same row."""
         return self.evaluate(cells, points)[0]
 
-    def weight_gradients(self, cells: Ints, points: Floats) -> Floats:
-        """Gradients (m, k, 2) of the weights at ``points`` (m, 2), 1/m."""
-        return self.evaluate(cells, points)[1]
-
     def weight_tables(self, cells: Ints, origin: Floats, scale: Floats) -> tuple[Floats, int]:
         """Coefficients (m, k, K) of the weights over monomials of (x - origin) / scale, degree.
 

@@ -29,7 +29,7 @@ the area over the perimeter) of the thinner of the two bodies.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Self
 
 import numpy as np
@@ -152,18 +152,6 @@ def with_pairs(surface: Surface, found: Contacts, vertex: Ints, edge: Ints) -> C
     both = [np.concatenate([getattr(part, name) for part in (found, more)]) for name in names]
     joined = type(found)(*both)
     return joined.take(np.argsort(joined.key, kind="stable"))
-
-
-def remeasure(surface: Surface, contacts: Contacts) -> Contacts:
-    """Return the same contacts with foot, normal and gap where the surface is now."""
-    v, e = contacts.vertex, contacts.edge
-    along, gap = measure(surface, v, e)
-    return replace(
-        contacts,
-        parameter=np.clip(along / surface.length[e], 0.0, 1.0),
-        normal=surface.normal[e],
-        gap=gap,
-    )
 
 
 def follow(old: Contacts, new: Contacts) -> Ints:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import shapely
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats, Ints
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import DEPTH
 
@@ -40,34 +39,6 @@ def near_pairs(
     )
 
 
-def near_pairs_by_tree(
-    surface: Surface, distance: float, within_bodies: bool = False
-) -> tuple[Ints, Ints]:
-    """As `near_pairs`, by shapely's tree: the slower form that the grid is tested against."""
-    lines = shapely.linestrings(np.stack([surface.start, surface.end], axis=1))
-    tree = shapely.STRtree(np.atleast_1d(np.asarray(lines, dtype=object)))
-    points = np.atleast_1d(np.asarray(shapely.points(surface.start), dtype=object))
-    vertex, edge = tree.query(points, predicate="dwithin", distance=distance).astype(np.int64)
-    keep = surface.body[vertex] != surface.body[edge]
-    if within_bodies:
-        keep |= _apart(surface, vertex, edge)
-    order = np.lexsort((edge[keep], vertex[keep]))
-    return vertex[keep][order], edge[keep][order]
-
-
-def _apart(surface: Surface, vertex: Ints, edge: Ints) -> Bools:
-    """Pairs of which vertex and edge can meet: across a reentrant corner at the nearest."""
-    before, after = surface.previous, surface.next
-    u = surface.direction[before]
-    turn = u[:, 0] * surface.direction[:, 1] - u[:, 1] * surface.direction[:, 0]
-    back = (u * surface.direction).sum(axis=1) < 0.0
-    reentrant = (turn <= 1e-9) & ((turn < 0.0) | back)
-    close = (edge == vertex) | (edge == before[vertex])
-    close |= (edge == after[vertex]) & ~reentrant[after[vertex]]
-    close |= (edge == before[before[vertex]]) & ~reentrant[before[vertex]]
-    return np.asarray(~close)
-
-
 class NeighbourList:
     """Candidate pairs of a moving surface, searched anew only when something has moved far.
 
@@ -82,17 +53,11 @@ class NeighbourList:
         m. A wider skin makes longer lists and fewer searches.
     within_bodies
         See `near_pairs`.
-
-    Attributes
-    ----------
-    rebuilds
-        How often the pairs were searched.
     """
 
     def __init__(self, skin: float, within_bodies: bool = False) -> None:
         self.skin = skin
         self.within_bodies = within_bodies
-        self.rebuilds = 0
         self._built: Surface | None = None
         self._pairs = (np.empty(0, np.int64), np.empty(0, np.int64))
 
@@ -103,7 +68,6 @@ class NeighbourList:
             distance = np.maximum(self.skin, depth)
             self._pairs = near_pairs(surface, distance, self.within_bodies)
             self._built = surface
-            self.rebuilds += 1
         return self._pairs
 
     def _stands(self, built: Surface, now: Surface) -> bool:

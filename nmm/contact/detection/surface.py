@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from integration.polygons import Polygons
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,18 +78,3 @@ class Surface:
     def moved(self, start: Floats, end: Floats) -> Surface:
         """Return the same rings with their edges elsewhere."""
         return Surface(start, end, self.body, self.next, self.previous)
-
-
-def polygon_surface(polygons: Polygons) -> Surface:
-    """Surface of polygons, one body each; rings are turned to have the solid on the left."""
-    polygons = polygons.oriented()
-    follower = polygons.next_point
-    previous = np.empty_like(follower)
-    previous[follower] = np.arange(len(follower))
-    return Surface(
-        polygons.points,
-        polygons.points[follower],
-        polygons.polygon_of_point,
-        follower,
-        previous,
-    )

@@ -5,7 +5,8 @@ import pytest
 
 from integration.polygons import Polygons
 from nmm.contact.detection.crossing import find_crossings
-from nmm.contact.detection.surface import Surface, polygon_surface
+from nmm.contact.detection.surface import Surface
+from nmm.testing.contact_search import polygon_surface
 
 
 def rectangle(x: float, y: float, width: float, height: float) -> np.ndarray:

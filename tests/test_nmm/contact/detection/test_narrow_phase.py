@@ -14,10 +14,10 @@ from nmm.contact.detection.narrow_phase import (
     find_contacts,
     follow,
     pair_key,
-    remeasure,
 )
 from nmm.contact.detection.neighbour_list import NeighbourList
-from nmm.contact.detection.surface import Surface, polygon_surface
+from nmm.contact.detection.surface import Surface
+from nmm.testing.contact_search import polygon_surface
 
 
 def rectangle(x, y, width, height, angle=0.0):
@@ -430,18 +430,6 @@ def test_what_left_has_no_successor_and_nobody_inherits_twice():
     np.testing.assert_array_equal(old.key[past[same]], new.key[same])
     assert (follow(old.take(np.arange(0)), new) == -1).all()
     assert len(follow(old, new.take(np.arange(0)))) == 0
-
-
-def test_remeasured_contacts_are_the_same_with_new_gaps():
-    cells = voronoi(100, 1)
-    found = search(cells, 1e-3)
-    moved = shaken(cells, 1e-4, 1e-4, 3)
-    again, fresh = remeasure(moved, found), search(moved, 1e-3, last=found)
-    common, i, j = np.intersect1d(again.key, fresh.key, return_indices=True)
-    assert len(common) > 0.75 * len(found)  # of the others, vertex and corner change roles
-    assert (follow(found, fresh) >= 0).sum() > 0.99 * len(found)
-    np.testing.assert_allclose(again.gap[i], fresh.gap[j], rtol=0, atol=1e-15)
-    np.testing.assert_allclose(again.normal[i], fresh.normal[j], rtol=0, atol=1e-15)
 
 
 # --- invariance and oracles -----------------------------------------------------------------------
