@@ -12,7 +12,7 @@ from scipy.sparse import csc_array
 
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
-from nmm.assembly.stress_points import StressPoints
+from nmm.assembly.stress_points import StressPoints, nearest
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Law, Response
 
@@ -142,6 +142,14 @@ class Matter:
         force = self.thickness * self.points.force(mean)
         elastic = [float(one @ (self.rest @ one)) / 2 for one in (end[0], start[0])]
         return float(force @ (end[0] - start[0])) + elastic[0] - elastic[1]
+
+    def stress_near(self, history: History, elements: Ints, points: Floats) -> Floats:
+        """Stress (m, 3) of the nearest point in elements (m,), beyond the initial stress.
+
+        It is not a number in elements whose law is linear.
+        """
+        at = nearest(self.points.rule, elements, points)
+        return np.where(at[:, None] < 0, np.nan, history[STRESS][at])
 
     def _own(self, law: Law, history: History, at: Ints) -> dict[str, Floats]:
         """Return the variables of a law at its points."""

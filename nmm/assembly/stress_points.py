@@ -112,6 +112,20 @@ class StressPoints:
         return elements, np.stack(sums, axis=1) / area[:, None]
 
 
+def nearest(rule: PointRule, elements: Ints, points: Floats) -> Ints:
+    """Return which point of a rule with sorted owners is nearest, in elements (m,); -1 for none."""
+    first = np.searchsorted(rule.owner, elements)
+    last = np.searchsorted(rule.owner, elements, side="right")
+    found, least = np.full(len(elements), -1), np.full(len(elements), np.inf)
+    for number in range(int((last - first).max(initial=0))):  # points of an element
+        there = np.flatnonzero(first + number < last)
+        at = first[there] + number
+        away = ((rule.points[at] - points[there]) ** 2).sum(axis=1)
+        nearer = away < least[there]
+        found[there[nearer]], least[there[nearer]] = at[nearer], away[nearer]
+    return found
+
+
 def _part(group: ElementGroup, manifold: Manifold, chosen: Bools) -> tuple[PointRule, Ints]:
     """Points of a group's chosen elements, and the number of their element in the group."""
     rule = group.gradient_rule(manifold.elements)

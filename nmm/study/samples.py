@@ -106,6 +106,9 @@ def _stress(run: "Run", elements: Ints, points: Floats) -> Floats:
     rule = PointRule(points, np.ones(len(points)), elements)
     pressure = plan.pressure(model, run.state)
     stress = stresses(model, run.state.deformation, rule, pressure)
+    if model.matter is not None:
+        near = model.matter.stress_near(run.state.history, elements, points)
+        stress = np.where(np.isnan(near), stress, near)
     initial = plan.initial_stress
     if initial is not None:
         stress = stress + initial.stress[elements]

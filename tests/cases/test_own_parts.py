@@ -1,4 +1,4 @@
-"""Parts of a user's own: a mathematical cover and an interface law, each one file."""
+"""Parts of a user's own: a mathematical cover, an interface law, a material law: one file each."""
 
 import importlib.util
 import sys
@@ -11,6 +11,7 @@ import pytest
 import nmm
 from covers.cutting.cut import cut
 from integration.polygons import Polygons
+from nmm.testing import check_law
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -65,3 +66,22 @@ def test_a_law_of_ones_own_breaks_the_glue_on_its_ellipse() -> None:
     assert done.summary.status == "failure_load"
     # 1 MPa at factor 1; the bracket is 0.5 % wide.
     assert done.summary.failure_factor == pytest.approx(2 / np.hypot(1 / 3, 1 / 4), rel=0.005)
+
+
+@pytest.mark.usefixtures("beside")
+def test_a_material_law_of_ones_own_remembers_and_creeps() -> None:
+    done = nmm.run(nmm.read_scene(EXAMPLES / "own_law" / "creep.toml"), allow_code=["maxwell"])
+    assert done.summary.status == "converged"
+    history = done.history
+    shorter = history["monitor:base:uy"] - history["monitor:top:uy"]
+    # sigma/4 [1/G + t/eta + 3 (1/3K + (1/(3K+G) - 1/3K) exp(-3Kt / tau(3K+G)))], checked by the
+    # inverse Laplace transform; backward Euler with tau / 100 is off by less than 1e-3.
+    for time, strain in ((1e3, 9.442686692e-5), (1e4, 1.004997224e-4), (1e5, 1.597837612e-4)):
+        at = int(np.argmin(np.abs(history["time"] - time)))
+        assert shorter[at] == pytest.approx(strain, rel=1e-3)
+
+
+@pytest.mark.usefixtures("beside")
+def test_the_law_of_the_example_keeps_what_every_law_must() -> None:
+    law = module(EXAMPLES / "own_law" / "maxwell.py").Maxwell(10e9, 0.25, 4e14)
+    check_law(law, planes=("strain",), step=1e4)

@@ -258,3 +258,12 @@ def test_constants_of_laws_are_checked_by_name(change, said):
             parse_scene(BAR.format(plane="strain", history="").replace(*change)),
             parse_formulation(""),
         )
+
+
+def test_stress_at_a_place_is_that_of_the_nearest_material_point():
+    from nmm.study.samples import fields
+
+    found = run(BAR.format(plane="stress", history=""), "quads degree 2")
+    stress = fields(found, np.array([[0.3, 0.3], [1.7, 0.6]])).stress
+    # The elastic law would give 800 MPa at this strain.
+    np.testing.assert_allclose(stress[:, 0], 300e6, rtol=1e-8)
