@@ -1,0 +1,33 @@
+"""The points by which a manifold integrates products of its functions."""
+
+import numpy as np
+
+from covers.approximation.element_groups import ElementGroup, PolynomialGroup
+from covers.approximation.manifold import Manifold
+from covers.approximation.quadrature_groups import QuadratureGroup
+from integration.rules import PointRule, polygon_rule
+
+
+def own_rule(manifold: Manifold) -> PointRule:
+    """Return points and weights over all elements, sorted by element.
+
+    Sums over them are the integrals of the element matrices: exact where functions are
+    polynomials, and by the same points where they are not.
+    """
+    parts = [_of_group(manifold, group) for group in manifold.groups]  # a handful of groups
+    owner = np.concatenate([part.owner for part in parts])
+    order = np.argsort(owner, kind="stable")
+    points, weights = (
+        np.concatenate([getattr(part, name) for part in parts])[order]
+        for name in ("points", "weights")
+    )
+    return PointRule(points, weights, owner[order])
+
+
+def _of_group(manifold: Manifold, group: ElementGroup) -> PointRule:
+    if isinstance(group, QuadratureGroup):
+        rule = group.rule
+    else:
+        assert isinstance(group, PolynomialGroup)
+        rule = polygon_rule(manifold.elements.take(group.elements), 2 * group.degree)
+    return PointRule(rule.points, rule.weights, group.elements[rule.owner])

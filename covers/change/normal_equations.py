@@ -1,0 +1,66 @@
+"""Normal equations of least squares, singular where functions depend on one another."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csc_array, diags_array, eye_array
+
+from integration.arrays import Floats
+
+# Added to a matrix of unit diagonal: far below what independent functions have left, and taken
+# out again by refinement.
+SHIFT = 1e-12
+# Most steps of refinement. They end when the correction no longer falls by half.
+STEPS = 40
+
+
+@dataclass(frozen=True)
+class NormalEquations:
+    """A positive semidefinite matrix; right-hand sides lie in its range."""
+
+    matrix: csc_array
+
+    @cached_property
+    def _scale(self) -> Floats:
+        diagonal = self.matrix.diagonal()
+        return np.asarray(1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0)))
+
+    @cached_property
+    def _factor(self) -> Any:
+        from scipy.sparse.linalg import splu
+
+        scale = diags_array(self._scale)
+        matrix = scale @ self.matrix @ scale
+        empty = diags_array((self.matrix.diagonal() <= 0).astype(float))
+        shifted = csc_array(matrix + empty + SHIFT * eye_array(matrix.shape[0]))
+        return splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0)
+
+    def solve(self, side: Floats) -> Floats:
+        """Solve for one right-hand side (n,)."""
+        return self.iterated(self.matrix, side, np.zeros_like(side), lambda found: found)
+
+    def iterated(
+        self,
+        matrix: csc_array,
+        side: Floats,
+        start: Floats,
+        kept: Callable[[Floats], Floats],
+    ) -> Floats:
+        """Solve ``matrix @ x = side`` from ``start`` by steps with the factor of this matrix.
+
+        ``kept`` takes out of each correction what must stay as it was at the start.
+        """
+        found, last = start, np.inf
+        for _ in range(STEPS):
+            change = kept(self._once(side - matrix @ found))
+            size = float(np.linalg.norm(change / self._scale))
+            if not size < last / 2:
+                break
+            found, last = found + change, size
+        return found
+
+    def _once(self, side: Floats) -> Floats:
+        return np.asarray(self._scale * self._factor.solve(self._scale * side))

@@ -1,0 +1,170 @@
+"""Displacement fields from one manifold to the next: least squares at points both can evaluate.
+
+Old and new functions meet at Gauss points of the parts that old and new elements have in common,
+so that integrals of products of polynomials are exact whatever the cells. Rates are the field
+nearest in the mean square. Displacements have the strains nearest in energy, and the mean rigid
+motion of the old ones: stress of the new field balances the same loads on the new functions, no
+energy is made, and a rigid motion or a field that the new functions hold is carried exactly.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import coo_array, csc_array, csr_array
+
+from covers.approximation.element_groups import PolynomialGroup
+from covers.approximation.manifold import Manifold
+from covers.approximation.quadrature_groups import QuadratureGroup
+from covers.approximation.rows import Rows
+from covers.change.normal_equations import NormalEquations
+from covers.change.parentage import Parentage
+from integration.arrays import Floats, Ints
+from integration.rules import polygon_rule
+
+# Share of the mass, in units of the stiffness, that makes rigid motions unique where strains are
+# matched; it is taken out again.
+HELD = 1e-8
+
+
+@dataclass(frozen=True)
+class Transfer:
+    """Fields of an old manifold on a new one.
+
+    Attributes
+    ----------
+    kin
+        The two manifolds.
+    elements
+        (2, Q) old and new element of each point.
+    points
+        (Q, 2) reference coordinates.
+    area
+        (Q,) share of each point (m2).
+    weight
+        (Q,) the same times the density of the old element.
+    """
+
+    kin: Parentage
+    elements: Ints
+    points: Floats
+    area: Floats
+    weight: Floats
+
+    @classmethod
+    def of(cls, kin: Parentage, density: Floats) -> "Transfer":
+        """Lay the points; ``density`` (E,) of the old elements weighs the mean square."""
+        order = 2 * max(degree(kin.old), degree(kin.new))
+        rule, found = polygon_rule(kin.pieces, order), kin.elements
+        elements = np.stack([found.parent[rule.owner], found.child[rule.owner]])
+        mass = rule.weights * density[elements[0]]
+        return cls(kin, elements, rule.points, rule.weights, mass)
+
+    @cached_property
+    def old(self) -> Rows:
+        """Rows of the old manifold at the points."""
+        return self.kin.old.rows(self.elements[0], self.points)
+
+    @cached_property
+    def new(self) -> Rows:
+        """Rows of the new manifold at the points."""
+        return self.kin.new.rows(self.elements[1], self.points)
+
+    def rates(self, unknowns: Floats) -> Floats:
+        """Unknowns (n,) of the new field nearest to the old one in the mean square."""
+        found = (self.weight[:, None] * self.old.apply(unknowns)).ravel()
+        return self._mass.solve(self._values.T @ found)
+
+    def deformation(self, unknowns: Floats, elasticity: Floats) -> Floats:
+        """Unknowns (n,) of the new field with the nearest strains and the same rigid motion.
+
+        ``elasticity`` (E, 3, 3) of the old elements says what is near.
+        """
+        found = self.rates(unknowns)
+        n, old, new = self.kin.new.n_unknowns, self._strain_rows(0), self._strain_rows(1)
+        weighed = self.area[:, None, None] * elasticity[self.elements[0]]
+        stress = np.einsum("qij,qjl,ql->qi", weighed, old.values, unknowns[old.unknowns])
+        strain = new.matrix(n)
+        matrix = csc_array(strain.T @ new.times(weighed).matrix(n))
+        size = matrix.diagonal().sum() / self._mass.matrix.diagonal().sum()
+        if not size > 0:
+            return found
+        held = NormalEquations(csc_array(matrix + HELD * size * self._mass.matrix))
+        return held.iterated(matrix, strain.T @ stress.ravel(), found, self._without_rigid)
+
+    def sums(self, values: Floats) -> Floats:
+        """Sums (B, ...) of values (Q, ...) at the points over the new bodies, by weight."""
+        body = self.kin.new.element_body[self.elements[1]]
+        flat = self.weight[:, None] * values.reshape(len(values), -1)
+        n = self.kin.new.n_bodies
+        sums = [np.bincount(body, column, minlength=n) for column in flat.T]
+        return np.asarray(np.stack(sums, axis=1).reshape(n, *values.shape[1:]), dtype=np.float64)
+
+    @property
+    def _sides(self) -> tuple[Manifold, Manifold]:
+        return self.kin.old, self.kin.new
+
+    @cached_property
+    def _values(self) -> csr_array:
+        return self.new.matrix(self.kin.new.n_unknowns)
+
+    @cached_property
+    def _mass(self) -> NormalEquations:
+        weight = np.repeat(self.weight, 2)
+        return NormalEquations(csc_array(self._values.T @ _scaled(self._values, weight)))
+
+    def _without_rigid(self, unknowns: Floats) -> Floats:
+        """Take the mean rigid motion of every body out of a field."""
+        modes = self.kin.new.rigid_modes
+        weighed = csr_array((self._mass.matrix @ modes).T)
+        return np.asarray(unknowns - modes @ by_body(weighed @ modes, weighed @ unknowns))
+
+    def _strain_rows(self, side: int) -> "_StrainRows":
+        """Strains (xx, yy, 2 xy) at the points by the unknowns of one manifold."""
+        index, g = self._sides[side].gradient_rows(self.elements[side], self.points)
+        values = np.stack([g[:, 0, 0], g[:, 1, 1], g[:, 0, 1] + g[:, 1, 0]], axis=1)
+        return _StrainRows(index, values)
+
+
+@dataclass(frozen=True)
+class _StrainRows:
+    """Rows (Q, 3, L) over unknowns (Q, L)."""
+
+    unknowns: Ints
+    values: Floats
+
+    def times(self, matrices: Floats) -> "_StrainRows":
+        """Return the rows multiplied by matrices (Q, 3, 3)."""
+        return _StrainRows(self.unknowns, np.matmul(matrices, self.values))
+
+    def matrix(self, n_unknowns: int) -> csr_array:
+        """Return the sparse matrix (3 Q, n)."""
+        q, rows, length = self.values.shape
+        columns = np.repeat(self.unknowns[:, None, :], rows, axis=1).ravel()
+        offsets = np.arange(rows * q + 1) * length
+        return csr_array((self.values.ravel(), columns, offsets), shape=(rows * q, n_unknowns))
+
+
+def degree(manifold: Manifold) -> int:
+    """Highest degree of the functions, or that to which they are integrated."""
+    known = (PolynomialGroup, QuadratureGroup)
+    return max(group.degree for group in manifold.groups if isinstance(group, known))
+
+
+def by_body(matrix: csr_array, sides: Floats) -> Floats:
+    """Solve systems of three equations a body, the diagonal blocks of ``matrix`` (3 B, 3 B)."""
+    n = len(sides) // 3
+    entries = coo_array(matrix)
+    row, column = entries.coords
+    inside = row // 3 == column // 3
+    blocks = np.zeros((n, 3, 3))
+    np.add.at(blocks, (row[inside] // 3, row[inside] % 3, column[inside] % 3), entries.data[inside])
+    empty = np.abs(blocks).max(axis=(1, 2)) == 0
+    blocks[empty] = np.eye(3)
+    return np.asarray(np.linalg.solve(blocks, sides.reshape(n, 3, 1)).ravel(), dtype=np.float64)
+
+
+def _scaled(matrix: csr_array, factor: Floats) -> csr_array:
+    found = matrix.copy()
+    found.data *= np.repeat(factor, np.diff(matrix.indptr))
+    return found
