@@ -16,6 +16,7 @@ from covers.approximation.own_rule import own_rule
 from covers.change.parentage import Parentage
 from covers.change.transfer import Transfer, by_body
 from integration.arrays import Bools, Floats
+from nmm.assembly.carried_history import carried_history
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames, State
 
@@ -42,6 +43,7 @@ def carried(old: Model, new: Model, kin: Parentage, state: State, declared: Stat
         deformation=either(deformation, declared.deformation),
         velocity=either(velocity, declared.velocity),
         acceleration=either(acceleration, declared.acceleration),
+        history=carried_history(old, new, kin, state.history, declared.history),
     )
 
 

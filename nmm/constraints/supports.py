@@ -30,6 +30,7 @@ from nmm.effects.load_factor import displacement_factor
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
+    from nmm.effects.change import Change
     from nmm.scene.actions import SupportTable as SceneSupport
 
 # Spring of a support in Young's moduli times thickness: Shi's 10 to 1000, at the stiff end.
@@ -72,6 +73,20 @@ class Supports(Effect):
         still = all(one.history is None or not any(one.displacement) for one in scene.supports)
         n_unknowns = setup.model.manifold.n_unknowns
         return cls(found, n_unknowns, setup.start, scene.inertia is not None, still)
+
+    def follow(self, change: "Change") -> "Supports":
+        """Return the supports of the new model; those that are new hold the material as it is."""
+        new, state = type(self).from_setup(change.setup), change.state
+        known = {support.name: number for number, support in enumerate(self._supports)}
+        for number, support in enumerate(new._supports):
+            if support.name in known:
+                before = known[support.name]
+                held = self._supports[before].place.position, self._anchors[before]
+                new._anchors[number] = _nearest(support.place.position, *held)
+            else:
+                points = support.place.points
+                new._anchors[number] = points.moved(state.frames, state.deformation)
+        return new
 
     @property
     def about(self) -> str:
@@ -241,6 +256,13 @@ class Supports(Effect):
         """Bodies whose rotation changes the stiffness: springs alike in x and y do not turn."""
         none = [np.zeros(0, dtype=np.int64)]
         return none + [np.unique(s.place.points.body) for s in self._supports if s.turns]
+
+
+def _nearest(points: Floats, known: Floats, values: Floats) -> Floats:
+    """Values (m, 2) of the nearest of ``known`` points for each of ``points``."""
+    from scipy.spatial import KDTree
+
+    return np.asarray(values[KDTree(known).query(points)[1]])
 
 
 def _sharing(supports: list[Support]) -> list[Support]:

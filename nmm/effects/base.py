@@ -37,6 +37,20 @@ class Instant:
 
 
 @dataclass(frozen=True)
+class Acting:
+    """How loads act in a stage: by name, those that ``grows`` in it and those that ``leaves``."""
+
+    grows: frozenset[str] = frozenset()
+    leaves: frozenset[str] = frozenset()
+
+    def share(self, name: str, load_factor: float) -> float:
+        """Return the share of a load at a load factor that grows from 0 to 1 in the stage."""
+        if name in self.grows:
+            return load_factor
+        return 1.0 - load_factor if name in self.leaves else 1.0
+
+
+@dataclass(frozen=True)
 class Setup:
     """What effects are built from.
 
@@ -52,6 +66,8 @@ class Setup:
         State at the start of the run.
     origin
         (2,) where the axes of model and states lie in those of the scene (m).
+    acting
+        How loads act in a stage; None in scenes without stages.
     table
         What an effect's own ``[effects.NAME]`` says, an `Effect.Table` in the axes of the model;
         None for effects that have keys of the scene.
@@ -65,6 +81,7 @@ class Setup:
     start: State
     origin: Floats = field(default_factory=lambda: np.zeros(2))
     table: Any = None
+    acting: Acting | None = None
 
     def regions(self, name: str | None) -> Bools | None:
         """Return which regions a name means: a block, all blocks of a tessellation, or "all"."""
@@ -93,6 +110,8 @@ class Effect(ABC):
     placed: ClassVar[bool] = True
     """Whether places in the reference configuration declare it, so that it cannot follow bodies
     that are laid anew elsewhere."""
+    stays: ClassVar[bool] = False
+    """Whether it goes on in stages whose scene no longer names it."""
 
     @classmethod
     @abstractmethod

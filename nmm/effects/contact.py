@@ -7,7 +7,7 @@ which `nmm.contact.solution` solves. Which bodies meet, and by which law, stands
 """
 
 from dataclasses import replace
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -26,6 +26,13 @@ from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import RigidMass
 from nmm.contact.mortar.segments import face_points
 from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.points.inheritance import (
+    continued,
+    continued_joints,
+    heirs,
+    known_joints,
+    placed,
+)
 from nmm.contact.points.joint_book import follow_joints
 from nmm.contact.points.reference_gap import counted
 from nmm.contact.points.tracking import answered, remember, searched_points
@@ -39,6 +46,12 @@ from nmm.effects.contact_pairs import held_bodies, interface_law, pairs_of
 from nmm.effects.contact_partners import Partners
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+
+# How far open contacts are that a change of the model continues, in sizes of the domain.
+HELD = 1e-6
 
 
 class Contact(Effect):
@@ -114,6 +127,30 @@ class Contact(Effect):
         return cls(
             setup.model, laws, partners, enforcement, stations, setup.start, held, bends, means
         )
+
+    def follow(self, change: "Change") -> "Contact":
+        """Return the contact of the new model: joints and contacts go on where the material does.
+
+        Bonds between bodies of which one is new are free of stress as they are placed.
+        """
+        new, state = type(self).from_setup(change.setup), change.state
+        old, record = change.old.manifold, self.record
+        book = new.record.book
+        line = heirs((change.new.manifold, book.points), (old, known_joints(record.book)))
+        book, fresh = continued_joints(book, record.book, line)
+        surface = new._partners.surface(state)
+        now = book.now(surface, new.geometry.apart(state, surface))
+        new.record = ContactRecord(placed(book, now, fresh))
+        size = float(np.hypot(*np.ptp(change.new.manifold.elements.points, axis=0)))
+        found, points = new._sought(state, HELD * size)
+        points = points.take(~points.is_joint)
+        if record.known is not None:
+            normal, shear, _ = new._laws.springs(points)
+            line = heirs((change.new.manifold, points), (old, record.known))
+            springs = None if new._exact else (normal, shear)
+            points = continued(points, record.known, line, springs)
+        new.record = ContactRecord(new.record.book, found, points)
+        return new
 
     def candidates(
         self,

@@ -24,6 +24,7 @@ class InitialStress(Effect):
 
     name = "initial stress"
     placed = False
+    stays = True
 
     def __init__(self, model: Model, stress: Floats) -> None:
         self.stress = stress

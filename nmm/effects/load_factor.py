@@ -14,7 +14,11 @@ def load_factor(setup: Setup, load: "LoadTable") -> Callable[[Instant], float]:
 
     Without ``[loading]`` all loads are scaled: from 0 to 1 in statics, by 1 in dynamics.
     """
-    loading = setup.scene.loading
+    loading, acting = setup.scene.loading, setup.acting
+    if acting is not None:
+        return lambda end: (
+            factor_of(load.history, end.time) * acting.share(load.name, end.load_factor)
+        )
     scaled = loading is None or loading.scaled == "all" or load.name in loading.scaled
     return lambda end: factor_of(load.history, end.time) * (end.load_factor if scaled else 1.0)
 

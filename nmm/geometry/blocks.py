@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
 
 
@@ -29,6 +29,10 @@ class Regions:
         Parts of joints that end inside a block.
     crack_region : (m,)
         Block in which each crack lies.
+    number : (N,)
+        Numbers among the blocks of the scene, of which these are some; None when they are all.
+    bounds : (2, 2)
+        Lower and upper corner of all blocks of the scene, m; None when they are all.
     """
 
     polygons: Polygons
@@ -37,9 +41,37 @@ class Regions:
     source: Ints
     cracks: Floats = field(default_factory=lambda: np.empty((0, 2, 2)))
     crack_region: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    number: Ints | None = None
+    bounds: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.polygons)
+
+    @property
+    def box(self) -> Floats:
+        """(2, 2) lower and upper corner of all blocks of the scene (m), be they there or not."""
+        if self.bounds is not None:
+            return self.bounds
+        points = self.polygons.points
+        return np.stack([points.min(axis=0), points.max(axis=0)])
+
+    def only(self, present: Bools) -> Regions:
+        """Return some of the blocks (N,), which keep their numbers and the box of all."""
+        if present.all():
+            return self
+        index = np.flatnonzero(present)
+        cracked = present[self.crack_region]
+        place = np.cumsum(present) - 1
+        return Regions(
+            self.polygons.take(index),
+            np.asarray(self.material)[index],
+            tuple(self.name[one] for one in index),
+            np.asarray(self.source)[index],
+            self.cracks[cracked],
+            place[self.crack_region[cracked]],
+            index if self.number is None else self.number[index],
+            self.box,
+        )
 
     def select(self, block: str | None) -> Ints:
         """Indices of a block and of all its pieces; of all blocks for None and "all".

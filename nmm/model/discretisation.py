@@ -3,13 +3,15 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
+from covers.change.parentage import Parentage
+from nmm.assembly.carried_state import carried
+from nmm.assembly.motion import State, initial_state
 from nmm.effects.base import Effect, Setup
-from nmm.model.effects_table import with_table
-from nmm.model.plan import Plan, compile_plan
+from nmm.effects.change import Change
+from nmm.model.plan import Plan, compile_plan, plan_after
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
-    from nmm.effects.change import Change
 
 
 @dataclass(frozen=True)
@@ -40,18 +42,32 @@ class Discretisation:
         """What is approximated and of what it is made."""
         return self.setup.model
 
+    def change(self, setup: Setup, state: State) -> Change:
+        """Carry ``state`` to the model of ``setup``, which lies in the same reference place.
+
+        Bodies without parents start as the scene declares them, with its initial velocities.
+        """
+        old, new = self.model, setup.model
+        kin = Parentage(old.manifold, new.manifold)
+        declared = replace(
+            initial_state(new.manifold),
+            time=state.time,
+            load_factor=state.load_factor,
+            history=new.history(),
+        )
+        if setup.scene.initial_velocities:
+            from nmm.effects.initial_velocity import InitialVelocity
+
+            declared = InitialVelocity.from_setup(setup).begin(declared)
+        return Change(self.setup, setup, kin, carried(old, new, kin, state, declared))
+
     def joined(self, effect: Effect) -> "Discretisation":
         """Return the same with one effect more, for a motion that is no result."""
         return replace(self, plan=self.plan.joined(effect))
 
-    def after(self, change: "Change") -> "Discretisation":
+    def after(self, change: Change) -> "Discretisation":
         """Return the next version: every effect follows the change."""
-        plan = self.plan
-        effects = {
-            name: effect.follow(replace(change, setup=with_table(change.setup, name)))
-            for name, effect in plan.effects.items()
-        }
-        return Discretisation(change.setup, replace(plan, effects=effects), self.version + 1)
+        return Discretisation(change.setup, plan_after(self.plan, change), self.version + 1)
 
 
 @dataclass

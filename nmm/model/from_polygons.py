@@ -1,6 +1,7 @@
 """A model from Python: polygons, laws and a formulation's cover, without a scene."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +12,7 @@ from nmm.assembly.model import Model
 from nmm.formulation import CoverTable
 from nmm.geometry.blocks import Regions
 from nmm.materials.base import Law
-from nmm.model.covering import cover_regions
+from nmm.model.covering import Covering, cover_regions
 
 
 def solid(
@@ -85,6 +86,7 @@ def covered(
     kappa = np.array([law.kolosov(plane) for law in laws])
     covering = cover_regions(regions, cover, cracks, kappa[own])
     of_element = own[covering.manifold.element_region]
+    covering = _numbered(covering, regions)
     return Model(
         manifold=covering.manifold,
         elasticity=np.array([law.stiffness(plane) for law in laws])[of_element],
@@ -98,3 +100,18 @@ def covered(
         law=of_element,
         plane=plane,
     )
+
+
+def _numbered(covering: Covering, regions: Regions) -> Covering:
+    """Return the covering with the numbers that regions have among those of the scene."""
+    number, cut = regions.number, covering.cut
+    if number is None:
+        return covering
+    manifold = replace(covering.manifold, element_region=number[covering.manifold.element_region])
+    if cut is not None:
+        cut = replace(
+            cut,
+            element_region=number[cut.element_region],
+            cover_region=number[cut.cover_region],
+        )
+    return replace(covering, manifold=manifold, cut=cut)

@@ -4,7 +4,7 @@ What a scene does not name is not imported and has no arrays.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypeVar, cast
@@ -16,11 +16,12 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup, defines
 from nmm.errors import SolveError
-from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own
+from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own, with_table
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
     from nmm.constraints.supports import Supports
+    from nmm.effects.change import Change
     from nmm.effects.contact import Contact
     from nmm.effects.inertia import Inertia
     from nmm.effects.initial_stress import InitialStress
@@ -213,12 +214,31 @@ def _are(some: list[csc_array], others: list[csc_array]) -> bool:
 
 def compile_plan(setup: Setup) -> Plan:
     """Import and build the effects that a scene names, with keys of its own or in tables."""
+    plan = Plan({})
+    for name, make in _makers(setup).items():
+        plan.effects[name] = plan._timed(name, make)
+    return plan
+
+
+def plan_after(plan: Plan, change: "Change") -> Plan:
+    """Return the plan on the new model: effects follow, and those newly named are built."""
+    makers = _makers(change.setup)
+    for name, effect in plan.effects.items():
+        if effect.stays or name in makers:
+            own = replace(change, setup=with_table(change.setup, name))
+            makers[name] = partial(effect.follow, own)
+    new = Plan({}, plan.seconds)
+    for name, make in makers.items():
+        new.effects[name] = new._timed(name, make)
+    return new
+
+
+def _makers(setup: Setup) -> dict[str, Callable[[], Effect]]:
+    """Return what builds the effects that a scene names, in the order of the table."""
     kinds = [EFFECTS.load(name) for name, wanted in called_for(setup.scene).items() if wanted]
     if setup.formulation.cover.glued:
         kinds.append(EFFECTS.load(GLUE))
-    plan = Plan({})
-    for kind in kinds:
-        plan.effects[kind.name] = plan._timed(kind.name, partial(kind.from_setup, setup))
-    for name in setup.scene.effects:
-        plan.effects[OWN + name] = plan._timed(OWN + name, partial(make_own, setup, name))
-    return plan
+    makers: dict[str, Callable[[], Effect]] = {
+        kind.name: partial(kind.from_setup, setup) for kind in kinds
+    }
+    return makers | {OWN + name: partial(make_own, setup, name) for name in setup.scene.effects}

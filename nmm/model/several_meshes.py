@@ -35,7 +35,7 @@ def laid_and_cut(
         A net that cannot be laid or cut, or that names no block.
     """
     if not cover.nets:
-        whole = _laid(cover, None, regions.polygons.points)
+        whole = _laid(cover, None, regions.box)
 
         def again(other: MathematicalCover) -> CutCells:
             return cut(other, regions.polygons, lines)
@@ -46,7 +46,7 @@ def laid_and_cut(
     nets, cuts = [], []
     for net, own in parts:  # a handful of nets
         blocks = regions.polygons.take(own)
-        around = regions.polygons.points if net is None else blocks.points
+        around = regions.box if net is None else blocks.points
         laid = _laid(cover, net, around)
         if not isinstance(laid, PolynomialCover):
             raise ValueError(

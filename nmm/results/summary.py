@@ -65,6 +65,9 @@ class Summary:
         m, positive when bodies overlapped.
     energy_balance
         (Work done - energy stored - energy lost) / largest of the three.
+    change_energy, changes
+        Energy (J) that changes of what is solved have added, negative where it went; None without
+        any. And what changed, a sentence each.
     condition_estimate
         Estimated 1-norm condition number of the last system matrix.
     failure_load, failure_factor, failure_tolerance
@@ -97,6 +100,8 @@ class Summary:
     equilibrium_residual: float | None = None
     largest_penetration: float | None = None
     energy_balance: float | None = None
+    change_energy: float | None = None
+    changes: Sequence[str] = field(default_factory=list)
     condition_estimate: float | None = None
     failure_load: float | None = None
     failure_factor: float | None = None
@@ -226,6 +231,7 @@ def rows(summary: Summary) -> list[tuple[str, str]]:
         ("equilibrium residual", _or_none(summary.equilibrium_residual, _number)),
         ("largest penetration", _or_none(summary.largest_penetration, _metre)),
         ("energy balance", _or_none(summary.energy_balance, _number)),
+        ("energy added by changes, J", _or_none(summary.change_energy, _number)),
         ("condition estimate", _or_none(summary.condition_estimate, _number)),
         ("contacts at most", _counts(summary.largest_contacts)),
         ("seconds", _seconds(summary.seconds)),

@@ -6,19 +6,21 @@ values.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from pydantic import BaseModel
 
 from nmm.scene.faults import suggestion
 from nmm.scene.lines import Path
+from nmm.scene.stage_rules import stage_contradictions
 
 Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
 Tables = Mapping[str, Any]
+Rule = Callable[[Tables], Iterator[Finding]]
 
 _SOLIDS = ("blocks", "tessellations")
-_NAMED = ("joint_sets", "cracks", "supports", "loads", "monitors")
+_NAMED = ("joint_sets", "cracks", "supports", "loads", "monitors", "stages")
 _AT_BLOCKS = ("supports", "loads", "monitors")
 _ON_BLOCKS = ("initial_velocities", "initial_stresses", "joint_sets")
 
@@ -28,7 +30,8 @@ def contradictions(data: object) -> list[Finding]:
     plain = _plain(data)
     if not isinstance(plain, Mapping):
         return []
-    rules = (_solids, _names, _materials, _interfaces, _block_names, _densities, _effects)
+    own: tuple[Rule, ...] = (_solids, _names, _materials, _interfaces, _block_names, _densities)
+    rules = (*own, _effects, stage_contradictions)
     return [finding for rule in rules for finding in rule(plain)]
 
 
@@ -138,7 +141,7 @@ def _densities(data: Tables) -> Iterator[Finding]:
 
 
 def _effects(data: Tables) -> Iterator[Finding]:
-    if "inertia" in data and "duration" not in data:
+    if "inertia" in data and "duration" not in data and not data.get("stages"):
         yield ("inertia",), "duration missing", "a duration", 'add duration = "1 s" at the top'
     if "contact" in data and not data.get("interfaces"):
         remedy = "add [interfaces.NAME] with friction_angle"

@@ -33,6 +33,7 @@ from nmm.scene.fields import Count, Frozen, Length, TableName, Text, Time, examp
 from nmm.scene.output import OutputTable
 from nmm.scene.own_tables import EffectTable
 from nmm.scene.solids import Block, Crack, Interface, JointSet, Material, Tessellation
+from nmm.scene.stages import StageTable
 
 
 class Scene(Frozen):
@@ -83,6 +84,7 @@ class Scene(Frozen):
         default={}, description="tables [effects.NAME] of effects of one's own"
     )
     monitors: tuple[MonitorTable, ...] = Field(default=(), description="tables [[monitors]]")
+    stages: tuple[StageTable, ...] = Field(default=(), description="tables [[stages]]")
     output: OutputTable | None = Field(default=None, description="a table [output]")
     references: tuple[ReferenceTable, ...] = Field(
         default=(), alias="reference", description="tables [[reference]]"

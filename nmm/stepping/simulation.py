@@ -1,7 +1,7 @@
 """A scene and a formulation, compiled: geometry, covers, effects, solver; ready to run."""
 
 import resource
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
@@ -25,9 +25,10 @@ from nmm.model.discretisation import Discretisation
 from nmm.model.fault_places import placed
 from nmm.model.origin import MovedBack, own_origin, shifted, shifted_regions
 from nmm.model.parts import check_parts
-from nmm.model.plan import Plan
+from nmm.model.plan import Plan, compile_plan
 from nmm.model.several_meshes import net_class
 from nmm.model.solver_settings import cures, solver_for, warnings
+from nmm.model.stages import Stage, stages_of
 from nmm.results.frame import Topology
 from nmm.results.sink import Sink
 from nmm.results.storage import files
@@ -41,6 +42,7 @@ from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.checkpoints import Checkpoints, checkpoint_choice
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
+from nmm.stepping.drive.stages import Staged, run_stages, topology
 from nmm.stepping.drive.static_theorem import load_bound
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import FAILURE, RunVerdict
@@ -84,6 +86,8 @@ class Simulation:
         When the preparation began, for the seconds of the summary.
     origin
         (2,) where the axes of model and states lie (m); what is written has those of the scene.
+    stages
+        What is solved one after the other; none in a scene without stages.
     """
 
     scene: "Scene"
@@ -94,6 +98,7 @@ class Simulation:
     monitors: list[Monitor]
     begun: float
     origin: Floats
+    stages: Sequence[Staged] = ()
 
     def folder(self, path: Path) -> RunFolder:
         """Return the run folder at ``path`` with scene and formulation as run."""
@@ -138,12 +143,19 @@ class Simulation:
         output = self.scene.output
         declared = Declared.of(output.quantities if output else ())
         recorder = Recorder(
-            self.stepper, sink, self.monitors, choice=self._choice(), declared=declared
+            self.stepper,
+            sink,
+            self.monitors,
+            choice=self._choice(),
+            declared=declared,
+            staged=bool(self.stages),
         )
         if stood is None:
             sink.begin(self.topology)
-            stage = "load" if self.scene.inertia is None else "dynamic"
-            recorder.frame(self.start, stage, None)
+            first = self.stages[0].stage.scene if self.stages else self.scene
+            recorder.frame(self.start, "load" if first.inertia is None else "dynamic", None)
+        if self.stages:
+            return self._in_stages(recorder, progress)
         checkpoints = Checkpoints(self.stepper, recorder, self._checkpoint_choice(), store)
         state, verdict = self._advance(recorder, progress, checkpoints, stood)
         summary = self._summary(recorder, state, verdict)
@@ -153,13 +165,24 @@ class Simulation:
     @property
     def topology(self) -> Topology:
         """The elements that frames belong to, at the start of the run."""
-        return Topology(
-            elements=self.stepper.model.manifold.elements,
-            element_region=self.stepper.model.manifold.element_region,
-            region_material=np.asarray(self.regions.material, dtype=np.int64),
-            material_names=tuple(self.scene.materials),
-            region_names=tuple(self.regions.name),
+        return topology(self.stepper.discretisation.setup)
+
+    def _in_stages(self, recorder: Recorder, progress: Progress) -> State:
+        """Run one stage after the other; audits judge the last one by its own start."""
+        rule = make_integrator(self.formulation.integrator)
+        end = run_stages(self.stepper, recorder, self.start, self.stages, rule, progress)
+        last = replace(self, scene=end.stage.scene, start=end.start)
+        summary = last._summary(recorder, end.state, end.verdict)
+        known = self.identity()
+        summary = replace(
+            summary,
+            scene_hash=known.scene_hash,
+            formulation_hash=known.formulation_hash,
+            change_energy=recorder.ledger.change_energy,
+            changes=list(end.changes),
         )
+        recorder.sink.finish(summary)
+        return end.state
 
     def _failure_bound(self) -> float | None:
         """Return the load factor that no run until failure can pass; None of other runs."""
@@ -332,15 +355,14 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     if origin.any():
         regions = shifted_regions(regions, -origin)
         scene, formulation = shifted(scene, -origin), shifted(formulation, -origin)
-    model = build_model(scene, formulation, regions)
-    built = perf_counter()
-    start = replace(initial_state(model.manifold), history=model.history())
-    if scene.inertia is not None:
-        start = replace(start, load_factor=1.0)
-    setup = Setup(
-        scene, formulation, model, tuple(regions.name), np.asarray(regions.material), start, origin
-    )
+    stages = [
+        _staged(scene, one, regions, origin) for one in stages_of(scene, formulation, regions)
+    ]
+    setup = stages[0].setup if stages else _setup(scene, formulation, regions, origin)
+    model, start, built = setup.model, setup.start, perf_counter()
     discretisation = Discretisation.of(setup)
+    for later in stages[1:]:
+        compile_plan(later.setup)  # its faults are told before anything is solved
     plan = discretisation.plan
     stepper = Stepper(
         discretisation,
@@ -353,7 +375,32 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     stepper.budget = Budget(limits.budget, limits.max_steps, begun)
     stepper.seconds["covers"] = built - begun
     stepper.seconds["effects"] = perf_counter() - built
-    return Simulation(*asked, regions, stepper, plan.begin(start), monitors(setup), begun, origin)
+    watched = monitors(setup, all_there=not stages)
+    return Simulation(*asked, regions, stepper, plan.begin(start), watched, begun, origin, stages)
+
+
+def _setup(scene: "Scene", formulation: Formulation, regions: "Regions", origin: Floats) -> Setup:
+    """Return what effects are built from, with a model of all blocks at rest."""
+    model = build_model(scene, formulation, regions)
+    start = replace(initial_state(model.manifold), history=model.history())
+    if scene.inertia is not None:
+        start = replace(start, load_factor=1.0)
+    return Setup(
+        scene, formulation, model, tuple(regions.name), np.asarray(regions.material), start, origin
+    )
+
+
+def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) -> Staged:
+    """Return a stage with its own model; blocks keep their numbers and names."""
+    check_parts(stage.scene, stage.formulation)
+    setup = _setup(stage.scene, stage.formulation, regions.only(stage.present), origin)
+    whole = replace(
+        setup,
+        region_name=tuple(regions.name),
+        region_material=np.asarray(regions.material),
+        acting=stage.acting,
+    )
+    return Staged(stage, whole, clock=scene.inertia is not None)
 
 
 def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:

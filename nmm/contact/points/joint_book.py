@@ -74,7 +74,7 @@ class JointBook:
         return replace(
             p,
             normal=normal,
-            gap=np.einsum("ij,ij->i", apart, normal),
+            gap=np.einsum("ij,ij->i", apart, normal) - p.reference,
             slip=np.where(p.bonded, stretch - p.history["plastic_slip"], p.slip),
         )
 

@@ -61,12 +61,21 @@ class LoadSchedule:
         Largest increment of the load factor.
     tolerance
         Relative width of the bracket of the failure load.
+    begin, stops
+        Time at load factor 0, and whether time stops there: in statics of a scene that has no
+        clock, time is the load factor, counted over stages.
     """
 
     target: float
     until_failure: bool
     increment: float
     tolerance: float
+    begin: float = 0.0
+    stops: bool = False
+
+    def instant(self, factor: float) -> Instant:
+        """Return the end of a step to a load factor."""
+        return Instant(self.begin if self.stops else self.begin + factor, factor)
 
 
 @dataclass(frozen=True)
@@ -195,7 +204,7 @@ class _Raising:
         fine = at.increment <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
         start, bonds = stepper.remember(), stepper.broken_bonds
         # A bond that breaks in a coarse increment is no news yet: the increment is cut first.
-        end, breaking = Instant(factor, factor), _breaking(fine)
+        end, breaking = self.schedule.instant(factor), _breaking(fine)
         found = settle(stepper, state, end, breaking)
         last = fine or (state.load_factor == 0 and not schedule.until_failure)
         if last and _may_be_loose(stepper, found):
@@ -217,11 +226,13 @@ class _Raising:
     def _relaxed(self, at: UnderLoad, trial: Trial) -> UnderLoad | RunVerdict:
         """Bring loose blocks to rest, from where the load begins to grow anew."""
         start = self.stepper.remember()
-        rest = relax(self.stepper, at.state, Instant(trial.factor, trial.factor), self.names)
+        end = self.schedule.instant(trial.factor)
+        rest = relax(self.stepper, at.state, end, self.names)
         if not rest.at_rest:
             self.stepper.restore(start)
             return _no_rest(rest)
         state = replace(rest.state, time=at.state.time, load_factor=0.0)
+        self.recorder.brought_to(state)
         return replace(at, state=state, rest=Rest(rest.steps, rest.way))
 
     def _ended(self, at: UnderLoad, trial: Trial) -> RunVerdict:

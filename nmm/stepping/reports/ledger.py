@@ -57,6 +57,12 @@ class Ledger:
         Largest rise of stored energy and losses less work, in one step and over the run.
     given
         What the integrator gave in the steps in which it gave some.
+    change_energy
+        What changes of what is solved have added to the stored energies, the energy shed in the
+        first step of statics after one included: with all that is new acting at once, more work is
+        done than a slow change needs.
+    settling
+        Whether that step is the next one.
     lowest, last
         Energy from nowhere and what the integrator had given of it: where the first was least,
         and after the last step.
@@ -74,6 +80,8 @@ class Ledger:
     in_step: Rise = field(default_factory=Rise)
     in_run: Rise = field(default_factory=Rise)
     given: float = 0.0
+    change_energy: float = 0.0
+    settling: bool = False
     lowest: tuple[float, float] = (0.0, 0.0)
     last: tuple[float, float] = (0.0, 0.0)
 
@@ -102,10 +110,22 @@ class Ledger:
             energies=stored(plan, model, stands),
             stored_first=stored_first,
             steps=self.steps + 1,
+            settling=False,
         )
+        if self.settling and plan.inertia is None:
+            shed = min(found._made - self._made, 0.0)
+            found = replace(found, change_energy=found.change_energy + shed)
         if attempt.booked is not None:
             found = found._lost_in_time(attempt.booked, earlier, loss)
         return found.weighed(after.time)
+
+    def changed(self, plan: "Plan", model: "Model", state: State) -> "Ledger":
+        """Return the totals with a change of what is solved, on which ``state`` is now."""
+        energies = stored(plan, model, state)
+        added = sum(energies.values()) - sum(self.energies.values())
+        return replace(
+            self, energies=energies, change_energy=self.change_energy + added, settling=True
+        )
 
     def _lost_in_time(self, step: "Booked", earlier: Mapping[str, float], loss: float) -> "Ledger":
         """Return the totals with what a step in time lost that began with ``earlier`` energies."""
@@ -133,7 +153,8 @@ class Ledger:
 
     @property
     def _made(self) -> float:
-        return sum(self.energies.values()) - self.stored_first + self.dissipated - self.work
+        gained = sum(self.energies.values()) - self.stored_first - self.change_energy
+        return gained + self.dissipated - self.work
 
     @property
     def dissipated(self) -> float:

@@ -33,8 +33,8 @@ class Monitor:
     start: Floats
 
 
-def monitors(setup: Setup) -> list[Monitor]:
-    """Return the monitors of a scene.
+def monitors(setup: Setup, all_there: bool = True) -> list[Monitor]:
+    """Return the monitors of a scene; of a stage those that are on its blocks.
 
     Raises
     ------
@@ -44,6 +44,8 @@ def monitors(setup: Setup) -> list[Monitor]:
     found = []
     for item in setup.scene.monitors:  # a handful
         place = at_point(setup.model.manifold, np.array(item.point), setup.regions(item.block))
+        if not len(place) and not all_there:
+            continue
         if not len(place):
             raise GeometryError(
                 f"monitor {item.name}: {item.point}: expected a point of the material: move it "
@@ -105,6 +107,8 @@ class Recorder:
         Further quantities that frames and history hold.
     totals
         Of the steps so far.
+    staged
+        Whether what is solved may change.
     """
 
     stepper: Stepper
@@ -113,6 +117,7 @@ class Recorder:
     choice: Choice = field(default_factory=lambda: Choice(0.0, steps=1))
     declared: Declared = field(default_factory=Declared)
     totals: Totals = field(default_factory=Totals)
+    staged: bool = False
 
     @property
     def steps(self) -> int:
@@ -155,6 +160,8 @@ class Recorder:
         }
         if after.history:
             row["material_loss"] = self.ledger.material_loss
+        if self.staged:
+            row["change_energy"] = self.ledger.change_energy
         if attempt.booked is not None:
             row["integration_loss"] = self.ledger.integration_loss
         if contacts is not None:
@@ -169,6 +176,13 @@ class Recorder:
         held = [f"{count} {name}" for name, count in self.totals.counts.items() if count]
         noun = "pass" if attempt.passes == 1 else "passes"
         return f"{attempt.passes} {noun}, contacts: {', '.join(held)}" if held else ""
+
+    def brought_to(self, state: State) -> None:
+        """Book a state to which loose blocks were brought besides the steps of the run."""
+        ledger = self.ledger
+        if ledger.steps:
+            ledger = ledger.changed(self.stepper.plan, self.stepper.model, state)
+            self.totals = replace(self.totals, ledger=ledger)
 
     def offer(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over the state after the step just recorded, if it is to be a frame; once."""

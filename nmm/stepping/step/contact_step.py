@@ -58,7 +58,7 @@ class Touching:
         carries: bool,
         clock: Clock,
     ) -> None:
-        self._current, self._mover, self._solver, self._clock = current, mover, solver, clock
+        self._current, self._mover, self.solver, self._clock = current, mover, solver, clock
         self._size, self._carries = size, carries
         self._held: NullSpace | None = None
 
@@ -169,7 +169,7 @@ class Touching:
         request = StepRequest(
             matrix=equations.matrix,
             force=equations.force,
-            solver=self._solver,
+            solver=self.solver,
             step=equations.step,
             weight=1.0 if equations.step is None else equations.rule.contact_weight,
             null_space=held,

@@ -7,6 +7,7 @@ stay linear in the whole increment, whatever the iterate.
 from dataclasses import dataclass, replace
 from operator import is_not
 
+import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
@@ -67,6 +68,10 @@ class InertiaTerms:
     gain: Floats | None
 
 
+# An out-of-balance force below this share of the forces that it is the difference of is rounding.
+ROUNDING = 1e-12
+
+
 @dataclass(frozen=True)
 class Equations:
     """``matrix @ d = force`` for the unknowns ``d`` of a step.
@@ -122,8 +127,11 @@ class Assembly:
         """
         model, plan = self._current.model, self._current.plan
         line = Linearisation.linear(model, state) if matter is None else matter
-        force = plan.force(state, end) - line.force
+        applied = plan.force(state, end)
+        force = applied - line.force
         if step is None or plan.inertia is None:
+            if model.manifold.dependent and _rounded(force, applied, line.force):
+                force = np.zeros_like(force)
             held = self._anchored(line.stiffness) if anchored else line.stiffness
             return Equations(state, end, step, rule, plan.matrix(state, held), force)
         given = Equations(state, end, step, rule, line.stiffness, force)
@@ -176,3 +184,12 @@ class Assembly:
         if kept is None or kept[0] is not matrix or kept[1] != factor:
             kept = self._weighted = matrix, factor, csc_array(factor * matrix)
         return kept[2]
+
+
+def _rounded(force: Floats, applied: Floats, inner: Floats) -> bool:
+    """Whether a force (n,) is nothing but rounding of the two that it is the difference of.
+
+    That is no load that dependent functions can carry: it does work on motions without strain.
+    """
+    size = float(np.linalg.norm(applied) + np.linalg.norm(inner))
+    return float(np.linalg.norm(force)) < ROUNDING * size

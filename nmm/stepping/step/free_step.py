@@ -40,7 +40,7 @@ class Alone:
     def __init__(
         self, current: Current, mover: Mover, solver: LinearSolver, small: bool, clock: Clock
     ) -> None:
-        self._current, self._mover, self._solver = current, mover, solver
+        self._current, self._mover, self.solver = current, mover, solver
         self._small, self._clock = small, clock
         self.factor: Factor | None = None
 
@@ -79,7 +79,7 @@ class Alone:
         """Return the increment (n,), its residual and, where that is better, rigid parts apart."""
         plan, matrix, force = self._current.plan, equations.matrix, equations.force
         border = plan.border(equations.state, equations.end)
-        n, solver = len(force), self._solver
+        n, solver = len(force), self.solver
         if border is not None:
             matrix = bordered(matrix, border[0])
             force, solver = np.concatenate([force, border[1]]), solver.indefinite()

@@ -35,7 +35,7 @@ class Mover:
     """
 
     def __init__(self, current: Current, solver: LinearSolver, still: bool, clock: Clock) -> None:
-        self._current, self._solver, self._clock = current, solver, clock
+        self._current, self.solver, self._clock = current, solver, clock
         self.still = still
         self._masses: tuple[csc_array, Ints, Factor] | None = None
         self._follow(self._current.model)
@@ -97,7 +97,7 @@ class Mover:
         mass = inertia.mass
         if self._masses is None or self._masses[0] is not mass:
             heavy = np.flatnonzero(mass.diagonal() > 0)
-            factor = self._solver.factorise(csc_array(mass[heavy][:, heavy]))
+            factor = self.solver.factorise(csc_array(mass[heavy][:, heavy]))
             self._masses = mass, heavy, factor
         _, heavy, factor = self._masses
         found = np.zeros_like(push)

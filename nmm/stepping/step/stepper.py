@@ -188,6 +188,21 @@ class Stepper:
         self._mover.follow(change)
         self._touching.follow(change)
 
+    def begin_anew(
+        self, change: "Change", new: Discretisation, solver: LinearSolver, integrator: Integrator
+    ) -> None:
+        """Solve ``new`` from now on, whose unknowns are others, by a solver that fits its covers.
+
+        The next step is a first one: no acceleration is known, and nothing is kept for speed.
+        """
+        self.follow(change, new)
+        self.solver, self._integrator = solver, integrator
+        for part in (self._mover, self._alone, self._touching):
+            part.solver = solver
+        self.size = max(self.size, float(np.hypot(*np.ptp(self.reference, axis=0))))
+        self._carried = CarriedOver(self._carried.reach)
+        self.forget()
+
     def _following(self, attempt: Attempt) -> CarriedOver:
         """Return what is carried on from an accepted step."""
         carried, reach = self._carried, self._touching.reach(attempt.motion)

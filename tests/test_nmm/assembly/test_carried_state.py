@@ -12,7 +12,7 @@ from integration.rules import PointRule, polygon_rule
 from nmm.assembly.carried_state import carried
 from nmm.assembly.errors import strains
 from nmm.assembly.motion import initial_state, material_points
-from nmm.formulation import Cover
+from nmm.formulation import CoverTable
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 
@@ -32,7 +32,7 @@ COVERS = {
 
 def made(cover, degree, size=None):
     table = COVERS[cover] | {"degree": degree} | ({} if size is None else {"size": size})
-    return solid(BODIES, Cover.model_validate(table), [STEEL], "strain", density=[3.0])
+    return solid(BODIES, CoverTable.model_validate(table), [STEEL], "strain", density=[3.0])
 
 
 def moving(model):
@@ -153,7 +153,7 @@ def errors_strains(model, unknowns, rule, part):
 
 
 def test_a_body_that_arrives_starts_as_declared_and_the_others_go_on():
-    table = Cover.model_validate(COVERS["quads"] | {"degree": 1})
+    table = CoverTable.model_validate(COVERS["quads"] | {"degree": 1})
     one = solid(BODIES.take([0]), table, [STEEL], "strain", density=[3.0])
     both = solid(BODIES, table, [STEEL], "strain", density=[3.0])
     state = moving(one)

@@ -72,3 +72,13 @@ def test_quadratic_covers_of_the_cantilever_are_exact() -> None:
         assert answer.error < 1e-8
         assert answer.energy == pytest.approx(4.474666667, rel=1e-9)
         assert answer.tip == pytest.approx(8.9e-3, rel=1e-8)
+
+
+def test_the_pier_carries_its_weight_in_every_stage() -> None:
+    found = run(read_scene(EXAMPLES / "stages" / "pier.toml"))
+    assert found.summary.status == "converged"
+    weight = 1800 * 10 * 0.24 * 0.5 * np.array([4, 3, 4, 4])
+    np.testing.assert_allclose(found.history["reaction:ground:y"], weight, rtol=1e-6)
+    # gamma (h^2 / 2 + h_above h) / E over the 3 m below the monitor.
+    settled = 18000 * (4.5 + 3 * np.array([1, 0, 1, 1])) / 5e9
+    np.testing.assert_allclose(found.history["monitor:second:uy"], -settled, rtol=0.01)

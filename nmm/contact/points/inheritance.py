@@ -1,0 +1,186 @@
+"""Contact points on new edges that continue those on old ones, when a model has changed.
+
+Edges are numbered anew, and other cells divide them otherwise. What lasts is where a contact is on
+the material: the two regions, and its place on each in the reference configuration. A new point
+continues the nearest old one between the same regions. Where both coincide it takes over all that
+is known; elsewhere the forces of the old points are divided among those that continue them, by
+length, and springs are stretched as these forces ask.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from covers.approximation.manifold import Manifold
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.points.joint_book import JointBook
+from nmm.contact.problem.step_problem import BROKEN
+
+# Points nearer than this share of the domain are one: far above rounding, far below cells.
+NEAR = 1e-9
+
+
+@dataclass(frozen=True)
+class Heirs:
+    """Which old contact points new ones continue.
+
+    Attributes
+    ----------
+    parent, child
+        The nearest old point of each new one, and the nearest new one of each old one; -1 without
+        any between the same regions.
+    same
+        (m,) new points that are where their parents are, one for one.
+    """
+
+    parent: Ints
+    child: Ints
+    same: Bools
+
+    def shared(self, values: Floats, length: Floats) -> Floats:
+        """Divide sums (k,) of the old points among the new ones (m,) by ``length`` (m,)."""
+        found, known = np.zeros(len(self.parent)), self.parent >= 0
+        weight = np.where(length > 0, length, 1.0)
+        total = np.bincount(self.parent[known], weight[known], minlength=len(values))
+        parent = self.parent[known]
+        found[known] = values[parent] * weight[known] / total[parent]
+        orphans = np.flatnonzero((total == 0) & (self.child >= 0))
+        np.add.at(found, self.child[orphans], values[orphans])
+        return found
+
+    def kept(self, values: Floats | Ints, fallback: Floats | Ints) -> Any:
+        """Values (m,) of the parents; of ``fallback`` where there are none."""
+        if not len(values):
+            return fallback
+        return np.where(self.parent >= 0, values[np.maximum(self.parent, 0)], fallback)
+
+    def histories(self, old: ContactPoints, new: ContactPoints) -> dict[str, Any]:
+        """What laws remember (m,) by name: that of the parents under the same interface."""
+        if not len(old):
+            return dict(new.history)
+        parent = np.maximum(self.parent, 0)
+        alike = (self.parent >= 0) & (old.interface[parent] == new.interface)
+        return {
+            name: np.where(alike, old.history[name][parent], first)
+            if name in old.history
+            else first
+            for name, first in new.history.items()
+        }
+
+
+def heirs(new: tuple[Manifold, ContactPoints], old: tuple[Manifold, ContactPoints]) -> Heirs:
+    """Find the nearest points between the same regions."""
+    from scipy.spatial import KDTree
+
+    (pair_new, place_new), (pair_old, place_old) = _places(*new), _places(*old)
+    size = float(np.hypot(*np.ptp(new[0].elements.points, axis=0)))
+    if not len(pair_new) or not len(pair_old):
+        none = np.full(len(pair_new), -1), np.full(len(pair_old), -1)
+        return Heirs(*none, np.zeros(len(pair_new), dtype=bool))
+    # Pairs of regions lie further apart than any two points of one pair.
+    number = np.unique(np.concatenate([pair_new, pair_old]), return_inverse=True)[1].ravel()
+    apart = 10 * size * number[:, None]
+    of_new = np.hstack([place_new, apart[: len(pair_new)]])
+    of_old = np.hstack([place_old, apart[len(pair_new) :]])
+    far, parent = KDTree(of_old).query(of_new, distance_upper_bound=5 * size)
+    _, child = KDTree(of_new).query(of_old, distance_upper_bound=5 * size)
+    parent, child = (
+        np.where(found < n, found, -1) for found, n in ((parent, len(of_old)), (child, len(of_new)))
+    )
+    known = parent >= 0
+    same = known & (far <= NEAR * size) & (child[np.maximum(parent, 0)] == np.arange(len(parent)))
+    return Heirs(parent, child, same)
+
+
+def continued(
+    new: ContactPoints, old: ContactPoints, line: Heirs, springs: tuple[Floats, Floats] | None
+) -> ContactPoints:
+    """Return found points with what the old ones leave them.
+
+    ``springs`` are the normal and shear stiffness (m,) of the new points (N/m); None where contact
+    has none.
+    """
+    measured = new.gap + new.reference
+    normal, shear = (
+        line.shared(getattr(old, name), new.length) for name in ("normal_force", "shear_force")
+    )
+    gap, slip = new.gap, line.kept(old.slip, new.slip)
+    if springs is not None:
+        stiff, soft = springs
+        pressed = normal < 0
+        gap = np.where(pressed, normal / np.where(pressed, stiff, 1.0), gap)
+        slip = np.where(line.same, slip, shear / np.where(soft > 0, soft, 1.0))
+    gap = np.where(line.same, line.kept(old.gap, gap), gap)
+    reference = np.minimum(measured - gap, 0.0)
+    return replace(
+        new,
+        gap=measured - reference,
+        reference=reference,
+        slip=slip,
+        state=line.kept(old.state, new.state).astype(new.state.dtype),
+        history=line.histories(old, new),
+        normal_force=normal,
+        shear_force=shear,
+    )
+
+
+def continued_joints(new: JointBook, old: JointBook, line: Heirs) -> tuple[JointBook, Bools]:
+    """Return the book of joints with damage and slip of the old one; and which points are new.
+
+    ``line`` is of ``new.points`` and of `known_joints` of the old one: joints that were given up
+    stay given up.
+    """
+    was, p = known_joints(old), new.points
+    points = replace(
+        p,
+        state=line.kept(was.state, p.state).astype(p.state.dtype),
+        history=line.histories(was, p),
+        normal_force=line.shared(was.normal_force, p.length),
+        shear_force=line.shared(was.shear_force, p.length),
+    )
+    gone = line.parent >= len(old.points)
+    zero = np.zeros(int(gone.sum()))
+    lost = replace(
+        points.take(gone),
+        state=np.full(len(zero), int(BROKEN)),
+        normal_force=zero,
+        shear_force=zero,
+    )
+    book = replace(new, points=points.take(~gone), joint=new.joint[~gone], lost=lost)
+    return book, (line.parent < 0)[~gone]
+
+
+def placed(book: JointBook, now: ContactPoints, fresh: Bools) -> JointBook:
+    """Return the book with bonds that are ``fresh`` (m,) free of stress as they stand ``now``."""
+    held = fresh & now.bonded
+    history = book.points.history
+    points = replace(
+        book.points,
+        reference=np.where(held, now.gap, book.points.reference),
+        history={**history, "plastic_slip": np.where(held, now.slip, history["plastic_slip"])},
+    )
+    return replace(book, points=points)
+
+
+def known_joints(book: JointBook) -> ContactPoints:
+    """Points of joints that are followed, then those that were given up."""
+    return concatenate([book.points, book.lost])
+
+
+def _places(manifold: Manifold, points: ContactPoints) -> tuple[Ints, Floats]:
+    """Pair (m,) of regions, and places (m, 4) on the lower and the higher of them."""
+    edges, region = manifold.boundary, manifold.element_region
+    sides = []
+    for edge, parameter in (
+        (points.edge_a, points.parameter_a),
+        (points.edge_b, points.parameter_b),
+    ):
+        way = edges.end[edge] - edges.start[edge]
+        sides.append((region[edges.element[edge]], edges.start[edge] + parameter[:, None] * way))
+    (one, at_one), (two, at_two) = sides
+    swap = one > two
+    place = np.where(swap[:, None], np.hstack([at_two, at_one]), np.hstack([at_one, at_two]))
+    count = int(region.max(initial=0)) + 1
+    return np.minimum(one, two) * count + np.maximum(one, two), place

@@ -1,0 +1,175 @@
+"""The stages of a scene, each as a scene, a formulation and the blocks that are there."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from integration.arrays import Bools
+from nmm.effects.base import Acting
+from nmm.errors import Fault, FormulationError, SceneError
+from nmm.scene.cover_tables import CoverTable
+
+if TYPE_CHECKING:
+    from nmm.formulation import Formulation
+    from nmm.geometry.blocks import Regions
+    from nmm.scene.model import Scene
+    from nmm.scene.stages import StageTable
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What is solved from its beginning to its end.
+
+    Attributes
+    ----------
+    name
+        As the scene calls it.
+    scene, formulation
+        With what is there, and approximated as the stage asks.
+    present
+        (N,) which blocks are there.
+    duration
+        s; None is to rest.
+    acting
+        Which loads grow and which fade in it.
+    """
+
+    name: str
+    scene: "Scene"
+    formulation: "Formulation"
+    present: Bools
+    duration: float | None
+    acting: Acting
+
+    @property
+    def dynamic(self) -> bool:
+        """Whether it is solved in time."""
+        return self.duration is not None
+
+
+def stages_of(scene: "Scene", formulation: "Formulation", regions: "Regions") -> list[Stage]:
+    """Return the stages in order; none of a scene without any.
+
+    Raises
+    ------
+    SceneError
+        A block that leaves without being there, arrives twice, or a stage without blocks.
+    FormulationError
+        Keys of a cover that do not fit.
+    """
+    return list(_resolved(scene, formulation, regions))
+
+
+def _resolved(scene: "Scene", formulation: "Formulation", regions: "Regions") -> Iterator[Stage]:
+    present = np.ones(len(regions), dtype=bool)
+    loads, supports, before = None, None, frozenset[str]()
+    for number, table in enumerate(scene.stages):  # a handful of stages
+        place = _Place(scene, number)
+        present = _present(table, present, regions, place)
+        formulation = _formulation(table, formulation, place)
+        loads = loads if table.loads is None else table.loads
+        supports = supports if table.supports is None else table.supports
+        there = {one for one in _names(scene, formulation) if present[regions.select(one)].any()}
+        acting = [one for one in scene.loads if _acts(one, loads, there)]
+        names = frozenset(one.name for one in acting)
+        fading = frozenset() if table.duration else before - names
+        leaving = [one for one in scene.loads if one.name in fading and _acts(one, None, there)]
+        whole = {
+            "stages": (),
+            "loads": (*acting, *leaving),
+            "supports": tuple(one for one in scene.supports if _acts(one, supports, there)),
+            "monitors": tuple(one for one in scene.monitors if _acts(one, None, there)),
+            "duration": table.duration,
+            "inertia": scene.inertia if table.duration else None,
+            "initial_velocities": scene.initial_velocities if table.duration else (),
+        }
+        yield Stage(
+            table.name,
+            scene.model_copy(update=whole),
+            _of_present(formulation, there),
+            present,
+            table.duration,
+            Acting(grows=names - before, leaves=frozenset(one.name for one in leaving)),
+        )
+        before = names
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where a stage stands in its file."""
+
+    scene: "Scene"
+    number: int
+
+    def fault(self, key: str, value: str, expected: str, remedy: str) -> Fault:
+        return Fault(self.scene.source.place("stages", self.number, key), value, expected, remedy)
+
+
+def _present(table: "StageTable", before: Bools, regions: "Regions", place: _Place) -> Bools:
+    present = before.copy() if table.blocks is None else np.zeros(len(regions), dtype=bool)
+    for name in table.blocks or ():
+        present[_chosen(name, regions, place, "blocks")] = True
+    for key, names, there in (("remove", table.remove, True), ("add", table.add, False)):
+        for name in names:
+            chosen = _chosen(name, regions, place, key)
+            if (before[chosen] != there).any():
+                expected = f"a block that is {'' if there else 'not '}there before"
+                said = "is not there" if there else "is there already"
+                remedy = "remove the name, or list what is there by blocks"
+                raise SceneError(place.fault(key, f'"{name}" {said}', expected, remedy))
+            present[chosen] = not there
+    if not present.any():
+        remedy = "keep one, or remove the stage"
+        raise SceneError(place.fault("name", "no block is left", "at least one block", remedy))
+    return present
+
+
+def _chosen(name: str, regions: "Regions", place: _Place, key: str) -> Any:
+    chosen = regions.select(name)
+    if not len(chosen):
+        expected = f"one of {', '.join(regions.name[:8])}"
+        raise SceneError(place.fault(key, f'"{name}": no such block', expected, "correct the name"))
+    return chosen
+
+
+def _formulation(table: "StageTable", now: "Formulation", place: _Place) -> "Formulation":
+    """Return the formulation with the keys of its cover that the stage changes."""
+    if not table.cover:
+        return now
+    known = now.cover.model_dump(exclude_unset=True, by_alias=True)
+    try:
+        cover = CoverTable.model_validate({**known, **table.cover})
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        key = ".".join(str(part) for part in first["loc"]) or "cover"
+        value = f"{key}: {first['input']!r:.60}: {first['msg']}"
+        expected, remedy = "keys of [cover] of a formulation", "see nmm explain cover"
+        raise FormulationError(place.fault("cover", value, expected, remedy)) from None
+    return now.model_copy(update={"cover": cover})
+
+
+def _of_present(formulation: "Formulation", there: set[str]) -> "Formulation":
+    """Return the formulation without nets and degrees of blocks that are away."""
+    cover = formulation.cover
+    nets = tuple(one for one in cover.nets or () if one.block in there)
+    regions = tuple(one for one in cover.regions or () if one.block is None or one.block in there)
+    changes = {"nets": nets or None, "regions": regions or None}
+    return formulation.model_copy(update={"cover": cover.model_copy(update=changes)})
+
+
+def _acts(item: Any, listed: tuple[str, ...] | None, there: set[str]) -> bool:
+    """Whether something is listed, or all are, and its block is there if it names one."""
+    if item.block is not None and item.block not in there:
+        return False
+    return listed is None or item.name in listed
+
+
+def _names(scene: "Scene", formulation: "Formulation") -> set[str]:
+    """Names of blocks that anything refers to."""
+    cover = formulation.cover
+    placed = (*scene.loads, *scene.supports, *scene.monitors)
+    items: tuple[Any, ...] = (*placed, *(cover.nets or ()), *(cover.regions or ()))
+    return {item.block for item in items if item.block is not None}

@@ -1,0 +1,73 @@
+"""What stages must not contradict; works on unvalidated tables as `nmm.scene.consistency` does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from nmm.scene.faults import suggestion
+from nmm.scene.lines import Path
+
+Finding = tuple[Path, str, str, str]
+Tables = Mapping[str, Any]
+
+BLOCKS = ("blocks", "remove", "add")
+
+
+def stage_contradictions(data: Tables) -> Iterator[Finding]:
+    """Yield what stages name that does not exist, and what does not go with stages."""
+    stages = _list(data, "stages")
+    if not stages:
+        return
+    yield from _beside(data)
+    solids = [*_names(data, "blocks"), *_names(data, "tessellations")]
+    known = {"loads": _names(data, "loads"), "supports": _names(data, "supports")}
+    for number, stage in enumerate(stages):
+        if not isinstance(stage, Mapping):
+            continue
+        path: Path = ("stages", number)
+        for key in BLOCKS:
+            for name in _texts(stage, key):
+                if name != "all" and name.split(".")[0] not in solids:
+                    yield (*path, key), f'"{name}"', "the name of a block", suggestion(name, solids)
+        for key, names in known.items():
+            for name in _texts(stage, key):
+                if name not in names:
+                    expected = f"the name of one of {key}"
+                    yield (*path, key), f'"{name}"', expected, suggestion(name, names)
+        if "duration" in stage and "inertia" not in data:
+            remedy = "remove it, so that the stage is solved to rest, or add [inertia]"
+            yield (*path, "duration"), "no [inertia]", "a dynamic scene", remedy
+
+
+def _beside(data: Tables) -> Iterator[Finding]:
+    if "duration" in data:
+        remedy = "remove it, and give each of [[stages]] the duration it has"
+        yield ("duration",), "duration with [[stages]]", "durations of stages", remedy
+    if "loading" in data:
+        remedy = "remove [loading], or [[stages]]: stages bring their loads on in full"
+        yield ("loading",), "[loading] with [[stages]]", "one of the two", remedy
+    output = data.get("output", {})
+    if isinstance(output, Mapping) and "checkpoint" in output:
+        remedy = "remove it: runs in stages do not go on from checkpoints yet"
+        yield ("output", "checkpoint"), "checkpoint with [[stages]]", "one of the two", remedy
+    rotation = data.get("formulation", {})
+    rotation = rotation.get("rotation", {}) if isinstance(rotation, Mapping) else {}
+    if isinstance(rotation, Mapping) and rotation.get("update") == "linear":
+        remedy = 'use update = "exact"'
+        path: Path = ("formulation", "rotation", "update")
+        yield path, '"linear" with [[stages]]', "places that are kept", remedy
+
+
+def _list(data: Tables, key: str) -> list[Any]:
+    value = data.get(key)
+    return list(value) if isinstance(value, list | tuple) else []
+
+
+def _names(data: Tables, key: str) -> list[str]:
+    rows = [row for row in _list(data, key) if isinstance(row, Mapping)]
+    return [row["name"] for row in rows if isinstance(row.get("name"), str)]
+
+
+def _texts(row: Tables, key: str) -> list[str]:
+    return [name for name in _list(row, key) if isinstance(name, str)]

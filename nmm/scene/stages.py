@@ -1,0 +1,54 @@
+"""Stages: which blocks, loads and supports are there one after the other."""
+
+from __future__ import annotations
+
+from pydantic import Field, model_validator
+
+from nmm.scene.fields import BlockName, Frozen, Name, Options, Time, example, fault
+
+
+class StageTable(Frozen):
+    """What is there from the stage's beginning to its end.
+
+    A stage without duration is solved to rest. What is not given stays as in the stage before; at
+    first every block, load and support is there. Loads and supports that name a block are there
+    with it.
+    """
+
+    name: Name = Field(description="a name of its own", examples=["excavation"])
+    blocks: tuple[BlockName, ...] | None = Field(
+        default=None, description="names of all blocks that are there", examples=[["base"]]
+    )
+    remove: tuple[BlockName, ...] = Field(
+        default=(), description="names of blocks that leave", examples=[["fill"]]
+    )
+    add: tuple[BlockName, ...] = Field(
+        default=(),
+        description="names of blocks that arrive, free of stress, at the place they are drawn at",
+        examples=[["lift"]],
+    )
+    loads: tuple[Name, ...] | None = Field(
+        default=None, description="names of all loads that act", examples=[["pressure"]]
+    )
+    supports: tuple[Name, ...] | None = Field(
+        default=None, description="names of all supports that hold", examples=[["left"]]
+    )
+    duration: Time | None = Field(
+        default=None,
+        gt=0,
+        description="a duration in s, > 0; solved to rest when not given",
+        examples=example("s"),
+    )
+    cover: Options | None = Field(
+        default=None,
+        description="keys of the formulation's [cover] that are other from this stage on",
+        examples=[{"degree": 2}],
+    )
+
+    @model_validator(mode="after")
+    def _one_way(self) -> StageTable:
+        """Refuse a list of what is there beside what leaves and arrives."""
+        if self.blocks is not None and (self.remove or self.add):
+            remedy = "keep blocks, or remove and add"
+            raise fault("blocks beside remove or add", "one way to say which are there", remedy)
+        return self

@@ -1,0 +1,343 @@
+"""Blocks that leave and arrive, and covers that change, from one stage to the next."""
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.errors import FormulationError, SceneError
+from nmm.results.storage.stored_run import read_run
+from nmm.scene.read import parse_scene
+
+E, RHO, G = 1e9, 2000.0, 10.0
+LOWER, UPPER = RHO * G * 1.0, RHO * G * 2.0
+COLUMN = """
+title = "column"
+plane = "stress"
+[materials.rock]
+young_modulus = 1e9
+poisson_ratio = 0.0
+density = 2000
+[[blocks]]
+name = "lower"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "upper"
+material = "rock"
+vertices = [[0, 1], [1, 1], [1, 3], [0, 3]]
+[gravity]
+acceleration = [0, -10]
+[contact]
+[interfaces.any]
+between = "any"
+friction_angle = 0.5
+[[supports]]
+name = "floor"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+[[monitors]]
+name = "top"
+point = [0.5, 1]
+block = "lower"
+"""
+STAGES = """
+[[stages]]
+name = "both"
+[[stages]]
+name = "unloaded"
+remove = ["upper"]
+[[stages]]
+name = "back"
+add = ["upper"]
+"""
+MESHES = {
+    "triangles": {"type": "triangles", "size": 0.5, "degree": 1},
+    "quads": {"type": "quads", "size": 0.5, "degree": 1},
+    "graded": {"type": "graded", "size": 0.5, "degree": 1, "options": {"focus": [[0.0, 0.0]]}},
+    "bspline": {"type": "bspline", "size": 0.5, "degree": 0},
+    "mls": {"type": "mls", "size": 0.4, "degree": 0, "options": {"degree": 2}},
+    "blocks of degree 2": {"type": "block", "functions": "monomials", "degree": 2},
+}
+
+
+def run(scene, cover, **more):
+    table = {"cover": cover, **more}
+    return nmm.run(parse_scene(scene), nmm.Formulation.model_validate(table))
+
+
+@pytest.mark.parametrize("cover", ["triangles", "quads", "graded"])
+def test_a_column_carries_the_weight_that_is_on_it_in_each_stage(cover):
+    found = run(COLUMN + STAGES, MESHES[cover])
+    assert found.summary.status == "converged", found.summary.sentence
+    weight = [LOWER + UPPER, LOWER, LOWER + UPPER]
+    np.testing.assert_allclose(found.history["reaction:floor:y"], weight, rtol=1e-9)
+    # A bar under its own weight and a load on its top: sums of gamma h^2 / 2 E and q h / E.
+    settled = -np.array([LOWER / 2 + UPPER, LOWER / 2, LOWER / 2 + UPPER]) / E
+    np.testing.assert_allclose(found.history["monitor:top:uy"], settled, rtol=1e-4)
+    strain = np.array([1.8, 1 / 15, 1.8])
+    np.testing.assert_allclose(found.history["strain_energy"], strain, rtol=1e-4)
+    assert abs(found.summary.energy_balance) < 1e-6
+
+
+def test_stress_before_and_after_is_that_of_the_weight_above():
+    found = run(COLUMN + STAGES, MESHES["quads"])
+    for frame in found.frames[1:]:
+        there = found.topologies[frame.topology]
+        height = 3.0 if len(set(there.element_region)) == 2 else 1.0
+        above = height - there.elements.centroids[:, 1]
+        np.testing.assert_allclose(frame.stress[:, 1], -RHO * G * above, rtol=1e-4)
+
+
+def test_what_leaves_takes_its_energy_and_the_rest_sheds_what_a_slow_removal_would_take():
+    found = run(COLUMN + STAGES, MESHES["triangles"])
+    # Strain of the upper block, the springs of its contact, and F^2 h / 2 E of the lower one.
+    taken = 8 / 15 + found.history["contact_energy"][0] + UPPER**2 / (2 * E)
+    assert found.history["change_energy"][1] == pytest.approx(-taken, rel=1e-6)
+    assert len(found.summary.changes) == 2
+    assert found.summary.change_energy == pytest.approx(found.history["change_energy"][-1])
+
+
+def test_a_block_that_arrives_on_a_loaded_one_carries_its_own_weight_alone():
+    push = '[[loads]]\nname = "push"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\n'
+    push += 'block = "lower"\ntraction = [0, -4e4]\n'
+    stages = '[[stages]]\nname = "one"\nblocks = ["lower"]\n'
+    stages += '[[stages]]\nname = "two"\nadd = ["upper"]\n'
+    found = run(COLUMN + push + stages, MESHES["quads"])
+    assert found.summary.status == "converged", found.summary.sentence
+    there = found.topologies[-1]
+    upper, above = there.element_region == 1, 3 - there.elements.centroids[:, 1]
+    np.testing.assert_allclose(found.stress[upper, 1], -RHO * G * above[upper], rtol=1e-4)
+    lower = -4e4 - RHO * G * above[~upper]
+    np.testing.assert_allclose(found.stress[~upper, 1], lower, rtol=1e-4)
+
+
+@pytest.mark.parametrize("first", MESHES)
+@pytest.mark.parametrize("change", ["degree", "size"])
+def test_contact_goes_on_carrying_the_weight_over_a_change_of_the_cover(first, change):
+    cover = MESHES[first]
+    if change == "size" and cover["type"] == "block":
+        pytest.skip("blocks have no cells")
+    other = {"size": 0.3} if change == "size" else {"degree": cover["degree"] + 1}
+    keys = ", ".join(f"{key} = {value}" for key, value in other.items())
+    stages = '[[stages]]\nname = "one"\n[[stages]]\nname = "two"\ncover = { ' + keys + " }\n"
+    found = run(COLUMN + stages, cover)
+    assert found.summary.status == "converged", found.summary.sentence
+    weight = LOWER + UPPER
+    np.testing.assert_allclose(found.history["reaction:floor:y"], weight, rtol=1e-6)
+    for frame in found.frames[1:]:
+        assert frame.contact_force[:, 0].sum() == pytest.approx(-UPPER, rel=1e-6)
+
+
+def test_a_higher_degree_changes_no_energy_and_a_lower_one_costs_what_is_told():
+    table = MESHES["triangles"]
+    up = '[[stages]]\nname = "one"\n[[stages]]\nname = "two"\ncover = { degree = 2 }\n'
+    raised = run(COLUMN + up, table)
+    assert abs(raised.history["change_energy"][-1]) < 1e-9 * raised.history["strain_energy"][-1]
+    down = up.replace("degree = 2", "degree = 0")
+    lowered = run(COLUMN + down, table)
+    # Constant strains of triangles hold less than the linear ones of a bar under its weight.
+    assert lowered.history["strain_energy"][-1] < 0.995 * raised.history["strain_energy"][-1]
+    assert abs(lowered.summary.energy_balance) < 1e-6
+    told = float(lowered.summary.changes[0].split(", ")[-1].removesuffix(" J"))
+    assert abs(told) > 1e-3
+
+
+BAR = """
+plane = "stress"
+[materials.steel]
+young_modulus = 1e9
+poisson_ratio = 0.3
+[[blocks]]
+name = "bar"
+material = "steel"
+vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[supports]]
+name = "wall"
+segment = [[0, 0], [0, 1]]
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[2, 0], [2, 1]]
+traction = [1e6, 0]
+[[loads]]
+name = "shear"
+kind = "edge"
+segment = [[2, 0], [2, 1]]
+traction = [0, 2e5]
+[[monitors]]
+name = "tip"
+point = [2, 1]
+"""
+
+
+def test_stages_of_an_elastic_body_superpose():
+    cover = {"type": "quads", "size": 0.5, "degree": 1}
+    order = ['["pull"]', '["pull", "shear"]', '["shear"]', "[]"]
+    stages = "".join(
+        f'[[stages]]\nname = "s{n}"\nloads = {names}\n' for n, names in enumerate(order)
+    )
+    found = run(BAR + stages, cover)
+    parts = {}
+    for name in ("pull", "shear"):
+        other = "shear" if name == "pull" else "pull"
+        start = BAR.index(f'[[loads]]\nname = "{other}"')
+        alone = run(BAR[:start] + BAR[BAR.index("\n[[", start) :], cover)
+        parts[name] = [alone.history[f"monitor:tip:u{axis}"][-1] for axis in "xy"]
+    pull, shear = np.array(parts["pull"]), np.array(parts["shear"])
+    expected = np.array([pull, pull + shear, shear, 0 * pull])
+    tip = np.stack([found.history[f"monitor:tip:u{axis}"] for axis in "xy"], axis=1)
+    np.testing.assert_allclose(tip, expected, atol=1e-12 * np.abs(expected).max() * 1e2)
+
+
+def test_a_support_that_comes_later_holds_the_body_where_it_is():
+    cover = {"type": "quads", "size": 0.5, "degree": 1}
+    late = '[[supports]]\nname = "right"\npoint = [2, 0]\nfix = ["x", "y"]\n'
+    stages = (
+        '[[stages]]\nname = "free"\nsupports = ["wall"]\nloads = ["pull"]\n'
+        '[[stages]]\nname = "held"\nsupports = ["wall", "right"]\n'
+    )
+    # Without lateral strain the tension is uniform, and every cover holds it.
+    bar = BAR.replace("poisson_ratio = 0.3", "poisson_ratio = 0.0")
+    found = run(bar + late + stages, cover)
+    tip = found.history["monitor:tip:ux"]
+    assert tip[0] == pytest.approx(2e-3, rel=1e-6)
+    assert tip[1] == pytest.approx(tip[0], rel=1e-6)
+    assert abs(found.history["reaction:right:x"][1]) < 1e-6 * 1e6
+
+
+FLYING = """
+plane = "stress"
+[materials.rock]
+young_modulus = 1e7
+poisson_ratio = 0.2
+density = 2000
+[[blocks]]
+name = "body"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1.2, 0.9], [0.1, 0.8]]
+[inertia]
+[[initial_velocities]]
+block = "body"
+velocity = [1, 2]
+angular_velocity = 3
+[[stages]]
+name = "one"
+duration = 0.05
+[[stages]]
+name = "two"
+duration = 0.05
+cover = { degree = 2 }
+"""
+
+
+def test_a_spinning_body_flies_on_over_a_change_of_degree():
+    cover, steps = {"type": "triangles", "size": 0.4, "degree": 1}, {"step": 1e-3}
+    found = run(FLYING, cover, integrator={"type": "newmark", **steps})
+    state, stepper = found.state, found.stepper
+    modes, mass = found.manifold.rigid_modes, stepper.plan.inertia.mass
+    total = float(modes[:, 0] @ (mass @ modes[:, 0]))
+    moved = state.frames.centre[0] - found.manifold.body_centroid[0]
+    np.testing.assert_allclose(moved, 0.1 * np.array([1.0, 2.0]), rtol=1e-10)
+    momentum = np.asarray(modes.T @ (mass @ state.velocity))
+    turned = state.frames.rotation[0] @ momentum[:2]
+    np.testing.assert_allclose(turned, total * np.array([1.0, 2.0]), rtol=1e-10)
+    assert abs(found.summary.change_energy) < 1e-9 * found.history["kinetic_energy"][-1]
+
+
+def test_a_dynamic_stage_follows_one_at_rest_and_the_clock_stands_while_it_comes_to_rest():
+    scene = COLUMN + "[inertia]\n"
+    scene += '[[stages]]\nname = "rest"\n[[stages]]\nname = "still"\nduration = 0.01\n'
+    found = run(scene, MESHES["quads"], integrator={"step": 1e-3})
+    assert found.summary.status == "converged", found.summary.sentence
+    assert found.history["time"][0] == 0.0
+    assert found.history["time"][-1] == pytest.approx(0.01)
+    # In equilibrium at its start, the column does not move.
+    np.testing.assert_allclose(found.history["monitor:top:uy"], -5e-5, rtol=1e-4)
+
+
+BONDED = """
+plane = "strain"
+[materials.rock]
+young_modulus = 1e9
+poisson_ratio = 0.2
+[[blocks]]
+name = "base"
+material = "rock"
+vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[blocks]]
+name = "strong"
+material = "rock"
+vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
+[[blocks]]
+name = "weak"
+material = "rock"
+vertices = [[1, 1], [2, 1], [2, 2], [1, 2]]
+[contact]
+[interfaces.any]
+between = "any"
+friction_angle = 0.5
+cohesion = 1e5
+tensile_strength = 1e5
+bonded = true
+[[supports]]
+name = "floor"
+block = "base"
+fix = ["x", "y"]
+[[supports]]
+name = "lift"
+block = "weak"
+fix = ["x", "y"]
+displacement = [0, 0.01]
+history = [[0, 0], [1, 1], [2, 1], [3, 1]]
+"""
+
+
+@pytest.mark.parametrize("cover", ['degree = 1, type = "quads", size = 0.5', "degree = 2"])
+def test_bonds_that_broke_stay_broken_and_those_that_held_hold(cover):
+    stages = f'[[stages]]\nname = "one"\n[[stages]]\nname = "two"\ncover = {{ {cover} }}\n'
+    found = run(BONDED + stages, {"type": "block", "functions": "monomials", "degree": 1})
+    assert found.summary.status == "converged", found.summary.sentence
+    broken, bonded = found.history["broken"], found.history["bonded"]
+    assert broken[0] > 0
+    assert bonded[0] > 0
+    last = found.stepper.plan.contact.record.book
+    region = found.manifold.element_region[found.manifold.boundary.element]
+    for points, whole in ((last.points, False), (last.lost, True)):
+        one, two = (region[edge] for edge in (points.edge_a, points.edge_b))
+        weak = (one == 2) | (two == 2)
+        assert not points.bonded[weak].any()
+        assert whole or points.bonded[~weak].all()
+
+
+def test_a_stored_run_has_the_topologies_of_its_stages(tmp_path):
+    table = nmm.Formulation.model_validate({"cover": MESHES["quads"]})
+    found = nmm.run(parse_scene(COLUMN + STAGES), table, out=tmp_path / "run")
+    stored = read_run(tmp_path / "run")
+    assert [len(one.elements) for one in stored.topologies] == [12, 4, 12]
+    assert [one.topology for one in stored.frames] == [0, 0, 1, 2]
+    for one, other in zip(stored.frames, found.frames, strict=True):
+        np.testing.assert_array_equal(one.stress, other.stress)
+    assert list(stored.summary.changes) == list(found.summary.changes)
+
+
+@pytest.mark.parametrize(
+    ("stages", "told"),
+    [
+        ('remove = ["uper"]', "uper"),
+        ('remove = ["upper", "lower"]', "no block is left"),
+        ('add = ["upper"]', "is there already"),
+        ('loads = ["push"]', "push"),
+        ("duration = 1.0", "no [inertia]"),
+        ('blocks = ["lower"]\nremove = ["upper"]', "one way"),
+    ],
+)
+def test_wrong_stages_are_told_by_their_place(stages, told):
+    with pytest.raises(SceneError, match="stages.0") as fault:
+        run(COLUMN + f'[[stages]]\nname = "one"\n{stages}\n', MESHES["quads"])
+    assert told in str(fault.value)
+
+
+def test_keys_that_no_cover_has_are_told():
+    with pytest.raises((FormulationError, SceneError), match="sise"):
+        run(COLUMN + '[[stages]]\nname = "one"\ncover = { sise = 1 }\n', MESHES["quads"])
