@@ -44,11 +44,35 @@ def judge_linear(scene: Document) -> Checks:
         "loads times -2.5": (with_loads_times(scene, -2.5), -2.5, 0.0),
         "named effects of no weight": (_idle(scene), 1.0, 0.0),
     }
-    if scene["formulation"]["cover"]["type"] in ("block", "sub_blocks"):
+    if scene["formulation"]["cover"]["type"] == "block":  # nets would lie otherwise
         images["turn"] = (turned(scene, TURN), 1.0, TURN)
     for name, (image, factor, angle) in images.items():
         checks |= _compared(name, image, ways, factor, angle, size)
-    return checks
+    return checks | reciprocity(scene)
+
+
+def reciprocity(scene: Document) -> Checks:
+    """Two unit loads: each does the same work on the motion of the other (Betti 1872)."""
+    places = [scene["monitors"][0], scene["monitors"][-1]]
+    modulus = min(table["young_modulus"] for table in scene["materials"].values())
+    ends = np.concatenate([np.array(table["vertices"]) for table in scene["blocks"]])
+    force = 1e-3 * modulus * scene.get("thickness", 1.0) * float(np.ptp(ends, axis=0).max())
+    axes = np.array([[0.8, -0.6], [0.6, 0.8]])
+    moved: list[dict[str, Floats]] = []
+    for place, axis in zip(places, axes, strict=True):
+        load = {**place, "name": "one", "kind": "point", "force": (force * axis).tolist()}
+        found = ran({**_unloaded(scene), "loads": [load]})
+        if found.run.summary.status != "converged":
+            return {"reciprocity": ended(found)["converged"]}
+        moved.append(monitored(found.run))
+    one = float(moved[0][places[1]["name"]] @ axes[1])
+    other = float(moved[1][places[0]["name"]] @ axes[0])
+    size = max(float(np.abs(way).max()) for each in moved for way in each.values())
+    return {"reciprocity": Check(abs(one - other) / size, 0.0, ROUNDING, "Betti", 1.0)}
+
+
+def _unloaded(scene: Document) -> Document:
+    return {key: value for key, value in scene.items() if key not in ("loads", "gravity")}
 
 
 def equilibrium(scene: Document, run: "Run") -> Checks:

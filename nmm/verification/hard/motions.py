@@ -40,7 +40,10 @@ class Motions(HardClass):
     """Two to five random convex bodies that are thrown at each other."""
 
     name = "motions"
-    title = "random bodies thrown at each other, any cover, enforcement, integrator and solver"
+    title = (
+        "random bodies thrown at each other, one of them cracked in some, any cover, enforcement, "
+        "integrator and solver"
+    )
     oracle = (
         "momentum, energy never rises, nobody through anybody; the same after shift, turn, mirror, "
         "units, order; history = summary = frames; the plan names what the scene names"
@@ -73,6 +76,13 @@ class Motions(HardClass):
             )
             label = f"seed {seed}, {', '.join(parts.values())}"
             yield HardCase(label, made, _judge, parts)
+        cover = list(meshes(size))[seed % len(meshes(size))]
+        parts = {"cover": cover, "enforcement": forces[seed % len(forces)]}
+        made = with_parts(
+            cracked(scene),
+            {"cover": meshes(0.45 * size)[cover], "contact.enforcement": parts["enforcement"]},
+        )
+        yield HardCase(f"seed {seed}, cracked, {', '.join(parts.values())}", made, _judge, parts)
 
 
 def thrown(random: np.random.Generator) -> tuple[Document, float]:
@@ -111,6 +121,14 @@ def thrown(random: np.random.Generator) -> tuple[Document, float]:
         "formulation": {"integrator": {"step": step}},
     }
     return scene, size
+
+
+def cracked(scene: Document) -> Document:
+    """Return a scene whose first body has a crack from the middle of a side past its centre."""
+    ring = np.array(scene["blocks"][0]["vertices"])
+    mouth, middle = ring[:2].mean(axis=0), ring.mean(axis=0)
+    points = [mouth - 0.2 * (middle - mouth), mouth + 1.2 * (middle - mouth)]
+    return {**scene, "cracks": [{"name": "crack", "points": np.array(points).tolist()}]}
 
 
 def _convex(random: np.random.Generator, radius: float) -> Floats:

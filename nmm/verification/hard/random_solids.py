@@ -22,7 +22,7 @@ class Solids(HardClass):
     name = "solids"
     title = "random elastic bodies of one to three glued pieces, all keys of statics"
     oracle = (
-        "equilibrium, work = energy, linearity, invariance under shift to 1e6, "
+        "equilibrium, work = energy, linearity, reciprocity, invariance under shift to 1e6, "
         "turn, units, order of blocks and corners, neutral effects"
     )
     share = 5
@@ -31,14 +31,17 @@ class Solids(HardClass):
         """Yield one random body under each cover, with a support and glue method drawn."""
         random = np.random.default_rng([seed, 53])
         scene, size = solid(random)
-        covers = {**BLOCKS, **meshes(size * float(random.uniform(0.15, 0.4)))}
+        cell = size * float(random.uniform(0.15, 0.4))
+        covers = {**BLOCKS, **meshes(cell), **_varied(cell)}
         for number, (name, cover) in enumerate(covers.items()):
             table = dict(cover)
-            if name not in BLOCKS and seed % 3:
+            if name not in BLOCKS and name != "sub-blocks" and seed % 3:
                 table["angle"] = float(random.uniform(-0.7, 0.7))
                 table["shift"] = random.uniform(0, 1, 2).tolist()
             support, glue = _method(support_methods(), seed + number), _method(glue_methods(), seed)
-            if name in BLOCKS:  # they are held by springs; what has no strain is glued so too
+            if (
+                name in BLOCKS or name == "sub-blocks"
+            ):  # they are held by springs; what has no strain is glued so too
                 support = "penalty"
                 glue = "spring" if name == "rigid" else glue
             made = with_parts(
@@ -47,6 +50,18 @@ class Solids(HardClass):
             parts = {"cover": name, "supports": support, "glue": glue}
             label = f"seed {seed}, {name}, {support}, glue {glue}"
             yield HardCase(label, made, judge_linear, parts)
+
+
+def _varied(cell: float) -> dict[str, Document]:
+    """Tables of covers that differ from block to block: in degree, in net, and sub-blocks."""
+    mesh = {"type": "triangles", "size": cell, "functions": "monomials", "degree": 1}
+    own = {"block": "b0", "size": 0.7 * cell, "angle": 0.3, "shift": [0.3, 0.2]}
+    options = {"mesh": "triangles", "glue": "nitsche"}
+    return {
+        "degree 2 in a block": {**mesh, "regions": [{"block": "b0", "degree": 2}]},
+        "a net of its own": {**mesh, "nets": [own]},
+        "sub-blocks": {"type": "sub_blocks", "size": cell, "options": options},
+    }
 
 
 def solid(random: np.random.Generator) -> tuple[Document, float]:

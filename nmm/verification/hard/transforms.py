@@ -100,7 +100,9 @@ def in_units(scene: Document, length: float, force: float) -> Document:
     if "gravity" in made:
         acceleration = made["gravity"].get("acceleration", [0.0, -9.81])
         made["gravity"] = {"acceleration": [length * value for value in acceleration]}
-    _times(made.get("formulation", {}).get("cover", {}), {"size": length})
+    cover = made.get("formulation", {}).get("cover", {})
+    for table in (cover, *cover.get("nets", [])):
+        _times(table, {"size": length})
     return made
 
 
