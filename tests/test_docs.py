@@ -2,11 +2,14 @@
 
 import importlib.util
 import re
+import sys
+import types
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import nmm.testing
 from nmm import parse_scene
 from nmm.geometry import regions
 
@@ -35,7 +38,7 @@ def test_the_python_of_the_readme_runs(tmp_path, monkeypatch, capsys):
 
 def test_the_law_of_the_manual_acts_in_a_scene(tmp_path, monkeypatch):
     code = blocks("docs/extending.md", "python")[0]
-    (material,) = blocks("docs/extending.md", "toml")
+    (material,) = (one for one in blocks("docs/extending.md", "toml") if "[materials" in one)
     (tmp_path / "orthotropic.py").write_text(code)
     monkeypatch.syspath_prepend(tmp_path)
     scene = parse_scene(
@@ -70,6 +73,27 @@ point = [2, 1]
     uy = nmm.run(scene, allow_code=["orthotropic"]).history["monitor:top:uy"][-1]
     # stress / modulus along y x height; supports are springs stiffer than the block by 1e5 at least
     assert uy == pytest.approx(1e6 / (0.05 * 11e9) * 1.0, rel=1e-4)
+
+
+def test_the_parts_of_the_manual_pass_their_checks(monkeypatch):
+    """Each page block ends in its check, which raises where a part is wrong."""
+    monkeypatch.chdir(ROOT)
+    for folder in ("own_cover", "own_law"):
+        monkeypatch.syspath_prepend(ROOT / "examples" / folder)
+    checked, space = [], {"__name__": "manual"}
+    monkeypatch.setitem(sys.modules, "manual", types.ModuleType("manual"))
+    for code in blocks("docs/extending.md", "python"):
+        if "SceneCase" not in code:
+            exec(code, space)
+            checked += re.findall(r"^(check_\w+)\(", code, re.M)
+    page = (ROOT / "docs/extending.md").read_text()
+    table = {name for name in re.findall(r"`(check_\w+)`", page) if f"{name}(lambda" not in page}
+    assert set(checked) == table - {"check_effect"}
+
+
+def test_every_suite_is_in_the_manual():
+    page = (ROOT / "docs/extending.md").read_text()
+    assert all(name in page for name in nmm.testing.__all__)
 
 
 def test_pages_of_keys_are_those_of_the_models_that_read_the_files():

@@ -56,11 +56,11 @@ class Oscillator:
 def check_integrator(integrator: Integrator, order: float | None = None) -> None:
     """Hold a time integrator to what every one promises, without damping by ``kinetic_factor``.
 
-    A free body keeps its velocity, under a constant force it falls by ``f t^2 / 2 m``, and the
-    impulse of a contact changes its momentum by itself: momentum and rigid motion are exact. A
-    vibration never grows, however stiff; its phase converges with the ``order`` that is claimed,
-    at least with one. With ``kinetic_factor = 0`` nothing is carried from step to step. Shares are
-    within the range that contact asks for.
+    A free body keeps its velocity, and a constant force changes its momentum by its impulse, as
+    does a contact: momentum and rigid motion are exact. Under it a body falls by ``f t^2 / 2 m``,
+    to one step's worth where the order is one. A vibration never grows, however stiff; its phase
+    converges with the ``order`` that is claimed, at least with one. With ``kinetic_factor = 0``
+    nothing is carried from step to step. Shares are within the range that contact asks for.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def check_integrator(integrator: Integrator, order: float | None = None) -> None
     """
     name, rule = type(integrator).__name__, replace(integrator, kinetic_factor=1.0)
     _shares(rule, name)
-    _rigid(rule, name)
+    _rigid(rule, name, order)
     _stable(rule, name)
     _order(rule, name, order)
     _static(replace(integrator, kinetic_factor=0.0), name)
@@ -85,7 +85,7 @@ def _shares(rule: Integrator, name: str) -> None:
         claim(factor > 0, f"{name}: mass_factor times step^2 is {factor:.3g}, expected > 0")
 
 
-def _rigid(rule: Integrator, name: str) -> None:
+def _rigid(rule: Integrator, name: str, order: float | None) -> None:
     step, speed, force, mass = 1e-2, 3.0, 5.0, 2.0
     free = Oscillator(rule, 0.0, 0.0, mass)
     found = free.run(free.begun(0.0, speed), 10 * step, 10)
@@ -94,7 +94,8 @@ def _rigid(rule: Integrator, name: str) -> None:
     falls = Oscillator(rule, 0.0, force, mass)
     found, time = falls.run(falls.begun(0.0, speed), 10 * step, 10), 10 * step
     way = speed * time + force / mass * time**2 / 2
-    close(f"{name}: place of a falling body", found[0], way, EXACT)
+    allowed = EXACT if order is not None and order >= 2 else force / mass * time * step
+    close(f"{name}: place of a falling body", found[0], way, allowed)
     close(
         f"{name}: momentum of a falling body", mass * found[1], mass * speed + force * time, EXACT
     )
