@@ -5,9 +5,10 @@
 
 import inspect
 import json
+import math
 import re
 from collections.abc import Iterator
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, fields, is_dataclass
 from pathlib import Path
 from typing import Any, get_args
 
@@ -128,11 +129,47 @@ def parts() -> str:
     return "\n".join(rows) + "\n"
 
 
+STEERING = """
+## Options of iterations
+
+Numbers that steer how enforcements search; they change what a step costs and whether its answer is
+found, not what is accepted. They are tables within the options of an enforcement,
+
+```toml
+[contact.options.iterations.interior]
+boundary = 0.99
+```
+
+and say what they do in `nmm/contact/iteration/options.py`.
+
+| table | options, with their defaults |
+|---|---|"""
+
+
+def steering() -> str:
+    """Return the table of the options of iterations."""
+    from nmm.contact.iteration.options import IterationOptions
+
+    rows = [STEERING]
+    for table in fields(IterationOptions):
+        values = vars(getattr(IterationOptions(), table.name))
+        said = [f"`{name}` {_value(value)}" for name, value in values.items()]
+        rows.append(f"| `[contact.options.iterations.{table.name}]` | {', '.join(said)} |")
+    return "\n".join(rows) + "\n"
+
+
+def _value(value: object) -> str:
+    if not is_dataclass(value):
+        return json.dumps(value)
+    inner = (f"{name} = {json.dumps(one)}" for name, one in vars(value).items() if one != math.inf)
+    return "{ " + ", ".join(inner) + " }"
+
+
 def pages() -> dict[str, str]:
     """Return the pages by file name."""
     return {
         "scene.md": page(SCENE, Scene, frozenset({"formulation"})),
-        "formulation.md": page(FORMULATION, Formulation) + "\n" + parts(),
+        "formulation.md": page(FORMULATION, Formulation) + "\n" + parts() + steering(),
     }
 
 

@@ -171,7 +171,7 @@ class Solver(PartTable):
 
     type: PartName = Field(
         default="auto",
-        description=f'"auto", "cholesky", "lu", "superlu", "qdldl" {OWN}',
+        description=f'"auto", "cholesky", "lu", "superlu", "qdldl", "mumps" {OWN}',
         examples=["cholesky"],
     )
 

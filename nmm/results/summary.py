@@ -6,6 +6,7 @@ import platform
 import types
 from collections import abc
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields
 from importlib import metadata
 from types import NoneType
@@ -23,6 +24,8 @@ UNKNOWN = "unknown"
 # Ends at which the factor that was reached is no failure load.
 ON_THE_WAY = ("failed", "collapsed", "budget_spent")
 PACKAGES = ("nmm-framework", "numpy", "scipy", "scikit-fem", "shapely", "numba")
+# Those that change an answer by rounding where they are installed.
+OPTIONAL = ("pymetis", "qdldl", "python-mumps")
 
 
 def installed_versions() -> dict[str, str]:
@@ -33,6 +36,9 @@ def installed_versions() -> dict[str, str]:
             found[name] = metadata.version(name)
         except metadata.PackageNotFoundError:
             found[name] = "not installed"
+    for name in OPTIONAL:
+        with suppress(metadata.PackageNotFoundError):
+            found[name] = metadata.version(name)
     return found
 
 
@@ -48,6 +54,8 @@ class Summary:
     blocks, elements, covers, unknowns, steps, passes, frames
         Counts; covers are physical covers, passes are contact passes summed over steps, frames are
         those stored, of the motion after failure too.
+    linear_solver
+        What factorises the matrices, and what orders large ones.
     cures
         What was done about dependent functions and small cuts, and on how many of them.
     audits
@@ -88,6 +96,7 @@ class Summary:
     elements: int = 0
     covers: int = 0
     unknowns: int = 0
+    linear_solver: str = ""
     cures: Mapping[str, int] = field(default_factory=dict)
     warnings: Sequence[str] = field(default_factory=list)
     audits: Mapping[str, float] = field(default_factory=dict)

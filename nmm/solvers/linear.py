@@ -1,47 +1,21 @@
-"""What a linear solver is: a decomposition; scaling, refinement and judgement are common to all."""
+"""What a linear solver is: a decomposition of scaled matrices, with settings; names of solvers."""
 
-import sys
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, Protocol, Self
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Self
 
-import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.errors import SolveError
 from nmm.registry import Registry
-from nmm.solvers.draws import same_draws
-from nmm.solvers.krylov import minimal_residual
+from nmm.solvers.factor import Decomposition as Decomposition
+from nmm.solvers.factor import Factor as Factor
+from nmm.solvers.factor import RankDeficientError as RankDeficientError
+from nmm.solvers.scaling import jacobi_scale
 
-ACCEPTED = 1e-8
-"""Largest relative residual of a solution; above it the load works on a free motion."""
 SHIFT = 1e-10
 """Part of the diagonal added to a rank-deficient matrix (Duarte, Babuska, Oden 2000)."""
-PIVOT = 1e-15
-"""Part of the diagonal added to every matrix: what rounding changes anyway. It keeps a pivot of a
-rank-deficient matrix from being exactly zero, over which decompositions trip."""
-DIRECTIONS = 12
-"""Most directions in which the shift of a decomposition is taken out at once."""
-FLOOR = 1e-14
-"""Residual that rounding leaves for each unit of the solution."""
-SLOW = 1e-10
-"""Residual above which refinement of a shifted matrix is given help."""
-GROWTH = 1e13
-"""Growth of a scaled solution over its load that only a rank-deficient matrix shows."""
-
-
-class RankDeficientError(Exception):
-    """A decomposition met a pivot that is exactly zero."""
-
-
-class Decomposition(Protocol):
-    """Triangular factors of a matrix with unit diagonal."""
-
-    def solve(self, rhs: Floats) -> Floats:
-        """Return the solution of one right-hand side."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -91,222 +65,18 @@ class LinearSolver(ABC):
         """(n,) factors that bring the matrix to entries of about one."""
         return jacobi_scale(matrix)
 
+    def describe(self, unknowns: int) -> str:
+        """Name of what factorises symmetric matrices of so many unknowns, for summaries."""
+        return self.name
+
     def deflated(self) -> Self:
         """Return the solver with the shift for rank-deficient matrices."""
         return replace(self, shift=SHIFT, refinements=max(self.refinements, 5))
 
 
-@dataclass
-class Factor:
-    """A factorised matrix.
-
-    ``matrix = diag(1/scale) S diag(1/scale)``, and ``S`` (unit diagonal) is what was decomposed.
-
-    Attributes
-    ----------
-    solver
-        The solver that made it.
-    matrix
-        (n, n) as given.
-    scale
-        (n,) symmetric Jacobi scaling.
-    deflated
-        True when the matrix was found rank-deficient and is solved with a shift; solutions are
-        then one of many, the one of least size, for loads that do no work on free motions.
-    """
-
-    solver: LinearSolver
-    matrix: csc_array
-    scale: Floats
-    decomposition: Decomposition
-    deflated: bool = False
-    _fallback: "Factor | None" = field(default=None, repr=False)
-
-    @classmethod
-    def of(cls, solver: LinearSolver, matrix: csc_array) -> "Factor":
-        """Scale and factorise; a zero pivot leads to the shifted matrix.
-
-        Raises
-        ------
-        SolveError
-            When an entry is not finite, or the shifted matrix has a zero pivot too.
-        """
-        if not np.isfinite(matrix.data).all():
-            raise SolveError(
-                "linear system: the matrix holds numbers that are not finite: expected finite "
-                "stiffnesses and masses: check materials and the size of the step"
-            )
-        scale = solver.scaling(matrix)
-        scaled = _scaled(matrix, scale, max(solver.shift, PIVOT))
-        try:
-            return cls(solver, matrix, scale, solver.decompose(scaled))
-        except RankDeficientError:
-            shifted = solver.deflated()
-            try:
-                parts = shifted.decompose(_scaled(matrix, scale, shifted.shift))
-            except RankDeficientError as fault:
-                raise SolveError(
-                    f"linear system of {len(scale)} unknowns: {fault}, though shifted by "
-                    f"{shifted.shift:.0e}: expected a supported system: add supports, contacts or "
-                    "inertia",
-                    singular=True,
-                ) from fault
-            return cls(shifted, matrix, scale, parts, deflated=True)
-
-    def solve(self, rhs: Floats) -> Floats:
-        """Solve ``matrix @ x = rhs`` with refinement.
-
-        Raises
-        ------
-        SolveError
-            When no solution exists: the matrix is singular and the load moves a free part.
-        """
-        x, residual, growth = self._refined(rhs)
-        if residual <= _limit(growth) and growth < GROWTH:
-            return x
-        if not self.deflated:
-            if self._fallback is None:
-                self._fallback = self._shifted()
-            return self._fallback.solve(rhs)
-        if residual <= _limit(growth):
-            return x
-        at = self.weakest_unknown(x)
-        raise SolveError(
-            f"linear system of {len(rhs)} unknowns: residual {residual:.1e} of the load, largest "
-            f"at unknown {at}: expected a supported system: the matrix is singular and the load "
-            "moves a free part; add supports, contacts or inertia",
-            singular=True,
-        )
-
-    def apply(self, rhs: Floats) -> Floats:
-        """Return one application of the factors without refinement, for preconditioning."""
-        return np.asarray(self.scale * self.decomposition.solve(self.scale * rhs))
-
-    def refined(self, rhs: Floats) -> Floats:
-        """Return a solution with refinement that is not judged: for steps of an iteration."""
-        return self._refined(rhs)[0]
-
-    def relative_residual(self, x: Floats, rhs: Floats) -> float:
-        """``|rhs - matrix @ x| / |rhs|`` in scaled quantities."""
-        size = float(np.linalg.norm(self.scale * rhs))
-        rest = float(np.linalg.norm(self.scale * (rhs - self.matrix @ x)))
-        return rest / size if size > 0 else rest
-
-    def weakest_unknown(self, x: Floats) -> int:
-        """Unknown that moves most in ``x``, scaled: in a free motion if the matrix is singular."""
-        return int(np.argmax(np.abs(x / self.scale)))
-
-    def condition(self) -> float:
-        """Estimate of the 1-norm condition number of the scaled matrix (Higham, Tisseur 2000)."""
-        from scipy.sparse.linalg import LinearOperator, onenormest
-
-        scaled = _scaled(self.matrix, self.scale, 0.0)
-        solve = self.decomposition.solve
-        inverse = LinearOperator(scaled.shape, matvec=solve, rmatvec=solve, dtype=np.float64)
-        with same_draws():
-            norm = onenormest(inverse)
-        return float(abs(scaled).sum(axis=0).max() * norm)
-
-    def _refined(self, rhs: Floats) -> tuple[Floats, float, float]:
-        load = self.scale * rhs
-        size = float(np.linalg.norm(load))
-        if size == 0.0:
-            return np.zeros_like(load), 0.0, 0.0
-        x = self.apply(rhs)
-        best, rest = x, np.inf
-        for turn in range(self.solver.refinements + 1):
-            defect = rhs - self.matrix @ x
-            found = float(np.linalg.norm(self.scale * defect)) / size
-            if not found < rest:
-                break
-            # Rounding has the last word where a turn does not halve what is left; a shift is slow.
-            stays = found > 0.5 * rest and not self.solver.shift
-            best, rest = x, found
-            if stays or rest < 1e-15 or turn == self.solver.refinements:
-                break
-            x = x + self.apply(defect)
-        if self.solver.shift and rest > SLOW:
-            # Directions about as soft as the shift: refinement would take hundreds of turns.
-            tried, left = self._minimised(load, size)
-            if left < rest:
-                best, rest = tried, left
-        growth = float(np.abs(best / self.scale).max() / np.abs(load).max())
-        return best, rest, growth
-
-    def _minimised(self, load: Floats, size: float) -> tuple[Floats, float]:
-        """Solution with the shift taken out by minimal residuals, and its residual."""
-
-        def product(x: Floats) -> Floats:
-            return np.asarray(self.scale * (self.matrix @ (self.scale * x)))
-
-        x = minimal_residual(
-            product, self.decomposition.solve, load, directions=DIRECTIONS, tolerance=1e-14
-        )
-        rest = float(np.linalg.norm(load - product(x))) / size
-        return self.scale * x, rest
-
-    def _shifted(self) -> "Factor":
-        shifted = self.solver.deflated()
-        parts = shifted.decompose(_scaled(self.matrix, self.scale, shifted.shift))
-        return Factor(shifted, self.matrix, self.scale, parts, deflated=True)
-
-
 def sorted_rows(matrix: csc_array) -> csc_array:
     """Return the matrix with ascending rows in every column, itself where it has them."""
     return matrix if matrix.has_sorted_indices else matrix.sorted_indices()
-
-
-def _limit(growth: float) -> float:
-    """Residual to accept: where the solution outgrows its load, rounding of it sets the floor."""
-    return max(ACCEPTED, FLOOR * growth)
-
-
-def jacobi_scale(matrix: csc_array) -> Floats:
-    """(n,) ``1/sqrt(|a_ii|)``; the largest entry of the column stands in for a zero diagonal."""
-    diagonal = np.abs(matrix.diagonal())
-    if (diagonal == 0.0).any():
-        largest = np.asarray(abs(matrix).max(axis=0).todense()).ravel()
-        diagonal = np.where(diagonal > 0, diagonal, np.where(largest > 0, largest, 1.0))
-    return np.asarray(1.0 / np.sqrt(diagonal))
-
-
-def ruiz_scale(matrix: csc_array, sweeps: int = 3) -> Floats:
-    """(n,) factors that bring the largest entry of every row and column near one (Ruiz 2001)."""
-    size = csc_array((np.abs(matrix.data), matrix.indices, matrix.indptr), shape=matrix.shape)
-    scale = np.ones(matrix.shape[0])
-    for _ in range(sweeps):
-        now = _scaled(size, scale, 0.0)
-        rows = np.asarray(now.max(axis=1).todense()).ravel()
-        columns = np.asarray(now.max(axis=0).todense()).ravel()
-        largest = np.maximum(rows, columns)
-        scale = scale / np.sqrt(np.where(largest > 0, largest, 1.0))
-    return scale
-
-
-def _scaled(matrix: csc_array, scale: Floats, shift: float) -> csc_array:
-    """``diag(scale) matrix diag(scale)`` plus ``shift`` on the diagonal; zeros keep their place."""
-    data, diagonals = _scaled_data(matrix, scale, shift)
-    scaled = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
-    if shift and diagonals < len(scale):
-        from scipy.sparse import eye_array
-
-        data, _ = _scaled_data(matrix, scale, 0.0)
-        plain = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
-        scaled = csc_array(plain + shift * eye_array(len(scale)))
-    return scaled
-
-
-def _scaled_data(matrix: csc_array, scale: Floats, shift: float) -> tuple[Floats, int]:
-    """Scaled entries, the shift added to those on the diagonal, and the number of these."""
-    if "numba" in sys.modules and matrix.indices.dtype == np.int32:
-        from nmm.solvers.scaling import scaled_data
-
-        return scaled_data(matrix.indptr, matrix.indices, matrix.data, scale, shift)
-    column = np.repeat(np.arange(len(scale)), np.diff(matrix.indptr))
-    data = matrix.data * scale[matrix.indices] * scale[column]
-    diagonal = np.flatnonzero(matrix.indices == column)
-    data[diagonal] += shift
-    return data, len(diagonal)
 
 
 SOLVERS: Registry[type[LinearSolver]] = Registry(
@@ -318,6 +88,7 @@ SOLVERS: Registry[type[LinearSolver]] = Registry(
         "lu": "nmm.solvers.frontal.lu:FrontalLU",
         "superlu": "nmm.solvers.superlu:SuperLU",
         "qdldl": "nmm.solvers.qdldl:Qdldl",
+        "mumps": "nmm.solvers.mumps:Mumps",
     },
 )
 

@@ -1,30 +1,56 @@
-"""Scaled copy of a matrix in one sweep of compiled code."""
+"""Scaling of matrices to entries of about one, before they are decomposed."""
 
-import numba as nb
+import sys
+
 import numpy as np
-import numpy.typing as npt
+from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 
-Index = npt.NDArray[np.int32]
+
+def jacobi_scale(matrix: csc_array) -> Floats:
+    """(n,) ``1/sqrt(|a_ii|)``; the largest entry of the column stands in for a zero diagonal."""
+    diagonal = np.abs(matrix.diagonal())
+    if (diagonal == 0.0).any():
+        largest = np.asarray(abs(matrix).max(axis=0).todense()).ravel()
+        diagonal = np.where(diagonal > 0, diagonal, np.where(largest > 0, largest, 1.0))
+    return np.asarray(1.0 / np.sqrt(diagonal))
 
 
-@nb.njit(cache=True)
-def scaled_data(
-    indptr: Index, indices: Index, data: Floats, scale: Floats, shift: float
-) -> tuple[Floats, int]:
-    """Entries of ``diag(scale) A diag(scale) + shift``, and how many columns have a diagonal.
+def ruiz_scale(matrix: csc_array, sweeps: int = 3) -> Floats:
+    """(n,) factors that bring the largest entry of every row and column near one (Ruiz 2001)."""
+    size = csc_array((np.abs(matrix.data), matrix.indices, matrix.indptr), shape=matrix.shape)
+    scale = np.ones(matrix.shape[0])
+    for _ in range(sweeps):
+        now = scaled(size, scale, 0.0)
+        rows = np.asarray(now.max(axis=1).todense()).ravel()
+        columns = np.asarray(now.max(axis=0).todense()).ravel()
+        largest = np.maximum(rows, columns)
+        scale = scale / np.sqrt(np.where(largest > 0, largest, 1.0))
+    return scale
 
-    On 100 bricks it takes 30 us, array operations 100.
-    """
-    found = np.empty_like(data)
-    diagonals = 0
-    for j in range(len(scale)):
-        own = scale[j]
-        for k in range(indptr[j], indptr[j + 1]):
-            i = indices[k]
-            found[k] = data[k] * scale[i] * own
-            if i == j:
-                found[k] += shift
-                diagonals += 1
-    return found, diagonals
+
+def scaled(matrix: csc_array, scale: Floats, shift: float) -> csc_array:
+    """``diag(scale) matrix diag(scale)`` plus ``shift`` on the diagonal; zeros keep their place."""
+    data, diagonals = _scaled_data(matrix, scale, shift)
+    scaled = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
+    if shift and diagonals < len(scale):
+        from scipy.sparse import eye_array
+
+        data, _ = _scaled_data(matrix, scale, 0.0)
+        plain = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
+        scaled = csc_array(plain + shift * eye_array(len(scale)))
+    return scaled
+
+
+def _scaled_data(matrix: csc_array, scale: Floats, shift: float) -> tuple[Floats, int]:
+    """Scaled entries, the shift added to those on the diagonal, and the number of these."""
+    if "numba" in sys.modules and matrix.indices.dtype == np.int32:
+        from nmm.solvers.scaling_kernel import scaled_data
+
+        return scaled_data(matrix.indptr, matrix.indices, matrix.data, scale, shift)
+    column = np.repeat(np.arange(len(scale)), np.diff(matrix.indptr))
+    data = matrix.data * scale[matrix.indices] * scale[column]
+    diagonal = np.flatnonzero(matrix.indices == column)
+    data[diagonal] += shift
+    return data, len(diagonal)

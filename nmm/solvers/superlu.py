@@ -9,8 +9,10 @@ from scipy.sparse.linalg import SuperLU as Decomposed
 from scipy.sparse.linalg import splu
 
 from integration.arrays import Floats
-from nmm.solvers.linear import LinearSolver, RankDeficientError, jacobi_scale, ruiz_scale
+from nmm.solvers.factor import RankDeficientError
+from nmm.solvers.linear import LinearSolver
 from nmm.solvers.saddle import saddle_scale
+from nmm.solvers.scaling import jacobi_scale, ruiz_scale
 
 
 @dataclass(frozen=True)
@@ -61,3 +63,16 @@ class SuperLU(LinearSolver):
     def unsymmetric(self) -> "SuperLU":
         """Pivots within a factor 10 of the largest entry, refined twice."""
         return replace(self, pivot_threshold=0.1, refinements=max(self.refinements, 2))
+
+
+@dataclass(frozen=True)
+class DefiniteSolver(LinearSolver):
+    """Base of solvers without a search of pivots: SuperLU takes the matrices that need one."""
+
+    def indefinite(self) -> LinearSolver:
+        """SuperLU, which searches pivots."""
+        return SuperLU(self.refinements, self.shift).indefinite()
+
+    def unsymmetric(self) -> LinearSolver:
+        """SuperLU, unless the solver has factors of its own for such matrices."""
+        return SuperLU(self.refinements, self.shift).unsymmetric()

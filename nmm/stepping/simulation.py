@@ -290,6 +290,7 @@ class Simulation:
             elements=len(self.stepper.model.manifold.elements),
             covers=self.stepper.model.manifold.n_covers,
             unknowns=self.stepper.model.manifold.n_unknowns,
+            linear_solver=self.stepper.solver.describe(self.stepper.model.manifold.n_unknowns),
             cures=cures(
                 self.stepper.model.manifold, self.stepper.solver, self.stepper.plan.supports
             ),

@@ -6,14 +6,16 @@ from typing import ClassVar
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from nmm.solvers.factor import Decomposition
 from nmm.solvers.frontal import fronts
 from nmm.solvers.frontal.blas import addresses, words
 from nmm.solvers.frontal.factor_blocks import Borrowed, Panels
 from nmm.solvers.frontal.lu import FrontalLU
+from nmm.solvers.frontal.metis import ordering
 from nmm.solvers.frontal.symbolic import symmetric_plan
 from nmm.solvers.frontal.workspace import Loan
-from nmm.solvers.linear import Decomposition, LinearSolver, sorted_rows
-from nmm.solvers.superlu import SuperLU
+from nmm.solvers.linear import sorted_rows
+from nmm.solvers.superlu import DefiniteSolver, SuperLU
 from nmm.solvers.threads import one_thread
 
 
@@ -29,7 +31,7 @@ class Factorised(Panels):
 
 
 @dataclass(frozen=True)
-class Cholesky(LinearSolver):
+class Cholesky(DefiniteSolver):
     """``A = L L^T`` by dense fronts (Duff, Reid 1983; LAPACK within a front).
 
     A matrix that is not positive definite is left to `FrontalLU`, one that is not symmetric to
@@ -62,9 +64,9 @@ class Cholesky(LinearSolver):
             return self.unsymmetric().decompose(matrix)
         return Factorised(plan, panels)
 
-    def indefinite(self) -> SuperLU:
-        """SuperLU, which searches pivots."""
-        return SuperLU(self.refinements, self.shift).indefinite()
+    def describe(self, unknowns: int) -> str:
+        """See `LinearSolver.describe`."""
+        return f"{self.name} with orders of {ordering()}"
 
     def unsymmetric(self) -> FrontalLU:
         """LU on the same fronts, refined twice."""

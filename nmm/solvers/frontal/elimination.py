@@ -17,6 +17,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
 from nmm.solvers.frontal.dissection import dissect
+from nmm.solvers.frontal.metis import metis, metis_order
 from nmm.solvers.frontal.scatter import Shape, lower_places, upper_places
 
 Index = npt.NDArray[np.int32]
@@ -152,6 +153,8 @@ def _columns(graph_ptr: Index, graph: Index, weight: Ints) -> _Columns:
 
 
 def _dissected(graph_ptr: Index, graph: Index, weight: Ints) -> Ints:
+    if metis() is not None:
+        return metis_order(graph_ptr, graph, weight)
     n = len(weight)
     inside, separators = dissect(graph_ptr, graph, weight)
     ones = csc_array((np.ones(len(graph)), graph, graph_ptr), shape=(n, n))

@@ -8,13 +8,15 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from nmm.solvers.factor import Decomposition
 from nmm.solvers.frontal import lu_fronts
 from nmm.solvers.frontal.blas import Index, addresses, words
 from nmm.solvers.frontal.factor_blocks import Borrowed, Panels
+from nmm.solvers.frontal.metis import ordering
 from nmm.solvers.frontal.symbolic import any_plan
 from nmm.solvers.frontal.workspace import Loan
-from nmm.solvers.linear import Decomposition, LinearSolver, sorted_rows
-from nmm.solvers.superlu import SuperLU
+from nmm.solvers.linear import sorted_rows
+from nmm.solvers.superlu import DefiniteSolver, SuperLU
 from nmm.solvers.threads import one_thread
 
 TRUSTED = 1e-6
@@ -36,7 +38,7 @@ class FactorisedLU(Panels):
 
 
 @dataclass(frozen=True)
-class FrontalLU(LinearSolver):
+class FrontalLU(DefiniteSolver):
     """``A = L U`` by dense fronts (Duff, Reid 1984), pivots searched within a front's own block.
 
     For matrices whose pattern is nearly symmetric and whose diagonal blocks are good pivots. Each
@@ -55,9 +57,9 @@ class FrontalLU(LinearSolver):
             return found
         return SuperLU(self.refinements, self.shift).unsymmetric().decompose(matrix)
 
-    def indefinite(self) -> SuperLU:
-        """SuperLU, which searches pivots."""
-        return SuperLU(self.refinements, self.shift).indefinite()
+    def describe(self, unknowns: int) -> str:
+        """See `LinearSolver.describe`."""
+        return f"{self.name} with orders of {ordering()}"
 
     def unsymmetric(self) -> "FrontalLU":
         """Return this solver: it is for such matrices."""

@@ -8,7 +8,7 @@ from scipy.sparse import csc_array, diags_array
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.errors import SolveError
-from nmm.solvers.linear import jacobi_scale
+from nmm.solvers.scaling import jacobi_scale
 
 # Part of its diagonal added to the stiffness: dependent functions, which have no mass, get infinite
 # frequencies by it.

@@ -1,23 +1,49 @@
 """Linear solvers behind one interface: the suite of all, refinement, options."""
 
+import sys
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from scipy.sparse import csc_array, eye_array
 
+import nmm
 from integration.arrays import Floats
 from nmm.errors import FormulationError, SolveError
 from nmm.solvers.linear import SOLVERS, Factor, make_solver
+from nmm.solvers.optional import MUMPS, QDLDL
 from nmm.testing import check_solver
 from nmm.testing.solvers import free_row
 
-NAMES = SOLVERS.names()
+# Solvers of other packages are tested where these are installed and load.
+NEEDS = {"qdldl": QDLDL, "mumps": MUMPS}
+NAMES = [name for name in SOLVERS.names() if name not in NEEDS or NEEDS[name].loads]
 
 
 @pytest.fixture(params=NAMES)
 def solver_name(request: pytest.FixtureRequest) -> str:
-    if request.param == "qdldl":
-        pytest.importorskip("qdldl")
     return str(request.param)
+
+
+def test_every_built_in_solver_is_tested_here() -> None:
+    assert {"auto", "cholesky", "lu", "superlu"} <= set(NAMES)
+
+
+@pytest.mark.parametrize(("name", "package"), [("qdldl", "qdldl"), ("mumps", "python-mumps")])
+def test_a_solver_that_is_not_installed_names_its_package(
+    monkeypatch: pytest.MonkeyPatch, name: str, package: str
+) -> None:
+    monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(FormulationError, match=f"not installed.*package {package}"):
+        make_solver(name).factorise(csc_array(np.eye(2)))
+
+
+@pytest.mark.parametrize("unknowns", [10, 10**6])
+def test_a_solver_says_what_it_factorises_with(solver_name: str, unknowns: int) -> None:
+    said = make_solver(solver_name).describe(unknowns)
+    assert said.startswith(solver_name)
+    if solver_name == "auto":
+        assert ("superlu" if unknowns == 10 else "cholesky with orders of") in said
 
 
 def test_a_solver_keeps_what_every_solver_promises(solver_name: str) -> None:
@@ -59,3 +85,8 @@ def test_unknown_solver_and_option_are_refused() -> None:
         make_solver("superl")
     with pytest.raises(FormulationError, match="refinements"):
         make_solver("superlu", {"refinement": 2})
+
+
+def test_the_summary_of_a_run_names_its_solver(bar_text: Callable[..., str]) -> None:
+    scene = nmm.parse_scene(bar_text(poisson=0.0, more='[formulation.solver]\ntype = "superlu"\n'))
+    assert nmm.run(scene).summary.linear_solver == "superlu"

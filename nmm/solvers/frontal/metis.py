@@ -1,0 +1,42 @@
+"""Nested dissection by METIS (Karypis, Kumar 1998), where the package pymetis is installed."""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from integration.arrays import Ints
+from nmm.solvers.optional import METIS
+
+Index = npt.NDArray[np.int32]
+
+
+@cache
+def metis() -> Any:
+    """Return the package; None where it is not installed or does not load."""
+    return METIS.load("cholesky") if METIS.loads else None
+
+
+def ordering() -> str:
+    """Name of what dissects large graphs, for summaries."""
+    return "METIS" if metis() is not None else "nested dissection of its own"
+
+
+def metis_order(ptr: Index, graph: Index, weight: Ints) -> Ints:
+    """Order of elimination of the nodes of a graph that lists each node beside itself.
+
+    Parameters
+    ----------
+    ptr, graph
+        Neighbours of each node.
+    weight
+        (n,) unknowns of each node.
+    """
+    owner = np.repeat(np.arange(len(ptr) - 1), np.diff(ptr))
+    others = graph != owner
+    starts = np.concatenate([[0], np.cumsum(np.bincount(owner[others], minlength=len(ptr) - 1))])
+    package = metis()
+    adjacency = package.CSRAdjacency(starts.astype(np.int32), graph[others])
+    order, _ = package.nested_dissection(adjacency, vweights=weight.astype(np.int32))
+    return np.asarray(order, dtype=np.int64)
