@@ -165,8 +165,8 @@ class Factor:
         x = self.apply(rhs)
         best, rest = x, np.inf
         for turn in range(self.solver.refinements + 1):
-            defect = rhs - self.matrix @ x
-            found = float(np.linalg.norm(self.scale * defect)) / size
+            residual = rhs - self.matrix @ x
+            found = float(np.linalg.norm(self.scale * residual)) / size
             if not found < rest:
                 break
             # Rounding has the last word where a turn does not halve what is left; a shift is slow.
@@ -174,7 +174,7 @@ class Factor:
             best, rest = x, found
             if stays or rest < 1e-15 or turn == self.solver.refinements:
                 break
-            x = x + self.apply(defect)
+            x = x + self.apply(residual)
         if self.solver.shift and rest > SLOW:
             # Directions about as soft as the shift: refinement would take hundreds of turns.
             tried, left = self._minimised(load, size)

@@ -97,8 +97,8 @@ def _sides(well: Potential) -> Complementarity:
     problem = well.shifted
     springs = CutSprings.of(problem)
     stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
-    ease = np.where(well.spring, 1 / stiffness, np.stack(compliances(problem)))
-    return Complementarity.of(springs, ~well.spring, ease)
+    compliance = np.where(well.spring, 1 / stiffness, np.stack(compliances(problem)))
+    return Complementarity.of(springs, ~well.spring, compliance)
 
 
 def _free(newton: Newton, point: InteriorIterate) -> Start:

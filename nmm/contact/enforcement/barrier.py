@@ -73,15 +73,15 @@ class Barrier(IterativeEnforcement):
         except SolveError as fault:
             return singular_answer(springs, linear_solver, fault)
         force = max(float(np.abs(f).max(initial=0.0)) for f in springs.forces(rough.increment))
-        ease = float(np.mean(compliances(problem)[0])) if problem.n_contacts else 1.0
+        compliance = float(np.mean(compliances(problem)[0])) if problem.n_contacts else 1.0
         moved = float(np.abs(problem.normal_rows @ rough.increment).max(initial=0.0))
-        fit = 1e-3 * (force * ease or moved or ease)
+        fit = 1e-3 * (force * compliance or moved or compliance)
         # A first touch that hardly presses says little of what is to come.
         kept = memory.barrier_width if (memory.barrier_width or 0.0) > TOO_THIN * fit else None
         width = self.width or kept or fit
         if force > 0:  # blocks that fly do not yet say how hard they will meet
             memory.barrier_width = width
-        well = Potential(problem, width, max(force, width / ease) / width)
+        well = Potential(problem, width, max(force, width / compliance) / width)
         search = Search(
             well,
             memory.pattern_of(problem),

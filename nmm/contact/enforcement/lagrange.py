@@ -7,22 +7,20 @@ import numpy as np
 from scipy.sparse import block_array, csc_array, diags_array
 
 from integration.arrays import Floats
-from nmm.contact.enforcement.iterative import IterativeEnforcement
-from nmm.contact.iteration.answers import answer, singular_answer
+from nmm.contact.enforcement.iterative import ExactEnforcement
 from nmm.contact.iteration.exact import exact_round
+from nmm.contact.iteration.interior_point import Goal
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import (
     MultiplierIterate,
     compliances,
-    exact_goal,
     measured,
-    rounds_verdict,
     stiff_springs,
 )
 from nmm.contact.iteration.open_close import ActiveSet, changes, first_active_set
 from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
-from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+from nmm.contact.problem.step_problem import StepProblem
 from nmm.errors import SolveError
 from nmm.registry import above_zero
 from nmm.solvers.linear import LinearSolver
@@ -34,7 +32,7 @@ REFINEMENTS = 10
 
 
 @dataclass(frozen=True)
-class Lagrange(IterativeEnforcement):
+class Lagrange(ExactEnforcement):
     """Contact forces as unknowns: ``[K G; G^T 0] [d; lambda] = [F; -gap]`` (Cai, Liang, Ma 2000).
 
     A pass solves the system of the closed contacts, with a shear multiplier where they stick and
@@ -53,40 +51,21 @@ class Lagrange(IterativeEnforcement):
         Most corrections of the active set.
     rescue
         Most factorisations of the interior point.
-    tolerance
-        Largest relative out-of-balance force (-).
-    gap_tolerance
-        Largest gap or slip that should not be, over the compliance times the largest force (-);
-        ``tolerance`` stands in for it in problems of up to 120 unknowns.
     """
 
     name: ClassVar[str] = "lagrange"
-    multipliers: ClassVar[bool] = True
     max_passes: int = above_zero(20)
     rescue: int = 100
-    tolerance: float = above_zero(1e-8)
-    gap_tolerance: float = above_zero(1e-7)
 
-    def solve(
-        self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
-    ) -> StepAnswer:
+    def forces(
+        self, problem: StepProblem, linear: LinearSolver, memory: Memory, goal: Goal
+    ) -> tuple[MultiplierIterate, str]:
         """Correct the active set until it stands."""
-        problem.check()
-        memory = memory or Memory()
-        goal = exact_goal(problem, self.tolerance, self.gap_tolerance)
-        at, how = self._active_set(stiff_springs(problem, 1.0), linear_solver)
+        at, how = self._active_set(stiff_springs(problem, 1.0), linear)
         if at is None or not at.meets(goal):
-            try:
-                at, rest = exact_round(
-                    problem, linear_solver, memory, goal, self.rescue, self.iterations
-                )
-            except SolveError as fault:
-                return singular_answer(
-                    stiff_springs(problem, self.iterations.rounds.start), linear_solver, fault
-                )
+            at, rest = exact_round(problem, linear, memory, goal, self.rescue, self.iterations)
             how = f"{how}, then {rest}"
-        verdict = rounds_verdict(at, linear_solver, memory, goal, how)
-        return answer(at.result, linear_solver, verdict)
+        return at, how
 
     def _active_set(
         self, springs: CutSprings, linear: LinearSolver
@@ -110,7 +89,7 @@ class Lagrange(IterativeEnforcement):
                     np.where(problem.own_stiffness, 0.0, normal),
                     np.where(problem.own_stiffness, 0.0, shear),
                 )
-                size = shifted.defect(increment).size
+                size = shifted.residual(increment).size
                 result = IterationResult(shifted, increment, size, passes, passes, "")
                 return measured(result, passes), f"{passes} active sets"
             if found.code in seen:
@@ -137,8 +116,8 @@ def _saddle(
     pressing = normal_rows.T - problem.tangent_rows[closed].T @ diags_array(drag)
     soft = [np.where(own, 1 / k, 0.0) for k in (problem.normal_stiffness, problem.shear_stiffness)]
     compliance = np.concatenate([soft[0][closed], soft[1][stuck]])
-    ease = compliances(problem)
-    regular = compliance + SOFT * np.concatenate([ease[0][closed], ease[1][stuck]])
+    normal_part, shear_part = compliances(problem)
+    regular = compliance + SOFT * np.concatenate([normal_part[closed], shear_part[stuck]])
 
     pull = np.where(active.closed, 0.0, limits.tension)
     # Without the friction of the unknown normal force: the bound under no pressure.
@@ -189,11 +168,11 @@ def _corrected(
     limits, own = problem.limits, problem.own_stiffness
     gap, slip = problem.gaps(increment), problem.slips(increment)
     force = max(float(np.abs(normal).max(initial=0.0)), float(np.abs(shear).max(initial=0.0)))
-    ease = compliances(problem)
+    compliance = compliances(problem)
     near_force, near_gap, near_slip = (
         1e-12 * force,
-        1e-10 * force * ease[0],
-        1e-10 * force * ease[1],
+        1e-10 * force * compliance[0],
+        1e-10 * force * compliance[1],
     )
     stretch = np.where(own, limits.tension / problem.normal_stiffness, 0.0)
     stretch = np.where(np.isfinite(stretch), stretch, 0.0)

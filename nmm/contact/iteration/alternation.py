@@ -14,7 +14,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.iteration.memory import KeptFactor, Memory
-from nmm.contact.iteration.modified_newton import Chord
+from nmm.contact.iteration.modified_newton import ModifiedNewton
 from nmm.contact.iteration.options import DEFAULT, AlternationOptions, Patience
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.errors import SolveError
@@ -28,7 +28,7 @@ class IterationBudget:
     Attributes
     ----------
     solves
-        Most chord steps.
+        Most search steps.
     factors
         Most factorisations of the springs that act.
     interior
@@ -54,7 +54,7 @@ class Alternation:
     ) -> None:
         self.springs, self.linear, self.memory = springs, linear, memory
         self.tolerance, self.options = tolerance, options
-        self.increment, self.defect = increment, springs.defect(increment)
+        self.increment, self.residual = increment, springs.residual(increment)
         self.solves = self.factorisations = 0
 
     def run(self, budget: IterationBudget) -> IterationResult:
@@ -69,11 +69,11 @@ class Alternation:
         self._steps(kept.factor, min(options.wide, budget.solves), options.slow)
         narrow = 0
         while self._open and narrow < budget.factors and self.solves < budget.solves:
-            before, narrow = self.defect.size, narrow + 1
+            before, narrow = self.residual.size, narrow + 1
             factor = self._acting()
             if factor is not None:
                 self._steps(factor, options.narrow, options.lost)
-            if self._open and not self.defect.size < options.renewed * before:
+            if self._open and not self.residual.size < options.renewed * before:
                 if not kept.as_new(self.springs.problem):
                     self.memory.forget(kept)
                     kept = self._all_acting()
@@ -82,7 +82,7 @@ class Alternation:
         return IterationResult(
             self.springs,
             self.increment,
-            self.defect.size,
+            self.residual.size,
             self.solves,
             self.factorisations,
             story,
@@ -90,7 +90,7 @@ class Alternation:
 
     @property
     def _open(self) -> bool:
-        return not self.defect.size <= self.tolerance
+        return not self.residual.size <= self.tolerance
 
     def _all_acting(self) -> KeptFactor:
         kept, new = self.memory.factor_of(self.springs, self.linear)
@@ -116,7 +116,7 @@ class Alternation:
             return None
 
     def _steps(self, factor: Factor, budget: int, patience: Patience | None = None) -> None:
-        chord = Chord(self.springs, factor, self.increment, self.defect, self.options)
-        chord.run(budget, self.tolerance, patience)
-        self.solves += chord.solves
-        self.increment, self.defect = chord.increment, chord.defect
+        search = ModifiedNewton(self.springs, factor, self.increment, self.residual, self.options)
+        search.run(budget, self.tolerance, patience)
+        self.solves += search.solves
+        self.increment, self.residual = search.increment, search.residual

@@ -81,7 +81,7 @@ def judge(
 def worst_contacts(springs: CutSprings, increment: Floats) -> tuple[int, ...]:
     """Up to ten contacts on whose unknowns the out-of-balance force is largest."""
     problem = springs.problem
-    rest = np.abs(springs.weight**2 * springs.defect(increment).force)
+    rest = np.abs(springs.weight**2 * springs.residual(increment).force)
     felt = abs(problem.normal_rows) @ rest + abs(problem.tangent_rows) @ rest
     return tuple(int(i) for i in np.argsort(-felt)[:10])
 
@@ -105,7 +105,7 @@ def free_part(found: IterationResult, linear: LinearSolver, memory: Memory) -> V
         shear = np.where(is_open | sliding, 0.0, springs.shear_stiffness)
         try:
             factor = linear.factorise(pattern.matrix(problem, normal, shear))
-            increment = increment - factor.solve(springs.defect(increment).force)
+            increment = increment - factor.solve(springs.residual(increment).force)
         except SolveError as fault:
             sentence = (
                 f"{int(is_open.sum())} of {problem.n_contacts} contacts open, "

@@ -52,7 +52,7 @@ class Complementarity:
         spring, which then is far softer than the blocks and carries what forces are found.
     exact
         (m,) contacts without compliance.
-    ease
+    compliance
         (2, m) normal and tangential compliance ``c`` (m/N) of what each exact contact joins, and
         of the other springs: by it forces and lengths compare.
     active
@@ -62,15 +62,17 @@ class Complementarity:
 
     springs: CutSprings
     exact: Bools
-    ease: Floats
+    compliance: Floats
     active: Bools
 
     @classmethod
-    def of(cls, springs: CutSprings, exact: Bools, ease: Floats) -> "Complementarity":
+    def of(cls, springs: CutSprings, exact: Bools, compliance: Floats) -> "Complementarity":
         """Sides of the contacts of ``springs``."""
         limits = springs.problem.limits
         bounded = np.isfinite(limits.cohesion) & ~frictionless(limits)
-        return cls(springs, exact, ease, np.stack([np.isfinite(limits.tension), bounded, bounded]))
+        return cls(
+            springs, exact, compliance, np.stack([np.isfinite(limits.tension), bounded, bounded])
+        )
 
     @property
     def smooth(self) -> Bools:
@@ -78,9 +80,9 @@ class Complementarity:
         return frictionless(self.springs.problem.limits)
 
     @property
-    def compliance(self) -> Floats:
+    def give(self) -> Floats:
         """(2, m) compliance (m/N) of springs; 0 of exact contacts."""
-        return np.where(self.exact, 0.0, self.ease)
+        return np.where(self.exact, 0.0, self.compliance)
 
     def mean(self, point: InteriorIterate) -> float:
         """Mean product of slack and flow (J)."""
@@ -102,7 +104,7 @@ class Complementarity:
         ``slack`` and ``flow`` are those of the normal force.
         """
         limits = self.springs.problem.limits
-        closes = slack * self.ease[0] > flow
+        closes = slack * self.compliance[0] > flow
         return np.where(self.active[1], shear_bound(normal, closes, limits), 0.0)
 
     def start(self, increment: Floats, trial: Floats, within: float) -> InteriorIterate:
@@ -118,19 +120,19 @@ class Complementarity:
         within
             Part (-) of its bound that a shear force may take up.
         """
-        springs, scale, limits = self.springs, self.ease, self.springs.problem.limits
+        springs, scale, limits = self.springs, self.compliance, self.springs.problem.limits
         normal, shear = trial
         typical = float(np.sqrt(np.mean(normal**2))) if len(normal) else 0.0
         typical = typical or 1.0
         pull = np.where(self.active[0], limits.tension, 0.0)
         p = np.maximum(pull - normal, typical)
-        stretch = (normal - springs.normal_shift) * self.compliance[0]
+        stretch = (normal - springs.normal_shift) * self.give[0]
         w = np.maximum(springs.problem.gaps(increment) - stretch, typical**2 * scale[0] / p)
         normal = np.where(self.active[0], pull - p, normal)
         bound = self.bound(normal, p, w)
         shear = np.where(self.active[1], np.clip(shear, -within * bound, within * bound), shear)
         shear = np.where(self.smooth, 0.0, shear)
-        stretch = (shear - springs.shear_shift) * self.compliance[1]
+        stretch = (shear - springs.shear_shift) * self.give[1]
         slip = springs.problem.slips(increment) - stretch
         a, b = (np.maximum(bound - side * shear, 1e-3 * typical) for side in (1, -1))
         u = np.maximum(slip, 0) + typical**2 * scale[1] / a
@@ -141,15 +143,17 @@ class Complementarity:
         """The admissible forces of a point as springs that carry them, and what they lack."""
         springs, increment = self.springs, point.increment
         if not self.exact.any():
-            return IterationResult(springs, increment, springs.defect(increment).size, 0, 0, "")
+            return IterationResult(springs, increment, springs.residual(increment).size, 0, 0, "")
         forces = np.stack(springs.cut(point.normal, point.shear))
         problem = springs.problem
         rows = problem.normal_rows, problem.tangent_rows
         moved = np.stack([problem.gap, problem.slip]) + stretched(*rows, increment)
-        meant = np.stack(springs.cut(*(forces + moved / self.ease)))
+        meant = np.stack(springs.cut(*(forces + moved / self.compliance)))
         largest = float(np.abs(forces).max(initial=0.0))
         lacks = float(np.abs(np.where(self.exact, meant - forces, 0.0)).max(initial=0.0))
         shifts = np.stack([springs.normal_shift, springs.shear_shift])
         carried = springs.shifted(*np.where(self.exact, forces, shifts))
         error = lacks / largest if largest > 0 else 0.0
-        return IterationResult(carried, increment, carried.defect(increment).size, 0, 0, "", error)
+        return IterationResult(
+            carried, increment, carried.residual(increment).size, 0, 0, "", error
+        )

@@ -105,7 +105,7 @@ def inside_start(
     """
     springs, exact = sides.springs, sides.exact
     stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
-    normal, shear = np.where(exact, 1 / sides.ease, stiffness)
+    normal, shear = np.where(exact, 1 / sides.compliance, stiffness)
     shifts = np.stack([springs.normal_shift, springs.shear_shift])
     alike = replace(springs, normal_stiffness=normal, shear_stiffness=shear).shifted(
         *np.where(exact, 0.0, shifts)

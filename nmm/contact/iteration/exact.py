@@ -105,8 +105,11 @@ def interior_round(
 
     Small problems are finished to rounding by rounds of Newton's method.
     """
-    springs, ease = stiff_springs(problem, options.rounds.slight), np.stack(compliances(problem))
-    sides = Complementarity.of(springs, ~problem.own_stiffness, ease)
+    springs, compliance = (
+        stiff_springs(problem, options.rounds.slight),
+        np.stack(compliances(problem)),
+    )
+    sides = Complementarity.of(springs, ~problem.own_stiffness, compliance)
     start, before = inside_start(sides, linear, memory, options), at or first_round(springs)
     found = InteriorPoint(sides, memory.pattern_of(problem), linear, options.interior).run(
         start, budget, goal
@@ -118,7 +121,7 @@ def interior_round(
     )
     forces = found.springs.forces(found.increment)
     largest = max(float(np.abs(force).max(initial=0.0)) for force in forces)
-    gap = found.error * largest * float(ease.max(initial=0.0))
+    gap = found.error * largest * float(compliance.max(initial=0.0))
     best = MultiplierIterate(found, before.count, found.error, gap, found.error)
     if len(problem.force) > SMALL:
         return best

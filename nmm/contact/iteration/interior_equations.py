@@ -32,7 +32,7 @@ class Linearised:
     ) -> None:
         self.problem, self.sides, self.at, self.solves = sides.springs.problem, sides, at, 0
         self._residuals()
-        give = np.where(sides.exact, soft * sides.ease, sides.compliance)
+        give = np.where(sides.exact, soft * sides.compliance, sides.give)
         follows = sides.active[1] & coupled
         self.slope = np.where(follows, bound_slope(at.normal, self.problem.limits), 0.0)
         self.ratio = np.where(sides.active, at.flow / at.slack, 0.0)
@@ -45,7 +45,7 @@ class Linearised:
 
     def _residuals(self) -> None:
         problem, sides, at = self.problem, self.sides, self.at
-        springs, give = sides.springs, sides.compliance
+        springs, give = sides.springs, sides.give
         flow = np.where(sides.active, at.flow, 0.0)
         bound = sides.bound(at.normal, at.slack[0], at.flow[0])
         held = np.stack([problem.limits.tension - at.normal, bound - at.shear, bound + at.shear])

@@ -11,13 +11,13 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.iteration.options import DEFAULT, AlternationOptions, Patience
-from nmm.contact.problem.cut_springs import CutSprings, Defect
+from nmm.contact.problem.cut_springs import CutSprings, Residual
 from nmm.solvers.anderson import Anderson
 from nmm.solvers.linear import Factor
 
 
 @dataclass
-class Chord:
+class ModifiedNewton:
     """State of the iteration; `run` may be called again with another factor.
 
     Attributes
@@ -26,7 +26,7 @@ class Chord:
         The equations.
     factor
         Factor of a matrix near that of all springs acting.
-    increment, defect
+    increment, residual
         Best unknowns so far and their out-of-balance force.
     solves
         Linear solves so far.
@@ -35,7 +35,7 @@ class Chord:
     springs: CutSprings
     factor: Factor
     increment: Floats
-    defect: Defect
+    residual: Residual
     options: AlternationOptions = DEFAULT.alternation
     solves: int = 0
 
@@ -44,35 +44,35 @@ class Chord:
 
         Without ``patience`` slow runs go on as well.
         """
-        most, sizes = self.solves + budget, [self.defect.size]
+        most, sizes = self.solves + budget, [self.residual.size]
         history = Anderson(self.options.depth)
         history.start(len(self.increment))
-        at, defect = self.increment, self.defect
+        at, residual = self.increment, self.residual
         correction = None
-        while self.defect.size > tolerance and self.solves < most:
+        while self.residual.size > tolerance and self.solves < most:
             if correction is None:
-                correction = self._correction(defect)
-            step = history.mixed(correction, defect.force)
-            found = self.springs.defect(at + step)
-            if history.count and not found.size < self.options.growth * self.defect.size:
+                correction = self._correction(residual)
+            step = history.mixed(correction, residual.force)
+            found = self.springs.residual(at + step)
+            if history.count and not found.size < self.options.growth * self.residual.size:
                 history.count = 0
-                at, defect, correction = self.increment, self.defect, None
+                at, residual, correction = self.increment, self.residual, None
                 continue
             if found.size <= tolerance:
-                self.increment, self.defect = at + step, found
+                self.increment, self.residual = at + step, found
                 break
             new = self._correction(found)
-            history.add(step, new, correction, found.force, defect.force)
-            at, defect, correction = at + step, found, new
+            history.add(step, new, correction, found.force, residual.force)
+            at, residual, correction = at + step, found, new
             if not np.isfinite(found.size):
                 break
-            if found.size < self.defect.size:
-                self.increment, self.defect = at, found
-            sizes.append(self.defect.size)
+            if found.size < self.residual.size:
+                self.increment, self.residual = at, found
+            sizes.append(self.residual.size)
             if patience is not None and patience.lost(sizes, tolerance):
                 break
-        return self.defect.size <= tolerance
+        return self.residual.size <= tolerance
 
-    def _correction(self, defect: Defect) -> Floats:
+    def _correction(self, residual: Residual) -> Floats:
         self.solves += 1
-        return -self.factor.apply(defect.force)
+        return -self.factor.apply(residual.force)

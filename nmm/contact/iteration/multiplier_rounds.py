@@ -58,26 +58,20 @@ def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
     is the joint's own, ``c = 1 / k``.
     """
     diagonal = problem.matrix.diagonal()
-    ease = np.divide(1.0, diagonal, out=np.zeros_like(diagonal), where=diagonal > 0)
-    normal = _held_ease(problem.normal_rows, ease, problem.normal_stiffness)
-    shear = _held_ease(problem.tangent_rows, ease, problem.shear_stiffness)
-    own = problem.own_stiffness
-    found = []
-    for compliance, stiffness in (
-        (normal, problem.normal_stiffness),
-        (shear, problem.shear_stiffness),
-    ):
-        largest = np.where(compliance > 0, np.minimum(compliance, 1e4 / stiffness), 1 / stiffness)
-        found.append(np.where(own, 1 / stiffness, largest))
-    return found[0], found[1]
+    unknowns = np.divide(1.0, diagonal, out=np.zeros_like(diagonal), where=diagonal > 0)
 
+    def of(rows: csr_array, stiffness: Floats) -> Floats:
+        owner = np.repeat(np.arange(len(stiffness)), np.diff(rows.indptr))
+        each = rows.data**2 * unknowns[rows.indices]
+        each[each * stiffness[owner] > UNHELD] = 0.0
+        found = np.bincount(owner, each, len(stiffness))
+        held = (found > 0) & ~problem.own_stiffness
+        return np.where(held, np.minimum(found, 1e4 / stiffness), 1 / stiffness)
 
-def _held_ease(rows: csr_array, ease: Floats, stiffness: Floats) -> Floats:
-    """Sum ``g^2 / K`` (m,) over the unknowns that are held by more than rounding, `UNHELD`."""
-    owner = np.repeat(np.arange(len(stiffness)), np.diff(rows.indptr))
-    each = rows.data**2 * ease[rows.indices]
-    each[each * stiffness[owner] > UNHELD] = 0.0
-    return np.bincount(owner, each, len(stiffness)).astype(float)
+    return (
+        of(problem.normal_rows, problem.normal_stiffness),
+        of(problem.tangent_rows, problem.shear_stiffness),
+    )
 
 
 def stiff_springs(problem: StepProblem, scale: float | None) -> CutSprings:

@@ -21,20 +21,20 @@ def polish(
     ``linear`` must be a solver for such.
     """
     problem = springs.problem
-    defect = springs.defect(increment)
+    residual = springs.residual(increment)
     taken = solves = 0
-    while taken < budget and defect.size > tolerance:
+    while taken < budget and residual.size > tolerance:
         matrix = pattern.matrix(problem, *springs.tangent(increment))
-        step = linear.factorise(matrix).refined(defect.force)
+        step = linear.factorise(matrix).refined(residual.force)
         taken, solves = taken + 1, solves + 1
-        found = springs.defect(increment - step)
-        if not found.size < 0.5 * defect.size:
+        found = springs.residual(increment - step)
+        if not found.size < 0.5 * residual.size:
             break
-        increment, defect = increment - step, found
+        increment, residual = increment - step, found
     return IterationResult(
         springs,
         increment,
-        defect.size,
+        residual.size,
         solves,
         taken,
         f"Newton with {taken} factorisation{'' if taken == 1 else 's'}",

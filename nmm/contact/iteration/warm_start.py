@@ -32,13 +32,13 @@ def start_from(springs: CutSprings, known: list[Floats], mixes: bool) -> Floats:
     points = [np.zeros_like(springs.problem.force), *known[: None if mixes else 1]]
     if len(points) == 1:
         return points[0]
-    defects = [springs.defect(point) for point in points]
-    best = min(range(len(points)), key=lambda i: defects[i].size)
+    residuals = [springs.residual(point) for point in points]
+    best = min(range(len(points)), key=lambda i: residuals[i].size)
     if not mixes:
         return points[best]
     others = [i for i in range(len(points)) if i != best]
-    rest = springs.weight * defects[best].force
-    ways = np.stack([springs.weight * defects[i].force - rest for i in others])
+    rest = springs.weight * residuals[best].force
+    ways = np.stack([springs.weight * residuals[i].force - rest for i in others])
     products = np.einsum("ik,jk->ij", ways, ways)
     trace = float(np.trace(products))
     if not (np.isfinite(trace) and trace > 0.0):
@@ -47,4 +47,4 @@ def start_from(springs: CutSprings, known: list[Floats], mixes: bool) -> Floats:
     share = np.linalg.solve(products, -np.einsum("ik,k->i", ways, rest))
     steps = np.stack([points[i] - points[best] for i in others])
     mixed = points[best] + np.einsum("i,ik->k", share, steps)
-    return mixed if springs.defect(mixed).size < defects[best].size else points[best]
+    return mixed if springs.residual(mixed).size < residuals[best].size else points[best]

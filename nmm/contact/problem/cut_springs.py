@@ -86,10 +86,10 @@ class CutSprings:
             mixed * self.normal_stiffness,
         )
 
-    def defect(self, increment: Floats) -> "Defect":
+    def residual(self, increment: Floats) -> "Residual":
         """Out-of-balance force of ``increment``."""
-        force, size = residual_kernel.defect(increment, *self._columns)
-        return Defect(force, float(size))
+        force, size = residual_kernel.residual(increment, *self._columns)
+        return Residual(force, float(size))
 
     @cached_property
     def _columns(self) -> tuple[Any, ...]:
@@ -107,7 +107,7 @@ class CutSprings:
 
 
 @dataclass(frozen=True)
-class Defect:
+class Residual:
     """Out-of-balance force (n,) and its relative size."""
 
     force: Floats

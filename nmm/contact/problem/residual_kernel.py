@@ -31,7 +31,7 @@ def projected(
 
 
 @nb.njit(cache=True)
-def defect(
+def residual(
     increment: Floats,
     load: Floats,
     weight: Floats,

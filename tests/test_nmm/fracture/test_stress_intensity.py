@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from covers.approximation.enrichment import EnrichmentTable as Enriched
+from covers.approximation.enrichment import Enrichment as Enriched
 from covers.approximation.enrichment import singular_fields
 from covers.local_functions.crack_tip_functions import crack_tip_functions
 from integration.arrays import Bools, Floats

@@ -46,3 +46,24 @@ def test_the_oldest_difference_makes_room() -> None:
     # of three orthogonal differences the first is forgotten: its part of a correction stays
     step = history.mixed(np.ones(3), -np.ones(3))
     np.testing.assert_allclose(step - np.array([1.0, 0.0, 0.0]), [0.0, -1.0, -1.0], atol=1e-9)
+
+
+def test_mixing_is_least_squares_in_the_inner_product_of_the_factor() -> None:
+    rng, n, used = np.random.default_rng(0), 40, 4
+    root = rng.normal(size=(n, n))
+    inner = root @ root.T + np.eye(n)
+    steps, residuals = rng.normal(size=(used, n)), rng.normal(size=(used, n))
+    corrections = -np.linalg.solve(inner, residuals.T).T
+    history, zero = Anderson(used), np.zeros(n)
+    history.start(n)
+    for k in range(used):
+        history.add(steps[k], corrections[k], zero, residuals[k], zero)
+    force = rng.normal(size=n)
+    correction = -np.linalg.solve(inner, force)
+    found = history.mixed(correction, force)
+    # least |correction - sum share correction_k| in the norm of the matrix, by its own root
+    upper = np.linalg.cholesky(inner).T
+    share = np.linalg.lstsq(upper @ corrections.T, upper @ correction, rcond=None)[0]
+    expected = correction - share @ (steps + corrections)
+    # the ridge of 1e-12 of the trace moves shares by as much times the condition, below 1e3
+    np.testing.assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from nmm.contact.enforcement.base import ENFORCEMENTS, make_enforcement
-from nmm.contact.iteration import anderson_kernel as mixing_kernel
 from nmm.contact.problem.balance import relative_residual, with_springs
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.matrix_pattern import SpringPattern
@@ -49,31 +48,10 @@ def test_compiled_defect_equals_the_whole_array_form(seed: int) -> None:
     increment = rng.normal(size=len(problem.force))
     forces = springs.forces(increment)
     expected = problem.out_of_balance(increment, *forces)
-    found = springs.defect(increment)
+    found = springs.residual(increment)
     np.testing.assert_allclose(found.force, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
     size = relative_residual(problem, springs.weight, increment, *forces)
     assert found.size == pytest.approx(size, rel=1e-12)
-
-
-def test_compiled_mixing_is_least_squares_in_the_inner_product_of_the_factor() -> None:
-    rng, n, used = np.random.default_rng(0), 40, 4
-    root = rng.normal(size=(n, n))
-    inner = root @ root.T + np.eye(n)
-    steps, defects = rng.normal(size=(used, n)), rng.normal(size=(used, n))
-    corrections = -np.linalg.solve(inner, defects.T).T
-    sums, kept, gram = np.zeros((used, n)), np.zeros((used, n)), np.zeros((used, used))
-    for k in range(used):
-        arguments = (steps[k], corrections[k], np.zeros(n), defects[k], np.zeros(n))
-        mixing_kernel.add(sums, kept, gram, k, k + 1, *arguments)
-    force = rng.normal(size=n)
-    correction = -np.linalg.solve(inner, force)
-    found = mixing_kernel.mixed(sums, kept, gram, used, correction, force)
-    # least |correction - sum share correction_k| in the norm of the matrix, by its own root
-    upper = np.linalg.cholesky(inner).T
-    share = np.linalg.lstsq(upper @ corrections.T, upper @ correction, rcond=None)[0]
-    expected = correction - share @ (steps + corrections)
-    # the ridge of 1e-12 of the trace moves shares by as much times the condition, below 1e3
-    np.testing.assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("name", ["penalty", "augmented", "lagrange", "cone"])

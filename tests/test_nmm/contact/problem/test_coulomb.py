@@ -85,7 +85,7 @@ def test_the_compiled_residual_is_that_of_whole_arrays(seed: int, bonded: bool) 
         forces = springs.forces(increment)
         expected = problem.out_of_balance(increment, *forces)
         size = np.abs(problem.force).max() + max(np.abs(f).max() for f in forces)
-        found = springs.defect(increment).force
+        found = springs.residual(increment).force
         # sums of some dozens of products
         np.testing.assert_allclose(found, expected, atol=1e-13 * (size + np.abs(expected).max()))
 
