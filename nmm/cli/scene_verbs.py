@@ -235,9 +235,16 @@ def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) ->
         yield f"integrator: {chosen.integrator.type}, step {chosen.integrator.step:g} s"
         if scene.contact is not None:
             yield from _rule_among_contacts(chosen)
-        yield f"duration: {scene.duration:g} s"
+        if scene.duration is not None:
+            yield f"duration: {scene.duration:g} s"
     elif scene.loading is not None:
         yield f"loading: until {scene.loading.until}, increment {chosen.loading.increment:g}"
+    if scene.stages:
+        spans = (
+            "to rest" if one.duration is None else f"{one.duration:g} s" for one in scene.stages
+        )
+        named = zip((one.name for one in scene.stages), spans, strict=True)
+        yield "stages: " + ", ".join(f"{name} ({span})" for name, span in named)
     if scene.contact is not None:
         yield f"contact: {chosen.contact.enforcement}"
     yield f"cover: {chosen.cover.type}, {chosen.cover.functions}"

@@ -77,6 +77,8 @@ def tell_run(scene: "Scene", done: "Run") -> None:
     out.print(done.summary.sentence, style=style, highlight=False, markup=False)
     if (line := failure_line(done.summary)) is not None:
         out.print(line, style="bold", highlight=False, markup=False)
+    for change in done.summary.changes:
+        out.print(change, highlight=False, markup=False)
     for warning in done.summary.warnings:
         out.print(f"warning: {warning}", style="yellow", highlight=False, markup=False)
     for one in compare(done.summary, done.history, scene.references):

@@ -133,9 +133,10 @@ def _solved(
         times = Schedule(stage.duration, steps.integrator.step)
         return run_in_time(stepper, recorder, InTime.at_start(state, times), times, progress)
     recorder.choice = choice_under_loads(output)
-    loads = LoadSchedule(
-        1.0, False, 1.0, steps.loading.tolerance, begin=state.time, stops=staged.clock
-    )
+    asked = steps.loading
+    # What is new is brought on at once unless increments are asked for.
+    increment = asked.increment if "increment" in asked.model_fields_set else 1.0
+    loads = LoadSchedule(1.0, False, increment, asked.tolerance, state.time, staged.clock)
     names, under = staged.setup.region_name, UnderLoad.at_start(state, loads)
     return run_load(stepper, recorder, under, loads, progress, names)
 

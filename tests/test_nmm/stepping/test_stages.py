@@ -341,3 +341,145 @@ def test_wrong_stages_are_told_by_their_place(stages, told):
 def test_keys_that_no_cover_has_are_told():
     with pytest.raises((FormulationError, SceneError), match="sise"):
         run(COLUMN + '[[stages]]\nname = "one"\ncover = { sise = 1 }\n', MESHES["quads"])
+
+
+def rectangle(name, material, left, right, bottom, top):
+    ring = [[left, bottom], [right, bottom], [right, top], [left, top]]
+    return f'[[blocks]]\nname = "{name}"\nmaterial = "{material}"\nvertices = {ring}\n'
+
+
+def columns():
+    """Columns A (1 GPa, width 2) and B (3 GPa, width 1, in halves) under a stiff cap."""
+    text = 'plane = "stress"\n[contact]\n[interfaces.any]\nfriction_angle = 0.0\n'
+    for name, modulus in (("soft", 1e9), ("stiff", 3e9), ("cap", 1e13)):
+        text += f"[materials.{name}]\nyoung_modulus = {modulus}\npoisson_ratio = 0.0\n"
+    for name, kind, ends in (
+        ("A", "soft", (-1, 1)),
+        ("left", "stiff", (-1.75, -1.25)),
+        ("right", "stiff", (1.25, 1.75)),
+    ):
+        text += rectangle(name, kind, *ends, 0, 4)
+        text += f'[[supports]]\nname = "under {name}"\nblock = "{name}"\nfix = ["x", "y"]\n'
+        text += f"segment = [[{ends[0]}, 0], [{ends[1]}, 0]]\n"
+    text += rectangle("cap", "cap", -2, 2, 4, 5)
+    text += '[[supports]]\nname = "guide"\nblock = "cap"\npoint = [0, 5]\nfix = ["x"]\n'
+    for name, force in (("first", 1e6), ("more", 2e6)):
+        text += f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = [[-2, 5], [2, 5]]\n'
+        text += f"traction = [0, {-force / 4}]\n"
+    text += '[[monitors]]\nname = "cap"\npoint = [0, 5]\n'
+    text += '[[stages]]\nname = "A"\nblocks = ["A", "cap"]\nloads = ["first"]\n'
+    text += '[[stages]]\nname = "B too"\nadd = ["left", "right"]\n'
+    text += '[[stages]]\nname = "more"\nloads = ["first", "more"]\n'
+    return text + '[[stages]]\nname = "B alone"\nremove = ["A"]\n'
+
+
+@pytest.mark.parametrize("cover", ["linear blocks", "quads"])
+def test_a_column_put_in_under_load_takes_its_share_of_what_comes_later_alone(cover):
+    table = MESHES.get(cover, {"type": "block", "functions": "monomials", "degree": 1})
+    found = run(columns(), table, contact={"normal_penalty": 1000})
+    assert found.summary.status == "converged", found.summary.sentence
+    history = found.history
+    shared = history["reaction:under left:y"] + history["reaction:under right:y"]
+    # Compliances 4 / (1e9 2) and 4 / (3e9 1) share the later 2 MN as 0.8 and 1.2; springs of
+    # contact and the cap are soft by 1e-4.
+    atol = 3e-4 * 3e6
+    np.testing.assert_allclose(history["reaction:under A:y"][:3], [1e6, 1e6, 1.8e6], atol=atol)
+    np.testing.assert_allclose(shared[1:], [0, 1.2e6, 3e6], atol=atol)
+    np.testing.assert_allclose(history["monitor:cap:uy"], [-2e-3, -2e-3, -3.6e-3, -6e-3], rtol=5e-4)
+
+
+FLOWING = BAR.replace(
+    "poisson_ratio = 0.3",
+    'poisson_ratio = 0.3\nlaw = "von_mises"\nyield_stress = 8e5\nhardening_modulus = 1e8',
+)
+
+
+@pytest.mark.parametrize("other", ["degree = 2", "size = 0.3", 'type = "triangles"'])
+def test_matter_remembers_how_it_has_flowed_over_a_change_of_the_cover(other):
+    # A wall that holds lengthwise, and crosswise at its corner alone, leaves the tension uniform.
+    wall = '[[supports]]\nname = "wall"\nsegment = [[0, 0], [0, 1]]\nfix = ["x"]\n'
+    pin = '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["y"]\n'
+    head, rest = FLOWING[: FLOWING.index("[[supports]]")], FLOWING[FLOWING.index("[[loads]]") :]
+    stages = '[[stages]]\nname = "pulled"\nloads = ["pull"]\n'
+    stages += f'[[stages]]\nname = "other"\ncover = {{ {other} }}\n'
+    stages += '[[stages]]\nname = "let go"\nloads = []\n'
+    found = run(head + wall + pin + rest + stages, {"type": "quads", "size": 0.5, "degree": 1})
+    assert found.summary.status == "converged", found.summary.sentence
+    # 1 MPa over a yield stress of 0.8: (0.2 MPa) / H flows and stays, 1 MPa / E springs back.
+    flowed, sprung = 2 * 0.2e6 / 1e8, 2 * 1e6 / 1e9
+    expected = [flowed + sprung, flowed + sprung, flowed]
+    tip = found.history["monitor:tip:ux"]
+    # The spring of the pin gives way by 1e-4 of the bar.
+    np.testing.assert_allclose(tip, expected, rtol=1e-3)
+    assert tip[1] == pytest.approx(tip[0], rel=3e-4)
+
+
+@pytest.mark.parametrize("enforcement", ["cone", "barrier", "augmented", "lagrange"])
+def test_exact_enforcements_carry_the_weight_over_stages_too(enforcement):
+    stages = STAGES + '[[stages]]\nname = "finer"\ncover = { size = 0.4 }\n'
+    found = run(COLUMN + stages, MESHES["quads"], contact={"enforcement": enforcement})
+    assert found.summary.status == "converged", found.summary.sentence
+    weight = [LOWER + UPPER, LOWER, LOWER + UPPER, LOWER + UPPER]
+    np.testing.assert_allclose(found.history["reaction:floor:y"], weight, rtol=1e-5)
+    contact = found.frames[-1].contact_force
+    assert contact[:, 0].sum() == pytest.approx(-UPPER, rel=1e-5)
+
+
+SLOPE = 0.3
+INCLINE = f"""
+plane = "stress"
+[materials.rock]
+young_modulus = 1e8
+poisson_ratio = 0.2
+density = 2000
+[[blocks]]
+name = "ground"
+material = "rock"
+vertices = [[-1, -0.5], [3, -0.5], [3, 0], [-1, 0]]
+[[blocks]]
+name = "block"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 0.8], [0, 0.8]]
+[gravity]
+acceleration = [{10 * np.sin(SLOPE)}, {-10 * np.cos(SLOPE)}]
+[inertia]
+[contact]
+[interfaces.any]
+friction_angle = 0.5
+[[supports]]
+name = "ground"
+block = "ground"
+fix = ["x", "y"]
+[[monitors]]
+name = "block"
+point = [0.5, 0.8]
+[[stages]]
+name = "rest"
+[[stages]]
+name = "before"
+duration = 0.02
+[[stages]]
+name = "after"
+duration = 0.02
+"""
+
+
+@pytest.mark.parametrize(
+    ("first", "other"),
+    [("block", "degree = 2"), ("quads", "size = 0.3"), ("quads", "degree = 2")],
+)
+def test_a_block_that_friction_holds_in_time_stays_over_a_change_of_the_cover(first, other):
+    cover = {"type": "block"} if first == "block" else {"type": "quads", "size": 0.5, "degree": 1}
+    if first == "block":
+        other += ', functions = "monomials"'
+    found = run(INCLINE + f"cover = {{ {other} }}\n", cover, integrator={"step": 5e-4})
+    assert found.summary.status == "converged", found.summary.sentence
+    weight = 2000 * 0.8 * 10
+    for axis, share in ((0, np.cos(SLOPE)), (1, np.sin(SLOPE))):
+        forces = [abs(frame.contact_force[:, axis].sum()) for frame in found.frames[1:]]
+        carried = [np.mean(forces[:41]), np.mean(forces[41:])]
+        # Weight bends a block of degree 2 as it could not bend before: it swings about its rest.
+        np.testing.assert_allclose(carried, weight * share, rtol=0.1)
+    free = 10 * np.sin(SLOPE) * 0.02**2 / 2
+    moved = found.history["monitor:block:ux"]
+    assert abs(moved[-1] - moved[0]) < 0.2 * free
