@@ -18,7 +18,7 @@ from nmm.assembly.motion import State, material_points
 from nmm.constraints.linear_matter import check_linear
 from nmm.constraints.nitsche_interface import averages
 from nmm.constraints.tied_interfaces import pairs_of, shared_edges
-from nmm.constraints.ties import Pairs, Springs, Tie
+from nmm.constraints.ties import Tie, TiedPairs, TieSprings
 from nmm.contact.detection.joints import Joints, joint_points
 from nmm.contact.points.boundary_points import sides
 from nmm.effects.base import Effect, Instant, Setup
@@ -77,7 +77,7 @@ class ArtificialJoints(Effect):
             pairs, _, _, joint = pairs_of(model, joints, 2 * max(degree, 1))
         else:
             pairs, joint = _at_stations(model, joints, stations, start)
-        return cls(Springs(pairs, np.repeat(spring[joint, None], 2, axis=1)), n)
+        return cls(TieSprings(pairs, np.repeat(spring[joint, None], 2, axis=1)), n)
 
     @property
     def about(self) -> str:
@@ -116,7 +116,9 @@ def _spring(model: Model, joints: Joints, stiffness: float) -> Floats:
     return np.asarray(stiffness * np.sqrt(model.modulus[a] * model.modulus[b]) / apart)
 
 
-def _at_stations(model: Model, joints: Joints, stations: str, start: State) -> tuple[Pairs, Ints]:
+def _at_stations(
+    model: Model, joints: Joints, stations: str, start: State
+) -> tuple[TiedPairs, Ints]:
     """Two points for each joint, at its corners or its Gauss points."""
     surface = sides(model.manifold).surface(start.frames, start.deformation)
     found = joint_points(surface, joints, stations)
@@ -126,4 +128,4 @@ def _at_stations(model: Model, joints: Joints, stations: str, start: State) -> t
         for edge in (found.edge_a, found.edge_b)
     )
     weight = found.length * model.thickness
-    return Pairs(first, second, found.normal, weight), found.joint
+    return TiedPairs(first, second, found.normal, weight), found.joint

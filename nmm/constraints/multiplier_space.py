@@ -25,7 +25,7 @@ TOUCH = 1e-6
 
 
 @dataclass(frozen=True)
-class Pieces:
+class FacePieces:
     """Pieces of boundary with their Gauss points.
 
     Attributes
@@ -51,7 +51,7 @@ class Pieces:
     weight: Floats
 
 
-def pieces_of(model: Model, place: Place, size: float) -> Pieces:
+def pieces_of(model: Model, place: Place, size: float) -> FacePieces:
     """Return the pieces that points along edges came from: one element and one normal each.
 
     Multipliers end where a body does: across two of different stiffness a traction jumps.
@@ -74,7 +74,7 @@ def pieces_of(model: Model, place: Place, size: float) -> Pieces:
     along = np.stack([-first[:, 1], first[:, 0]], axis=1) * length[:, None] / 2
     line = model.manifold.element_body[place.elements[new]]
     weight = place.weight * model.thickness
-    return Pieces(middle - along, middle + along, line, piece, x, n, weight)
+    return FacePieces(middle - along, middle + along, line, piece, x, n, weight)
 
 
 def traction_degree(model: Model) -> int:
@@ -83,16 +83,16 @@ def traction_degree(model: Model) -> int:
     return max((model.manifold.degree if richest is None else richest) - 1, 0)
 
 
-def join(parts: Sequence[Pieces]) -> Pieces:
+def join(parts: Sequence[FacePieces]) -> FacePieces:
     """Return pieces of several places as those of one."""
     first = np.cumsum([0] + [len(part.start) for part in parts])
     piece = [part.piece + before for part, before in zip(parts, first, strict=False)]
     names = ("start", "end", "line", "position", "normal", "weight")
     joined = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
-    return Pieces(**joined, piece=np.concatenate(piece))
+    return FacePieces(**joined, piece=np.concatenate(piece))
 
 
-def multipliers(pieces: Pieces, size: float, degree: int, held: Bools) -> csr_array:
+def multipliers(pieces: FacePieces, size: float, degree: int, held: Bools) -> csr_array:
     """Multipliers (2m, k) at the points, component minor, alike in size.
 
     Parameters
@@ -125,7 +125,7 @@ def multipliers(pieces: Pieces, size: float, degree: int, held: Bools) -> csr_ar
     return csr_array(entries, shape=(2 * len(pieces.weight), k))
 
 
-def groups(pieces: Pieces, size: float) -> tuple[Ints, Bools]:
+def groups(pieces: FacePieces, size: float) -> tuple[Ints, Bools]:
     """Group (s,) of each piece, and whether a group (g,) is the only one of its chain."""
     group = np.empty(len(pieces.start), dtype=np.int64)
     alone: list[bool] = []
@@ -137,7 +137,7 @@ def groups(pieces: Pieces, size: float) -> tuple[Ints, Bools]:
     return group, np.array(alone, dtype=bool)
 
 
-def _chains(pieces: Pieces, size: float) -> list[Ints]:
+def _chains(pieces: FacePieces, size: float) -> list[Ints]:
     """Pieces in the order in which they follow one another."""
     n = len(pieces.start)
     every = np.round(np.concatenate([pieces.start, pieces.end]) / (TOUCH * size)).astype(np.int64)
@@ -164,7 +164,7 @@ def _chains(pieces: Pieces, size: float) -> list[Ints]:
     return chains
 
 
-def _parts(pieces: Pieces, chain: Ints, wanted: float) -> list[Ints]:
+def _parts(pieces: FacePieces, chain: Ints, wanted: float) -> list[Ints]:
     """Parts of a chain as long as wanted, or about: of its straight runs, or of short ones joined.
 
     A part ends where the chain has a kink if it is long enough by then.

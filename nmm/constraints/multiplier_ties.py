@@ -7,7 +7,7 @@ from scipy.sparse import csr_array, diags_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
-from nmm.constraints.ties import Pairs
+from nmm.constraints.ties import TiedPairs
 
 # A condition that others imply up to this share of it is left out, and one that is this share of
 # the largest: it is the rounding of none. The first is the root of what products of rows resolve.
@@ -30,7 +30,7 @@ class MultiplierGlue:
         Their values in the last solution (Pa), which are tractions on the second side.
     """
 
-    pairs: Pairs
+    pairs: TiedPairs
     basis: csr_array
     found: dict[str, Floats] = field(default_factory=dict)
 

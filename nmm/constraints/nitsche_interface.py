@@ -25,7 +25,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.constraints.rows import sparse_rows
-from nmm.constraints.ties import Pairs, Tie
+from nmm.constraints.ties import Tie, TiedPairs
 from nmm.constraints.traction_donors import donors, traction_bound, traction_rows
 from nmm.constraints.volume_lift import Lift, lift
 
@@ -75,7 +75,7 @@ class Averages(Tie):
         The part of pressures, of each side that has any.
     """
 
-    pairs: Pairs
+    pairs: TiedPairs
     sides: tuple[Flux, Flux]
     penalty: Floats
     lifts: tuple[Lift, ...] = ()
@@ -148,7 +148,7 @@ class Averages(Tie):
 
 
 def averages(
-    model: Model, pairs: Pairs, elements: tuple[Ints, Ints], gamma: float | None = None
+    model: Model, pairs: TiedPairs, elements: tuple[Ints, Ints], gamma: float | None = None
 ) -> tuple[Averages, Bools]:
     """Return Nitsche's terms, and at which points (m,) there is stress on neither side.
 

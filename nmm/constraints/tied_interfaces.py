@@ -11,10 +11,10 @@ from integration.segments import segment_rule
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state, material_points
 from nmm.constraints.linear_matter import check_linear, method_for
-from nmm.constraints.multiplier_space import Pieces, multipliers, traction_degree
+from nmm.constraints.multiplier_space import FacePieces, multipliers, traction_degree
 from nmm.constraints.multiplier_ties import MultiplierGlue, independent
 from nmm.constraints.nitsche_interface import averages
-from nmm.constraints.ties import Pairs, Springs, Tie
+from nmm.constraints.ties import Tie, TiedPairs, TieSprings
 from nmm.contact.detection.joints import Joints, find_joints
 from nmm.contact.points.boundary_points import sides
 from nmm.errors import FormulationError
@@ -48,7 +48,9 @@ def glue(
     return _averages(model, joints, method), None
 
 
-def pairs_of(model: Model, joints: Joints, order: int = ORDER) -> tuple[Pairs, Ints, Ints, Ints]:
+def pairs_of(
+    model: Model, joints: Joints, order: int = ORDER
+) -> tuple[TiedPairs, Ints, Ints, Ints]:
     """Gauss points of joints, the elements on both sides and the joint of each point."""
     edges = model.manifold.boundary
     points, weight = segment_rule(joints.start, joints.end, order)
@@ -58,7 +60,7 @@ def pairs_of(model: Model, joints: Joints, order: int = ORDER) -> tuple[Pairs, I
     two = np.repeat(edges.element[joints.edge_b], q)
     first = material_points(model.manifold, one, flat)
     second = material_points(model.manifold, two, flat)
-    pairs = Pairs(
+    pairs = TiedPairs(
         first,
         second,
         np.repeat(joints.normal, q, axis=0),
@@ -67,10 +69,10 @@ def pairs_of(model: Model, joints: Joints, order: int = ORDER) -> tuple[Pairs, I
     return pairs, one, two, np.repeat(np.arange(len(joints)), q)
 
 
-def springs(model: Model, joints: Joints, spring: Floats) -> Springs:
+def springs(model: Model, joints: Joints, spring: Floats) -> TieSprings:
     """Springs of ``spring`` (j, 2), normal and shear, in Pa/m along edges."""
     pairs, _, _, joint = pairs_of(model, joints)
-    return Springs(pairs, spring[joint])
+    return TieSprings(pairs, spring[joint])
 
 
 def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
@@ -88,7 +90,7 @@ def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
             'strain: expected one: use method = "spring"'
         )
     spring = np.where(free[:, None], glue_stiffness(model, joints, method)[joint], 0.0)
-    return [found, Springs(pairs, spring)]
+    return [found, TieSprings(pairs, spring)]
 
 
 def _multipliers(model: Model, joints: Joints, size: float | None) -> MultiplierGlue:
@@ -96,7 +98,7 @@ def _multipliers(model: Model, joints: Joints, size: float | None) -> Multiplier
     body = model.manifold.boundary.body
     a, b = body[joints.edge_a], body[joints.edge_b]
     turned = (a > b)[:, None]
-    pieces = Pieces(
+    pieces = FacePieces(
         np.where(turned, joints.end, joints.start),
         np.where(turned, joints.start, joints.end),
         np.minimum(a, b) * model.manifold.n_bodies + np.maximum(a, b),

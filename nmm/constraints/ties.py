@@ -12,7 +12,7 @@ from nmm.constraints.rows import AXES, sparse_rows
 
 
 @dataclass(frozen=True)
-class Pairs:
+class TiedPairs:
     """The same m points of an interface as points of the bodies on either side.
 
     Attributes
@@ -79,7 +79,7 @@ class Tie(ABC):
 
 
 @dataclass(frozen=True)
-class Springs(Tie):
+class TieSprings(Tie):
     """Springs at the points.
 
     Attributes
@@ -90,7 +90,7 @@ class Springs(Tie):
         (m, 2) normal and shear (Pa/m).
     """
 
-    pairs: Pairs
+    pairs: TiedPairs
     stiffness: Floats
 
     @property

@@ -24,7 +24,7 @@ from nmm.contact.detection.tolerances import (
 
 
 @dataclass(frozen=True, eq=False)
-class Pairs:
+class VertexPairs:
     """Candidate rows, sorted by vertex, then edge; those of ``v`` begin at ``offset[v]``."""
 
     vertex: Ints
@@ -41,7 +41,7 @@ class Pairs:
 
 
 def select(
-    surface: Surface, pairs: Pairs, rules: Rules, last: Bools, motion: Floats
+    surface: Surface, pairs: VertexPairs, rules: Rules, last: Bools, motion: Floats
 ) -> tuple[Ints, Floats, Floats]:
     """Return kept (m,), along (m,) and gap (m,) of all rows.
 
@@ -91,7 +91,7 @@ def _rank(
 
 def _dominated(
     surface: Surface,
-    pairs: Pairs,
+    pairs: VertexPairs,
     tentative: Bools,
     interior: Bools,
     along: Floats,
@@ -120,7 +120,7 @@ def _dominated(
     return dominated
 
 
-def _same_vertex(pairs: Pairs, rows: Ints) -> tuple[Ints, Ints]:
+def _same_vertex(pairs: VertexPairs, rows: Ints) -> tuple[Ints, Ints]:
     """All (row, other row) with the same vertex."""
     low, high = pairs.offset[pairs.vertex[rows]], pairs.offset[pairs.vertex[rows] + 1]
     count = high - low
@@ -154,7 +154,7 @@ def _inside(surface: Surface, one: Ints, other: Ints, rules: Rules) -> Bools:
 
 def _pair_rule(
     surface: Surface,
-    pairs: Pairs,
+    pairs: VertexPairs,
     covers: Covers,
     kept: Ints,
     usable: Bools,
@@ -211,14 +211,14 @@ def _beyond(
     return np.asarray((dot(offset, own) <= slop) & (dot(offset, before) <= slop))
 
 
-def _best(pairs: Pairs, lines: Ints, among: Bools, rank: Floats) -> Ints:
+def _best(pairs: VertexPairs, lines: Ints, among: Bools, rank: Floats) -> Ints:
     """Index of the line of highest rank, the smallest (vertex, edge) among equals."""
     value = np.where(among, rank[lines], -np.inf)
     top = among & (value == value.max(axis=0))
     return np.asarray(np.where(top, lines, len(pairs)).argmin(axis=0))
 
 
-def _find(pairs: Pairs, vertex: Ints, edge: Ints) -> Ints:
+def _find(pairs: VertexPairs, vertex: Ints, edge: Ints) -> Ints:
     """Rows of (vertex, edge), -1 where the pair is no candidate."""
     key = pairs.key
     wanted = vertex * (len(pairs.offset) - 1) + edge

@@ -206,7 +206,7 @@ def _by_arrays(
     vertex, edge = np.divmod(key, max(len(surface), 1))
     known = np.zeros(len(key), dtype=bool) if last is None else np.isin(key, last.key)
     offset = np.searchsorted(vertex, np.arange(len(surface) + 1)).astype(np.int64)
-    pairs = narrow_arrays.Pairs(vertex, edge, offset)
+    pairs = narrow_arrays.VertexPairs(vertex, edge, offset)
     kept, along, gap = narrow_arrays.select(surface, pairs, rules, known, motion)
     rows = np.flatnonzero(kept)
     parts = (vertex[rows], edge[rows], along[rows], gap[rows], kept[rows] == 2)

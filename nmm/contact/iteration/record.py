@@ -9,7 +9,7 @@ from integration.arrays import Floats, Ints
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.joint_book import JointBook
-from nmm.contact.points.midpoint import Rows
+from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.problem.step_problem import StepAnswer
 
 Breaking = Literal["all", "worst", "stop"]
@@ -44,7 +44,7 @@ class ContactSolution:
     loss: float
     stopped: bool = False
     sliding: Floats = field(default_factory=lambda: np.zeros(0))
-    rows: Rows | None = None
+    rows: ContactRows | None = None
 
     @property
     def pushing(self) -> Ints:

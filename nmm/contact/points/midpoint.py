@@ -25,7 +25,7 @@ from nmm.contact.problem.row_products import pushed
 
 
 @dataclass(frozen=True)
-class Rows:
+class ContactRows:
     """How gap and slip change with the unknowns.
 
     Attributes
@@ -56,7 +56,7 @@ def middle(before: State, after: State) -> State:
 
 def halfway_rows(
     contacts: ContactPoints, sides: Sides, model: Model, start: State, half: State
-) -> Rows:
+) -> ContactRows:
     """Return the rows of contacts with both sides where they are half way.
 
     Every body must be one element: the rows of its points then hold all of its unknowns.
@@ -95,7 +95,7 @@ def halfway_rows(
         )
         whole = part + diags_array(lever) @ turning + rigid @ model.rigid_projection
         found.append(csr_array(whole))
-    return Rows(found[0], found[1], direction)
+    return ContactRows(found[0], found[1], direction)
 
 
 def _rigid_shift(body: Ints, axis: Floats, bent: Floats, start: State, half: State) -> csr_array:
@@ -114,7 +114,7 @@ def _sparse(columns: Ints, values: Floats, width: int) -> csr_array:
 
 
 def missing_moments(
-    made: Rows,
+    made: ContactRows,
     forces: tuple[Floats, Floats],
     contacts: ContactPoints,
     sides: Sides,

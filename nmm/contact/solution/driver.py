@@ -22,7 +22,7 @@ from nmm.contact.laws.dashpots import Dashpots, RigidMass
 from nmm.contact.laws.history_iteration import HistoryIteration, slid_under_load
 from nmm.contact.laws.time_weighting import RaisedFaces, TimeWeighting, end_shares
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.midpoint import Rows
+from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.problem.balance import with_springs
 from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
@@ -104,7 +104,7 @@ class ContactSolver:
     def solve(
         self,
         contacts: ContactPoints,
-        rows: Rows,
+        rows: ContactRows,
         request: StepRequest,
         more: Sequence[Transform] = (),
     ) -> ContactSolution:
@@ -168,7 +168,7 @@ class ContactSolver:
     def _posed(
         self,
         iteration: HistoryIteration,
-        rows: Rows,
+        rows: ContactRows,
         request: StepRequest,
         more: Sequence[Transform],
         start: Floats | None,

@@ -13,7 +13,7 @@ from nmm.contact.mortar.trace_space import Traces
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints, rows
 from nmm.contact.points.joint_points import Stations
-from nmm.contact.points.midpoint import Rows, halfway_rows
+from nmm.contact.points.midpoint import ContactRows, halfway_rows
 from nmm.contact.points.tracking import Apart, apart_on
 
 
@@ -44,14 +44,16 @@ class ContactGeometry:
         """Whether any contact acts at a point of the material instead of on a chord."""
         return self.bends or self._stations is not None
 
-    def rows(self, contacts: ContactPoints, state: State, midpoint: State | None = None) -> Rows:
+    def rows(
+        self, contacts: ContactPoints, state: State, midpoint: State | None = None
+    ) -> ContactRows:
         """Return the rows of contacts in a state, or at the middle of a step."""
         if midpoint is not None:
             return halfway_rows(contacts, self.sides, self.model, state, midpoint)
         stations = Stations.at(self.sides, contacts) if self.bends else self._stations
         n_unknowns = self.model.manifold.n_unknowns
         found = rows(contacts, self.sides, state.frames, n_unknowns, stations)
-        return Rows(*found, contacts.normal)
+        return ContactRows(*found, contacts.normal)
 
     def apart(self, state: State, surface: Surface) -> Apart:
         """Return how far apart the sides of joints are in a state."""

@@ -57,7 +57,7 @@ def apart(blocks: list[Floats], gap: float, random: np.random.Generator) -> list
     return moved
 
 
-class Crossings(HardClass):
+class CrossingCases(HardClass):
     """Blocks about a crossing, let go on a floor or thrown at each other."""
 
     name = "crossings"

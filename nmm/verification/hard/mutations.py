@@ -32,7 +32,7 @@ REFUSED, SOUND = "refused", "sound"
 
 
 @dataclass(frozen=True)
-class Verdict:
+class MutationVerdict:
     """What came of one text.
 
     Attributes
@@ -60,7 +60,7 @@ class LateError(BaseException):
     """Raised by the clock; no handler of ordinary errors catches it."""
 
 
-def verdict(text: str, kind: str = "scene", longest: float = LONGEST) -> Verdict:
+def verdict(text: str, kind: str = "scene", longest: float = LONGEST) -> MutationVerdict:
     """Read a text and prepare its run under a limit of time and memory.
 
     Parameters
@@ -85,7 +85,7 @@ def verdict(text: str, kind: str = "scene", longest: float = LONGEST) -> Verdict
         last = traceback.extract_tb(error.__traceback__)[-1]
         outcome = f"{type(error).__name__} in {last.name} of {last.filename.rpartition('/')[2]}"
         words = f"{error}"
-    return Verdict(outcome, words, process_time() - began)
+    return MutationVerdict(outcome, words, process_time() - began)
 
 
 def _read(text: str, kind: str) -> tuple[str, str]:
@@ -199,7 +199,7 @@ class Mutations(HardClass):
 
 def judged(scene: Document) -> Checks:
     """Spoil a sound file in the ways of a case and count what is wrong."""
-    found: list[tuple[int, Verdict]] = []
+    found: list[tuple[int, MutationVerdict]] = []
     for number in scene["numbers"]:
         text, kind = spoilt(scene["base"], scene["seed"], number)
         found.append((number, verdict(text, kind)))

@@ -30,7 +30,7 @@ DANGLING = (
 )
 
 
-class Pieces(HardClass):
+class PieceCases(HardClass):
     """Networks of cracks in a unit square, over every cover that cracks can cut."""
 
     name = "pieces"

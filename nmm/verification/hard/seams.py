@@ -17,7 +17,7 @@ SPEED, WEIGHT = 2.0, 9.81
 FRICTIONS = (0.0, 20.0, 0.0, 40.0)
 
 
-class Seams(HardClass):
+class SeamCases(HardClass):
     """A block that slides over a floor of flush blocks, or up a wall of them."""
 
     name = "seams"

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.sparse import csr_array, random_array
 
-from nmm.contact.points.midpoint import Rows
+from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.points.moments import moments
 
 
@@ -12,7 +12,7 @@ def test_forces_on_unknowns_are_products_with_the_transposed_rows() -> None:
     normal, tangent = (csr_array(random_array((7, 5), density=0.4, rng=rng)) for _ in range(2))
     forces = rng.normal(size=(2, 7))
     expected = normal.toarray().T @ forces[0] + tangent.toarray().T @ forces[1]
-    found = Rows(normal, tangent, np.zeros((7, 2))).push(*forces)
+    found = ContactRows(normal, tangent, np.zeros((7, 2))).push(*forces)
     np.testing.assert_allclose(found, expected, rtol=1e-14, atol=1e-14)
 
 
