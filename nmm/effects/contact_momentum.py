@@ -8,12 +8,10 @@ from scipy.sparse import csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.contact.detection.tolerances import MIDPOINT_GAPS
 from nmm.contact.iteration.record import ContactSolution
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.midpoint import middle, missing_moments
-
-# Share of the penetrations by which gaps may be off for the turn of bodies within a step.
-HALFWAY = 1e-4
 
 
 class Momentum:
@@ -53,7 +51,7 @@ class Momentum:
         way, moved = (_largest_way(one, half, body) for one in (before, was))
         way += turn * float(np.sqrt(self._model.manifold.body_area[body].max()))
         off = 2 * (turned * way + moved * turn)
-        return half if off > HALFWAY * np.abs(solved.answer.gap[acts]).max() else None
+        return half if off > MIDPOINT_GAPS * np.abs(solved.answer.gap[acts]).max() else None
 
     def kept(
         self, solved: ContactSolution, before: State, after: State, step: float, balance: Floats

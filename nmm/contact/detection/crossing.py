@@ -7,12 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.measures import cross
 from nmm.contact.detection.neighbour_list import near_pairs
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import ANGLE, DEPTH, FLUSH, cross
-
-ROUNDING = 1e-9
-"""Share of the depth by which another edge must be nearer: a corner lies as far from both."""
+from nmm.contact.detection.tolerances import ANGLE, CROSSED_FIRST, DEPTH, FLUSH
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,7 +196,7 @@ def _along_another(
     near = np.ones(len(hit), dtype=bool)
     for t, below in zip((np.zeros_like(time), time), depth.T, strict=True):  # two moments
         distance = _distance(before, after, v[hit], other, t[hit, None])
-        near &= distance < below[hit] * (1.0 - ROUNDING)
+        near &= distance < below[hit] * (1.0 - CROSSED_FIRST)
     along = np.zeros(len(v), dtype=bool)
     along[hit[near]] = True
     return along

@@ -12,18 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.measures import convex_vertices, cross, dot, flush_distance, thinner
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import (
-    Rules,
-    convex_vertices,
-    cross,
-    dot,
-    flush_distance,
-    thinner,
-)
-
-# Bodies around one point that a vertex may be merged with, on either side.
-WALK = 4
+from nmm.contact.detection.tolerances import MERGED_BODIES, Rules
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +81,7 @@ def _walk(
     cover = covers.own if forward else covers.before
     at, ray, good = v.copy(), ray.copy(), np.ones(len(v), dtype=bool)
     going = np.ones(len(v), dtype=bool)
-    for _ in range(WALK):
+    for _ in range(MERGED_BODIES):
         x = np.where(going, cover[at], -1)
         body = surface.body[x]
         going = (x >= 0) & (body != partner) & (body != surface.body[v])

@@ -6,6 +6,7 @@ import numba
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.contact.detection.tolerances import REENTRANT
 
 _compiled = numba.njit(cache=True, nogil=True)
 
@@ -86,7 +87,7 @@ def _reentrant(a, b, c):  # type: ignore[no-untyped-def]
     """Whether a corner turns to the right, or straight back as the tip of a slit does."""
     ux, uy, wx, wy = b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]
     turn, size = ux * wy - uy * wx, math.sqrt((ux * ux + uy * uy) * (wx * wx + wy * wy))
-    return turn <= 1e-9 * size and (turn < 0.0 or ux * wx + uy * wy < 0.0)
+    return turn <= REENTRANT * size and (turn < 0.0 or ux * wx + uy * wy < 0.0)
 
 
 @_compiled
@@ -161,6 +162,7 @@ def pairs_by_grid(
     typical = float(np.exp(np.log(long).mean())) if len(long) else 1.0
     # The second bound keeps the walk along very long edges at some tens of cells an edge.
     cell = max(typical, float((length + distance).mean()) / 64.0)
+    # Larger than asked by rounding, lest a pair at the very distance is missed.
     reaches = distance * (1.0 + 1e-9) + 1e-12 * cell
 
     mask = (1 << max(4, int(2 * len(start)).bit_length())) - 1

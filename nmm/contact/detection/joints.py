@@ -10,6 +10,7 @@ import shapely
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import JOINT
 from nmm.errors import FormulationError
 
 # Where the two points of a joint stand, as fractions of its length, and why: at the corners the
@@ -97,7 +98,7 @@ def find_joints(
         The edges.
     tolerance
         Length (m): the largest distance between the two edges over the interval, and the length
-        that an interval must exceed. The default is 1e-6 of the mean edge.
+        that an interval must exceed. The default is `JOINT` of the mean edge.
     within_bodies
         Also pair edges of one body: the two faces of a crack.
 
@@ -107,7 +108,7 @@ def find_joints(
     length. Ends of edges within the tolerance of each other are taken as the same point.
     """
     if tolerance is None:
-        tolerance = 1e-6 * float(surface.length.mean()) if len(surface) else 0.0
+        tolerance = JOINT * float(surface.length.mean()) if len(surface) else 0.0
     a, b = _pairs(surface, tolerance)
     keep = np.einsum("ij,ij->i", surface.direction[a], surface.direction[b]) < 0.0
     if not within_bodies:

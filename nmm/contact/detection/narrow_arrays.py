@@ -11,9 +11,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.flush import Covers, find_covers, leaves, rays, shielded
-from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import (
-    Rules,
+from nmm.contact.detection.measures import (
     convex_vertices,
     cross,
     dot,
@@ -21,6 +19,8 @@ from nmm.contact.detection.tolerances import (
     measure,
     thinner,
 )
+from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import Rules
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +54,7 @@ def select(
     covers = find_covers(surface, v, e, along, gap, rules)
     length = surface.length[e]
     # A contact stays a little beyond the end of its edge, lest two vertices take turns.
-    slop = np.where(last, flush_distance(surface, v, e, rules), 1e-9 * length + rules.rounding)
+    slop = np.where(last, flush_distance(surface, v, e, rules), rules.end * length + rules.rounding)
     interior = (along >= -slop) & (along <= length + slop)
     # In one body the far face of a thin neck looks like a face that is overlapped.
     trusted = last | (surface.body[v] != surface.body[e])
@@ -187,7 +187,7 @@ def _pair_rule(
     drop = standing & (~agree | merged) & (lines != picked)
 
     longest = np.stack([surface.length[k] for k in (v, before[v], w, before[w])]).max(axis=0)
-    slop = 1e-9 * longest + rules.rounding
+    slop = rules.end * longest + rules.rounding
     apart = _beyond(surface, covers, w, surface.body[v], offset, slop, rules)
     apart &= _beyond(surface, covers, v, surface.body[w], -offset, slop, rules)
     free = exists & usable[lines]

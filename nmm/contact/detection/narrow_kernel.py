@@ -12,7 +12,6 @@ import numba
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.contact.detection.flush import WALK
 from nmm.contact.detection.narrow_tables import (
     BEFORE,
     BODY,
@@ -32,7 +31,7 @@ from nmm.contact.detection.narrow_tables import (
     offsets,
     shape_of,
 )
-from nmm.contact.detection.tolerances import Rules
+from nmm.contact.detection.tolerances import MERGED_BODIES, Rules
 
 _compiled = numba.njit(cache=True, nogil=True)
 
@@ -111,7 +110,7 @@ def _leaves(shape, e, ox, oy, bx, by, rules):  # type: ignore[no-untyped-def]
 def _walk(shape, v, partner, rx, ry, ax, ay, forward, rules):  # type: ignore[no-untyped-def]
     """Turn one ray of a vertex over its flush neighbours; False where the union is not convex."""
     at = v
-    for _ in range(WALK):
+    for _ in range(MERGED_BODIES):
         x = shape.link[at, OWN] if forward else shape.link[at, BEFORE]
         if x < 0 or shape.link[x, BODY] == partner or shape.link[x, BODY] == shape.link[v, BODY]:
             break
@@ -223,7 +222,9 @@ def _judge(shape, v, edge, low, high, s, gap, known, state, rules):  # type: ign
         e = edge[k]
         # A contact stays a little beyond the end of its edge, lest two vertices take turns.
         slop = rules.rounding
-        slop += rules.flush * _thinner(shape, v, e) if known[k] else 1e-9 * shape.real[e, LENGTH]
+        slop += (
+            rules.flush * _thinner(shape, v, e) if known[k] else rules.end * shape.real[e, LENGTH]
+        )
         state[k] = 0
         if s[k] >= -slop and s[k] <= shape.real[e, LENGTH] + slop:
             state[k] = _INTERIOR
@@ -373,7 +374,7 @@ def _pair(shape, v, w, edge, offset, state, rank, kept, final, rules):  # type: 
     longest = max(
         shape.real[v, LENGTH], shape.real[w, LENGTH], shape.real[p, LENGTH], shape.real[q, LENGTH]
     )
-    slop = 1e-9 * longest + rules.rounding
+    slop = rules.end * longest + rules.rounding
     if _beyond(shape, w, shape.link[v, BODY], dx, dy, slop, rules) and _beyond(
         shape, v, shape.link[w, BODY], -dx, -dy, slop, rules
     ):

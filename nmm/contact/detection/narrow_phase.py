@@ -29,23 +29,22 @@ the area over the perimeter) of the thinner of the two bodies.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Self
+from typing import Self, TypeVar
 
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection import narrow_arrays
+from nmm.contact.detection.measures import dot, flush_distance, measure, rules_of
 from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import Rules, dot, flush_distance, measure, rules_of
+from nmm.contact.detection.tolerances import FACING, Rules
 
 VERTEX_EDGE = 0
 VERTEX_VERTEX = 1
 FACE = 2
-
-# Cosine between the normals of two bodies' faces that a vertex may slide along one after the other.
-FACING = 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +87,9 @@ class Contacts:
     def take(self, index: Ints | Bools) -> Self:
         """Return some of the contacts."""
         return type(self)(*(getattr(self, part.name)[index] for part in fields(self)))
+
+
+Some = TypeVar("Some", bound=Contacts)
 
 
 def find_contacts(
@@ -148,10 +150,15 @@ def with_pairs(surface: Surface, found: Contacts, vertex: Ints, edge: Ints) -> C
     v, e = vertex[new], edge[new]
     along, gap = measure(surface, v, e)
     more = _contacts(surface, v, e, along, gap, np.zeros(len(v), dtype=bool), rules_of(surface, 0))
-    names = [part.name for part in fields(found)]
-    both = [np.concatenate([getattr(part, name) for part in (found, more)]) for name in names]
-    joined = type(found)(*both)
-    return joined.take(np.argsort(joined.key, kind="stable"))
+    return joined([found, more])
+
+
+def joined(parts: Sequence[Some]) -> Some:
+    """Return contacts of one kind together, in order of keys."""
+    names = [part.name for part in fields(parts[0])]
+    columns = ([getattr(part, name) for part in parts] for name in names)
+    together = type(parts[0])(*(np.concatenate(column) for column in columns))
+    return together.take(np.argsort(together.key, kind="stable"))
 
 
 def follow(old: Contacts, new: Contacts) -> Ints:

@@ -13,13 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.measures import dot
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import dot
+from nmm.contact.detection.tolerances import RUN_APART, SAME_EASE
 from nmm.contact.mortar.trace_space import Traces
 from nmm.contact.points.contact_points import ContactPoints
-
-# Points further apart than this many intervals of places are on stretches of their own.
-APART = 1.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +53,7 @@ def functions_along(contacts: ContactPoints, surface: Surface, traces: Traces) -
     interval = step[np.clip(np.searchsorted(traces.place, at, "right") - 1, 0, len(step) - 1)]
     new = np.ones(len(at), dtype=bool)
     new[1:] = (who[:, 1:] != who[:, :-1]).any(axis=0)
-    new[1:] |= np.diff(at) > APART * np.maximum(interval[1:], interval[:-1])
+    new[1:] |= np.diff(at) > RUN_APART * np.maximum(interval[1:], interval[:-1])
     found = _hats(at, new, traces.place)
     return Entries(points[order][found.point], found.function, found.value)
 
@@ -98,7 +96,7 @@ def _first_follows(at: Floats, face: Ints, soft: Floats, traces: Traces) -> Bool
         count = np.subtract(*np.searchsorted(traces.place, np.stack([most, least])))
         ease.append((1 + count) * np.bincount(pair, give, n) / np.bincount(pair, minlength=n))
     # Equal but for rounding is equal.
-    return np.asarray((ease[0] >= (1 - 1e-9) * ease[1])[pair] != turned)
+    return np.asarray((ease[0] >= (1 - SAME_EASE) * ease[1])[pair] != turned)
 
 
 def _hats(at: Floats, new: Bools, place: Floats) -> Entries:

@@ -20,9 +20,11 @@ from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.face_contacts import FaceContacts
 from nmm.contact.detection.joints import interval
-from nmm.contact.detection.narrow_phase import FACE, VERTEX_EDGE, VERTEX_VERTEX, Contacts
+from nmm.contact.detection.measures import dot, rules_of
+from nmm.contact.detection.narrow_phase import FACE, VERTEX_EDGE, VERTEX_VERTEX, Contacts, joined
+from nmm.contact.detection.pair_keys import pair_key, unordered_key
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import ANGLE, dot, rules_of
+from nmm.contact.detection.tolerances import ANGLE, FACE_WALK, SAME_POINT
 
 # Stations in [0, 1] and weights of Lobatto's rules: exact to degree 1, 3 and 5.
 LOBATTO = {
@@ -33,10 +35,6 @@ LOBATTO = {
         (1 / 12, 5 / 12, 5 / 12, 1 / 12),
     ),
 }
-# Edges that faces are followed beyond what the search found.
-ROUNDS = 8
-# Ends of edges within this part of the mean edge are one point.
-SAME = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +96,7 @@ def faced(
     n = max(len(surface), 1)
     pairs, own = _edge_pairs(surface, found)
     overlaps, is_overlap = _overlaps(surface, *np.divmod(pairs, n), joints)
-    for _ in range(ROUNDS if whole else 0):  # neighbours of all overlaps at once
+    for _ in range(FACE_WALK if whole else 0):  # neighbours of all overlaps at once
         more = np.setdiff1d(_beside(surface, overlaps), pairs)
         if not len(more):
             break
@@ -110,11 +108,7 @@ def faced(
     parts = [_widened(rest, zero, zero)]
     if len(overlaps.a):
         parts += [_ends(surface, overlaps, points), _inside(surface, overlaps, points)]
-    names = FaceContacts.__dataclass_fields__
-    joined = FaceContacts(
-        *(np.concatenate([getattr(part, name) for part in parts]) for name in names)
-    )
-    return joined.take(np.argsort(joined.key, kind="stable"))
+    return joined(parts)
 
 
 def _edge_pairs(surface: Surface, found: Contacts) -> tuple[Ints, Ints]:
@@ -126,13 +120,11 @@ def _edge_pairs(surface: Surface, found: Contacts) -> tuple[Ints, Ints]:
     v, e = found.vertex, found.edge
     before = surface.previous[v]
 
-    def key(one: Ints, other: Ints) -> Ints:
-        return np.minimum(one, other) * n + np.maximum(one, other)
-
     corner = found.corner
     across = np.where(corner == e, surface.previous[corner], corner)
     other = np.where(found.kind == VERTEX_VERTEX, across, e)
-    own = np.stack([key(v, e), key(before, e), key(v, other), key(before, other)])
+    ends = ((v, e), (before, e), (v, other), (before, other))
+    own = np.stack([unordered_key(one, facing, n) for one, facing in ends])
     return np.unique(own), own
 
 
@@ -142,12 +134,12 @@ def _beside(surface: Surface, overlaps: Overlaps) -> Ints:
     after, before = surface.next, surface.previous
     one = np.concatenate([a, a, after[a], before[a], after[a], before[a]])
     other = np.concatenate([after[b], before[b], b, b, before[b], after[b]])
-    return np.unique(np.minimum(one, other) * n + np.maximum(one, other))
+    return np.unique(unordered_key(one, other, n))
 
 
 def _overlaps(surface: Surface, a: Ints, b: Ints, joints: Ints | None) -> tuple[Overlaps, Bools]:
     """Overlaps of pairs of edges, and which pairs have one."""
-    size = max(SAME * float(surface.length.mean()), 4 * rules_of(surface, 0.0).rounding)
+    size = max(SAME_POINT * float(surface.length.mean()), 4 * rules_of(surface, 0.0).rounding)
     opposite = dot(surface.direction[a], surface.direction[b]) <= -np.cos(ANGLE)
     if joints is not None:
         opposite &= ~np.isin(a * len(surface) + b, joints)
@@ -179,9 +171,8 @@ def _ends(surface: Surface, overlaps: Overlaps, points: int) -> FaceContacts:
     corner = np.where(at_a, corner_b, corner_a).ravel()
     even = (at_a & at_b).ravel() & _even(surface, corner)
     edge, parameter = np.where(even, corner, edge), np.where(even, 0.0, parameter)
-    key, first, which = np.unique(
-        vertex * len(surface) + edge, return_index=True, return_inverse=True
-    )
+    keys = pair_key(surface, vertex, edge)
+    key, first, which = np.unique(keys, return_index=True, return_inverse=True)
     length = np.asarray(np.bincount(which, share, len(first)), dtype=float)
     v, e, t = vertex[first], edge[first], parameter[first]
     return _measured(surface, (v, np.zeros(len(v))), (e, t), kind[first], key, length)

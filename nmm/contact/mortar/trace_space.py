@@ -14,13 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.tolerances import ALIKE_COSINE, KINK
 from nmm.contact.points.boundary_points import Sides
-
-# Turn (rad) of a boundary at which one face ends and another begins.
-KINK = 0.5
-# Cosine between the functions at two corners from which on they count as alike. Under Hertz's
-# cylinder pressures of degree 0 are off by 1 % at most with 0.3, by 3 % with 0.1, 13 % with 0.5.
-ALIKE_COSINE = 0.3
 
 # What covers weigh at a corner, as a vector of length one.
 Weights = dict[int, float]

@@ -12,14 +12,12 @@ from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.detection.pair_keys import pair_key, unordered_key
 from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import JOINT_LEFT
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.tracking import Apart
 from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN
 from nmm.interfaces.history import History
-
-# A broken joint whose faces have slid by this share of its length is left to the search.
-SLID = 0.05
 
 
 @dataclass(frozen=True)
@@ -83,7 +81,7 @@ class JointBook:
         if not len(points) and not len(self.lost):
             return self
         apart = apart_of(points)
-        far = np.hypot(apart[:, 0], apart[:, 1]) > SLID * points.length
+        far = np.hypot(apart[:, 0], apart[:, 1]) > JOINT_LEFT * points.length
         lost = far & ~points.bonded
         gone = np.isin(self.joint, self.joint[lost]) & ~points.bonded
         before = _turned(self.lost, surface, apart_of)

@@ -12,11 +12,9 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.motion import Frames, MaterialPoints, material_points
+from nmm.contact.detection.tolerances import SAME_ROWS
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
-
-# Rows of chord and material that differ by less than this share of the largest are the same.
-SAME_ROWS = 1e-12
 
 
 @dataclass(frozen=True)

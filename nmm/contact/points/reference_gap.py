@@ -16,6 +16,7 @@ from dataclasses import replace
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.contact.detection.pair_keys import unordered_key
 from nmm.contact.points.contact_points import ContactPoints
 
 
@@ -78,8 +79,7 @@ def _beside(born: ContactPoints, old: ContactPoints, body: Ints) -> Floats:
     faces = old.take(old.length > 0)
     count = int(body.max(initial=0)) + 1
     pair_old, pair_born = (
-        np.minimum(a, b) * count + np.maximum(a, b)
-        for a, b in ((body[part.edge_a], body[part.edge_b]) for part in (faces, born))
+        unordered_key(body[part.edge_a], body[part.edge_b], count) for part in (faces, born)
     )
     pair, which = np.unique(np.concatenate([pair_old, pair_born]), return_inverse=True)
     least = np.zeros(len(pair))

@@ -11,6 +11,12 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
+from nmm.contact.detection.tolerances import (
+    CROSSING_SOLUTIONS,
+    FIRST_REACH,
+    FURTHER,
+    MIDPOINT_SOLUTIONS,
+)
 from nmm.model.discretisation import Current
 from nmm.solvers.linear import LinearSolver
 from nmm.stepping.step.clock import Clock
@@ -24,15 +30,6 @@ if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.effects.change import Change
     from nmm.effects.contact import Contact
-
-# How far contacts are sought in the first step, in sizes of the domain.
-FIRST_REACH = 1e-6
-# A step that moved further than contacts were sought is solved with this many times its motion.
-FURTHER = 1.5
-# How often a step is solved again with contact forces where they act half way.
-HALVES = 4
-# How often a step is solved again for vertices that went through edges they were no contacts of.
-LOOKS = 4
 
 # Vertex and edge (k,) of pairs.
 Pairs = tuple[Ints, Ints]
@@ -101,13 +98,13 @@ class Touching:
                 continue
             motion = contact.motion(state, result.state) if good else None
             missed = None if motion is None else contact.overlooked(contacts, motion)
-            if missed is not None and looks < LOOKS:
+            if missed is not None and looks < CROSSING_SOLUTIONS:
                 looks, crossed = looks + 1, _joined(crossed, missed)
                 contacts, halfway = self.candidates(state, reach, equations.step, crossed), None
                 continue
             if good and equations.step is not None and not self._mover.still:
                 half = contact.momentum.halfway(solved, state, result.state, halfway)
-                if half is not None and halves < HALVES:
+                if half is not None and halves < MIDPOINT_SOLUTIONS:
                     halfway, halves = half, halves + 1
                     continue
                 result = self._kept(equations, solved, result, rest)

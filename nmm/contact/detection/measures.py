@@ -1,0 +1,52 @@
+"""Measures of a vertex and an edge, and the rules of the narrow phase in the units of a surface."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.detection.surface import Surface
+from nmm.contact.detection.tolerances import ANGLE, DEPTH, EDGE_END, FLUSH, RANKED, Rules
+
+
+def rules_of(surface: Surface, reach: float) -> Rules:
+    """Rules for the coordinates of a surface."""
+    # Of coordinates that have been turned and shifted once.
+    rounding = float(8.0 * np.finfo(float).eps * np.abs(surface.start).max(initial=0.0))
+    sine = float(np.sin(ANGLE))
+    return Rules(reach, RANKED * reach + rounding, rounding, DEPTH, FLUSH, sine, EDGE_END)
+
+
+def measure(surface: Surface, v: Ints, e: Ints) -> tuple[Floats, Floats]:
+    """Foot along the edge and signed distance of its line, both from the nearer end."""
+    p, t, length = surface.start[v], surface.direction[e], surface.length[e]
+    from_start, from_end = p - surface.start[e], p - surface.end[e]
+    first = dot(from_start, t) <= 0.5 * length
+    offset = np.where(first[:, None], from_start, from_end)
+    return dot(offset, t) + np.where(first, 0.0, length), -cross(t, offset)
+
+
+def dot(a: Floats, b: Floats) -> Floats:
+    """Scalar products (m,) of plane vectors."""
+    return np.asarray(a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1])
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """Turn (m,) of b against a: their product and the sine of the angle between them."""
+    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+
+
+def convex_vertices(surface: Surface, rules: Rules) -> Bools:
+    """Vertices whose solid angle is at most a half turn, within the angular tolerance."""
+    turn = cross(surface.direction[surface.previous], surface.direction)
+    return np.asarray(turn >= -rules.sine)
+
+
+def thinner(surface: Surface, one: Ints, other: Ints) -> Floats:
+    """Thickness (m) of the thinner of two bodies, each given by an edge."""
+    return np.minimum(surface.thickness[one], surface.thickness[other])
+
+
+def flush_distance(surface: Surface, one: Ints, other: Ints, rules: Rules) -> Floats:
+    """Distance (m) below which the edges of two bodies count as flush."""
+    return np.asarray(rules.flush * thinner(surface, one, other) + rules.rounding)
