@@ -483,3 +483,38 @@ def test_a_block_that_friction_holds_in_time_stays_over_a_change_of_the_cover(fi
     free = 10 * np.sin(SLOPE) * 0.02**2 / 2
     moved = found.history["monitor:block:ux"]
     assert abs(moved[-1] - moved[0]) < 0.2 * free
+
+
+def circle(radius, corners):
+    """A regular polygon of the area of a circle."""
+    angle = np.arange(corners) * 2 * np.pi / corners
+    radius *= np.sqrt(2 * np.pi / corners / np.sin(2 * np.pi / corners))
+    return (radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)).tolist()
+
+
+def test_a_tunnel_in_prestressed_ground_closes_by_what_its_excavation_releases():
+    inner, outer, modulus, ratio, pressure, corners = 2.0, 5.0, 1e9, 0.25, 5e6, 48
+    wall, rim = circle(inner, corners), circle(outer, corners)
+    text = f'plane = "strain"\n[materials.rock]\nyoung_modulus = {modulus}\n'
+    text += f"poisson_ratio = {ratio}\n[interfaces.any]\nbonded = true\nfriction_angle = 0.5\n"
+    text += f'[[blocks]]\nname = "ground"\nmaterial = "rock"\nvertices = {rim}\nholes = [{wall}]\n'
+    text += f'[[blocks]]\nname = "core"\nmaterial = "rock"\nvertices = {wall}\n'
+    text += f'[[initial_stresses]]\nblock = "all"\nstress = [{-pressure}, {-pressure}, 0]\n'
+    text += f'[[monitors]]\nname = "wall"\npoint = {wall[0]}\nblock = "ground"\n'
+    for n, ends in enumerate(zip(rim, [*rim[1:], rim[0]], strict=True)):
+        text += f'[[supports]]\nname = "s{n}"\nsegment = {[*ends]}\nfix = ["x", "y"]\n'
+    text += '[[stages]]\nname = "in place"\n[[stages]]\nname = "tunnel"\nremove = ["core"]\n'
+    found = run(text, {"type": "triangles", "size": 0.6, "degree": 1})
+    assert found.summary.status == "converged", found.summary.sentence
+    # Lame: u = A r + B / r, held at the rim, the wall freed of the pressure.
+    shear = modulus / 2 / (1 + ratio)
+    lame = 2 * shear * ratio / (1 - 2 * ratio)
+    b = -pressure / (2 * (lame + shear) / outer**2 + 2 * shear / inner**2)
+    closed = b * (1 / inner - inner / outer**2)
+    ways = found.history["monitor:wall:ux"]
+    # Polygons of 48 corners for circles; the wall is monitored at one.
+    assert ways[1] - ways[0] == pytest.approx(closed, rel=0.015)
+    core = np.pi * inner**2 * pressure**2 * (1 + ratio) * (1 - 2 * ratio) / modulus
+    released = np.pi * inner * pressure * abs(closed)
+    taken = found.history["change_energy"]
+    assert taken[1] - taken[0] == pytest.approx(-core - released, rel=0.02)
