@@ -4,7 +4,7 @@ from typing import Self
 
 import numpy as np
 from pydantic import Field
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
@@ -49,13 +49,12 @@ class Winkler(Effect):
 
     def matrix(self, state: State) -> csc_array:
         """Return ``k n n^T`` summed over the points."""
-        rows = self._place.points.along(state.frames, self._direction)
-        return csc_array(rows.T @ (rows * self._stiffness[:, None]))
+        rows = self._rows(state)
+        return csc_array(rows.T @ rows.multiply(self._stiffness[:, None]))
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the springs' force at the start of the step; the matrix has its growth."""
-        rows = self._place.points.along(state.frames, self._direction)
-        return -np.asarray(rows.T @ (self._stiffness * self._way(state)))
+        return -np.asarray(self._rows(state).T @ (self._stiffness * self._way(state)))
 
     def energy(self, state: State) -> float:
         """Return what the springs store (J)."""
@@ -76,6 +75,13 @@ class Winkler(Effect):
         )
         with np.errstate(invalid="ignore"):
             return {"pressure": Quantity("bodies", total / length, "Pa")}
+
+    def _rows(self, state: State) -> csr_array:
+        """(m, n) from the unknowns of a step to the motion of the points along the direction."""
+        local = self._place.points.along(state.frames, self._direction)
+        unknowns = self._place.points.rows.unknowns
+        ends = np.arange(len(local) + 1) * local.shape[1]
+        return csr_array((local.ravel(), unknowns.ravel(), ends), shape=(len(local), self._n))
 
     def _way(self, state: State) -> Floats:
         """How far the points have come along the direction (m)."""

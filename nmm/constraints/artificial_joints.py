@@ -30,6 +30,7 @@ class ArtificialJoints(Effect):
     """Bonds between all sub-blocks of one block, alike in normal and tangential direction."""
 
     name = "artificial joints"
+    external = False
 
     def __init__(self, tie: Tie, n_unknowns: int) -> None:
         self.tie = tie

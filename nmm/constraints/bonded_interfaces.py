@@ -25,6 +25,7 @@ class Seams(Effect):
     """All seams of a scene under a formulation."""
 
     name = "seams"
+    external = False
 
     def __init__(
         self, ties: list[Tie], n_unknowns: int, glue: MultiplierGlue | None = None

@@ -110,6 +110,9 @@ class Effect(ABC):
     placed: ClassVar[bool] = True
     """Whether places in the reference configuration declare it, so that it cannot follow bodies
     that are laid anew elsewhere."""
+    external: ClassVar[bool] = True
+    """Whether its forces may change the momentum of all bodies together; false where they come in
+    pairs, and for gravity, whose impulse audits know."""
     stays: ClassVar[bool] = False
     """Whether it goes on in stages whose scene no longer names it."""
 

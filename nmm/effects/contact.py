@@ -62,6 +62,7 @@ class Contact(Effect):
     """
 
     name = "contact"
+    external = False
 
     def __init__(
         self,

@@ -16,6 +16,7 @@ class Gravity(Effect):
     """Force density ``rho g``, fixed in space while bodies turn."""
 
     name = "gravity"
+    external = False
     placed = False
 
     def __init__(self, model: Model, acceleration: Floats) -> None:

@@ -19,6 +19,7 @@ class Inertia(Effect):
     """
 
     name = "inertia"
+    external = False
     placed = False
 
     def __init__(self, model: Model, axes_turn: bool = True) -> None:

@@ -23,6 +23,7 @@ class InitialStress(Effect):
     """
 
     name = "initial stress"
+    external = False
     placed = False
     stays = True
 

@@ -15,6 +15,7 @@ class InitialVelocity(Effect):
     """Rigid motion (vx, vy, omega about the centroid) of each body at the start."""
 
     name = "initial velocity"
+    external = False
     placed = False
 
     def __init__(self, model: Model, motion: Floats) -> None:

@@ -30,6 +30,9 @@ def check_effect_of(
 ) -> None:
     """Hold the effect ``[effects.NAME]`` of a scene, or a built-in one, to `check_effect`.
 
+    Where neither call nor scene has a formulation it is checked on blocks, whose unknowns are few
+    and all at every point, and on a mesh of triangles, where points know some of them.
+
     Raises
     ------
     AssertionError
@@ -42,11 +45,17 @@ def check_effect_of(
     from nmm.stepping.simulation import prepare
     from nmm.trust import allowing, beside
 
+    given = formulation or scene.formulation
     with allowing(*allow_code, folder=beside(scene.source.name, allow_code)):
-        made = prepare(scene, formulation or scene.formulation or Formulation())
-    effects = made.stepper.plan.effects
-    found = effects[OWN + name if OWN + name in effects else name]
-    check_effect(found, made.stepper.model, made.start)
+        prepared = [prepare(scene, given or Formulation())]
+        if given is None:
+            size = float(np.ptp(prepared[0].stepper.model.manifold.elements.points)) / 4
+            mesh = {"cover": {"type": "triangles", "size": size, "degree": 1}}
+            prepared.append(prepare(scene, Formulation.model_validate(mesh)))
+    for made in prepared:
+        effects = made.stepper.plan.effects
+        found = effects[OWN + name if OWN + name in effects else name]
+        check_effect(found, made.stepper.model, made.start)
 
 
 def check_effect(effect: Effect, model: Model, state: State, seed: int = 0) -> None:

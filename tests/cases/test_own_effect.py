@@ -4,15 +4,18 @@ import base64
 import re
 import sys
 import tomllib
+from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import nmm
+from nmm import registry
 from nmm.results import read_run
 from nmm.results.viewing.paraview import write_paraview
 from nmm.scene.read import build_scene
+from nmm.testing import check_effect_of
 
 RAFT = Path(__file__).parents[2] / "examples" / "own_effect" / "raft.toml"
 CODE = ["foundation", "steepness"]
@@ -128,3 +131,107 @@ def test_quantities_of_ones_own_are_drawn_by_name(done):
     assert drawn == pytest.approx([LOAD / LENGTH / 1e3], rel=1e-12)
     with pytest.raises(nmm.NmmError, match="minor, ground:pressure, friction:pressure, von_mises"):
         plots.stress(done, "pressure")
+
+
+def test_places_in_tables_of_ones_own_move_with_a_scene_that_lies_far_away(done):
+    def far(match):
+        return f"[{float(match[1]) + 2.0**22}, {match[2]}]"
+
+    places = r"(?<!direction = )\[(\d[\d.]*), (\d[\d.]*)\]"
+    text = re.sub(places, far, RAFT.read_text())
+    moved = nmm.run(nmm.parse_scene(text, str(RAFT)), allow_code=CODE)
+    assert moved.origin.any()
+    for name in ("ground:settlement", "largest_tilt", "energy:ground"):
+        assert moved.history[name][-1] == pytest.approx(done.history[name][-1], rel=1e-12)
+
+
+DROPPED = """
+duration = "20 ms"
+[inertia]
+[formulation.integrator]
+type = "newmark"
+step = "0.2 ms"
+[formulation.cover]
+{cover}
+"""
+
+
+@pytest.mark.parametrize("cover", ["type = 'block'", "type = 'triangles'\nsize = 1.0\ndegree = 1"])
+def test_a_body_that_bounces_on_springs_of_ones_own_keeps_its_energy(cover):
+    tables = tomllib.loads(RAFT.read_text())
+    tables |= tomllib.loads(DROPPED.format(cover=cover))
+    tables["materials"]["concrete"]["density"] = 2400.0
+    del tables["loads"]
+    tables["initial_velocities"] = [
+        {"block": "raft", "velocity": [0.1, -0.5], "angular_velocity": 0.02}
+    ]
+    run = nmm.run(build_scene(tables, str(RAFT)), allow_code=CODE)
+    total = sum(
+        run.history[name]
+        for name in ("kinetic_energy", "strain_energy", "energy:ground", "energy:friction")
+    )
+    # Newmark's mean acceleration keeps quadratic energies; bodies turn by 1e-3 here, and axes that
+    # turn with them within a step cost its square.
+    assert total == pytest.approx(total[0], rel=1e-5)
+    assert np.ptp(run.history["energy:ground"]) > 0.1 * total[0]
+    # What is missing the first step took, which knows no forces at its start: (omega dt)^2 of it.
+    lost = run.history["integration_loss"][-1] / (total[0] + run.history["integration_loss"][0])
+    assert run.summary.energy_balance == pytest.approx(lost, abs=1e-6)
+    assert run.summary.status == "converged"  # springs to the ground change the momentum
+
+
+def test_springs_of_ones_own_follow_a_change_of_cover(done):
+    stages = """
+[[stages]]
+name = "coarse"
+[[stages]]
+name = "fine"
+cover = { size = 0.5, degree = 2 }
+[formulation.cover]
+type = "triangles"
+size = 1.0
+degree = 1
+"""
+    text = RAFT.read_text() + stages
+    run = nmm.run(nmm.parse_scene(text, str(RAFT)), allow_code=CODE)
+    assert run.summary.status == "converged"
+    np.testing.assert_allclose(run.history["ground:reaction"], LOAD, rtol=1e-9)
+    # The raft bends by less than a hundredth of what it tilts.
+    np.testing.assert_allclose(run.history["largest_tilt"], TILT, rtol=0.01)
+    # Cells of half the size, many cut by the edges of the raft.
+    first, last = (len(run.frames[i].fields["von_mises"].values) for i in (0, -1))
+    assert last > 2 * first
+
+
+def test_an_installed_package_offers_an_effect_by_name(done, monkeypatch):
+    def offered(group):
+        entry = EntryPoint("winkler", "foundation:Winkler", group)
+        return [entry] if group == "nmm.effect" else []
+
+    monkeypatch.setattr(registry, "entry_points", offered)
+    monkeypatch.syspath_prepend(str(RAFT.parent))
+    text = RAFT.read_text().replace("foundation:Winkler", "winkler")
+    run = nmm.run(nmm.parse_scene(text.replace(', "steepness:Tilt"', "")))
+    assert np.array_equal(run.history["energy:ground"], done.history["energy:ground"])
+
+
+def test_the_effect_of_the_example_keeps_what_every_one_promises():
+    for name in ("ground", "friction"):
+        check_effect_of(nmm.read_scene(RAFT), name, allow_code=CODE)
+
+
+def test_quantities_of_contacts_are_stored_and_in_paraview(tmp_path):
+    from nmm.testing.outputs import TWO_BLOCKS
+
+    text = TWO_BLOCKS + '[output]\nquantities = ["crack_opening", "principal_stress"]\n'
+    run = nmm.run(nmm.parse_scene(text), out=tmp_path / "run")
+    stored = read_run(run.folder)
+    opening = stored.frames[-1].fields["crack_opening"]
+    assert (opening.on, opening.unit) == ("contacts", "m")
+    assert len(opening.values) == len(stored.frames[-1].contact_gap) > 0
+    assert not opening.values.any()  # nothing was bonded
+    write_paraview(stored, tmp_path / "files")
+    contacts = sorted((tmp_path / "files").glob("contacts_*.vtu"))[-1].read_text()
+    assert 'Name="crack_opening"' in contacts
+    blocks = sorted((tmp_path / "files").glob("blocks_*.vtu"))[-1].read_text()
+    assert re.search(r'Name="principal_stress"[^>]*ComponentName0="major"', blocks)

@@ -32,7 +32,7 @@ def bodies(run: Ended) -> Findings:
             "turns",
             'use [rotation] update = "exact"',
         )
-    forces = any(name in run.stepper.plan.effects for name in ("supports", "loads", "body loads"))
+    forces = any(effect.external for effect in run.stepper.plan.effects.values())
     whole = run.formulation.integrator.kinetic_factor == 1
     if run.dynamic and not forces and whole and run.formulation.rotation.update != "linear":
         yield from _momentum(run)

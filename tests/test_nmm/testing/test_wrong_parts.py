@@ -27,6 +27,7 @@ from nmm.stepping.simulation import prepare
 from nmm.testing import (
     check_cover,
     check_effect,
+    check_effect_of,
     check_enforcement,
     check_integrator,
     check_interface_law,
@@ -430,3 +431,29 @@ LAWS = {
 def test_a_wrong_interface_law_is_told(words):
     with told(words):
         check_interface_law(LAWS[words](**BOND, fracture_energy=100.0))
+
+
+def test_an_effect_that_is_right_on_blocks_alone_is_told(tmp_path):
+    (tmp_path / "local_rows.py").write_text(
+        "import numpy as np\n"
+        "from scipy.sparse import csc_array\n"
+        "from nmm.assembly.places import at_point\n"
+        "from nmm.effects.base import Effect\n"
+        "class Local(Effect):\n"
+        "    def __init__(self, rows):\n"
+        "        self.rows = rows\n"
+        "    @classmethod\n"
+        "    def from_setup(cls, setup):\n"
+        "        place = at_point(setup.model.manifold, np.array([0.5, 0.5]))\n"
+        "        return cls(place.points.rows.values[:, 1])\n"
+        "    def force(self, state, end):\n"
+        "        return self.rows.sum(axis=0)\n"
+        "    def work(self, before, after):\n"
+        "        return float(self.force(after, None) @ (after.deformation - before.deformation))\n"
+    )
+    one = TWO_BLOCKS.partition('[[blocks]]\nname = "top"')[0]
+    text = one + '[[supports]]\nname = "hold"\nblock = "floor"\nfix = ["x", "y"]\n'
+    text += '[effects.local]\ntype = "local_rows:Local"\n'
+    (tmp_path / "scene.toml").write_text(text)
+    with told("force of shape"):
+        check_effect_of(nmm.read_scene(tmp_path / "scene.toml"), "local", allow_code=["local_rows"])
