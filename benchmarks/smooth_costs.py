@@ -28,7 +28,7 @@ from nmm.assembly.errors import field_errors
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import on_edges
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.imposition import Method
 from nmm.formulation import Solver
 from nmm.materials.elastic import Elastic
 from nmm.model.solver_settings import solver_for

@@ -26,10 +26,10 @@ from nmm.scene.fields import Count, Frozen, Number, PartName, Text, Time
 class SupportMethod(Frozen):
     """How supports along edges are imposed; points are held by springs."""
 
-    method: Literal["auto", "penalty", "nitsche", "lagrange"] = Field(
+    method: PartName = Field(
         default="auto",
-        description='"auto", "penalty", "nitsche" or "lagrange"; auto is Nitsche\'s method for '
-        "meshes of linear materials, else springs",
+        description=f'"auto", "penalty", "nitsche", "lagrange" {OWN}; auto is Nitsche\'s method '
+        "for meshes of linear materials, else springs",
         examples=["nitsche"],
     )
     stiffness: Number | None = Field(
@@ -46,10 +46,10 @@ class SupportMethod(Frozen):
 class Glue(Frozen):
     """How blocks are glued whose interface is bonded and names no stiffness, without contact."""
 
-    method: Literal["auto", "spring", "nitsche", "lagrange"] = Field(
+    method: PartName = Field(
         default="auto",
-        description='"auto", "spring", "nitsche" or "lagrange"; auto is Nitsche\'s method, and '
-        "springs where functions have no strain or a material is not linear",
+        description=f'"auto", "spring", "nitsche", "lagrange" {OWN}; auto is Nitsche\'s method, '
+        "and springs where functions have no strain or a material is not linear",
         examples=["nitsche"],
     )
     stiffness: Number | None = Field(

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array, eye_array, kron
 
 from covers.approximation.manifold import Manifold
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats, Ints
 from integration.rules import polygon_rule
 
 
@@ -36,7 +36,7 @@ def ghost(manifold: Manifold, elements: Ints, weight: Floats, degree: int) -> cs
     """
     n = manifold.n_unknowns
     first, second = neighbours(manifold, elements)
-    known = _extend(manifold)
+    known = manifold.extends
     both = known[first] & known[second]
     first, second = first[both], second[both]
     if not len(first):
@@ -75,11 +75,3 @@ def _summed(pair: Ints, factor: Floats, unknowns: Ints, jump: Floats, n: int) ->
         values.append(square.ravel())
     places = np.concatenate(rows), np.concatenate(columns)
     return csc_array(coo_array((np.concatenate(values), places), shape=(n, n)))
-
-
-def _extend(manifold: Manifold) -> Bools:
-    """Elements whose fields can be continued beyond them."""
-    found = np.zeros(len(manifold.elements), dtype=bool)
-    for group in manifold.groups:  # a handful of groups
-        found[group.elements] = group.extends
-    return found

@@ -15,7 +15,7 @@ from covers.approximation.element_groups import ElementGroup
 from covers.approximation.rows import Rows, stack_groups
 from covers.cutting.boundary import BoundaryEdges
 from covers.cutting.shared_edges import shared_edges
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
 
 
@@ -131,6 +131,14 @@ class Manifold:
     def shared_edges(self) -> tuple[Ints, Ints]:
         """The two elements (p,) of each edge inside a body."""
         return shared_edges(self.elements, self.element_body, self.boundary)
+
+    @cached_property
+    def extends(self) -> Bools:
+        """(E,) elements whose fields can be continued beyond them."""
+        found = np.zeros(len(self.elements), dtype=bool)
+        for group in self.groups:  # a handful of groups
+            found[group.elements] = group.extends
+        return found
 
     def rows(self, elements: Ints, points: Floats) -> Rows:
         """Evaluation rows of the displacement at ``points`` (m, 2) in ``elements`` (m,)."""

@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.errors import field_errors
 from nmm.assembly.places import on_segment
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.imposition import Method
 from nmm.formulation import CoverTable, read_formulation
 from nmm.geometry import regions
 from nmm.model.build import material_law

@@ -7,7 +7,7 @@ import numpy as np
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.places import at_point, on_edges
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.imposition import Method
 from nmm.formulation import CoverTable, read_formulation
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid

@@ -31,6 +31,8 @@ class Place:
         (m, 2) where they lie in the reference place.
     normal
         (m, 2) outward normals of the boundary in the reference place; None at a point.
+    piece
+        (m,) the piece of boundary each lies on, counted from zero; None at a point.
     """
 
     points: MaterialPoints
@@ -38,9 +40,16 @@ class Place:
     weight: Floats
     position: Floats
     normal: Floats | None = None
+    piece: Ints | None = None
 
     def __len__(self) -> int:
         return len(self.weight)
+
+    @property
+    def piece_lengths(self) -> Floats:
+        """Lengths of the pieces of boundary (m)."""
+        assert self.piece is not None
+        return np.asarray(np.bincount(self.piece, self.weight), dtype=float)
 
 
 def at_point(manifold: Manifold, point: Floats, regions: Bools | None = None) -> Place:
@@ -117,6 +126,7 @@ def _gauss(manifold: Manifold, edge: Ints, start: Floats, end: Floats, order: in
         weight.ravel(),
         flat,
         np.repeat(normal, q, axis=0),
+        np.repeat(np.arange(len(edge)), q),
     )
 
 

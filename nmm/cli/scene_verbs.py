@@ -33,7 +33,7 @@ CALLED_BY = {
     "loads": "[[loads]]",
     "body loads": '[[loads]] of kind "body"',
     "supports": "[[supports]]",
-    "seams": "bonded interface without contact",
+    "bonded interfaces": "bonded interface without contact",
     "initial velocity": "[[initial_velocities]]",
     "initial stress": "[[initial_stresses]]",
 }

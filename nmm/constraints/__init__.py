@@ -1,4 +1,4 @@
-"""Supports and tied interfaces: held or joined by springs, Nitsche's method or multipliers.
+"""Supports and tied interfaces: an interface, and one of the methods that hold it.
 
-No contact.
+A support is an interface with the ground. No contact.
 """

@@ -1,4 +1,4 @@
-"""Seams: bonded interfaces in scenes without contact, tied for good.
+"""Bonded interfaces in scenes without contact, tied for good.
 
 Where the interface names its stiffness these are Goodman's joint elements (Goodman, Taylor and
 Brekke 1968) along the edges that two blocks share. Where it names none they are glue, and the
@@ -6,119 +6,83 @@ formulation's ``[glue]`` says how it holds: by springs, by Nitsche's method or b
 act at Gauss points of the shared edges, whatever the covers on either side.
 """
 
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats
-from nmm.assembly.motion import State
-from nmm.constraints.multiplier_ties import MultiplierGlue
-from nmm.constraints.tied_interfaces import glue, glue_stiffness, shared_edges, springs
-from nmm.constraints.ties import Tie
+from nmm.assembly.model import Model
+from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.linear_matter import method_for
+from nmm.constraints.shared_edges import ORDER, gauss_interface, shared_edges
+from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
+from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.contact.detection.joints import Joints
-from nmm.effects.base import Effect, Instant, Setup
-from nmm.errors import SceneError
+from nmm.effects.base import Setup
+from nmm.errors import FormulationError, SceneError
+
+if TYPE_CHECKING:
+    from nmm.formulation import Glue
 
 
-class Seams(Effect):
-    """All seams of a scene under a formulation."""
+class BondedInterfaces(TiedInterfaces):
+    """All bonded interfaces of a scene under a formulation."""
 
-    name = "seams"
+    name = "bonded interfaces"
     external = False
-
-    def __init__(
-        self, ties: list[Tie], n_unknowns: int, glue: MultiplierGlue | None = None
-    ) -> None:
-        self.ties = ties
-        self.glue = glue
-        self._n = n_unknowns
-        self._kept: tuple[Floats, csc_array] | None = None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Find the edges that blocks with a bonded interface share."""
-        model, method = setup.model, setup.formulation.glue
+        model, part = setup.model, setup.formulation.glue
         joints = shared_edges(model)
-        spring, glued = _interfaces(setup, joints)
-        sprung = spring[:, 0] > 0
-        ties: list[Tie] = []
+        spring, sprung, glued = _stiffnesses(setup, joints)
+        ties: list[Imposition] = []
         if sprung.any():
-            ties.append(springs(model, joints.take(sprung), spring[sprung]))
+            interface = gauss_interface(model, joints.take(sprung))
+            stiffness = spring[sprung][interface.first.piece]
+            glue = glue_stiffness(model, interface, part.stiffness)[:, None]
+            ties.append(joint_springs(interface, np.where(np.isnan(stiffness), glue, stiffness)))
         cover = setup.formulation.cover
-        held = None
         if glued.any():
             size = None if cover.of_blocks else cover.finest
-            more, held = glue(model, joints.take(glued), method, size)
-            ties += more
-        return cls(ties, model.manifold.n_unknowns, held)
+            ties += glue_edges(model, joints.take(glued), part, size)
+        return cls(ties, model.manifold.n_unknowns)
 
     @property
     def about(self) -> str:
         """See `Effect.about`."""
-        said = [tie.about for tie in self.ties]
-        if self.glue is not None:
-            said.append(f"{self.glue.basis.shape[1]} Lagrange multipliers")
-        return ", ".join(said) if said else "no shared edges"
-
-    def matrix(self, state: State) -> csc_array:
-        """Return the stiffness of the ties, the same object while no body turns."""
-        if self._kept is None or not np.array_equal(self._kept[0], state.frames.angle):
-            total = csc_array((self._n, self._n))
-            for tie in self.ties:  # at most two
-                total = total + tie.matrix(state, self._n)
-            self._kept = state.frames.angle, csc_array(total)
-        return self._kept[1]
-
-    def force(self, state: State, end: Instant) -> Floats:
-        """Return the pull of the ties."""
-        total = np.zeros(self._n)
-        for tie in self.ties:  # at most two
-            total += tie.force(state, self._n)
-        return total
-
-    def energy(self, state: State) -> float:
-        """Return the energy of the ties (J)."""
-        return sum(tie.energy(state) for tie in self.ties)
-
-    def gap_volume(self, state: State, k: int) -> Floats:
-        """See `Effect.gap_volume`."""
-        return sum((tie.gap_volume(state, k) for tie in self.ties), start=np.zeros(k))
-
-    def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
-        """Conditions that multipliers hold; None without multipliers."""
-        return None if self.glue is None else self.glue.border(state, self._n)
-
-    def keep(self, multipliers: Floats) -> Floats:
-        """See `Effect.keep`."""
-        if self.glue is None:
-            return multipliers
-        size = self.glue.basis.shape[1]
-        self.glue.found["traction"] = multipliers[:size]
-        return multipliers[size:]
-
-    def carried(self) -> dict[str, Floats]:
-        """See `Effect.carried`: the multipliers of the last solution."""
-        return {} if self.glue is None else dict(self.glue.found)
-
-    def carry(self, carried: dict[str, Floats]) -> None:
-        """See `Effect.carry`."""
-        if self.glue is not None:
-            self.glue.found.update(carried)
-
-    def forget(self) -> None:
-        """See `Effect.forget`."""
-        self._kept = None
+        return super().about or "no shared edges"
 
 
-def _interfaces(setup: Setup, joints: Joints) -> tuple[Floats, Bools]:
-    """Stiffness (j, 2) in Pa/m of joints that name one, zero elsewhere, and which are glued."""
+def glue_edges(model: Model, joints: Joints, part: "Glue", size: float | None) -> list[Imposition]:
+    """Return what holds edges together; ``size`` is that of a mesh's cells, None for blocks (m)."""
+    degree, auto = model.manifold.degree, part.method == "auto"
+    asked = method_for(model, part.method, "spring")
+    kind = "nitsche" if asked == "auto" else asked
+    method = Method(kind, size, degree, part.stiffness, part.gamma)
+    interface = gauss_interface(model, joints, max(ORDER, 2 * degree + 2))
+    tie = method.impose(model, [interface])[0]
+    free = tie.free
+    if not free.any():
+        return [tie]
+    if not auto:
+        x, y = interface.first.position[free][0]
+        raise FormulationError(
+            f'[glue] method: "{kind}": at [{x:.6g}, {y:.6g}] neither side has functions with '
+            'strain: expected one: use method = "spring"'
+        )
+    stiffness = glue_stiffness(model, interface, part.stiffness) * interface.area
+    return [tie, Springs(interface, np.where(free, stiffness, 0.0))]
+
+
+def _stiffnesses(setup: Setup, joints: Joints) -> tuple[Floats, Bools, Bools]:
+    """Stiffness (j, 2) in Pa/m of joints, NaN where none is named; which are sprung, and glued."""
     edges, region = setup.model.manifold.boundary, setup.model.manifold.element_region
     one, two = edges.element[joints.edge_a], edges.element[joints.edge_b]
-    materials, found = list(setup.scene.materials), np.zeros((len(one), 2))
-    glued = np.zeros(len(one), dtype=bool)
+    materials, found = list(setup.scene.materials), np.full((len(one), 2), np.nan)
+    bonded = np.zeros(len(one), dtype=bool)
     first, second = setup.region_material[region[one]], setup.region_material[region[two]]
-    glue = glue_stiffness(setup.model, joints, setup.formulation.glue)
     for a, b in np.unique(np.stack([first, second], axis=1), axis=0):  # pairs of materials
         try:
             item = setup.scene.interface(materials[a], materials[b])
@@ -126,10 +90,8 @@ def _interfaces(setup: Setup, joints: Joints) -> tuple[Floats, Bools]:
             continue
         # Sub-blocks of one block are the formulation's to tie.
         chosen = (first == a) & (second == b) & (region[one] != region[two]) & item.bonded
-        own = (item.normal_stiffness, item.shear_stiffness)
-        if own == (None, None):
-            glued |= chosen
-            continue
-        for axis in (0, 1):
-            found[chosen, axis] = glue[chosen, axis] if own[axis] is None else own[axis]
-    return found, glued
+        bonded |= chosen
+        for axis, own in enumerate((item.normal_stiffness, item.shear_stiffness)):
+            found[chosen, axis] = np.nan if own is None else own
+    named = ~np.isnan(found).all(axis=1)
+    return found, bonded & named, bonded & ~named

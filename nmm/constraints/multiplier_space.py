@@ -15,7 +15,7 @@ from scipy.sparse import csr_array
 from integration.arrays import Bools, Floats, Ints
 from integration.monomials import evaluate, exponents
 from nmm.assembly.model import Model
-from nmm.assembly.places import Place
+from nmm.constraints.interface import Interface
 
 # Length of a group in cells; kink (rad) at which a line ends; a function that the others resemble
 # to this share is left out: what is left of it alternates from piece to piece.
@@ -51,30 +51,27 @@ class FacePieces:
     weight: Floats
 
 
-def pieces_of(model: Model, place: Place, size: float) -> FacePieces:
-    """Return the pieces that points along edges came from: one element and one normal each.
+def pieces_of(model: Model, interface: Interface) -> FacePieces:
+    """Return the pieces of an interface.
 
     Multipliers end where a body does: across two of different stiffness a traction jumps.
     """
+    place, manifold = interface.first, model.manifold
     assert place.normal is not None
-    x, n = place.position, place.normal
-    new = np.ones(len(x), dtype=bool)
-    new[1:] = place.elements[1:] != place.elements[:-1]
-    new[1:] |= np.abs(n[1:] - n[:-1]).max(axis=1) > TOUCH
-    new[1:] |= np.abs(np.sum((x[1:] - x[:-1]) * n[1:], axis=1)) > TOUCH * size
-    piece = np.cumsum(new) - 1
-    count = int(piece[-1]) + 1 if len(piece) else 0
-    length = np.bincount(piece, place.weight, minlength=count)
-    middle = np.stack(
-        [np.bincount(piece, place.weight * x[:, k], minlength=count) / length for k in (0, 1)],
-        axis=1,
-    )
+    assert place.piece is not None
+    x, piece, length = place.position, place.piece, place.piece_lengths
+    sums = [np.bincount(piece, place.weight * x[:, k]) for k in (0, 1)]
+    middle = np.stack(sums, axis=1) / length[:, None]
+    at = np.searchsorted(piece, np.arange(len(length)))
+    normal = place.normal[at]
     # The material is on the left of an edge, and its normal points to the right.
-    first = n[new]
-    along = np.stack([-first[:, 1], first[:, 0]], axis=1) * length[:, None] / 2
-    line = model.manifold.element_body[place.elements[new]]
-    weight = place.weight * model.thickness
-    return FacePieces(middle - along, middle + along, line, piece, x, n, weight)
+    along = np.stack([-normal[:, 1], normal[:, 0]], axis=1) * length[:, None] / 2
+    line = manifold.element_body[place.elements[at]]
+    if interface.second is not None:
+        other = manifold.element_body[interface.second.elements[at]]
+        along = np.where((line > other)[:, None], -along, along)
+        line = np.minimum(line, other) * manifold.n_bodies + np.maximum(line, other)
+    return FacePieces(middle - along, middle + along, line, piece, x, place.normal, interface.area)
 
 
 def traction_degree(model: Model) -> int:

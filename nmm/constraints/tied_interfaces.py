@@ -1,131 +1,142 @@
-"""Glue: the edges that bodies share, and what a formulation holds them together by."""
+"""The effect of interfaces that are tied for good, whatever holds them.
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+Forces are read from the whole jump as it stands, so that nothing drifts over steps.
+"""
+
+from collections.abc import Sequence
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import csc_array, csr_array, vstack
 
 from integration.arrays import Floats, Ints
-from integration.segments import segment_rule
-from nmm.assembly.model import Model
-from nmm.assembly.motion import initial_state, material_points
-from nmm.constraints.linear_matter import check_linear, method_for
-from nmm.constraints.multiplier_space import FacePieces, multipliers, traction_degree
-from nmm.constraints.multiplier_ties import MultiplierGlue, independent
-from nmm.constraints.nitsche_interface import averages
-from nmm.constraints.ties import Tie, TiedPairs, TieSprings
-from nmm.contact.detection.joints import Joints, find_joints
-from nmm.contact.points.boundary_points import sides
-from nmm.errors import FormulationError
+from nmm.assembly.motion import State
+from nmm.constraints.imposition import Imposition
+from nmm.constraints.interface import joined
+from nmm.effects.base import Effect, Instant
 
-if TYPE_CHECKING:
-    from nmm.formulation import Glue
-
-# Springs of glue in E / length of the longest edge that elements share: it opens by 1e-4 of that
-# length under a strain of one. At 1e6 the traction along a cut interface oscillates by 10 %, at
-# 1e4 by 1 %.
-GLUE = 1e4
-# Least degree of the work along a seam that is integrated exactly.
-ORDER = 8
+# Multipliers (k,) of each space as found last and as the step began (Pa).
+LastMultipliers = tuple[tuple[Floats | None, Floats | None], ...]
 
 
-def shared_edges(model: Model) -> Joints:
-    """Return the edges that bodies share in the reference place."""
-    start = initial_state(model.manifold)
-    return find_joints(sides(model.manifold).surface(start.frames, start.deformation))
+class TiedInterfaces(Effect):
+    """Interfaces with what holds them.
+
+    Parameters
+    ----------
+    ties
+        The interfaces.
+    n_unknowns
+        Of the model.
+    """
+
+    def __init__(self, ties: Sequence[Imposition], n_unknowns: int) -> None:
+        self.ties = list(ties)
+        self._n = n_unknowns
+        self._kept: tuple[Floats, csc_array] | None = None  # the matrix, at angles
+        self._known: list[tuple[State, list[Floats]]] = []
+        self._spaces = list({id(t.shared): t.shared for t in ties if t.shared}.values())
+        turning = [t.interface.bodies for t in ties if t.turns]
+        self._turning = np.unique(np.concatenate([*turning, np.zeros(0, dtype=np.int64)]))
+
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        points: dict[str, int] = {}
+        for tie in self.ties:
+            if tie.shared is None:
+                points[tie.words] = points.get(tie.words, 0) + len(tie.interface)
+        said = [f"{words} at {number} points" for words, number in points.items()]
+        said += [f"{self.multipliers} Lagrange multipliers"] if self._spaces else []
+        return ", ".join(said)
+
+    @property
+    def multipliers(self) -> int:
+        """Number of conditions that multipliers hold."""
+        return sum(space.size for space in self._spaces)
+
+    def matrix(self, state: State) -> csc_array:
+        """Return the stiffness of all ties, the same object as long as no tied body turns."""
+        angle = state.frames.angle[self._turning]
+        if self._kept is None or not np.array_equal(self._kept[0], angle):
+            shape = (self._n, self._n)
+            row, column, value = joined([_NOTHING, *(tie.matrix(state) for tie in self.ties)])
+            self._kept = angle, csc_array((value, (row, column)), shape=shape)
+        return self._kept[1]
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the pull at the start of the step towards the places at its end."""
+        total = np.zeros(self._n)
+        for tie, jump in zip(self.ties, self._jumps(state, end), strict=True):
+            total += tie.force(state, jump)
+        return total
+
+    def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
+        """Conditions ``rows @ d = sides`` on the step's unknowns; None without multipliers."""
+        found: dict[int, tuple[csr_array, Floats]] = {}
+        for tie, jump in zip(self.ties, self._jumps(state, end), strict=True):
+            if tie.shared is not None:
+                rows, sides = tie.conditions(state, jump)
+                before = found.get(id(tie.shared))
+                both = (rows, sides) if before is None else (before[0] + rows, before[1] + sides)
+                found[id(tie.shared)] = both
+        if not found:
+            return None
+        parts = found.values()
+        return csr_array(vstack([rows for rows, _ in parts])), np.concatenate([s for _, s in parts])
+
+    def keep(self, multipliers: Floats) -> Floats:
+        """Remember the multipliers of the last solution, for reactions; return the others."""
+        for space in self._spaces:
+            space.values, multipliers = multipliers[: space.size], multipliers[space.size :]
+        return multipliers
+
+    def carried(self) -> LastMultipliers:
+        """See `Effect.carried`: the last multipliers, and those before, of each space."""
+        return tuple((shared.values, shared.before) for shared in self._spaces)
+
+    def carry(self, carried: LastMultipliers) -> None:
+        """See `Effect.carry`."""
+        for shared, (values, before) in zip(self._spaces, carried, strict=True):
+            shared.values, shared.before = values, before
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._kept, self._known = None, []
+
+    def energy(self, state: State) -> float:
+        """Energy (J) stored in ``state``, with places of its own instant."""
+        jumps = self._jumps(state, instant_of(state))
+        return sum(tie.energy(state, jump) for tie, jump in zip(self.ties, jumps, strict=True))
+
+    def gap_volume(self, state: State, k: int) -> Floats:
+        """See `Effect.gap_volume`."""
+        total = np.zeros(k)
+        for tie, jump in zip(self.ties, self._jumps(state, instant_of(state)), strict=True):
+            total += tie.gap_volume(state, jump, k)
+        return total
+
+    def tied_unknowns(self) -> Ints:
+        """Return the unknowns tied to those of neighbours, as by ghost terms."""
+        none = [np.empty(0, dtype=np.int64)]
+        return np.unique(np.concatenate(none + [tie.tied_unknowns for tie in self.ties]))
+
+    def _jumps(self, state: State, end: Instant) -> list[Floats]:
+        pairs = zip(self.ties, self._motions(state), strict=True)
+        return [tie.interface.jump(motion, end) for tie, motion in pairs]
+
+    def _motions(self, state: State) -> list[Floats]:
+        """How far the sides have moved apart; those at both ends of a step are kept."""
+        for known, motions in self._known:
+            if known is state:
+                return motions
+        motions = [tie.interface.motion(state) for tie in self.ties]
+        self._known = [*self._known[-1:], (state, motions)]
+        return motions
 
 
-def glue(
-    model: Model, joints: Joints, method: "Glue", size: float | None
-) -> tuple[list[Tie], MultiplierGlue | None]:
-    """Return what holds edges together; ``size`` is that of a mesh's cells, None for blocks (m)."""
-    kind = method_for(model, method.method, "spring")
-    if kind == "spring":
-        return [springs(model, joints, glue_stiffness(model, joints, method))], None
-    if kind == "lagrange":
-        return [], _multipliers(model, joints, size)
-    return _averages(model, joints, method), None
+_NOTHING = (np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))
 
 
-def pairs_of(
-    model: Model, joints: Joints, order: int = ORDER
-) -> tuple[TiedPairs, Ints, Ints, Ints]:
-    """Gauss points of joints, the elements on both sides and the joint of each point."""
-    edges = model.manifold.boundary
-    points, weight = segment_rule(joints.start, joints.end, order)
-    q = weight.shape[1]
-    flat = points.reshape(-1, 2)
-    one = np.repeat(edges.element[joints.edge_a], q)
-    two = np.repeat(edges.element[joints.edge_b], q)
-    first = material_points(model.manifold, one, flat)
-    second = material_points(model.manifold, two, flat)
-    pairs = TiedPairs(
-        first,
-        second,
-        np.repeat(joints.normal, q, axis=0),
-        weight.ravel() * model.thickness,
-    )
-    return pairs, one, two, np.repeat(np.arange(len(joints)), q)
-
-
-def springs(model: Model, joints: Joints, spring: Floats) -> TieSprings:
-    """Springs of ``spring`` (j, 2), normal and shear, in Pa/m along edges."""
-    pairs, _, _, joint = pairs_of(model, joints)
-    return TieSprings(pairs, spring[joint])
-
-
-def _averages(model: Model, joints: Joints, method: "Glue") -> list[Tie]:
-    """Nitsche's terms, and springs where neither side has stress."""
-    check_linear(model, "[glue] method", 'method = "spring"')
-    order = max(ORDER, 2 * model.manifold.degree + 2)
-    pairs, one, two, joint = pairs_of(model, joints, order)
-    found, free = averages(model, pairs, (one, two), method.gamma)
-    if not free.any():
-        return [found]
-    if method.method == "nitsche":
-        x, y = joints.start[joint[free][0]]
-        raise FormulationError(
-            f'[glue] method: "nitsche": at [{x:.6g}, {y:.6g}] neither side has functions with '
-            'strain: expected one: use method = "spring"'
-        )
-    spring = np.where(free[:, None], glue_stiffness(model, joints, method)[joint], 0.0)
-    return [found, TieSprings(pairs, spring)]
-
-
-def _multipliers(model: Model, joints: Joints, size: float | None) -> MultiplierGlue:
-    pairs, _, _, joint = pairs_of(model, joints, max(ORDER, 2 * model.manifold.degree + 2))
-    body = model.manifold.boundary.body
-    a, b = body[joints.edge_a], body[joints.edge_b]
-    turned = (a > b)[:, None]
-    pieces = FacePieces(
-        np.where(turned, joints.end, joints.start),
-        np.where(turned, joints.start, joints.end),
-        np.minimum(a, b) * model.manifold.n_bodies + np.maximum(a, b),
-        joint,
-        model.manifold.body_centroid[pairs.first.body] + pairs.first.arm,
-        pairs.normal,
-        pairs.weight,
-    )
-    # A block is one cell: each of its joints has multipliers of its own.
-    cell = float(joints.length.sum()) if size is None else size
-    basis = multipliers(pieces, cell, traction_degree(model), np.ones(2, dtype=bool))
-    found = MultiplierGlue(pairs, basis)
-    rows, _ = found.border(initial_state(model.manifold), model.manifold.n_unknowns)
-    return replace(found, basis=csr_array(basis[:, independent(rows, _resistance(model))]))
-
-
-def _resistance(model: Model) -> Floats:
-    """Stiffness (n,) of each unknown, motions of whole bodies held by springs of their modulus."""
-    area = model.manifold.body_area[model.manifold.element_body]
-    held = replace(model, density=model.modulus / area).consistent_mass
-    return np.asarray(model.stiffness.diagonal() + held.diagonal())
-
-
-def glue_stiffness(model: Model, joints: Joints, method: "Glue") -> Floats:
-    """Springs (j, 2) of glue in Pa/m."""
-    element = model.manifold.boundary.element
-    one, two = (model.modulus[element[edge]] for edge in (joints.edge_a, joints.edge_b))
-    factor = GLUE if method.stiffness is None else method.stiffness
-    found = factor * np.minimum(one, two) / joints.length.max(initial=0.0)
-    return np.repeat(found[:, None], 2, axis=1)
+def instant_of(state: State) -> Instant:
+    """Return the instant at which a state stands."""
+    return Instant(state.time, state.load_factor)

@@ -28,7 +28,7 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "loads": "nmm.effects.loads:Loads",
         "body loads": "nmm.effects.body_loads:BodyLoads",
         "supports": "nmm.constraints.supports:Supports",
-        "seams": "nmm.constraints.bonded_interfaces:Seams",
+        "bonded interfaces": "nmm.constraints.bonded_interfaces:BondedInterfaces",
         "inertia": "nmm.effects.inertia:Inertia",
         "contact": "nmm.effects.contact:Contact",
         "artificial joints": "nmm.constraints.artificial_joints:ArtificialJoints",
@@ -43,7 +43,9 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
     "loads": lambda s: any(load.kind != "body" for load in s.loads),
     "body loads": lambda s: any(load.kind == "body" for load in s.loads),
     "supports": lambda s: bool(s.supports),
-    "seams": lambda s: s.contact is None and any(i.bonded for i in s.interfaces.values()),
+    "bonded interfaces": lambda s: (
+        s.contact is None and any(i.bonded for i in s.interfaces.values())
+    ),
     "inertia": lambda s: s.inertia is not None,
     "contact": lambda s: s.contact is not None,
 }

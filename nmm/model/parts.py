@@ -21,8 +21,16 @@ if TYPE_CHECKING:
 
 # Keys that name a part or change it.
 NAMING = (
-    *("law", "type", "functions", "degree", "enforcement", "fracture_energy", "options"),
-    *("yield_stress", "hardening_modulus"),
+    "law",
+    "type",
+    "method",
+    "functions",
+    "degree",
+    "enforcement",
+    "fracture_energy",
+    "options",
+    "yield_stress",
+    "hardening_modulus",
 )
 
 
@@ -96,6 +104,8 @@ def _named(
     source = formulation.source
     yield source, ("cover",), formulation.cover, _cover
     yield source, ("contact",), formulation.contact, _enforcement
+    yield source, ("supports",), formulation.supports, _imposition
+    yield source, ("glue",), formulation.glue, _imposition
     yield source, ("integrator",), formulation.integrator, _integrator
     yield source, ("solver",), formulation.solver, _solver
 
@@ -152,6 +162,13 @@ def _enforcement(part: Any) -> None:
     from nmm.contact.enforcement.base import make_enforcement
 
     make_enforcement(part.enforcement, part.options)
+
+
+def _imposition(part: Any) -> None:
+    from nmm.constraints.imposition import IMPOSITIONS
+
+    if part.method != "auto":
+        IMPOSITIONS.load(part.method)
 
 
 def _integrator(part: Any) -> None:

@@ -30,7 +30,7 @@ EFFECTS = {
     "inertia": "#7fb069",
     "contact": "#e08e0b",
     "solution with contact": "#f3d98b",
-    "seams": "#c1121f",
+    "bonded interfaces": "#c1121f",
     "artificial joints": "#7a1f3d",
     "initial velocity": "#6a4c93",
     "initial stress": "#b8a1cf",

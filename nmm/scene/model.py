@@ -32,7 +32,7 @@ from nmm.scene.faults import Source
 from nmm.scene.fields import Count, Frozen, Length, TableName, Text, Time, example
 from nmm.scene.output import OutputTable
 from nmm.scene.own_tables import EffectTable
-from nmm.scene.solids import Block, Crack, Interface, JointSet, Material, Tessellation
+from nmm.scene.solids import Block, Crack, InterfaceTable, JointSet, Material, Tessellation
 from nmm.scene.stages import StageTable
 
 
@@ -59,7 +59,7 @@ class Scene(Frozen):
     materials: dict[TableName, Material] = Field(
         min_length=1, description="at least one table [materials.NAME]"
     )
-    interfaces: dict[TableName, Interface] = Field(
+    interfaces: dict[TableName, InterfaceTable] = Field(
         default={}, description="tables [interfaces.NAME]"
     )
     blocks: tuple[Block, ...] = Field(default=(), description="tables [[blocks]]")
@@ -98,7 +98,7 @@ class Scene(Frozen):
         """Where the scene was read; `scene.source.place("blocks", 3)` is "file:line: blocks.3"."""
         return self._source
 
-    def interface(self, first: str, second: str) -> Interface:
+    def interface(self, first: str, second: str) -> InterfaceTable:
         """Interface between two materials: the pair's own, else the one of `between = "any"`.
 
         Raises

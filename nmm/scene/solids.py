@@ -76,7 +76,7 @@ def _friction(value: float) -> float:
     raise fault(value, "a friction angle in [0, pi/2) rad", remedy)
 
 
-class Interface(Frozen):
+class InterfaceTable(Frozen):
     """Law and constants of the joints and contacts between two materials."""
 
     law: PartName = Field(
@@ -145,7 +145,7 @@ class Interface(Frozen):
     options: Options = Field(default={}, description="a table of options of a law of one's own")
 
     @model_validator(mode="after")
-    def _check(self) -> Interface:
+    def _check(self) -> InterfaceTable:
         if self.tensile_strength > 0 and not self.bonded:
             remedy = "add bonded = true, or leave tensile_strength out"
             raise fault("tensile_strength > 0, bonded = false", "a bonded interface", remedy)

@@ -14,8 +14,9 @@ from nmm.assembly.errors import Field, FieldErrors, field_errors, stresses
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, at_point, on_edges
-from nmm.constraints.edge_supports import Method
-from nmm.constraints.support_methods import Springs, Support
+from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.interface import Interface
+from nmm.constraints.springs import Springs
 from nmm.constraints.supports import Supports
 from nmm.formulation import Formulation
 from nmm.verification.base import Case
@@ -71,7 +72,7 @@ class Problem:
     """
 
     model: Model
-    supports: Sequence[Support] = ()
+    supports: Sequence[Imposition] = ()
     loads: "Sequence[Load]" = ()
     forces: "Sequence[Effect]" = ()
 
@@ -169,7 +170,7 @@ def edge_support(
     place: Place,
     displacement: Field | None = None,
     axes: tuple[bool, bool] = (True, True),
-) -> Support:
+) -> Imposition:
     """Hold Gauss points of edges as the formulation says, Nitsche's way when it says nothing."""
     values = np.zeros(2) if displacement is None else displacement(place.position)
     kind = "nitsche" if formulation.supports.method == "auto" else formulation.supports.method
@@ -177,17 +178,17 @@ def edge_support(
     return method.hold(model, place, lambda end: values, axes)
 
 
-def rollers(model: Model, formulation: Formulation, edges: Bools, axis: int) -> Support:
+def rollers(model: Model, formulation: Formulation, edges: Bools, axis: int) -> Imposition:
     """Hold edges (n,) of the boundary in x (0) or y (1)."""
     place = on_edges(model.manifold, edges, 2 * (degree(formulation) + 2))
     return edge_support(model, formulation, place, axes=(axis == 0, axis == 1))
 
 
-def pin(model: Model, point: npt.ArrayLike, axes: tuple[bool, bool] = (True, True)) -> Support:
+def pin(model: Model, point: npt.ArrayLike, axes: tuple[bool, bool] = (True, True)) -> Imposition:
     """Hold a point by a spring as stiff as the material."""
     place = at_point(model.manifold, np.asarray(point, dtype=float))
     spring = np.full(len(place), float(model.modulus.max()))
-    return Springs("pin", place, np.array(axes), lambda end: np.zeros(2), spring)
+    return Springs(Interface(place, None, place.weight, "pin", np.array(axes)), spring)
 
 
 def load(model: Model, place: Place, field: Tractions) -> "Load":

@@ -13,7 +13,7 @@ from nmm.results.frame import Frame, Topology
 if TYPE_CHECKING:
     from covers.cutting.cut_cells import CutCells
     from integration.polygons import Polygons
-    from nmm.constraints.support_methods import Support
+    from nmm.constraints.imposition import Imposition
     from nmm.effects.loads import Load
     from nmm.scene import Scene
 
@@ -47,14 +47,14 @@ def sketch_scene(scene: "Scene", path: Path) -> None:
 
 def sketch_solid(
     cut: "CutCells",
-    supports: "Sequence[Support]",
+    supports: "Sequence[Imposition]",
     loads: "Sequence[Load]",
     path: Path,
 ) -> None:
     """Draw the elements of a meshed body, the points that are held and the tractions."""
     from nmm.plots.problems import DrawnTractions, solid_problem
 
-    held = [one.place.position for one in supports]
+    held = [one.interface.first.position for one in supports]
     solid_problem(
         cut,
         [

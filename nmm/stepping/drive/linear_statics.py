@@ -14,10 +14,10 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, initial_state, strain_only
 from nmm.assembly.places import Place
-from nmm.constraints.bonded_interfaces import Seams
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.bonded_interfaces import BondedInterfaces, glue_edges
+from nmm.constraints.imposition import Method
+from nmm.constraints.shared_edges import shared_edges
 from nmm.constraints.supports import Supports
-from nmm.constraints.tied_interfaces import glue, shared_edges
 from nmm.effects.base import Effect, Instant, defines
 from nmm.effects.field_loads import FieldLoad
 from nmm.effects.loads import Load, Loads
@@ -136,13 +136,13 @@ def hold(
     return Supports([support], model.manifold.n_unknowns, initial_state(model.manifold))
 
 
-def glued(model: Model, method: str, size: float | None) -> Seams:
+def glued(model: Model, method: str, size: float | None) -> BondedInterfaces:
     """Glue all blocks along the edges they share: "spring", "nitsche" or "lagrange".
 
     ``size`` is that of a mesh's cells (m), None for blocks.
     """
-    ties, held = glue(model, shared_edges(model), Glue.model_validate({"method": method}), size)
-    return Seams(ties, model.manifold.n_unknowns, held)
+    ties = glue_edges(model, shared_edges(model), Glue.model_validate({"method": method}), size)
+    return BondedInterfaces(ties, model.manifold.n_unknowns)
 
 
 def traction(model: Model, place: Place, field: Callable[[Floats, Floats], Floats]) -> Loads:

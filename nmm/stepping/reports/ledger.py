@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from nmm.stepping.step.booking import Booked
 
 # Effects whose springs count as supports: those of the scene, glue, and what holds sub-blocks.
-HOLDING = ("supports", "seams", "artificial joints")
+HOLDING = ("supports", "bonded interfaces", "artificial joints")
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator, Mapping
 from copy import deepcopy
-from typing import Any, get_args
+from typing import Any
 
 from covers.mathematical.registry import COVERS
+from nmm.constraints.imposition import IMPOSITIONS
 from nmm.contact.enforcement.base import ENFORCEMENTS
-from nmm.formulation import Formulation
 from nmm.integrators.base import INTEGRATORS
 from nmm.solvers.linear import SOLVERS
 from nmm.verification.hard.base import Document, HardCase, Judge
@@ -36,12 +36,12 @@ def solvers() -> list[str]:
 
 def support_methods() -> list[str]:
     """Names of the ways to hold an edge; "auto" is one of the others."""
-    return _listed("supports")
+    return [name for name in IMPOSITIONS.table if name != "spring"]
 
 
 def glue_methods() -> list[str]:
     """Names of the ways to glue blocks; "auto" is one of the others."""
-    return _listed("glue")
+    return [name for name in IMPOSITIONS.table if name != "penalty"]
 
 
 def meshes(size: float, degrees: tuple[int, ...] = (0, 1, 2)) -> dict[str, Document]:
@@ -106,9 +106,3 @@ def over_parts(
         )
         label = f"{words}, {step:g} s, {parts['enforcement']}, {parts['integrator']}"
         yield HardCase(label, made, judge, parts, slow)
-
-
-def _listed(table: str) -> list[str]:
-    model: Any = type(getattr(Formulation(), table))
-    names = [name for name in get_args(model.model_fields["method"].annotation) if name != "auto"]
-    return [str(name) for name in names]

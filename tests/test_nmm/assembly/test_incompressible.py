@@ -11,7 +11,7 @@ from integration.rules import polygon_rule
 from nmm.assembly.errors import field_errors
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import on_edges
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.imposition import Method
 from nmm.constraints.supports import Supports
 from nmm.formulation import CoverTable, Formulation, parse_formulation
 from nmm.fracture.stress_intensity import stress_intensity

@@ -10,7 +10,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, at_point, on_edges
 from nmm.assembly.recovery import recovered_stress
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.imposition import Method
 from nmm.constraints.supports import Supports
 from nmm.errors import GeometryError
 from nmm.formulation import CoverTable, EnrichmentTable

@@ -214,7 +214,7 @@ def test_explain_says_how_blocks_are_glued(method: str, said: str, tmp_path: Pat
     formulation.write_text(MESH + f'[glue]\nmethod = "{method}"\n', encoding="utf-8")
     told = CliRunner().invoke(app, ["explain", str(scene), "-f", str(formulation)])
     assert told.exit_code == 0, told.output
-    line = next(line for line in told.output.splitlines() if line.startswith("seams: "))
+    line = next(line for line in told.output.splitlines() if line.startswith("bonded interfaces: "))
     assert said in line
 
 

@@ -11,7 +11,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import Place, on_edges
 from nmm.constraints.artificial_joints import ArtificialJoints
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.imposition import Method
 from nmm.formulation import CoverTable
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid

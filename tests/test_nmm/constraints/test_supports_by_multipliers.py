@@ -9,7 +9,7 @@ from integration.polygons import Polygons
 from integration.rules import polygon_rule
 from nmm.assembly.errors import stresses
 from nmm.assembly.places import on_edges
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.imposition import Method
 from nmm.constraints.supports import Supports
 from nmm.contact.enforcement.base import make_enforcement
 from nmm.contact.enforcement.null_space import NullSpace

@@ -12,8 +12,9 @@ from integration.arrays import Bools, Floats
 from integration.polygons import Polygons
 from nmm.assembly.motion import initial_state
 from nmm.assembly.places import at_point, on_edges
-from nmm.constraints.edge_supports import Method
-from nmm.constraints.support_methods import Springs
+from nmm.constraints.imposition import Method
+from nmm.constraints.interface import Interface
+from nmm.constraints.springs import Springs
 from nmm.constraints.supports import Supports
 from nmm.effects.base import Effect
 from nmm.formulation import CoverTable, EnrichmentTable
@@ -150,13 +151,11 @@ def plate(length: float, size: float, tip: EnrichmentTable | None, radius: float
     edges = model.manifold.boundary
     ends = on_edges(model.manifold, np.abs((edges.start + edges.end)[:, 1]) > 2 - 1e-9, 10)
     load = traction(model, ends, lambda p, n: n)
+    one = np.ones(1)
     pins = [
         Springs(
-            "pin",
-            at_point(model.manifold, np.array(point)),
-            np.array(held),
-            lambda end: np.zeros(2),
-            np.ones(1),
+            Interface(at_point(model.manifold, np.array(point)), None, one, "pin", np.array(held)),
+            one,
         )
         for point, held in (([1.0, 1.0], [True, True]), ([1.0, -1.0], [True, False]))
     ]

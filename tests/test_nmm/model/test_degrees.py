@@ -10,7 +10,7 @@ from integration.polygons import Polygons
 from nmm.assembly.errors import field_errors
 from nmm.assembly.model import Model
 from nmm.assembly.places import on_edges
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.imposition import Method
 from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
 from nmm.materials.elastic import Elastic

@@ -6,7 +6,7 @@ import pytest
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.places import on_edges
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.imposition import Method
 from nmm.formulation import CoverTable, Solver
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array, csr_array
 
-from nmm.constraints.multiplier_ties import independent
+from nmm.constraints.multipliers import independent
 from nmm.solvers.bordered import bordered
 from nmm.solvers.saddle import saddle_scale
 

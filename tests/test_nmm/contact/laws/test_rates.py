@@ -8,7 +8,7 @@ from integration.polygons import Polygons
 from nmm.assembly.errors import field_errors
 from nmm.assembly.model import Model
 from nmm.assembly.places import on_edges
-from nmm.constraints.edge_supports import Method
+from nmm.constraints.imposition import Method
 from nmm.formulation import CoverTable
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid

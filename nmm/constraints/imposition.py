@@ -1,0 +1,188 @@
+"""What holds an interface: one small base, and a registry of the methods.
+
+The same methods serve supports, glue and the joints of sub-blocks; one of a user's own does so too,
+as ``module:Name``.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.assembly.places import Place
+from nmm.constraints.interface import Interface, Triplets
+from nmm.effects.base import Instant
+from nmm.errors import FormulationError
+from nmm.registry import Registry
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from nmm.constraints.multipliers import MultiplierValues
+    from nmm.formulation import SupportMethod
+
+# Nitsche's ghost term in (lambda + 2 mu) / h^2: measured to keep the matrix positive down to cuts
+# of 1e-6 of a cell.
+GHOST = 0.5
+
+
+@dataclass(frozen=True)
+class Imposition(ABC):
+    """An interface and what holds it.
+
+    Attributes
+    ----------
+    interface
+        Where. ``jump`` (m, 2) below is by how far its first side is from where it should be.
+    """
+
+    interface: Interface
+
+    words: ClassVar[str] = "a method of one's own"
+    """What it is, in words."""
+    needs_cells: ClassVar[bool] = False
+    """Whether it holds supports only where a mesh says the size of its cells."""
+
+    @classmethod
+    @abstractmethod
+    def of(cls, model: Model, interface: Interface, method: "Method") -> Self:
+        """Impose the method on an interface."""
+
+    @classmethod
+    def of_all(
+        cls, model: Model, interfaces: Sequence[Interface], method: "Method"
+    ) -> "list[Imposition]":
+        """Impose the method on interfaces that may know of one another."""
+        return [cls.of(model, interface, method) for interface in interfaces]
+
+    @abstractmethod
+    def matrix(self, state: State) -> Triplets:
+        """Symmetric matrix (n, n) that joins the stiffness."""
+
+    @abstractmethod
+    def force(self, state: State, jump: Floats) -> Floats:
+        """Force (n,) on the unknowns: minus the slope of `energy`."""
+
+    @abstractmethod
+    def point_forces(self, state: State, jump: Floats) -> Floats:
+        """Forces (m, 2) in N on the first side, against the second."""
+
+    def earlier_forces(self, state: State, jump: Floats) -> Floats:
+        """Return the same of the state in which a step began."""
+        return self.point_forces(state, jump)
+
+    def energy(self, state: State, jump: Floats) -> float:
+        """Energy stored (J)."""
+        return 0.0
+
+    def gap_volume(self, state: State, jump: Floats, k: int) -> Floats:
+        """Volumes (k,) left open, for a model's k pressures (m2)."""
+        return np.zeros(k)
+
+    @property
+    def free(self) -> Bools:
+        """(m,) points where it cannot hold anything."""
+        return np.zeros(len(self.interface), dtype=bool)
+
+    @property
+    def turns(self) -> bool:
+        """Whether the matrix changes when bodies turn."""
+        return True
+
+    @property
+    def tied_unknowns(self) -> Ints:
+        """Unknowns tied to those of neighbours besides."""
+        return np.empty(0, dtype=np.int64)
+
+    @property
+    def shared(self) -> "MultiplierValues | None":
+        """Multipliers, shared by what has the same object; None without any."""
+        return None
+
+    def conditions(self, state: State, jump: Floats) -> tuple[csr_array, Floats]:
+        """Rows (k, n) and right-hand sides of the conditions that its multipliers hold."""
+        raise NotImplementedError
+
+
+IMPOSITIONS: Registry[type[Imposition]] = Registry(
+    "imposition",
+    Imposition,
+    {
+        "penalty": "nmm.constraints.springs:Springs",
+        "spring": "nmm.constraints.springs:Springs",
+        "nitsche": "nmm.constraints.nitsche:Nitsche",
+        "lagrange": "nmm.constraints.multipliers:Multipliers",
+    },
+)
+
+
+@dataclass(frozen=True)
+class Method:
+    """How interfaces are held.
+
+    Attributes
+    ----------
+    kind
+        A name of the registry, or ``module:Name``.
+    size
+        Size of the mesh's cells (m); None for blocks.
+    degree
+        Degree of the local functions.
+    stiffness
+        Of springs: in Young's moduli over the size of a cell, or between bodies over the longest
+        edge that elements share; None is the default.
+    gamma, ghost
+        Nitsche's penalty and ghost term; None is the default of the degree, or more where an
+        estimate of the largest traction over energy asks for it.
+    """
+
+    kind: str
+    size: float | None
+    degree: int
+    stiffness: float | None = None
+    gamma: float | None = None
+    ghost: float = GHOST
+
+    def order(self, model: Model) -> int:
+        """Degree of polynomials to integrate along edges."""
+        return max(2 * (self.degree + 2), 2 * model.manifold.degree)
+
+    def impose(self, model: Model, interfaces: Sequence[Interface]) -> list[Imposition]:
+        """Hold interfaces; what they may share they share."""
+        kind = IMPOSITIONS.load(self.kind)
+        return kind.of_all(model, interfaces, self)
+
+    def hold(
+        self,
+        model: Model,
+        place: Place,
+        displacement: "Callable[[Instant], Floats]",
+        held: tuple[bool, bool] = (True, True),
+        name: str = "edge",
+    ) -> Imposition:
+        """Hold points against the ground; ``displacement`` may differ from point to point."""
+        area = place.weight * model.thickness
+        interface = Interface(place, None, area, name, np.array(held), displacement)
+        return self.impose(model, [interface])[0]
+
+    def at_points(self) -> "Method":
+        """Return what holds points that are no edge: springs, which need no traction."""
+        return replace(self, kind="penalty")
+
+
+def support_method(part: "SupportMethod", size: float | None, degree: int) -> Method:
+    """Return the method that a formulation names; "auto" is springs for blocks, else Nitsche's."""
+    auto = "penalty" if size is None else "nitsche"
+    kind = auto if part.method == "auto" else part.method
+    if size is None and IMPOSITIONS.load(kind).needs_cells:
+        raise FormulationError(
+            f'[supports] method: "{kind}": for covers of meshes: expected "penalty" with type = '
+            '"block": change the method or the cover'
+        )
+    return Method(kind, size, degree, part.stiffness, part.gamma, part.ghost)

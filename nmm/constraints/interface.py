@@ -1,0 +1,135 @@
+"""An interface: points of one body, and the same points of another body or of the ground."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.motion import State
+from nmm.assembly.places import Place
+from nmm.effects.base import Instant
+
+Triplets = tuple[Ints, Ints, Floats]
+"""Rows, columns and values of a sparse matrix; entries of one place add up."""
+
+
+@dataclass(frozen=True)
+class Interface:
+    """Points of a body that are tied to another body or, for a support, to the ground.
+
+    Attributes
+    ----------
+    first
+        The points; their normal points out of this body.
+    second
+        The same points of the other body; None is the ground.
+    area
+        (m,) area of interface each point stands for (m2).
+    name
+        As the scene calls it.
+    held
+        (2,) whether the jump along x and along y is held.
+    displacement
+        From the instant to the displacement of the ground in m, (2,) or (m, 2).
+    anchor
+        (m, 2) displacement of the points when the ground took hold of them (m).
+    """
+
+    first: Place
+    second: Place | None
+    area: Floats
+    name: str = "interface"
+    held: Bools = field(default_factory=lambda: np.ones(2, dtype=bool))
+    displacement: Callable[[Instant], Floats] = lambda end: np.zeros(2)
+    anchor: Floats | float = 0.0
+
+    def __len__(self) -> int:
+        return len(self.area)
+
+    @property
+    def sides(self) -> tuple[Place, ...]:
+        """The places on bodies."""
+        return (self.first,) if self.second is None else (self.first, self.second)
+
+    @property
+    def bodies(self) -> Ints:
+        """Numbers of the bodies that take part."""
+        return np.unique(np.concatenate([side.points.body for side in self.sides]))
+
+    def motion(self, state: State) -> Floats:
+        """Return the way of the first side from the second since the reference place (m, 2).
+
+        Sides are bonded as they lie: a gap that the search for shared edges allows is no jump.
+        """
+        ways = [side.points.moved(state.frames, state.deformation) for side in self.sides]
+        return np.asarray(ways[0] - ways[1] if len(ways) > 1 else ways[0])
+
+    def jump(self, motion: Floats, end: Instant) -> Floats:
+        """Return the part of a `motion` that is held, less that of the ground (m, 2)."""
+        return np.asarray(self.held * (motion - self.anchor - self.displacement(end)))
+
+    def rows(self, state: State) -> tuple[Ints, Floats]:
+        """Unknowns (m, L) and rows (m, 2, L) of the jump, in global axes."""
+        unknowns = [side.points.rows.unknowns for side in self.sides]
+        parts = []
+        for sign, side in zip((1.0, -1.0), self.sides, strict=False):
+            turned = sign * state.frames.rotation[side.points.body]
+            parts.append((self.held[:, None] * turned) @ side.points.rows.values)
+        return np.concatenate(unknowns, axis=1), np.concatenate(parts, axis=2)
+
+    def spread(self, state: State, forces: Floats) -> Floats:
+        """Return what forces (m, 2) in N on the first side, against the second, do on unknowns."""
+        total = np.zeros(len(state.deformation))
+        for sign, side in zip((1.0, -1.0), self.sides, strict=False):
+            local = side.points.along(state.frames, sign * self.held * forces)
+            unknowns = side.points.rows.unknowns.ravel()
+            total += np.bincount(unknowns, local.ravel(), minlength=len(total))
+        return total
+
+    def normal(self, state: State) -> Floats:
+        """Outward normals (m, 2) of the first side, in global axes."""
+        assert self.first.normal is not None
+        return state.frames.to_global(self.first.points.body, self.first.normal)
+
+
+def sparse_rows(unknowns: Ints, values: Floats, n: int) -> csr_array:
+    """Matrix (2m, n) of rows (m, 2, L) with unknowns (m, L), component minor."""
+    m, _, length = values.shape
+    columns = np.repeat(unknowns[:, None, :], 2, axis=1)
+    offsets = np.arange(2 * m + 1) * length
+    found = csr_array((values.ravel(), columns.ravel(), offsets), shape=(2 * m, n))
+    found.sum_duplicates()
+    return found
+
+
+def product(left: tuple[Ints, Floats], right: tuple[Ints, Floats]) -> Triplets:
+    """Sum over points of ``left.T @ right``, each unknowns (m, L) and rows (m, 2, L).
+
+    Points of one element follow one another: their sum is one dense matrix.
+    """
+    (row, one), (column, two) = left, right
+    m = len(row)
+    run = _run(np.concatenate([row, column], axis=1))
+    stacked = (values.reshape(m // run, 2 * run, values.shape[2]) for values in (one, two))
+    first, second = stacked
+    values = np.swapaxes(first, 1, 2) @ second
+    rows, columns = row[::run], column[::run]
+    return (
+        np.repeat(rows, columns.shape[1], axis=1).ravel(),
+        np.tile(columns, (1, rows.shape[1])).ravel(),
+        values.ravel(),
+    )
+
+
+def joined(parts: list[Triplets]) -> Triplets:
+    """Return the sum of matrices."""
+    row, column, value = (np.concatenate(part) for part in zip(*parts, strict=True))
+    return row, column, value
+
+
+def _run(unknowns: Ints) -> int:
+    """Length of runs of points, all equally long, that share their unknowns."""
+    change = np.flatnonzero((unknowns[1:] != unknowns[:-1]).any(axis=1)) + 1
+    return int(np.gcd.reduce(np.diff([0, *change, len(unknowns)]))) or 1

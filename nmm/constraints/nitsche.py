@@ -1,0 +1,155 @@
+"""Nitsche's method (1971): the traction of the solid holds the interface, consistent and symmetric.
+
+    a(u, v) - int {t(u)}.[v] + {t(v)}.[u] - gamma [u].[v],    {t} = k_1 t_1 + k_2 t_2
+
+with tractions on the first side and jumps first less second. Against the ground the only traction
+is the body's own.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.interface import Interface, Triplets, joined, product
+from nmm.constraints.linear_matter import check_linear
+from nmm.constraints.nitsche_terms import against_ground, between_bodies
+from nmm.constraints.traction_donors import Flux
+from nmm.constraints.volume_lift import Lift
+
+
+@dataclass(frozen=True)
+class Nitsche(Imposition):
+    """Nitsche's terms at points of interfaces.
+
+    Attributes
+    ----------
+    penalty
+        (m,) Pa/m; zero where neither side has stress.
+    fluxes
+        Tractions on the first side that either side gives, times its weight.
+    ghost
+        Matrix that ties cut elements to their neighbours; None without any.
+    lifts
+        The part of pressures, of each side that has any.
+    """
+
+    penalty: Floats
+    fluxes: tuple[Flux, ...]
+    ghost: csc_array | None = None
+    lifts: tuple[Lift, ...] = ()
+
+    words: ClassVar[str] = "Nitsche's method"
+    needs_cells: ClassVar[bool] = True
+
+    @classmethod
+    def of(cls, model: Model, interface: Interface, method: Method) -> Self:
+        """See `Imposition.of`."""
+        place, other = ("supports", "penalty") if interface.second is None else ("glue", "spring")
+        check_linear(model, f"[{place}] method", f'method = "{other}"')
+        terms = against_ground if interface.second is None else between_bodies
+        return cls(interface, *terms(model, interface, method))
+
+    def matrix(self, state: State) -> Triplets:
+        """See `Imposition.matrix`."""
+        area, n = self.interface.area[:, None, None], len(state.deformation)
+        unknowns, rows = self.interface.rows(state)
+        flux = self._flux(state)
+        row, column, value = product((unknowns, -area * rows), flux)
+        square = product((unknowns, rows), (unknowns, area * self.penalty[:, None, None] * rows))
+        parts: list[Triplets] = [(row, column, value), (column, row, value), square]
+        more = [] if self.ghost is None else [self.ghost]
+        if self.lifts:
+            across = self._across(state, n)
+            more += [part.matrix(across) for part in self.lifts]
+        for term in more:  # at most two
+            entries = term.tocoo()
+            places = entries.coords
+            parts.append((np.asarray(places[0]), np.asarray(places[1]), entries.data))
+        return joined(parts)
+
+    def force(self, state: State, jump: Floats) -> Floats:
+        """See `Imposition.force`."""
+        unknowns, flux = self._flux(state)
+        back = np.einsum("mcl,mc->ml", flux, self.interface.area[:, None] * jump)
+        total = self.interface.spread(state, self._consistent(state, jump))
+        total += np.bincount(unknowns.ravel(), back.ravel(), minlength=len(total))
+        if self.ghost is not None:
+            total -= self.ghost @ state.deformation
+        if self.lifts:
+            across, gap = self._across(state, len(total)), self._gap(state, jump)
+            for part in self.lifts:  # at most two
+                total += part.force(across, state.deformation, gap)
+        return total
+
+    def point_forces(self, state: State, jump: Floats) -> Floats:
+        """See `Imposition.point_forces`."""
+        total = self.interface.held * self._consistent(state, jump)
+        for part in self.lifts:  # at most two
+            pressure = part.pressure(state.deformation, self._gap(state, jump))
+            total += self.interface.held * (pressure[:, None] * self.interface.normal(state))
+        return np.asarray(total)
+
+    def energy(self, state: State, jump: Floats) -> float:
+        """Minus tractions times jumps, half the penalty's and the ghost's; it may be negative."""
+        q, area = state.deformation, self.interface.area[:, None]
+        total = float(np.sum(jump * (area * self.penalty[:, None] * jump / 2)))
+        total -= float(np.sum(area * jump * self._traction(state)))
+        if self.ghost is not None:
+            total += 0.5 * float(q @ (self.ghost @ q))
+        return total + sum(part.energy(q, self._gap(state, jump)) for part in self.lifts)
+
+    def gap_volume(self, state: State, jump: Floats, k: int) -> Floats:
+        """See `Imposition.gap_volume`."""
+        total = np.zeros(k)
+        for part in self.lifts:  # at most two
+            total += part.gap_volume(self._gap(state, jump), k)
+        return total
+
+    @property
+    def free(self) -> Bools:
+        """See `Imposition.free`: where neither side has functions with strain."""
+        return np.asarray(self.penalty == 0)
+
+    @property
+    def tied_unknowns(self) -> Ints:
+        """See `Imposition.tied_unknowns`: those in the ghost terms."""
+        if self.ghost is None:
+            return np.empty(0, dtype=np.int64)
+        return np.unique(self.ghost.nonzero()[0])
+
+    def _flux(self, state: State) -> tuple[Ints, Floats]:
+        """Unknowns (m, L) and rows (m, 2, L) of the average traction, in global axes."""
+        turn = state.frames.rotation
+        values = [turn[one.body] @ one.values for one in self.fluxes]
+        unknowns = [one.unknowns for one in self.fluxes]
+        return np.concatenate(unknowns, axis=1), np.concatenate(values, axis=2)
+
+    def _traction(self, state: State) -> Floats:
+        """Average traction (m, 2) on the first side (Pa)."""
+        unknowns, flux = self._flux(state)
+        return np.asarray(np.einsum("mcl,ml->mc", flux, state.deformation[unknowns]))
+
+    def _consistent(self, state: State, jump: Floats) -> Floats:
+        """Forces (m, 2) in N of the average traction and the penalty on the first side."""
+        pull = self._traction(state) - self.penalty[:, None] * jump
+        return np.asarray(self.interface.area[:, None] * pull)
+
+    def _gap(self, state: State, jump: Floats) -> Floats:
+        """Jumps (m,) along the outward normal of the first side."""
+        return np.asarray(np.sum(jump * self.interface.normal(state), axis=1))
+
+    def _across(self, state: State, n: int) -> csr_array:
+        """Rows (m, n) of the same."""
+        unknowns, rows = self.interface.rows(state)
+        along = np.einsum("mcl,mc->ml", rows, self.interface.normal(state))
+        m, length = along.shape
+        entries = along.ravel(), unknowns.ravel(), np.arange(m + 1) * length
+        found = csr_array(entries, shape=(m, n))
+        found.sum_duplicates()
+        return found

@@ -1,0 +1,129 @@
+"""A method of a user's own that holds interfaces: one class serves supports and glue alike."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import nmm
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.interface import Interface, Triplets, product
+from nmm.errors import FormulationError
+from nmm.formulation import parse_formulation
+from nmm.scene import parse_scene
+
+STIFFNESS = 50.0
+
+
+@dataclass(frozen=True)
+class Carpet(Imposition):
+    """Soft springs of 50 Pa/m, whatever the material."""
+
+    @classmethod
+    def of(cls, model: Model, interface: Interface, method: Method) -> "Carpet":
+        return cls(interface)
+
+    def matrix(self, state: State) -> Triplets:
+        unknowns, rows = self.interface.rows(state)
+        area = self.interface.area[:, None, None]
+        return product((unknowns, rows), (unknowns, STIFFNESS * area * rows))
+
+    def force(self, state: State, jump: Floats) -> Floats:
+        return self.interface.spread(state, self.point_forces(state, jump))
+
+    def point_forces(self, state: State, jump: Floats) -> Floats:
+        return np.asarray(-STIFFNESS * self.interface.area[:, None] * jump)
+
+    def energy(self, state: State, jump: Floats) -> float:
+        return STIFFNESS / 2 * float(np.sum(self.interface.area[:, None] * jump**2))
+
+
+BAR = """
+plane = "stress"
+[materials.m]
+young_modulus = 100
+poisson_ratio = 0
+[interfaces.glue]
+friction_angle = 0
+bonded = true
+[[blocks]]
+name = "left"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "right"
+material = "m"
+vertices = [[1, 0], [2, 0], [2, 1], [1, 1]]
+[[supports]]
+name = "wall"
+segment = [[0, 0], [0, 1]]
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[2, 0], [2, 1]]
+traction = [1, 0]
+[[monitors]]
+name = "end"
+point = [2, 0.5]
+"""
+COVERS = {
+    "block": '[cover]\ntype = "block"\n',
+    "mesh": '[cover]\ntype = "triangles"\nsize = 0.4\nangle = 0.3\n',
+}
+
+
+@pytest.mark.parametrize("cover", COVERS)
+def test_one_class_of_ones_own_holds_supports_and_glue_on_every_cover(cover: str) -> None:
+    own = f'method = "{__name__}:Carpet"\n'
+    text = COVERS[cover] + "[supports]\n" + own + "[glue]\n" + own
+    done = nmm.run(parse_scene(BAR, "bar"), parse_formulation(text), allow_code=[__name__])
+    assert done.summary.status == "converged", done.summary.sentence
+    # Two bars of E = 100 under a stress of 1, and two carpets of 50 Pa/m.
+    assert done.history["monitor:end:ux"][-1] == pytest.approx(2 / 100 + 2 / STIFFNESS, rel=1e-9)
+    assert done.history["reaction:wall:x"][-1] == pytest.approx(-1.0, rel=1e-9)
+    assert done.history["support_energy"][-1] == pytest.approx(2 * 0.5 / STIFFNESS, rel=1e-9)
+
+
+def test_an_unknown_method_is_told_by_its_line() -> None:
+    text = COVERS["mesh"] + '[supports]\nmethod = "nitche"\n'
+    with pytest.raises(FormulationError, match=r'method.*"nitche".*did you mean "nitsche"'):
+        nmm.run(parse_scene(BAR, "bar"), parse_formulation(text))
+
+
+@pytest.mark.parametrize("kind", ["penalty", "nitsche"])
+def test_forces_are_minus_the_slope_of_the_energy(kind: str) -> None:
+    from integration.polygons import Polygons
+    from nmm.assembly.motion import initial_state
+    from nmm.constraints.shared_edges import gauss_interface, shared_edges
+    from nmm.effects.base import Instant
+    from nmm.formulation import CoverTable
+    from nmm.materials.elastic import Elastic
+    from nmm.model.from_polygons import solid
+
+    squares = [np.array([[x, 0.0], [x + 1, 0], [x + 1, 1], [x, 1]]) for x in (0.0, 1.0)]
+    cover = CoverTable(type="triangles", size=0.4, degree=1, angle=0.3, shift=(0.1, 0.2))
+    model = solid(Polygons.from_vertices(squares), cover, [Elastic(1.0, 0.3)] * 2, "strain")
+    interface = gauss_interface(model, shared_edges(model))
+    ground = replace(interface, second=None)
+    rng = np.random.default_rng(3)
+    at = initial_state(model.manifold)
+    q, step = (rng.normal(size=model.manifold.n_unknowns) for _ in range(2))
+    for one in (interface, ground):
+        tie = Method(kind, 0.4, 1).impose(model, [one])[0]
+
+        def at_amount(amount: float, tie: Imposition = tie) -> tuple[State, Floats]:
+            state = replace(at, deformation=q + amount * step)
+            return state, tie.interface.jump(tie.interface.motion(state), Instant(0.0, 0.0))
+
+        # The energy is quadratic: central differences are exact to rounding.
+        slope = (tie.energy(*at_amount(0.5)) - tie.energy(*at_amount(-0.5))) / 1.0
+        assert tie.force(*at_amount(0.0)) @ step == pytest.approx(-slope, rel=1e-9)
+        row, column, value = tie.matrix(at)
+        curvature = float(np.sum(step[row] * value * step[column]))
+        second = tie.energy(*at_amount(1.0)) + tie.energy(*at_amount(-1.0))
+        second -= 2 * tie.energy(*at_amount(0.0))
+        assert curvature == pytest.approx(second, rel=1e-9)
