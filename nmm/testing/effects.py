@@ -64,8 +64,8 @@ def check_effect(effect: Effect, model: Model, state: State, seed: int = 0) -> N
     Forces are finite, one for each unknown, and the same when asked again; the matrix is symmetric,
     and less the change of the force with the motion (by central differences); what the effect
     gives in a small motion, its work less what it stores more, is its mean force times the way;
-    quantities and numbers that it declares are finite or nan, and fit what they belong to. Hooks
-    that change nothing of the state they are given may be called in any order.
+    quantities and numbers that it declares are finite or nan, and fit what they belong to. What it
+    carries for checkpoints gives it back as it was. Hooks change nothing of what they are given.
 
     Parameters
     ----------
@@ -92,6 +92,8 @@ def check_effect(effect: Effect, model: Model, state: State, seed: int = 0) -> N
             _work(effect, name, model, state, way)
     if defines(effect, "matrix"):
         _matrix(effect, name, model, state, ways)
+    if defines(effect, "carried"):
+        _carried(effect, name, state)
     _declared(effect, name, model, state)
     for field, before in kept.items():
         claim(np.array_equal(before, getattr(state, field)), f"{name}: a hook changed the {field}")
@@ -157,6 +159,18 @@ def _matrix(effect: Effect, name: str, model: Model, state: State, ways: list[Fl
         unit = float(np.abs(expected).max()) or 1.0
         what = f"{name}: change of the force with the motion against the matrix"
         close(what, change / unit, expected / unit, LINEAR)
+
+
+def _carried(effect: Effect, name: str, state: State) -> None:
+    """What a checkpoint holds of an effect gives it back as it was."""
+    claim(defines(effect, "carry"), f"{name}: it defines carried and not carry")
+    forces = []
+    for _ in range(2):
+        if defines(effect, "force"):
+            forces.append(np.array(effect.force(state, _now(state))))
+        effect.carry(effect.carried())
+    same = all(np.array_equal(forces[0], one) for one in forces)
+    claim(same, f"{name}: the force differs after carry(carried())")
 
 
 def _declared(effect: Effect, name: str, model: Model, state: State) -> None:

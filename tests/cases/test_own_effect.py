@@ -9,9 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import nmm
 from nmm import registry
+from nmm.cli.app import app
 from nmm.results import read_run
 from nmm.results.viewing.paraview import write_paraview
 from nmm.scene.read import build_scene
@@ -235,3 +237,11 @@ def test_quantities_of_contacts_are_stored_and_in_paraview(tmp_path):
     assert 'Name="crack_opening"' in contacts
     blocks = sorted((tmp_path / "files").glob("blocks_*.vtu"))[-1].read_text()
     assert re.search(r'Name="principal_stress"[^>]*ComponentName0="major"', blocks)
+
+
+def test_explain_names_effects_of_ones_own():
+    words = ["explain", str(RAFT), "--allow-code", "foundation", "--allow-code", "steepness"]
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 0, result.output
+    assert "simulated: foundation:Winkler" in result.output
+    assert CliRunner().invoke(app, words[:2]).exit_code == 1

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -11,9 +12,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nmm.errors import NmmError, NmmWarning
+from nmm.errors import DamageError, NmmError, NmmWarning
+from nmm.quantity import Quantity
 from nmm.results import Frame, RunFolder, Summary, read_run
 from nmm.results.sink import MemorySink
+from nmm.results.storage import files
 
 
 def fill(sink, run):
@@ -177,3 +180,55 @@ def test_frames_can_be_sliced(tmp_path, memory_run):
     assert [frame.index for frame in stored.frames[1:3]] == [1, 2]
     with pytest.raises(IndexError):
         stored.frames[4]
+
+
+FIELDS = {
+    "pressure": Quantity("elements", np.array([1.0, np.nan]), "Pa"),
+    "flow": Quantity("points", np.arange(16.0).reshape(8, 2), "m/s"),
+    "both": Quantity("elements", np.arange(4.0).reshape(2, 2), "Pa", ("major", "minor")),
+    "nothing": Quantity("contacts", np.zeros(0), ""),
+}
+
+
+@pytest.fixture
+def with_fields(tmp_path):
+    """A stored frame with further quantities, and the arrays in its file."""
+    frame = Frame(
+        0, 0.0, 1.0, "load", *(np.zeros((8, 2)) for _ in range(3)), np.zeros((2, 3)),
+        np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0), np.zeros((0, 2)), np.zeros(0),
+        np.zeros(0, dtype=np.int64), fields=FIELDS,
+    )  # fmt: skip
+    path = tmp_path / "000000.npz"
+    files.write_frame(path, frame)
+    return path, files.read_arrays(path)
+
+
+def test_further_quantities_read_back_exactly(with_fields):
+    found = files.read_frame(with_fields[0]).fields
+    assert list(found) == list(FIELDS)
+    for name, one in FIELDS.items():
+        assert (found[name].on, found[name].unit) == (one.on, one.unit)
+        assert found[name].components == one.components
+        assert np.array_equal(found[name].values, one.values, equal_nan=True)
+    assert files.archive_fault(with_fields[0]) is None
+
+
+DAMAGES = {
+    "its field_1 is no array": lambda stored: stored.pop("field_1"),
+    "its field_0 does not fit its elements": lambda stored: stored.update(field_0=np.zeros(3)),
+    "its field_0 does not fit its attic": lambda stored: stored.update(
+        field_places=np.array(["attic", "points", "elements", "contacts"])
+    ),
+    "its field_2 is no array": lambda stored: stored.update(field_2=np.array(["a", "b"])),
+    "its field_units have the shape": lambda stored: stored.update(field_units=np.array(["Pa"])),
+    "an array 'field_x' that none knows": lambda stored: stored.update(field_x=np.zeros(2)),
+}
+
+
+@pytest.mark.parametrize("words", DAMAGES)
+def test_damaged_quantities_are_told(with_fields, words):
+    path, stored = with_fields
+    DAMAGES[words](stored)
+    files.write_arrays(path, stored)
+    with pytest.raises(DamageError, match=re.escape(words)):
+        files.read_frame(path)

@@ -306,7 +306,21 @@ class Misplaced(Lever):
         return {"load": Quantity("elements", np.zeros(7), "N")}
 
 
+class Forgetful(Lever):
+    """Stiffness that a checkpoint does not bring back."""
+
+    def force(self, state, end):
+        return self.share * super().force(state, end) + (1 - self.share)
+
+    def carried(self):
+        return {}
+
+    def carry(self, carried):
+        self.share = 0.5
+
+
 EFFECTS = {
+    "differs after carry(carried())": Forgetful,
     "work less the gain of energy": Idle,
     "change of the force with the motion": Softer,
     "off from symmetric": Asymmetric,
