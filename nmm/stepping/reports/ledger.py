@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
+from nmm.stepping.step.frozen import with_parts
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ class Ledger:
         if grows:
             work -= standing(plan, before, after)
         loss = 0.0 if attempt.solved is None else attempt.solved.loss
-        found = replace(
+        found = with_parts(
             self,
             work=work,
             friction_loss=self.friction_loss + loss,
@@ -131,7 +132,7 @@ class Ledger:
         """Return the totals with what a step in time lost that began with ``earlier`` energies."""
         gain = {name: value - earlier[name] for name, value in self.energies.items()}
         lost = step.integration_loss(gain["kinetic_energy"])
-        return replace(
+        return with_parts(
             self,
             integration_loss=self.integration_loss + lost,
             given=self.given + max(-lost, 0.0),
@@ -168,7 +169,7 @@ class Ledger:
             self.throughput, abs(self.work), abs(total), abs(self.stored_first), self.dissipated
         )
         now = self._made, self.given
-        return replace(
+        return with_parts(
             self,
             throughput=largest,
             in_step=self._largest(self.in_step, self.last, time),

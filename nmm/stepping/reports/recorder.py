@@ -1,7 +1,7 @@
 """From states to what a run hands over: frames, history rows, and the totals of the summary."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from nmm.results.sink import Sink
 from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.ledger import Ledger
 from nmm.stepping.reports.output import Choice, Watch
+from nmm.stepping.step.frozen import with_parts
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -141,7 +142,7 @@ class Recorder:
         ``stands`` is its end where blocks are laid anew after each step.
         """
         plan, after, totals = self.stepper.plan, attempt.state, self.totals
-        self.totals = replace(
+        self.totals = with_parts(
             totals,
             ledger=self.ledger.booked(plan, self.stepper.model, before, attempt, stands or after),
             passes=totals.passes + attempt.passes,
@@ -187,17 +188,19 @@ class Recorder:
     def offer(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over the state after the step just recorded, if it is to be a frame; once."""
         totals, choice = self.totals, self.choice
-        watch, happened = totals.watch.seen(totals.counts)
+        watch, happened = totals.watch, frozenset[str]()
+        if choice.events:
+            watch, happened = watch.seen(totals.counts)
         due = choice.takes(state.time, totals.taken, totals.periods, happened)
         periods = max(choice.periods(state.time), totals.periods)
-        self.totals = replace(totals, watch=watch, periods=periods)
+        self.totals = with_parts(totals, watch=watch, periods=periods)
         if due:
             self.frame(state, stage, contacts)
 
     def frame(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over a frame."""
         self.sink.frame(self._made(state, stage, contacts))
-        self.totals = replace(self.totals, frames=self.totals.frames + 1, stored=True)
+        self.totals = with_parts(self.totals, frames=self.totals.frames + 1, stored=True)
 
     def last(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over the last state of a stretch, unless that was done."""
@@ -244,7 +247,7 @@ class Recorder:
         counts = {s.name.lower(): tally[s] for s in ContactState}
         counts["broken"] = contact.broken_bonds
         totals = self.totals
-        self.totals = replace(
+        self.totals = with_parts(
             totals,
             stiffest=max(totals.stiffest, contact.stiffest or 0.0),
             penetration=max(totals.penetration, penetration),

@@ -20,6 +20,7 @@ from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.contact_step import Touching
 from nmm.stepping.step.equations import Assembly, Equations, Linearisation
 from nmm.stepping.step.free_step import Alone
+from nmm.stepping.step.frozen import with_parts
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.newton import Solution, newton
 from nmm.stepping.step.remap import Lay, remapped, with_stress_so_far
@@ -207,10 +208,10 @@ class Stepper:
         """Return what is carried on from an accepted step."""
         carried, reach = self._carried, self._touching.reach(attempt.motion)
         if attempt.solved is None or not self._integrator.restarts_at_impact:
-            return replace(carried, reach=reach, knows_start=True)
+            return with_parts(carried, reach=reach, knows_start=True)
         pushing = attempt.solved.pushing
         struck = not np.array_equal(pushing, carried.pushing)
-        return replace(carried, reach=reach, knows_start=not struck, pushing=pushing)
+        return with_parts(carried, reach=reach, knows_start=not struck, pushing=pushing)
 
     def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
