@@ -136,12 +136,16 @@ class Plan:
 
     def carried(self) -> dict[str, Any]:
         """Return what the effects carry from step to step, by their names."""
-        return {effect.name: effect.carried() for effect in self._with("carried")}
+        return {
+            name: effect.carried()
+            for name, effect in self.effects.items()
+            if defines(effect, "carried")
+        }
 
     def carry(self, carried: Mapping[str, Any]) -> None:
         """Hand back what `carried` returned."""
-        for effect in self._with("carry"):
-            effect.carry(carried[effect.name])
+        for name, known in carried.items():
+            self.effects[name].carry(known)
 
     def forget(self) -> None:
         """Drop what is kept for speed alone."""

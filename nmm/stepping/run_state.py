@@ -97,7 +97,7 @@ _PLACES = {
     "nmm.stepping.reports.output": ("Watch",),
     "nmm.stepping.reports.recorder": ("Totals",),
     "nmm.stepping.run_state": ("RunState",),
-    "nmm.stepping.step.carried": ("CarriedOver",),
+    "nmm.stepping.step.carried": ("CarriedOver", "LaidAnew"),
 }
 KINDS: Kinds = {name: f"{module}:{name}" for module, names in _PLACES.items() for name in names}
 """Dataclasses that a state may hold; no other is made of what a file says."""

@@ -6,7 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from integration.arrays import Ints
+from integration.arrays import Floats, Ints
+
+
+@dataclass(frozen=True)
+class LaidAnew:
+    """Blocks as the classical update has laid them: vertices (P, 2) in m, stress (E, 3) so far."""
+
+    points: Floats
+    stress: Floats
 
 
 @dataclass(frozen=True)
@@ -25,6 +33,8 @@ class CarriedOver:
     anchored
         Whether soft springs hold bodies in statics to where they stand
         (`nmm.stepping.step.anchors`).
+    laid
+        Blocks that are laid anew after each step; None where they are not.
     effects
         What effects carry, by their names; empty while a stepper goes on, as they hold it.
     """
@@ -33,4 +43,5 @@ class CarriedOver:
     knows_start: bool = False
     pushing: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     anchored: bool = False
+    laid: LaidAnew | None = None
     effects: Mapping[str, Any] = field(default_factory=dict)

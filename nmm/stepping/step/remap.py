@@ -48,10 +48,15 @@ def with_stress_so_far(
     new: Discretisation, old: Discretisation, increment: Floats
 ) -> Discretisation:
     """Return the new one with the stress so far as initial stress."""
-    from nmm.effects.initial_stress import InitialStress
-
     carried = old.plan.initial_stress
     stress = old.model.mean_stress(increment) + (0.0 if carried is None else carried.stress)
+    return with_stress(new, stress)
+
+
+def with_stress(new: Discretisation, stress: Floats) -> Discretisation:
+    """Return a discretisation with another initial stress (E, 3)."""
+    from nmm.effects.initial_stress import InitialStress
+
     effects = {**new.plan.effects, InitialStress.name: InitialStress(new.model, stress)}
     return replace(new, plan=replace(new.plan, effects=effects))
 

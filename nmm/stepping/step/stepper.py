@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import MaterialPoints, State
+from nmm.assembly.motion import MaterialPoints, State, initial_state
 from nmm.effects.base import Instant
 from nmm.errors import SolveError
 from nmm.integrators.base import Integrator
@@ -15,7 +15,7 @@ from nmm.model.discretisation import Current, Discretisation
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.booking import booked
 from nmm.stepping.step.budget import Budget
-from nmm.stepping.step.carried import CarriedOver
+from nmm.stepping.step.carried import CarriedOver, LaidAnew
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.contact_step import Touching
 from nmm.stepping.step.equations import Assembly, Equations, Linearisation
@@ -23,7 +23,7 @@ from nmm.stepping.step.free_step import Alone
 from nmm.stepping.step.frozen import with_parts
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.newton import Solution, newton
-from nmm.stepping.step.remap import Lay, remapped, with_stress_so_far
+from nmm.stepping.step.remap import Lay, remapped, with_stress, with_stress_so_far
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
@@ -78,11 +78,16 @@ class Stepper:
     @property
     def carried(self) -> CarriedOver:
         """All that is carried from accepted step to accepted step besides the bodies' state."""
-        return replace(self._carried, effects=self.plan.carried())
+        laid, stress = None, self.plan.initial_stress
+        if self._lay is not None and stress is not None:
+            laid = LaidAnew(self.model.manifold.elements.points, stress.stress)
+        return replace(self._carried, laid=laid, effects=self.plan.carried())
 
     def carry(self, carried: CarriedOver) -> None:
         """Go on from what was carried elsewhere, with nothing that was kept here."""
-        self._carried = replace(carried, effects={})
+        self._carried = replace(carried, laid=None, effects={})
+        if self._lay is not None and carried.laid is not None:
+            self._lay_again(self._lay, carried.laid)
         self.plan.carry(carried.effects)
         self.forget()
 
@@ -181,6 +186,15 @@ class Stepper:
         self.follow(change, with_stress_so_far(old.after(change), old, increment))
         self.reference = start
         return change.state
+
+    def _lay_again(self, lay: Lay, laid: LaidAnew) -> None:
+        """Lay the blocks as they were laid after another step."""
+        old, start = self.discretisation, self.reference
+        manifold = old.model.manifold
+        still = np.zeros(manifold.n_unknowns)
+        change = remapped(old, lay, initial_state(manifold), still, laid.points)
+        self.follow(change, with_stress(old.after(change), laid.stress))
+        self.reference = start
 
     def follow(self, change: "Change", new: Discretisation) -> None:
         """Solve ``new`` from now on, which is what a change has made of what was solved."""

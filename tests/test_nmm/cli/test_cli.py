@@ -95,6 +95,28 @@ def test_a_run_without_out_takes_a_free_name(scene, tmp_path, monkeypatch):
     assert (tmp_path / "runs/short-2/summary.json").exists()
 
 
+def test_a_run_whose_budget_was_spent_is_gone_on_with(scene, finished, tmp_path):
+    checkpointed = tmp_path / "checkpointed.toml"
+    lasting = scene.read_text() + "[output.checkpoint]\nevery_steps = 2\n"
+    checkpointed.write_text(lasting)
+    spent = call("run", checkpointed, "--out", tmp_path / "run", "-q", "--budget", "0")
+    assert spent.exit_code == 3, spent.output
+    result = call("run", "--resume", tmp_path / "run")
+    assert result.exit_code == 0, result.output
+    assert result.stdout.splitlines()[0] == read_run(finished[1]).summary.sentence
+    assert read_run(tmp_path / "run").summary.steps == 5
+
+
+def test_a_run_needs_a_scene_or_a_folder_to_go_on_with_and_not_both(scene, tmp_path):
+    neither = call("run")
+    assert neither.exit_code == 1
+    assert "SCENE: missing: expected a scene file, or --resume" in neither.stderr
+    both = call("run", scene, "--resume", tmp_path)
+    assert both.exit_code == 1
+    assert f"SCENE: {scene}: expected none beside --resume" in both.stderr
+    assert "expected a run folder" in call("run", "--resume", tmp_path).stderr
+
+
 def test_a_formulation_file_replaces_the_scenes_own(scene, tmp_path):
     other = tmp_path / "other.toml"
     other.write_text('[integrator]\nstep = "2.5 ms"\n')

@@ -267,6 +267,131 @@ tolerance = 1e-3
 """
 )
 
+PLASTIC = """
+title = "cycle"
+plane = "stress"
+[materials.steel]
+law = "von_mises"
+young_modulus = "200 GPa"
+poisson_ratio = 0.3
+density = 7800.0
+yield_stress = "250 MPa"
+hardening_modulus = "20 GPa"
+[[blocks]]
+name = "bar"
+material = "steel"
+vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[supports]]
+name = "left"
+segment = [[0, 0], [0, 1]]
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[2, 0], [2, 1]]
+traction = ["300 MPa", 0]
+history = [[0, 0], [1, 1], [2, 0]]
+[[monitors]]
+name = "tip"
+point = [2, 0.5]
+[output]
+every_steps = 3
+{checkpoint}
+"""
+PLASTIC_LOADED = (
+    PLASTIC
+    + """
+[loading]
+until = 2.0
+scaled = []
+[formulation.loading]
+increment = 0.2
+[formulation.cover]
+type = "triangles"
+size = 0.7
+degree = 0
+[formulation.supports]
+method = "lagrange"
+"""
+)
+PLASTIC_MOVING = (
+    "duration = 0.002\n"
+    + PLASTIC.replace("[[0, 0], [1, 1], [2, 0]]", "[[0, 0], [4e-4, 1], [1, 1]]")
+    + """
+[inertia]
+[formulation.integrator]
+type = "newmark"
+step = 1e-4
+"""
+)
+
+CLASSICAL = (
+    'duration = "50 ms"'
+    + HEAD
+    + """
+[inertia]
+[gravity]
+[[blocks]]
+name = "top"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[initial_velocities]]
+block = "top"
+velocity = [3, 4]
+angular_velocity = 20
+[output]
+every_steps = 3
+{checkpoint}
+[formulation.integrator]
+step = "2 ms"
+[formulation.rotation]
+update = "linear"
+"""
+)
+
+GLUED = (
+    HEAD
+    + """
+[interfaces.any]
+bonded = true
+friction_angle = "37 deg"
+[[blocks]]
+name = "left"
+material = "rock"
+vertices = [[1e7, 0], [10000001, 0], [10000001, 1], [1e7, 1]]
+[[blocks]]
+name = "right"
+material = "rock"
+vertices = [[10000001, 0], [10000002, 0], [10000002, 1], [10000001, 1]]
+[[initial_stresses]]
+block = "left"
+stress = [1000, 0, 0]
+[[supports]]
+name = "wall"
+segment = [[1e7, 0], [1e7, 1]]
+fix = ["x", "y"]
+[[supports]]
+name = "driven"
+segment = [[10000002, 0], [10000002, 1]]
+fix = ["x"]
+displacement = [1e-3, 0]
+[loading]
+until = 1.0
+[output]
+{checkpoint}
+[formulation.loading]
+increment = 0.1
+[formulation.supports]
+method = "lagrange"
+[formulation.glue]
+method = "lagrange"
+[formulation.cover]
+type = "quads"
+size = 0.4
+degree = 1
+"""
+)
+
 SHI = 'step = "2 ms"'
 NEWMARK = 'type = "newmark"\nstep = "2 ms"'
 OWN_NEWMARK = 'type = "newmark"\nstep = "2 ms"\n[formulation.integrator.options]\ngamma = 0.6'
@@ -287,6 +412,10 @@ SCENES = {
     "mesh": MESH.replace("{method}", "auto").replace("{enforcement}", "penalty"),
     "mesh multipliers": MESH.replace("{method}", "lagrange").replace("{enforcement}", "cone"),
     "relaxed": RELAXED,
+    "plastic": PLASTIC_LOADED,
+    "plastic in time": PLASTIC_MOVING,
+    "classical update": CLASSICAL,
+    "glued": GLUED,
 }
 
 

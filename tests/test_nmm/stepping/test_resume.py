@@ -164,6 +164,63 @@ def test_a_run_whose_budget_was_spent_goes_on(tmp_path):
     check_same(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
 
 
+OWN_EFFECT = """
+from typing import Self
+
+import numpy as np
+
+from nmm.effects.base import Effect
+
+
+class Tired(Effect):
+    # A drag that grows with every accepted step and acts on all unknowns.
+
+    def __init__(self, n):
+        self.steps, self.n = 0, n
+
+    @classmethod
+    def from_setup(cls, setup) -> Self:
+        return cls(setup.model.manifold.n_unknowns)
+
+    def force(self, state, end):
+        return np.full(self.n, 1e-3 * self.steps)
+
+    def work(self, before, after):
+        self.steps += 1
+        return 0.0
+
+    def carried(self):
+        return {"steps": self.steps}
+
+    def carry(self, carried):
+        self.steps = carried["steps"]
+"""
+
+
+@pytest.mark.parametrize("remembers", [True, False])
+def test_an_effect_of_ones_own_goes_on_with_what_it_says_it_carries(remembers, tmp_path):
+    own = OWN_EFFECT if remembers else OWN_EFFECT.split("    def carried")[0]
+    module = f"tired_{remembers}".lower()
+    (tmp_path / f"{module}.py").write_text(own)
+    text = scenes.scene_of("classical update", CHECKPOINT).split("[formulation.rotation]")[0]
+    text += f'[effects.drag]\ntype = "{module}:Tired"\n'
+    (tmp_path / "scene.toml").write_text(text)
+    scene, trust = nmm.read_scene(tmp_path / "scene.toml"), {"allow_code": [module]}
+    whole = nmm.run(scene, out=tmp_path / "whole", **trust)
+    left = [6]
+
+    def progress(share, said):
+        left[0] -= 1
+        if left[0] < 0:
+            raise StoppedError
+
+    with pytest.raises(StoppedError):
+        nmm.run(scene, out=tmp_path / "half", progress=progress, **trust)
+    resumed = nmm.resume(tmp_path / "half", **trust)
+    same = np.array_equal(whole.displacement, resumed.displacement)
+    assert same == remembers
+
+
 @pytest.fixture
 def stopped(tmp_path):
     """Folder of a run that was stopped after its second checkpoint."""
