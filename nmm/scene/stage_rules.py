@@ -47,10 +47,6 @@ def _beside(data: Tables) -> Iterator[Finding]:
     if "loading" in data:
         remedy = "remove [loading], or [[stages]]: stages bring their loads on in full"
         yield ("loading",), "[loading] with [[stages]]", "one of the two", remedy
-    output = data.get("output", {})
-    if isinstance(output, Mapping) and "checkpoint" in output:
-        remedy = "remove it: runs in stages do not go on from checkpoints yet"
-        yield ("output", "checkpoint"), "checkpoint with [[stages]]", "one of the two", remedy
     rotation = data.get("formulation", {})
     rotation = rotation.get("rotation", {}) if isinstance(rotation, Mapping) else {}
     if isinstance(rotation, Mapping) and rotation.get("update") == "linear":

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeVar, cast
 
 from nmm.results.storage.values import Arrays
 from nmm.stepping.drive.dynamics import InTime
+from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.statics import UnderLoad
 from nmm.stepping.reports.output import Choice
 from nmm.stepping.reports.recorder import Recorder
@@ -39,13 +40,25 @@ class Checkpoints:
         After which steps it is stored; None is never.
     store
         Takes what is stored.
+    stages
+        Those that were entered; None of a run without stages.
     """
 
     stepper: Stepper
     recorder: Recorder
     choice: Choice | None
     store: Callable[[Arrays], None]
+    stages: StagesSoFar | None = None
     _periods: int = 0
+
+    def entered(
+        self, asked: "CheckpointTable | None", stages: StagesSoFar, in_time: bool
+    ) -> "Checkpoints":
+        """Go on with the present one of ``stages``, which says anew when to store."""
+        begin = stages.start.time
+        self.choice = None if asked is None else checkpoint_choice(asked, begin, in_time)
+        self.stages = stages
+        return self
 
     def begin(self, at: At) -> At:
         """Store the start of a run, so that it can go on whenever it is stopped."""
@@ -69,6 +82,6 @@ class Checkpoints:
         return state.at
 
     def _stored(self, at: At) -> At:
-        arrays = RunState(at, self.stepper.carried, self.recorder.totals).to_arrays()
+        arrays = RunState(at, self.stepper.carried, self.recorder.totals, self.stages).to_arrays()
         self.store(arrays)
         return cast(At, self.go_on(RunState.from_arrays(arrays)))

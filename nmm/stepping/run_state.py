@@ -1,11 +1,12 @@
 """All of a run that matters: what a checkpoint stores and a run goes on from."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from nmm.results.storage.values import Arrays, Kinds, decoded, encoded
 from nmm.stepping.drive.dynamics import InTime
+from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.statics import UnderLoad
 from nmm.stepping.reports.recorder import Totals
 from nmm.stepping.step.carried import CarriedOver
@@ -27,11 +28,14 @@ class RunState:
         What the stepper and the effects carry besides.
     totals
         Of what was recorded.
+    stages
+        Those that were entered; None of a run without stages.
     """
 
     at: InTime | UnderLoad
     carried: CarriedOver
     totals: Totals
+    stages: StagesSoFar | None = None
 
     def to_arrays(self) -> Arrays:
         """Return it as arrays by name."""
@@ -53,7 +57,9 @@ class RunState:
             raise ValueError(f"it is not of {manifold.n_unknowns} unknowns and {bodies} bodies")
         edges = len(manifold.boundary.body)
         for points in _contact_points(self):
-            sizes = {len(getattr(points, part.name)) for part in fields(points)}
+            columns = {**vars(points), **points.history}
+            columns.pop("history")
+            sizes = {len(column) for column in columns.values()}
             sides = points.edge_a, points.edge_b
             if len(sizes) > 1 or any(len(s) and not 0 <= s.min() <= s.max() < edges for s in sides):
                 raise ValueError("its contacts are not of this model")
@@ -92,6 +98,7 @@ _PLACES = {
     "nmm.contact.points.contact_points": ("ContactPoints",),
     "nmm.contact.points.joint_book": ("JointBook",),
     "nmm.stepping.drive.dynamics": ("InTime",),
+    "nmm.stepping.drive.stages": ("StagesSoFar",),
     "nmm.stepping.drive.statics": ("UnderLoad", "Rest"),
     "nmm.stepping.reports.ledger": ("Ledger", "Rise"),
     "nmm.stepping.reports.output": ("Watch",),

@@ -3,6 +3,7 @@
 import resource
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -42,7 +43,7 @@ from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.checkpoints import Checkpoints, checkpoint_choice
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
-from nmm.stepping.drive.stages import Staged, run_stages, topology
+from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages, topology
 from nmm.stepping.drive.static_theorem import load_bound
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import FAILURE, RunVerdict
@@ -120,7 +121,8 @@ class Simulation:
         known = self.identity()
         folder, arrays = RunFolder.reopened(path, known, checkpoint_header(known))
         try:
-            return folder, RunState.from_arrays(arrays).checked(self.stepper.model)
+            stood = RunState.from_arrays(arrays)
+            return folder, stood.checked(self._model_of(stood))
         except ValueError as fault:
             folder.close()
             raise damaged(path / files.CHECKPOINT, str(fault)) from fault
@@ -154,9 +156,9 @@ class Simulation:
             sink.begin(self.topology)
             first = self.stages[0].stage.scene if self.stages else self.scene
             recorder.frame(self.start, "load" if first.inertia is None else "dynamic", None)
-        if self.stages:
-            return self._in_stages(recorder, progress)
         checkpoints = Checkpoints(self.stepper, recorder, self._checkpoint_choice(), store)
+        if self.stages:
+            return self._in_stages(recorder, progress, checkpoints, stood)
         state, verdict = self._advance(recorder, progress, checkpoints, stood)
         summary = self._summary(recorder, state, verdict)
         sink.finish(replace(summary, failure_bound=bound))
@@ -167,10 +169,34 @@ class Simulation:
         """The elements that frames belong to, at the start of the run."""
         return topology(self.stepper.discretisation.setup)
 
-    def _in_stages(self, recorder: Recorder, progress: Progress) -> State:
+    def _model_of(self, stood: RunState) -> Model:
+        """Return the model that was solved where a run stood."""
+        if stood.stages is None or not self.stages:
+            return self.stepper.model
+        number = len(stood.stages.entered)
+        if number >= len(self.stages):
+            raise ValueError(f"it is of stage {number + 1} of {len(self.stages)}")
+        return self.stages[number].setup.model
+
+    def _in_stages(
+        self,
+        recorder: Recorder,
+        progress: Progress,
+        checkpoints: Checkpoints,
+        stood: RunState | None,
+    ) -> State:
         """Run one stage after the other; audits judge the last one by its own start."""
         rule = make_integrator(self.formulation.integrator)
-        end = run_stages(self.stepper, recorder, self.start, self.stages, rule, progress)
+        so_far, at = StagesSoFar(self.start), None
+        asked = None if self.scene.output is None else self.scene.output.checkpoint
+        if stood is not None and stood.stages is not None:
+            so_far = stood.stages
+            enter_again(self.stepper, recorder, so_far, self.stages, rule)
+            present = self.stages[len(so_far.entered)].stage
+            at = checkpoints.entered(asked, so_far, present.dynamic).go_on(stood)
+        self.stepper.budget.taken = recorder.steps
+        keeper = partial(checkpoints.entered, asked)
+        end = run_stages(self.stepper, recorder, so_far, self.stages, rule, progress, keeper, at)
         last = replace(self, scene=end.stage.scene, start=end.start)
         summary = last._summary(recorder, end.state, end.verdict)
         known = self.identity()

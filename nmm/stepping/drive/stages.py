@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
 
@@ -23,6 +23,17 @@ if TYPE_CHECKING:
     from nmm.model.stages import Stage
 
 Progress = Callable[[float, str], None]
+At = TypeVar("At", InTime, UnderLoad)
+
+
+class Keeps(Protocol):
+    """What is shown where a run stands, and says from where it goes on."""
+
+    def begin(self, at: At) -> At:
+        """Take the start of a stage."""
+
+    def keep(self, at: At) -> At:
+        """Take the end of a step."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +46,29 @@ class Staged:
     stage: "Stage"
     setup: "Setup"
     clock: bool
+
+
+@dataclass(frozen=True)
+class StagesSoFar:
+    """Stages that were entered: what the next checkpoint needs to enter them again.
+
+    Attributes
+    ----------
+    start
+        The state at the start of the present stage.
+    entered
+        The states from which this stage and those before it were entered; none for the first.
+    changes
+        What changed each time, in words.
+    """
+
+    start: State
+    entered: tuple[State, ...] = ()
+    changes: tuple[str, ...] = ()
+
+
+StageKeeper = Callable[[StagesSoFar, bool], Keeps]
+"""Told of the stages so far, and whether the present one is solved in time."""
 
 
 @dataclass(frozen=True)
@@ -51,36 +85,70 @@ class StagesEnd:
 def run_stages(
     stepper: Stepper,
     recorder: Recorder,
-    state: State,
+    so_far: StagesSoFar,
     stages: Sequence[Staged],
     integrator: "Integrator",
     progress: Progress,
+    keeper: StageKeeper,
+    at: InTime | UnderLoad | None = None,
 ) -> StagesEnd:
-    """Solve stages from ``state``, which is the start of the first one, until one fails."""
-    changes: list[str] = []
-    for number, staged in enumerate(stages):
-        stage = staged.stage
-        if number:
-            state, said = enter(stepper, recorder, state, staged, integrator)
-            changes.append(said)
+    """Solve stages until one fails, from the start of the first one or from where one stands.
+
+    ``keeper`` is told of each stage that is entered; ``at`` is where the present one stands, None
+    at its start.
+    """
+    state, sentence = so_far.start, ""
+    for number in range(len(so_far.entered), len(stages)):  # a handful of stages
+        staged, stage = stages[number], stages[number].stage
+        if number > len(so_far.entered):
+            before = state
+            state, said = enter(stepper, recorder, before, staged, integrator)
+            entered, changes = (*so_far.entered, before), (*so_far.changes, said)
+            so_far = StagesSoFar(state, entered, changes)
 
         def told(share: float, text: str, number: int = number) -> None:
             name = stages[number].stage.name
             progress((number + share) / len(stages), f"stage {name}: {text}")
 
-        start = state
-        state, verdict = _solved(stepper, recorder, state, staged, told)
-        sentence = f"stage {stage.name}: {verdict.sentence}"
+        keep = keeper(so_far, stage.dynamic)
+        state, verdict = _solved(stepper, recorder, so_far.start, staged, told, keep, at)
+        at, sentence = None, f"stage {stage.name}: {verdict.sentence}"
         if verdict.code != CONVERGED:
-            return StagesEnd(state, start, stage, replace(verdict, sentence=sentence), changes)
-    sentence = f"{len(stages)} stages; {sentence}"
-    return StagesEnd(state, start, stage, RunVerdict(CONVERGED, sentence), changes)
+            verdict = replace(verdict, sentence=sentence)
+            return StagesEnd(state, so_far.start, stage, verdict, so_far.changes)
+    verdict = RunVerdict(CONVERGED, f"{len(stages)} stages; {sentence}")
+    return StagesEnd(state, so_far.start, stage, verdict, so_far.changes)
 
 
 def enter(
     stepper: Stepper, recorder: Recorder, state: State, staged: Staged, integrator: "Integrator"
 ) -> tuple[State, str]:
     """Solve what the stage has from now on; return the state carried over, and what changed."""
+    change = _entered(stepper, state, staged, integrator)
+    before = recorder.ledger.change_energy
+    follow(recorder, change)
+    added = recorder.ledger.change_energy - before
+    if not _same_elements(change):
+        recorder.sink.begin(topology(staged.setup))
+    name = staged.stage.name
+    return change.state, f"stage {name} at {state.time:.6g}: {_what(change)}, {added:.6g} J"
+
+
+def enter_again(
+    stepper: Stepper,
+    recorder: Recorder,
+    so_far: StagesSoFar,
+    stages: Sequence[Staged],
+    integrator: "Integrator",
+) -> None:
+    """Enter the stages of a run that was stopped, of which all is known that was recorded."""
+    for state, staged in zip(so_far.entered, stages[1:], strict=False):  # a handful of stages
+        change = _entered(stepper, state, staged, integrator)
+        recorder.monitors = monitors(change.setup, all_there=False)
+
+
+def _entered(stepper: Stepper, state: State, staged: Staged, integrator: "Integrator") -> "Change":
+    """Let the stepper solve what the stage has; return the change."""
     stage, old = staged.stage, stepper.discretisation
     still = np.zeros_like(state.velocity)
     if stage.dynamic:
@@ -88,15 +156,9 @@ def enter(
     else:
         state = replace(state, load_factor=0.0, velocity=still, acceleration=still)
     change = old.change(staged.setup, state)
-    new = old.after(change)
     solver = solver_for(change.new.manifold, stage.formulation.solver)
-    stepper.begin_anew(change, new, solver, integrator)
-    before = recorder.ledger.change_energy
-    follow(recorder, change)
-    added = recorder.ledger.change_energy - before
-    if not _same_elements(change):
-        recorder.sink.begin(topology(staged.setup))
-    return change.state, f"stage {stage.name} at {state.time:.6g}: {_what(change)}, {added:.6g} J"
+    stepper.begin_anew(change, old.after(change), solver, integrator)
+    return change
 
 
 def follow(recorder: Recorder, change: "Change") -> None:
@@ -125,20 +187,26 @@ def _solved(
     state: State,
     staged: Staged,
     progress: Progress,
+    keeps: "Keeps",
+    at: InTime | UnderLoad | None,
 ) -> tuple[State, RunVerdict]:
-    """Solve one stage, in time or to rest."""
+    """Solve one stage, in time or to rest, from its start or from where it stands."""
     stage, output, steps = staged.stage, staged.stage.scene.output, staged.stage.formulation
     if stage.duration is not None:
         recorder.choice = choice_in_time(output, state.time, stage.duration)
         times = Schedule(stage.duration, steps.integrator.step)
-        return run_in_time(stepper, recorder, InTime.at_start(state, times), times, progress)
+        moving = at or keeps.begin(InTime.at_start(state, times))
+        assert isinstance(moving, InTime)
+        return run_in_time(stepper, recorder, moving, times, progress, keeps.keep)
     recorder.choice = choice_under_loads(output)
     asked = steps.loading
     # What is new is brought on at once unless increments are asked for.
     increment = asked.increment if "increment" in asked.model_fields_set else 1.0
     loads = LoadSchedule(1.0, False, increment, asked.tolerance, state.time, staged.clock)
-    names, under = staged.setup.region_name, UnderLoad.at_start(state, loads)
-    return run_load(stepper, recorder, under, loads, progress, names)
+    under = at or keeps.begin(UnderLoad.at_start(state, loads))
+    assert isinstance(under, UnderLoad)
+    names = staged.setup.region_name
+    return run_load(stepper, recorder, under, loads, progress, names, keeps.keep)
 
 
 def _same_elements(change: "Change") -> bool:

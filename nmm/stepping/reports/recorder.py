@@ -183,7 +183,7 @@ class Recorder:
         ledger = self.ledger
         if ledger.steps:
             ledger = ledger.changed(self.stepper.plan, self.stepper.model, state)
-            self.totals = replace(self.totals, ledger=ledger)
+            self.totals = with_parts(self.totals, ledger=ledger)
 
     def offer(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over the state after the step just recorded, if it is to be a frame; once."""

@@ -392,6 +392,57 @@ degree = 1
 """
 )
 
+STAGED = """
+title = "stages"
+plane = "stress"
+[materials.rock]
+young_modulus = 1e9
+poisson_ratio = 0.2
+density = 2000
+[[blocks]]
+name = "lower"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "upper"
+material = "rock"
+vertices = [[0.2, 1], [1, 1], [1, 2], [0, 2]]
+[gravity]
+[inertia]
+[contact]
+[interfaces.any]
+between = "any"
+friction_angle = 0.5
+[[supports]]
+name = "floor"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+[[monitors]]
+name = "top"
+point = [0.5, 1]
+block = "lower"
+[output]
+every_steps = 3
+{checkpoint}
+[[stages]]
+name = "rest"
+[[stages]]
+name = "free"
+duration = 0.006
+remove = ["upper"]
+[[stages]]
+name = "finer"
+duration = 0.006
+add = ["upper"]
+cover = { degree = 2 }
+[formulation.cover]
+type = "triangles"
+size = 0.8
+degree = 1
+[formulation.integrator]
+step = 1e-3
+"""
+
 SHI = 'step = "2 ms"'
 NEWMARK = 'type = "newmark"\nstep = "2 ms"'
 OWN_NEWMARK = 'type = "newmark"\nstep = "2 ms"\n[formulation.integrator.options]\ngamma = 0.6'
@@ -416,6 +467,7 @@ SCENES = {
     "plastic in time": PLASTIC_MOVING,
     "classical update": CLASSICAL,
     "glued": GLUED,
+    "stages": STAGED,
 }
 
 
