@@ -99,6 +99,7 @@ MATERIAL_LAWS = Registry[Callable[..., Law]](
     Law,
     {
         "elastic": "nmm.materials.elastic:Elastic",
+        "mohr_coulomb": "nmm.materials.mohr_coulomb:MohrCoulombPlasticity",
         "von_mises": "nmm.materials.von_mises:VonMisesPlasticity",
     },
 )

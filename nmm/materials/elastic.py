@@ -39,3 +39,13 @@ class Elastic(Law):
     def modulus(self) -> float:
         """Young's modulus (Pa)."""
         return self.young_modulus
+
+
+def elastic_energy(
+    young_modulus: float, poisson_ratio: float, stress: Floats, zz: Floats
+) -> Floats:
+    """Return the energy (m,) in J/m3 of stresses (m, 3: xx, yy, xy) and (m,) across."""
+    xx, yy, xy = stress.T
+    squares = xx**2 + yy**2 + zz**2 + 2 * (1 + poisson_ratio) * xy**2
+    mixed = poisson_ratio * (xx * yy + yy * zz + zz * xx)
+    return np.asarray((squares / 2 - mixed) / young_modulus)

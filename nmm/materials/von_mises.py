@@ -7,7 +7,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
-from nmm.materials.elastic import Elastic
+from nmm.materials.elastic import Elastic, elastic_energy
 from nmm.materials.projected_return import projected_return
 from nmm.materials.radial_return import radial_return
 
@@ -71,10 +71,7 @@ class VonMisesPlasticity(Elastic):
 
     def energy(self, stress: Floats, history: History, plane: str) -> Floats:
         """Return the elastic energy and what hardening stores, ``H p^2 / 2``."""
-        e, nu = self.young_modulus, self.poisson_ratio
-        xx, yy, xy = stress.T
         zz = history["stress_zz"][:, 0]
-        elastic = (xx**2 + yy**2 + zz**2 + 2 * (1 + nu) * xy**2) / 2
-        elastic -= nu * (xx * yy + yy * zz + zz * xx)
+        elastic = elastic_energy(self.young_modulus, self.poisson_ratio, stress, zz)
         hard = self.hardening_modulus * history["accumulated_plastic_strain"][:, 0] ** 2
-        return np.asarray(elastic / e + hard / 2)
+        return np.asarray(elastic + hard / 2)

@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 block_functions = local_functions
 
 # Constants of a scene's material that not every law has.
-WHERE_GIVEN = ("yield_stress", "hardening_modulus")
+WHERE_GIVEN = (
+    *("yield_stress", "hardening_modulus"),
+    *("cohesion", "friction_angle", "dilation_angle"),
+)
 
 
 def build_model(scene: "Scene", formulation: "Formulation", regions: "Regions") -> Model:

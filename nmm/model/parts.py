@@ -21,16 +21,8 @@ if TYPE_CHECKING:
 
 # Keys that name a part or change it.
 NAMING = (
-    "law",
-    "type",
-    "method",
-    "functions",
-    "degree",
-    "enforcement",
-    "fracture_energy",
-    "options",
-    "yield_stress",
-    "hardening_modulus",
+    *("law", "type", "method", "functions", "degree", "enforcement", "fracture_energy", "options"),
+    *("yield_stress", "hardening_modulus", "cohesion", "friction_angle", "dilation_angle"),
 )
 
 

@@ -30,12 +30,20 @@ from nmm.scene.fields import (
 )
 
 
+def _friction(value: float) -> float:
+    if 0 <= value < math.pi / 2:
+        return value
+    remedy = 'numbers are radians; write for example friction_angle = "37 deg"'
+    raise fault(value, "a friction angle in [0, pi/2) rad", remedy)
+
+
 class Material(Frozen):
     """Law and constants of the inside of blocks."""
 
     law: PartName = Field(
         default="elastic",
-        description='"elastic", "von_mises", or "module:Name" of a law of one\'s own',
+        description='"elastic", "von_mises", "mohr_coulomb", or "module:Name" of a law of one\'s '
+        "own",
     )
     density: Density | None = Field(
         default=None, gt=0, description="a density in kg/m3, > 0", examples=example("kg/m^3")
@@ -58,6 +66,22 @@ class Material(Frozen):
         description="a slope of stress over plastic strain in Pa, >= 0; none is perfectly plastic",
         examples=["2 GPa"],
     )
+    cohesion: Stress | None = Field(
+        default=None,
+        ge=0,
+        description='a cohesion in Pa, >= 0, of "mohr_coulomb"',
+        examples=["20 kPa"],
+    )
+    friction_angle: Annotated[Angle, AfterValidator(_friction)] | None = Field(
+        default=None,
+        description='a friction angle in [0, pi/2) rad, of "mohr_coulomb"',
+        examples=example("rad"),
+    )
+    dilation_angle: Annotated[Angle, AfterValidator(_friction)] | None = Field(
+        default=None,
+        description="a dilation angle from 0, no change of volume, to the friction angle, rad",
+        examples=["10 deg"],
+    )
     options: Options = Field(default={}, description="a table of options of a law of one's own")
 
 
@@ -67,13 +91,6 @@ def _pair(value: object) -> object:
     raise fault(
         repr(value), 'two materials or "any"', 'write for example between = ["rock", "rock"]'
     )
-
-
-def _friction(value: float) -> float:
-    if 0 <= value < math.pi / 2:
-        return value
-    remedy = 'numbers are radians; write for example friction_angle = "37 deg"'
-    raise fault(value, "a friction angle in [0, pi/2) rad", remedy)
 
 
 class InterfaceTable(Frozen):

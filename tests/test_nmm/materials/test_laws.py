@@ -7,6 +7,7 @@ import pytest
 
 from nmm.errors import FormulationError
 from nmm.materials.elastic import Elastic
+from nmm.materials.mohr_coulomb import MohrCoulombPlasticity
 from nmm.materials.von_mises import VonMisesPlasticity
 from nmm.testing.laws import check_law, start_of
 
@@ -25,6 +26,16 @@ STEEL = VonMisesPlasticity(200e9, 0.3, 250e6, 20e9)
 )
 def test_laws_keep_what_every_law_must(law):
     check_law(law)
+
+
+@pytest.mark.parametrize(("friction", "dilation"), [(0.5, 0.5), (0.5, 0.2), (0.5, 0.0), (0.0, 0.0)])
+def test_mohr_coulomb_keeps_what_every_law_must(friction, dilation):
+    check_law(MohrCoulombPlasticity(1e5, 0.25, 20.0, friction, dilation), planes=("strain",))
+
+
+def test_mohr_coulomb_is_refused_in_plane_stress():
+    with pytest.raises(FormulationError, match="takes part in the yield"):
+        MohrCoulombPlasticity(1e5, 0.25, 20.0, 0.5).stiffness("stress")
 
 
 @dataclass(frozen=True)
@@ -129,3 +140,71 @@ def test_plane_stress_is_the_solid_without_stress_across():
 def test_constants_that_make_no_sense_are_refused(constants, said):
     with pytest.raises(FormulationError, match=said):
         VonMisesPlasticity(*constants)
+
+
+DEGREE = np.pi / 180
+# Trial and returned principal stresses (kPa), E = 1e5, nu = 0.25, c = 20, phi = 30 degrees, from an
+# enumeration of active planes with the conditions of Karush, Kuhn and Tucker.
+RETURNS = [
+    (30, (-50, -120, -400), (-110.239323, -135.059831, -400)),
+    (30, (30, -60, -200), (-43.572656, -78.393164, -200)),
+    (30, (-20, -20, -300), (-76.905989, -76.905989, -300)),
+    (30, (-10, -250, -260), (-64.162771, -261.770346, -261.770346)),
+    (30, (40, 30, 10), (26.427344, 26.427344, 10)),
+    (30, (80, 75, 60), (34.641016, 34.641016, 34.641016)),
+    (10, (-50, -120, -400), (-101.864065, -126.684573, -374.874226)),
+    (10, (-20, -20, -300), (-64.247086, -64.247086, -262.023291)),
+    (10, (-10, -250, -260), (-59.002062, -246.288218, -246.288218)),
+    (10, (40, 30, 10), (28.334356, 28.334356, 15.721037)),
+    (10, (25, 20, -10), (20.489117, 19.418608, -7.814683)),
+    (10, (60, -10, -40), (16.745605, -15.574903, -19.045218)),
+]
+
+
+@pytest.mark.parametrize(("dilation", "trial", "expected"), RETURNS)
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 0, 1), (1, 2, 0)])
+def test_mohr_coulomb_returns_to_planes_edges_and_apex(dilation, trial, expected, order):
+    # Any of the three may be the stress across; the elastic strain of the trial stands in for it.
+    law = MohrCoulombPlasticity(1e5, 0.25, 20.0, 30 * DEGREE, dilation * DEGREE)
+    stress = np.array(trial, dtype=float)[list(order)]
+    strain = ((1 + 0.25) * stress - 0.25 * stress.sum()) / 1e5
+    history = start_of(law, "strain", 1)
+    history["plastic_strain"][0, 3] = -strain[2]
+    turn = 0.4
+    c, s = np.cos(turn), np.sin(turn)
+    flat = np.array([[c, -s], [s, c]]) @ np.diag(strain[:2]) @ np.array([[c, s], [-s, c]])
+    given = np.array([[flat[0, 0], flat[1, 1], 2 * flat[0, 1]]])
+    found = law.update(given, history, "strain", 0.0)
+    xx, yy, xy = found.stress[0]
+    principal = np.linalg.eigvalsh([[xx, xy], [xy, yy]])
+    across = found.history["stress_zz"][0, 0]
+    # The references have six digits behind the point.
+    np.testing.assert_allclose(np.sort([*principal, across]), np.sort(expected), rtol=0, atol=1e-6)
+
+
+def test_an_oedometer_follows_the_edge_of_the_pyramid():
+    # E = 50 MPa, nu = 0.2, c = 10 kPa, phi = 30, psi = 10 degrees; piecewise linear, so that any
+    # step gives it: at 1 % of strain 529.27174 and 164.87691 kPa.
+    law = MohrCoulombPlasticity(50e3, 0.2, 10.0, 30 * DEGREE, 10 * DEGREE)
+    for steps in (4, 40):
+        strains = [(0, -0.01 * n / steps, 0) for n in range(1, steps + 1)]
+        found, _ = followed(law, "strain", strains)
+        np.testing.assert_allclose(found[-1][:2], [-164.87691, -529.27174], rtol=2e-8)
+
+
+def test_random_stresses_return_inside_the_pyramid():
+    random = np.random.default_rng(3)
+    for friction, dilation, cohesion in ((30, 30, 20.0), (35, 0, 0.0), (0, 0, 20.0), (60, 20, 1.0)):
+        law = MohrCoulombPlasticity(1e5, 0.4999, cohesion, friction * DEGREE, dilation * DEGREE)
+        strain = random.normal(size=(20_000, 3)) * 10 ** random.uniform(-6, -1, (20_000, 1))
+        found = law.update(strain, start_of(law, "strain", 20_000), "strain", 0.0)
+        xx, yy, xy = found.stress.T
+        middle, radius = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+        all_three = np.stack([middle + radius, middle - radius, found.history["stress_zz"][:, 0]])
+        high, low = all_three.max(axis=0), all_three.min(axis=0)
+        sine, cosine = np.sin(friction * DEGREE), np.cos(friction * DEGREE)
+        beyond = (high - low) + (high + low) * sine - 2 * cohesion * cosine
+        # Rounding of trials, up to 1e8 kPa at this Poisson's ratio.
+        assert (
+            beyond <= 1e-9 * (np.abs(all_three).max(axis=0) + 3e8 * np.abs(strain).max(axis=1))
+        ).all()
