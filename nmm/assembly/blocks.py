@@ -33,8 +33,8 @@ class Part:
     kind: Ints
 
 
-def assemble(parts: Sequence[Part], n: int, offset: Ints) -> csc_array:
-    """Sum symmetric element matrices.
+def assemble(parts: Sequence[Part], n: int, offset: Ints, symmetric: bool = True) -> csc_array:
+    """Sum element matrices.
 
     Parameters
     ----------
@@ -44,12 +44,14 @@ def assemble(parts: Sequence[Part], n: int, offset: Ints) -> csc_array:
         Number of unknowns.
     offset
         (C + 1,) first unknown of each cover.
+    symmetric
+        Whether all of them are.
     """
     sizes = np.diff(offset)
     if not parts or not len(sizes):
         return csc_array((n, n))
     if (sizes == sizes[0]).all() and all(_cover_by_cover(part, int(sizes[0])) for part in parts):
-        return _by_blocks(parts, len(sizes), int(sizes[0]))
+        return _by_blocks(parts, len(sizes), int(sizes[0]), symmetric)
     return _by_entries(parts, n)
 
 
@@ -64,7 +66,7 @@ def _cover_by_cover(part: Part, size: int) -> bool:
     return bool((steps == np.arange(size)).all())
 
 
-def _by_blocks(parts: Sequence[Part], n_covers: int, size: int) -> csc_array:
+def _by_blocks(parts: Sequence[Part], n_covers: int, size: int, symmetric: bool) -> csc_array:
     keys, sources, blocks, first = [], [], [], 0
     for part in parts:  # a handful of groups
         d, length, _ = part.matrices.shape
@@ -83,7 +85,9 @@ def _by_blocks(parts: Sequence[Part], n_covers: int, size: int) -> csc_array:
     n = n_covers * size
     shape = (len(pairs), size, size)
     summed = bsr_array((data.reshape(shape), pairs % n_covers, begin), shape=(n, n)).tocsr()
-    # Symmetric: rows serve as columns.
+    if not symmetric:
+        return csc_array(summed)
+    # Rows serve as columns.
     return csc_array((summed.data, summed.indices, summed.indptr), shape=(n, n))
 
 

@@ -117,10 +117,16 @@ class Matter:
         """Return the internal force (n,) of unknowns (n,) and of the stress (Q, 3) of points."""
         return self.rest @ deformation + self.thickness * self.points.force(stress)
 
-    def stiffness(self, tangent: Floats) -> csc_array:
-        """Return the tangent stiffness (n, n); of tangents (Q, 3, 3) the symmetric part acts."""
-        symmetric = (tangent + np.swapaxes(tangent, 1, 2)) / 2
-        return csc_array(self.rest + self.thickness * self.points.matrix(symmetric))
+    @property
+    def symmetric(self) -> bool:
+        """Whether all tangents are."""
+        return all(law.symmetric for law in self.laws)
+
+    def stiffness(self, tangent: Floats, symmetric: bool = True) -> csc_array:
+        """Return the tangent stiffness (n, n) of tangents (Q, 3, 3), or its symmetric part."""
+        if symmetric:
+            tangent = (tangent + np.swapaxes(tangent, 1, 2)) / 2
+        return csc_array(self.rest + self.thickness * self.points.matrix(tangent, symmetric))
 
     def energy(self, deformation: Floats, history: History) -> float:
         """Return the stored energy (J), but for what an initial stress counts by itself."""

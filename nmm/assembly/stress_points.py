@@ -93,15 +93,15 @@ class StressPoints:
             total += np.bincount(part.unknowns.ravel(), local.ravel(), minlength=n)
         return total
 
-    def matrix(self, tangent: Floats) -> csc_array:
-        """Integral of ``B^T D B`` (n, n) of symmetric tangents (Q, 3, 3), per unit thickness."""
+    def matrix(self, tangent: Floats, symmetric: bool = True) -> csc_array:
+        """Integral of ``B^T D B`` (n, n) of tangents (Q, 3, 3), per unit thickness."""
         weighted, parts = self.rule.weights[:, None, None] * tangent, []
         for part in self.batches:
             k, q, _, length = part.rows.shape
             rows = part.rows.reshape(k, 3 * q, length)
             stress = (weighted[part.at] @ part.rows).reshape(k, 3 * q, length)
             parts.append(Part(part.unknowns, np.swapaxes(rows, 1, 2) @ stress, np.arange(k)))
-        return assemble(parts, int(self.offset[-1]), self.offset)
+        return assemble(parts, int(self.offset[-1]), self.offset, symmetric)
 
     def means(self, values: Floats) -> tuple[Ints, Floats]:
         """Return the elements (k,) that have points and the means (k, h) of values (Q, h)."""

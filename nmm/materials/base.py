@@ -50,6 +50,11 @@ class Law(ABC):
         """Whether stress is `stiffness` times strain, so that matrices are made once."""
         return type(self).update is Law.update
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether tangents are symmetric, as where flow follows from the yield surface itself."""
+        return True
+
     def variables(self, plane: str) -> History:
         """Return the internal variables of one point at the start, (h,) each."""
         return {}

@@ -29,7 +29,7 @@ class MohrCoulombPlasticity(Elastic):
     -----
     Internal variables: ``plastic_strain`` (4: xx, yy, 2 xy, zz), ``accumulated_plastic_strain``
     (the sum of ``sqrt(2/3 |de|^2)`` of its deviator), ``stress_zz`` (Pa). Where the angles differ
-    the tangent is not symmetric, and Newton's method with its symmetric part converges linearly.
+    the tangent is not symmetric.
     """
 
     cohesion: float
@@ -55,6 +55,11 @@ class MohrCoulombPlasticity(Elastic):
                 f"dilation_angle: {self.dilation_angle}: expected an angle from 0 to the friction "
                 f"angle of {self.friction_angle:.6g} rad: beyond it flow would give energy"
             )
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the angles are equal."""
+        return self.dilation_angle == self.friction_angle
 
     def stiffness(self, plane: str) -> Floats:
         """See `Law.stiffness`; plane stress is refused."""

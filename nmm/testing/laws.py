@@ -105,6 +105,12 @@ def _path(law: Law, plane: str, size: float, step: float, random: np.random.Gene
         wrong = differences(law, then, history, plane, step, near) - found.tangent
         off = np.abs(wrong).max(axis=(1, 2)) / unit
         bad = float((off > CLOSE).mean())
+        if law.symmetric:
+            odd = np.abs(found.tangent - np.swapaxes(found.tangent, 1, 2)).max() / unit
+            assert odd < 1e-9, (
+                f"{where}: tangents are {odd:.1e} off from symmetric: correct them, or say so by "
+                "`symmetric`"
+            )
         assert bad <= KINKS, (
             f"{where}: the tangent is no derivative at {100 * bad:.0f} % of the points, by up to "
             f"{off.max():.1e} of the elastic stiffness"

@@ -30,11 +30,14 @@ class Linearisation:
         (n,) that the line has at the start of the step: that of the stress there, where it is one.
     start
         (n,) of the stress at the start of the step.
+    symmetric
+        Whether the tangent is.
     """
 
     stiffness: csc_array
     force: Floats
     start: Floats
+    symmetric: bool = True
 
     @classmethod
     def linear(cls, model: Model, state: State) -> "Linearisation":
@@ -88,6 +91,8 @@ class Equations:
         (n, n) and (n,).
     inertia
         Its terms; None in statics.
+    symmetric
+        Whether the matrix is.
     """
 
     state: State
@@ -97,6 +102,7 @@ class Equations:
     matrix: csc_array
     force: Floats
     inertia: InertiaTerms | None = None
+    symmetric: bool = True
 
 
 class Assembly:
@@ -133,8 +139,9 @@ class Assembly:
             if model.manifold.dependent and _rounded(force, applied, line.force):
                 force = np.zeros_like(force)
             held = self._anchored(line.stiffness) if anchored else line.stiffness
-            return Equations(state, end, step, rule, plan.matrix(state, held), force)
-        given = Equations(state, end, step, rule, line.stiffness, force)
+            matrix, even = plan.matrix(state, held), line.symmetric
+            return Equations(state, end, step, rule, matrix, force, symmetric=even)
+        given = Equations(state, end, step, rule, line.stiffness, force, symmetric=line.symmetric)
         return self._in_time(given, line, matter is None)
 
     def _in_time(self, static: Equations, line: Linearisation, linear: bool) -> Equations:

@@ -83,6 +83,8 @@ class Alone:
         if border is not None:
             matrix = bordered(matrix, border[0])
             force, solver = np.concatenate([force, border[1]]), solver.indefinite()
+        if not equations.symmetric:
+            solver = self.solver.unsymmetric()
         if self.factor is None or not _same(self.factor.matrix, matrix):
             self.factor = solver.factorise(matrix)
         factor = self.factor

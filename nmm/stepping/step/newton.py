@@ -49,10 +49,11 @@ def newton(
     step: float | None,
     solve: Callable[[Linearisation | None], Solution],
     clock: Clock,
+    symmetric: bool,
 ) -> Solution:
     """Solve a step from ``state`` of ``step`` seconds, None in statics.
 
-    ``solve`` solves the equations with matter linearised.
+    ``solve`` solves the equations with matter linearised, by its ``symmetric`` part or as it is.
 
     Returns
     -------
@@ -71,7 +72,7 @@ def newton(
     now, way, passes = at(np.zeros_like(start)), np.zeros_like(start), 0
     imbalances: list[float] = []
     while True:
-        line = _line(matter, now, start, clock)
+        line = _line(matter, now, start, clock, symmetric)
         equations, found = solve(line)
         passes += found.passes
         if not found.converged and not _goes_on(found):
@@ -111,10 +112,13 @@ def _goes_on(found: Attempt) -> bool:
     return found.solved is not None and found.solved.stopped
 
 
-def _line(matter: Matter, at: _Iterate, start: Floats, clock: Clock) -> Linearisation:
+def _line(
+    matter: Matter, at: _Iterate, start: Floats, clock: Clock, symmetric: bool
+) -> Linearisation:
     with clock.phase("assembly"):
-        stiffness = matter.stiffness(at.response.tangent)
-    return Linearisation(stiffness, at.force - stiffness @ at.increment, start)
+        stiffness = matter.stiffness(at.response.tangent, symmetric)
+    force = at.force - stiffness @ at.increment
+    return Linearisation(stiffness, force, start, symmetric)
 
 
 def _scale(elastic: csc_array) -> Floats:

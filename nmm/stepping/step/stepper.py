@@ -152,7 +152,9 @@ class Stepper:
         if matter is None:
             equations, found = solve(None)
         else:
-            equations, found = newton(matter, state, step, solve, self._clock)
+            # Methods of contact are for symmetric matrices.
+            symmetric = matter.symmetric or self.plan.contact is not None
+            equations, found = newton(matter, state, step, solve, self._clock, symmetric)
         if not found.converged or equations.inertia is None:
             return found
         return replace(found, booked=booked(equations, found.increment, found.solved))

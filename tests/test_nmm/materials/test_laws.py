@@ -60,6 +60,8 @@ class Forgetful(VonMisesPlasticity):
 class Generous(Elastic):
     """A wrong law: paths around a loop give energy, as its matrix is not symmetric."""
 
+    symmetric = False
+
     def update(self, strain, history, plane, step):
         matrix = self.stiffness(plane)
         bent = matrix + np.array([[0, 0, 0], [0, 0, 0], [0.5, 0, 0]]) * self.young_modulus

@@ -267,3 +267,59 @@ def test_stress_at_a_place_is_that_of_the_nearest_material_point():
     stress = fields(found, np.array([[0.3, 0.3], [1.7, 0.6]])).stress
     # The elastic law would give 800 MPa at this strain.
     np.testing.assert_allclose(stress[:, 0], 300e6, rtol=1e-8)
+
+
+SOIL = """
+plane = "strain"
+[materials.soil]
+law = "mohr_coulomb"
+young_modulus = "50 MPa"
+poisson_ratio = 0.25
+cohesion = "20 kPa"
+friction_angle = "30 deg"
+dilation_angle = "{dilation} deg"
+[[blocks]]
+material = "soil"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[supports]]
+name = "left"
+segment = [[0, 0], [0, 1]]
+fix = ["x"]
+[[supports]]
+name = "base"
+segment = [[0, 0], [1, 0]]
+fix = ["y"]
+[[supports]]
+name = "plate"
+segment = [[0, 1], [1, 1]]
+fix = ["y"]
+displacement = [0, -0.02]
+[[loads]]
+name = "side"
+kind = "edge"
+segment = [[1, 0], [1, 1]]
+traction = ["-100 kPa", 0]
+[[monitors]]
+name = "side"
+point = [1, 0.5]
+[[monitors]]
+name = "top"
+point = [0.5, 1]
+[loading]
+scaled = ["plate"]
+"""
+
+
+@pytest.mark.parametrize("cover", ["dda", "triangles degree 1"])
+@pytest.mark.parametrize("dilation", [30, 10, 0])
+def test_a_biaxial_test_flows_by_its_dilation_angle(dilation, cover):
+    found = run(SOIL.format(dilation=dilation), cover, "[loading]\nincrement = 0.05\n")
+    assert found.summary.status == "converged", found.summary.sentence
+    # 2 c cos / (1 - sin) + 100 (1 + sin) / (1 - sin), kPa.
+    np.testing.assert_allclose(found.frames[-1].stress[:, 1], -369.282032e3, rtol=1e-5)
+    at = found.history["load_factor"]
+    wide, low = (found.history[name] for name in ("monitor:side:ux", "monitor:top:uy"))
+    last, first = -1, int(np.argmin(np.abs(at - 0.8)))
+    sine = np.sin(np.radians(dilation))
+    grows = -(wide[last] - wide[first]) / (low[last] - low[first])
+    assert grows == pytest.approx((1 + sine) / (1 - sine), rel=1e-4)
