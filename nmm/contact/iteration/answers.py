@@ -1,4 +1,4 @@
-"""Answers and verdicts of the enforcements that settle cut springs."""
+"""Answers and verdicts of the enforcements that balance cut springs."""
 
 import numpy as np
 

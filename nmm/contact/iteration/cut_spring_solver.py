@@ -1,7 +1,7 @@
-"""Solve cut springs: by chord steps with two factors and, by rule, with the interior point.
+"""Solve cut springs: by modified Newton steps with two factors and, by rule, the interior point.
 
 The interior point finds most states in ten factorisations whatever the stiffness, and takes many
-more over the last few; chord steps are quick where most states are right, and lost where not.
+more over the last few; modified Newton is quick where most states are right, and lost where not.
 """
 
 from dataclasses import replace
@@ -69,7 +69,7 @@ def _inside(
     budget: IterationBudget,
     options: IterationOptions,
 ) -> IterationResult:
-    """Best of the interior point, broken off near the end for chord steps, and gone on with."""
+    """Best of the interior point, broken off near the end for modified Newton, and gone on with."""
     springs, problem, best = found.springs, found.springs.problem, found
     stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
     sides = Complementarity.of(springs, np.zeros(problem.n_contacts, dtype=bool), 1 / stiffness)
