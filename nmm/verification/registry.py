@@ -94,6 +94,7 @@ CASES = Registry[type[Case]](
         "PL0 bar": f"{_HOME}.plasticity:PlasticBar",
         "PL0 beam": f"{_HOME}.plasticity:PlasticBeam",
         "PL3": f"{_HOME}.plasticity:PlasticCylinder",
+        "PL4": f"{_HOME}.plasticity:Footing",
         "B9 damping": f"{_HOME}.time_integration:SpringBlock",
         "B9 order": f"{_HOME}.time_integration:IntegratorOrder",
     },

@@ -251,6 +251,82 @@ class PlasticCylinder(SceneCase):
         return checks
 
 
+@dataclass(frozen=True)
+class Footing(SceneCase):
+    """A strip footing on weightless soil sinks in at Prandtl's pressure.
+
+    Half of it is modelled; a displacement method comes from above. The pressure is given, so that
+    whether the footing is smooth or rough makes no difference.
+    """
+
+    name: ClassVar[str] = "PL4"
+    title: ClassVar[str] = "Strip footing"
+    source: ClassVar[str] = (
+        "Prandtl 1920, Reissner 1924: Nc = 2 + pi without friction, 14.8347 at 20"
+    )
+    formulations: ClassVar[tuple[str, ...]] = ("quads degree 2",)
+    friction: int = 0
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return clay, and soil with friction whose dilation is as large."""
+        return [cls(0), cls(20)]
+
+    @property
+    def variant(self) -> str:
+        """The friction angle."""
+        return f"phi {self.friction}"
+
+    @property
+    def slow(self) -> bool:
+        """Half a minute with friction."""
+        return self.friction > 0
+
+    @property
+    def capacity(self) -> float:
+        """Pressure over cohesion at failure."""
+        if not self.friction:
+            return 2 + np.pi
+        angle = np.radians(self.friction)
+        quotient = np.exp(np.pi * np.tan(angle)) * np.tan(np.pi / 4 + angle / 2) ** 2
+        return float((quotient - 1) / np.tan(angle))
+
+    def scene(self) -> str:
+        """Return the soil beside the middle, deep and wide enough for the mechanism."""
+        wide, deep = (4.0, 2.0) if not self.friction else (7.0, 3.0)
+        angles = f'"{self.friction} deg"'
+        return text.scene(
+            'title = "Strip footing"\nplane = "strain"\n',
+            [
+                '[materials.soil]\nlaw = "mohr_coulomb"\nyoung_modulus = 1000.0\n'
+                f"poisson_ratio = 0.3\ncohesion = 1.0\nfriction_angle = {angles}\n"
+                f"dilation_angle = {angles}\n",
+                text.block("soil", "soil", [(0, 0), (wide, 0), (wide, deep), (1, deep), (0, deep)]),
+                roller("middle", [(0, 0), (0, deep)], "x"),
+                roller("far", [(wide, 0), (wide, deep)], "x"),
+                f'[[supports]]\nname = "base"\nsegment = [[0, 0], [{wide}, 0]]\nfix = ["x", "y"]\n',
+                pull("footing", [(0, deep), (1, deep)], [0, -1]),
+                f'[loading]\nuntil = "failure"\nmaximum_factor = {2 * self.capacity!r}\n',
+                f"[formulation.loading]\nincrement = {self.capacity / 10!r}\ntolerance = 0.005\n",
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the pressure at which the soil flows."""
+        found = run.summary.failure_factor or np.nan
+        return {
+            "pressure over cohesion": Check(
+                found, self.capacity, 0.08, "half a metre of cells under half a footing of one"
+            ),
+            "from above": Check(
+                found, self.capacity, 0.005, "the bracket of 0.5 %", bound="at_least"
+            ),
+            "a mechanism": holds(
+                run.summary.status == "failure_load", "failing is shown to be the structure's"
+            ),
+        }
+
+
 def plastic_radius(pressure: float) -> float:
     """Return the radius c of the plastic zone, a = 1, b = 2, at a pressure over k."""
     low, high = 1.0, 2.0
