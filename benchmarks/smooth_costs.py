@@ -19,6 +19,7 @@ from skfem.models.elasticity import linear_elasticity
 
 from covers.approximation.block_manifold import block_manifold
 from covers.approximation.mesh_manifold import mesh_manifold
+from covers.approximation.uncut import uncut
 from covers.cutting.cut import cut
 from covers.local_functions.polynomials import Monomials, RigidStrain
 from covers.mathematical.triangles import Triangles
@@ -196,7 +197,7 @@ def blocks(polygons: Polygons) -> Cost:
     clock.stop("moments")
     count = len(polygons)
     stiff = np.broadcast_to(D, (count, 3, 3))
-    _ = Model(made, stiff, np.zeros(count), np.ones(count), 1.0).stiffness
+    _ = Model(made, stiff, np.zeros(count), np.ones(count), 1.0, uncut(made)).stiffness
     clock.stop("assembly")
     seconds = clock.seconds | dict.fromkeys(SOLVERS, np.nan)
     return Cost("blocks", "DDA", count, 0, made.n_unknowns, np.nan, seconds)

@@ -1,9 +1,10 @@
 """Edges of bodies in reference coordinates: where contact, supports and loads act."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from covers.concatenate import numbers
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
 
@@ -24,10 +25,10 @@ class BoundaryEdges:
 
     start: Floats
     end: Floats
-    element: Ints
-    body: Ints
-    next: Ints
-    previous: Ints
+    element: Ints = field(metadata=numbers("element"))
+    body: Ints = field(metadata=numbers("body"))
+    next: Ints = field(metadata=numbers("edge"))
+    previous: Ints = field(metadata=numbers("edge"))
 
     def __len__(self) -> int:
         return len(self.element)

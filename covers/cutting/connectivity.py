@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import shapely
 
+from covers.concatenate import numbers
 from covers.cutting.components import components
 from covers.mathematical.base import Cover
 from integration.arrays import Bools, Floats, Ints
@@ -25,8 +26,8 @@ class Joins:
         ends of the interval, m.
     """
 
-    first: Ints
-    second: Ints
+    first: Ints = field(metadata=numbers("element"))
+    second: Ints = field(metadata=numbers("element"))
     start: Floats
     end: Floats
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from covers.concatenate import numbers
 from covers.cutting.boundary import BoundaryEdges
 from covers.cutting.faces import Faces
 from covers.cutting.pieces import Pieces, joined_sides, neighbours
@@ -28,7 +29,7 @@ class CutBoundary(BoundaryEdges):
     """
 
     crack: Ints
-    opposite: Ints
+    opposite: Ints = field(metadata=numbers("edge"))
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class CrackTips:
 
     point: Floats
     direction: Floats
-    element: Ints
+    element: Ints = field(metadata=numbers("element"))
     crack: Ints
 
     def __len__(self) -> int:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import shapely
 
+from covers.concatenate import concatenate, numbers, starts
 from covers.cutting.connectivity import Joins, bodies, physical_covers
 from covers.cutting.cut_boundary import CrackTips, CutBoundary
 from covers.cutting.domain import Domain
@@ -54,14 +55,14 @@ class CutCells:
     """
 
     elements: Polygons
-    element_cell: Ints
+    element_cell: Ints = field(metadata=numbers("cell"))
     element_region: Ints
-    element_body: Ints
+    element_body: Ints = field(metadata=numbers("body"))
     element_whole: Bools
-    covers: Ints
-    cover_patch: Ints
+    covers: Ints = field(metadata=numbers("cover"))
+    cover_patch: Ints = field(metadata=numbers("patch"))
     cover_region: Ints
-    cover_body: Ints
+    cover_body: Ints = field(metadata=numbers("body"))
     boundary: CutBoundary
     tips: CrackTips
     step: float
@@ -100,15 +101,13 @@ def assembled(
     cell = np.concatenate([part.cell for part in pieces])
     region = np.concatenate([part.region for part in pieces])
     _check_covered(domain, elements, region, pieces, resolution)
-    first = np.cumsum([0] + [len(part.cell) for part in pieces])[:-1]
-    joins = Joins(
-        np.concatenate([layer.joins.first + n for layer, n in zip(layers, first, strict=True)]),
-        np.concatenate([layer.joins.second + n for layer, n in zip(layers, first, strict=True)]),
-        np.concatenate([layer.joins.start for layer in layers]),
-        np.concatenate([layer.joins.end for layer in layers]),
-    )
+    first = starts([len(part.cell) for part in pieces])
+    offsets = {"element": first, "edge": starts([len(layer.boundary) for layer in layers])}
+    joins = concatenate([layer.joins for layer in layers], offsets)
     body = bodies(len(cell), region, joins)
     touched = np.logical_or.reduce([layer.touched for layer in layers])
+    unnumbered = np.concatenate([layer.boundary.body for layer in layers])
+    boundary = concatenate([layer.boundary for layer in layers], offsets, body=unnumbered)
     parts = physical_covers(cover, elements, cell, region, joins, touched)
     return CutCells(
         elements=elements,
@@ -120,8 +119,8 @@ def assembled(
         cover_patch=parts.patch,
         cover_region=region[parts.first],
         cover_body=body[parts.first],
-        boundary=_one_boundary([layer.boundary for layer in layers], first, body),
-        tips=_all_tips([layer.tips for layer in layers], first),
+        boundary=replace(boundary, body=body[boundary.element]),
+        tips=concatenate([layer.tips for layer in layers], offsets),
         step=resolution.step,
         crack_tolerance=moved,
         slivers=sum(part.lost for part in pieces),
@@ -143,31 +142,3 @@ def _check_covered(
             f"region {n}: cells cover an area of {found[n]:.12g} of {wanted[n]:.12g}: a cover that "
             "reaches around it expected: make the cover over larger bounds"
         )
-
-
-def _one_boundary(parts: list[CutBoundary], first_element: Ints, body: Ints) -> CutBoundary:
-    first = np.cumsum([0] + [len(part) for part in parts])[:-1]
-    shifted = [
-        replace(
-            part,
-            element=part.element + element,
-            next=part.next + edge,
-            previous=part.previous + edge,
-            opposite=np.where(part.opposite >= 0, part.opposite + edge, -1),
-        )
-        for part, element, edge in zip(parts, first_element, first, strict=True)
-    ]
-    names = ("start", "end", "element", "body", "next", "previous", "crack", "opposite")
-    whole = CutBoundary(
-        **{name: np.concatenate([getattr(part, name) for part in shifted]) for name in names}
-    )
-    return replace(whole, body=body[whole.element])
-
-
-def _all_tips(parts: list[CrackTips], first_element: Ints) -> CrackTips:
-    return CrackTips(
-        np.concatenate([part.point for part in parts]),
-        np.concatenate([part.direction for part in parts]),
-        np.concatenate([part.element + n for part, n in zip(parts, first_element, strict=True)]),
-        np.concatenate([part.crack for part in parts]),
-    )

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from covers.concatenate import numbers
 from covers.mathematical.mesh_edges import MeshEdges, mesh_edges
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
@@ -50,11 +51,11 @@ class Cover(ABC):
     coordinates: ClassVar[tuple[str, ...]] = ()
     even: ClassVar[bool] = True
     vertices: Floats
-    cell_vertices: Ints
-    cell_patches: Ints
+    cell_vertices: Ints = field(metadata=numbers("vertex"))
+    cell_patches: Ints = field(metadata=numbers("patch"))
     patch_centre: Floats
     patch_size: Floats
-    cell_shape: Ints
+    cell_shape: Ints = field(metadata=numbers("shape"))
 
     @property
     @abstractmethod

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Self
 
 import numpy as np
 
+from covers.concatenate import SHARED
 from covers.mathematical.base import Cover
 from covers.small_matrices import inverses
 from integration.arrays import Floats, Ints
@@ -39,7 +40,7 @@ class PolynomialCover(Cover):
 
     cell_origin: Floats
     cell_matrix: Floats
-    table: Floats
+    table: Floats = field(metadata=SHARED)
     degree: int
 
     @classmethod

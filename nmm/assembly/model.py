@@ -53,7 +53,7 @@ class Model:
     projected
         Whether pressures on patches resist changes of volume (`nmm.assembly.pressures`).
     cut
-        How the cut left a mathematical cover; None for blocks.
+        How the cut left the mathematical cover; every block is a whole cell.
     laws, law, plane
         Laws, the law (E,) of each element and "stress" or "strain", for laws that are not linear;
         without them all elements are linear.
@@ -64,7 +64,7 @@ class Model:
     density: Floats
     modulus: Floats
     thickness: float
-    cut: CutCells | None = None
+    cut: CutCells
     lumped: bool = False
     projected: bool = False
     laws: tuple[Law, ...] = ()

@@ -103,8 +103,6 @@ def _at(
 
 def _about(model: Model, element: int, point: Floats, radius: float) -> Ints:
     """Elements within the radius that hang together with ``element`` by covers."""
-    if model.cut is None:
-        return np.array([element])
     covers = model.cut.covers
     taken = np.array([element])
     for _ in range(2):  # elements that share covers, and those that share covers with them

@@ -107,8 +107,6 @@ def _modulus(model: Model) -> Floats:
 def _cut(model: Model, elements: Ints) -> Ints:
     """Elements on the edge that a cut has left, and those of their neighbours."""
     elements = np.unique(elements)
-    if model.cut is None:
-        return elements
     part = ~model.cut.element_whole
     first, second = neighbours(model.manifold, elements[part[elements]])
     near = np.unique(np.concatenate([elements, first, second]))

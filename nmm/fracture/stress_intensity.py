@@ -92,8 +92,8 @@ def stress_intensity(
         A tip that does not exist; a domain that holds more than the material about one straight
         crack, whose integral would be that of something else.
     """
-    if model.cut is None or not 0 <= tip < len(model.cut.tips):
-        count = 0 if model.cut is None else len(model.cut.tips)
+    count = len(model.cut.tips)
+    if not 0 <= tip < count:
         raise NmmError(f"crack tip {tip}: {count} tips: expected a tip of a crack inside a block")
     _check_domain(model.cut, tip, radius)
     tips = model.cut.tips
@@ -232,7 +232,6 @@ def _faces(
     face_traction: Callable[[Floats, Floats], Floats],
 ) -> Floats:
     """Work of the tractions on the faces within the domain; graded towards the tip."""
-    assert model.cut is not None
     edges = model.cut.boundary
     point, ahead = fields.tip.point, fields.tip.direction
     middle = (edges.start + edges.end) / 2

@@ -7,6 +7,7 @@ import numpy as np
 
 from covers.approximation.block_manifold import block_manifold
 from covers.approximation.manifold import Manifold
+from covers.approximation.uncut import uncut
 from covers.local_functions.polynomials import FUNCTIONS, LocalFunctions
 from integration.arrays import Floats
 from nmm.errors import FormulationError
@@ -22,10 +23,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Covering:
-    """A manifold and, for covers that are cut, the cover and how the cut left it."""
+    """A manifold, how the cut left the cover, and the cover itself where blocks have none."""
 
     manifold: Manifold
-    cut: "CutCells | None" = None
+    cut: "CutCells"
     laid: "MathematicalCover | None" = None
 
 
@@ -76,7 +77,8 @@ def cover_regions(
             from nmm.geometry.tessellation.sub_blocks import divided
 
             blocks, region = divided(blocks, cover)
-        return Covering(block_manifold(blocks, region, functions))
+        manifold = block_manifold(blocks, region, functions)
+        return Covering(manifold, uncut(manifold))
     return _mesh(regions, cover, functions, lines, kappa)
 
 

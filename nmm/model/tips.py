@@ -39,7 +39,7 @@ class ModelTips:
 def tips_of(model: "Model") -> ModelTips | None:
     """Return what the tips of a model carry; None without any."""
     cut = model.cut
-    if cut is None or not len(cut.tips):
+    if not len(cut.tips):
         return None
     singular = model.manifold.singular
     n = len(cut.tips)

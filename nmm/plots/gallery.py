@@ -143,7 +143,7 @@ def _covers(run: RunData, scene: "Scene", path: Path) -> bool:
     if cover.of_blocks:
         return False
     laid = cover_regions(regions(scene), cover, [np.array(item.points) for item in scene.cracks])
-    if laid.laid is None or laid.cut is None:
+    if laid.laid is None:
         return False
     covers(laid.laid, laid.cut, path=path)
     return True

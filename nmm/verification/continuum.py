@@ -116,8 +116,6 @@ class ContinuumCase(Case):
         from nmm.verification.sketches import sketch_solid
 
         problem = self.problem(on_mesh(self.formulations[0], self.size))
-        if problem.model.cut is None:
-            return False
         sketch_solid(problem.model.cut, problem.supports, problem.loads, path)
         return True
 

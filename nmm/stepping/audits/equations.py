@@ -25,7 +25,7 @@ def equations(run: Ended) -> Findings:
             f"some {max(16 - np.log10(run.condition), 0):.0f} digits of soft motions are left",
             "bring stiffnesses of materials, supports and contacts nearer to each other",
         )
-    if run.stepper.model.cut is not None:
+    if not run.stepper.model.cut.element_whole.all():
         area = run.stepper.model.element_area
         at = int(np.argmin(area))
         x, y = manifold.elements.points[manifold.elements.polygon_of_point == at].mean(axis=0)

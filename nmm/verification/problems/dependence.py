@@ -60,7 +60,7 @@ class Nullity(Case):
         manifold = mesh_manifold(cover, pieces, Monomials(self.degree))
         n, bodies = len(manifold.elements), 2 if self.body == "cut in two" else 1
         d = np.broadcast_to(Elastic(1.0, 0.3).stiffness("stress"), (n, 3, 3)).copy()
-        stiffness = Model(manifold, d, np.ones(n), np.ones(n), 1.0).stiffness.toarray()
+        stiffness = Model(manifold, d, np.ones(n), np.ones(n), 1.0, pieces).stiffness.toarray()
         scale = 1 / np.sqrt(stiffness.diagonal())
         values = np.sort(np.abs(np.linalg.eigvalsh(stiffness * scale * scale[:, None])))
         dependent = bodies * 2 * self.degree * (self.degree + 2)

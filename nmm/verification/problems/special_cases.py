@@ -9,6 +9,7 @@ import numpy as np
 from covers.approximation.block_manifold import block_manifold
 from covers.approximation.manifold import Manifold
 from covers.approximation.mesh_manifold import mesh_manifold
+from covers.approximation.uncut import uncut
 from covers.cutting.cut import cut
 from covers.local_functions.polynomials import Monomials, RigidStrain
 from covers.mathematical.base import Cover
@@ -31,7 +32,14 @@ def model(manifold: Manifold) -> Model:
     """Return a manifold of unit density and thickness in plane stress."""
     n = len(manifold.elements)
     elasticity = np.broadcast_to(LAW.stiffness("stress"), (n, 3, 3)).copy()
-    return Model(manifold, elasticity, np.ones(n), np.ones(n), 1.0)
+    return Model(
+        manifold,
+        elasticity,
+        np.ones(n),
+        np.ones(n),
+        1.0,
+        uncut(manifold),
+    )
 
 
 def apart(ours: Any, theirs: Any) -> float:
@@ -101,7 +109,14 @@ class BlockBasis(Case):
         polygons = Polygons.from_vertices([np.array(corners, dtype=float)])
         manifold = block_manifold(polygons, np.zeros(1, dtype=np.int64), RigidStrain())
         d = Elastic(10.0, 0.25).stiffness("stress")
-        ours = Model(manifold, d[None], np.array([2.0]), np.array([10.0]), 0.5)
+        ours = Model(
+            manifold,
+            d[None],
+            np.array([2.0]),
+            np.array([10.0]),
+            0.5,
+            uncut(manifold),
+        )
         stiffness = np.zeros((6, 6))
         stiffness[3:, 3:] = 0.5 * moments[0] * d
         found = ours.stiffness.toarray(), ours.mass.toarray()

@@ -5,6 +5,7 @@ import pytest
 
 from covers.approximation.manifold import Manifold
 from covers.approximation.mesh_manifold import mesh_manifold
+from covers.approximation.uncut import uncut
 from covers.cutting.cut import cut
 from covers.local_functions.polynomials import Kinds, Monomials, RigidStrain
 from covers.mathematical.bspline import BSplines
@@ -33,7 +34,14 @@ LAW = Elastic(1.0, 0.3)
 def model(manifold: Manifold, plane: str = "stress") -> Model:
     n = len(manifold.elements)
     elasticity = np.broadcast_to(LAW.stiffness(plane), (n, 3, 3)).copy()
-    return Model(manifold, elasticity, np.ones(n), np.ones(n), 1.0)
+    return Model(
+        manifold,
+        elasticity,
+        np.ones(n),
+        np.ones(n),
+        1.0,
+        uncut(manifold),
+    )
 
 
 def triangles(degree: int, size: float = 0.3, regions: Polygons = SQUARE) -> Manifold:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from covers.approximation.block_manifold import block_manifold
+from covers.approximation.uncut import uncut
 from covers.local_functions.polynomials import Monomials, RigidStrain
 from integration.arrays import Floats
 from integration.polygons import Polygons
@@ -20,7 +21,12 @@ def model(vertices: Floats, degree: int | None = None, density: float = 2.0) -> 
     manifold = block_manifold(polygons, np.zeros(1, dtype=np.int64), functions)
     law = Elastic(10.0, 0.25)
     return Model(
-        manifold, law.stiffness("stress")[None], np.array([density]), np.array([10.0]), 0.5
+        manifold,
+        law.stiffness("stress")[None],
+        np.array([density]),
+        np.array([10.0]),
+        0.5,
+        uncut(manifold),
     )
 
 

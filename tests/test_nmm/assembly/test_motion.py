@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from covers.approximation.block_manifold import block_manifold
+from covers.approximation.uncut import uncut
 from covers.local_functions.polynomials import LocalFunctions, Monomials, RigidStrain
 from integration.arrays import Floats
 from integration.polygons import Polygons, areas
@@ -21,7 +22,14 @@ def model(functions: LocalFunctions) -> Model:
         Polygons.from_vertices([SQUARE]), np.zeros(1, dtype=np.int64), functions
     )
     stiffness = Elastic(1.0, 0.2).stiffness("stress")[None]
-    return Model(manifold, stiffness, np.ones(1), np.ones(1), 1.0)
+    return Model(
+        manifold,
+        stiffness,
+        np.ones(1),
+        np.ones(1),
+        1.0,
+        uncut(manifold),
+    )
 
 
 def place(one: Model, state: State) -> Floats:

@@ -143,7 +143,6 @@ def test_the_fit_does_not_look_across_a_crack() -> None:
     crack = [[-1.5, 0.03], [0.5, 0.03]]
     plain = cover(POSITIONS[0], 0).model_copy(update={"enrichment": EnrichmentTable(tips=False)})
     model: Model = solid(SQUARE, plain, [LAW], "stress", cracks=[crack])
-    assert model.cut is not None
     element, slot = np.nonzero(model.cut.covers >= 0)
     owner, height = model.cut.covers[element, slot], model.manifold.elements.centroids[element, 1]
     above = np.bincount(owner, height > 0.03) / np.bincount(owner) > 0.5

@@ -1,0 +1,36 @@
+"""The trivial cut: every element is a whole cell with a patch, a cover and a body of its own."""
+
+import numpy as np
+
+from covers.approximation.manifold import Manifold
+from covers.cutting.cut_boundary import CrackTips, CutBoundary
+from covers.cutting.cut_cells import CutCells
+
+
+def uncut(manifold: Manifold) -> CutCells:
+    """Return elements as the cells of a cover that no boundary and no crack cuts."""
+    elements, regions, edges = manifold.elements, manifold.element_region, manifold.boundary
+    number = np.arange(len(elements), dtype=np.int64)
+    none = np.full(len(edges), -1, dtype=np.int64)
+    nowhere, no_number = np.empty((0, 2)), np.empty(0, dtype=np.int64)
+    return CutCells(
+        elements=elements,
+        element_cell=number,
+        element_region=regions,
+        element_body=number,
+        element_whole=np.ones(len(elements), dtype=bool),
+        covers=number[:, None],
+        cover_patch=number,
+        cover_region=regions,
+        cover_body=number,
+        boundary=CutBoundary(
+            *(edges.start, edges.end, edges.element, edges.body, edges.next, edges.previous),
+            crack=none,
+            opposite=none,
+        ),
+        tips=CrackTips(nowhere, nowhere, no_number, no_number),
+        step=0.0,
+        crack_tolerance=0.0,
+        slivers=0,
+        sliver_area=0.0,
+    )

@@ -1,0 +1,66 @@
+"""Records of arrays one after the other: fields say what their numbers count, and are raised."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, is_dataclass, replace
+from typing import Any, TypeVar
+
+import numpy as np
+
+from integration.arrays import Ints
+from integration.polygons import Polygons
+
+Record = TypeVar("Record")
+
+
+SHARED = {"of": "shared"}
+"""Metadata of the field of an array that is alike in all parts."""
+
+
+def numbers(of: str) -> dict[str, str]:
+    """Return metadata of the field of an array of numbers of elements, edges and so on; -1 is none.
+
+    Parameters
+    ----------
+    of
+        What is numbered, a key of the ``offsets`` of `concatenate`.
+    """
+    return {"of": of}
+
+
+def concatenate(parts: Sequence[Record], offsets: Mapping[str, Ints], **given: Any) -> Record:
+    """Return records as one.
+
+    Arrays and polygons follow one another, numbers (`numbers`) are raised by the offsets of what
+    they count, records within are concatenated alike.
+
+    Parameters
+    ----------
+    offsets
+        First number (p,) of each part, for whatever the fields number.
+    given
+        Fields that are not made of those of the parts.
+    """
+    made = dict(given)
+    for item in fields(parts[0]):  # type: ignore[arg-type]
+        if item.name not in given:
+            values = [getattr(part, item.name) for part in parts]
+            made[item.name] = _joined(values, item.metadata.get("of"), offsets)
+    return replace(parts[0], **made)  # type: ignore[type-var]
+
+
+def starts(counts: Sequence[int]) -> Ints:
+    """Return the first number of each part, of how many each counts."""
+    return np.cumsum([0, *counts])[:-1]
+
+
+def _joined(values: list[Any], of: str | None, offsets: Mapping[str, Ints]) -> Any:
+    if isinstance(values[0], Polygons):
+        return Polygons.concatenate(values)
+    if is_dataclass(values[0]):
+        return concatenate(values, offsets)
+    if of == SHARED["of"] or not isinstance(values[0], np.ndarray):
+        return values[0]
+    if of is not None:
+        pairs = zip(values, offsets[of], strict=True)
+        values = [np.where(part >= 0, part + first, -1) for part, first in pairs]
+    return np.concatenate(values)
