@@ -57,6 +57,11 @@ class ElementGroup(ABC):
         return True
 
     @property
+    def shape_degree(self) -> int:
+        """Degree that displacements on an element are integrated as: exact for polynomials."""
+        return 2
+
+    @property
     def trace_degree(self) -> int | None:
         """Degree of displacements along a line as polynomials, None where they are none."""
         return None
@@ -163,6 +168,11 @@ class PolynomialGroup(ElementGroup):
     origin: Floats
     matrix: Floats
     moments: Floats
+
+    @property
+    def shape_degree(self) -> int:
+        """See `ElementGroup.shape_degree`."""
+        return self.degree
 
     @property
     def trace_degree(self) -> int:

@@ -104,7 +104,7 @@ class Manifold:
     @property
     def degree(self) -> int:
         """Highest degree of the displacements on an element, as far as it is known."""
-        return max((getattr(group, "degree", 2) for group in self.groups), default=1)
+        return max((group.shape_degree for group in self.groups), default=1)
 
     @property
     def shared_covers(self) -> bool:

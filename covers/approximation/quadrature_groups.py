@@ -64,7 +64,7 @@ class QuadratureGroup(ElementGroup):
     rule: PointRule
 
     @property
-    def degree(self) -> int:
+    def shape_degree(self) -> int:
         """See `Fields.degree`."""
         return self.fields.degree
 

@@ -148,7 +148,7 @@ class _StrainRows:
 def degree(manifold: Manifold) -> int:
     """Highest degree of the functions, or that to which they are integrated."""
     known = (PolynomialGroup, QuadratureGroup)
-    return max(group.degree for group in manifold.groups if isinstance(group, known))
+    return max(group.shape_degree for group in manifold.groups if isinstance(group, known))
 
 
 def by_body(matrix: csr_array, sides: Floats) -> Floats:

@@ -46,10 +46,13 @@ class Cover(ABC):
         options of ``regular`` that are points, in the axes of ``bounds``.
     even
         Whether all cells are of about the size that ``regular`` is given.
+    overlap
+        How many times the entries of a mesh's rows those of the cover have.
     """
 
     coordinates: ClassVar[tuple[str, ...]] = ()
     even: ClassVar[bool] = True
+    overlap: ClassVar[float] = 1.0
     vertices: Floats
     cell_vertices: Ints = field(metadata=numbers("vertex"))
     cell_patches: Ints = field(metadata=numbers("patch"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -52,6 +52,7 @@ class MovingLeastSquares(Cover):
         radius has grown in their place (`covers.mathematical.disc_supports`).
     """
 
+    overlap: ClassVar[float] = 10.0
     radius: Floats
     degree: int
     kernel: str

@@ -108,10 +108,9 @@ def _numbered(covering: Covering, regions: Regions) -> Covering:
     if number is None:
         return covering
     manifold = replace(covering.manifold, element_region=number[covering.manifold.element_region])
-    if cut is not None:
-        cut = replace(
-            cut,
-            element_region=number[cut.element_region],
-            cover_region=number[cut.cover_region],
-        )
+    cut = replace(
+        cut,
+        element_region=number[cut.element_region],
+        cover_region=number[cut.cover_region],
+    )
     return replace(covering, manifold=manifold, cut=cut)

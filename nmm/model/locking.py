@@ -61,7 +61,7 @@ def _locked(held: int, poisson: float) -> str | None:
 
 def _parted(model: "Model", poisson: float) -> str | None:
     """Blocks that are divided and glued: each keeps its volume by itself."""
-    degree = max((getattr(group, "degree", 3) for group in model.manifold.groups), default=3)
+    degree = model.manifold.degree
     divided = np.bincount(model.manifold.element_region, minlength=1).max() > 1
     if not divided or degree > 2 or (degree == 2 and model.projected):
         return None

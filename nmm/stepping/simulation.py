@@ -376,8 +376,8 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     check_together(scene, formulation)
     check_parts(scene, formulation)
     cover = formulation.cover
-    even = cover.of_blocks or net_class(cover).even
-    refuse_many_cells(regions, cover, formulation.source.place("cover", "size"), even)
+    net = None if cover.of_blocks else net_class(cover)
+    refuse_many_cells(regions, cover, formulation.source.place("cover", "size"), net)
     asked, origin = (scene, formulation), own_origin(regions.polygons.points)
     if origin.any():
         regions = shifted_regions(regions, -origin)

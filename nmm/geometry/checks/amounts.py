@@ -13,14 +13,13 @@ from nmm import capacity
 from nmm.errors import Fault, FormulationError
 
 if TYPE_CHECKING:
+    from covers.mathematical.base import Cover
     from nmm.formulation import CoverTable
     from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
 
 # Sizes of a net in sizes of the blocks: beyond it they vanish in the rounding of its cells.
 COARSEST = 1e6
-# How many times the entries of a mesh's rows those of discs have, which overlap more.
-DISCS = 10.0
 
 
 def refuse_many_blocks(scene: Scene, outlines: Polygons) -> None:
@@ -42,31 +41,38 @@ def refuse_many_blocks(scene: Scene, outlines: Polygons) -> None:
         _refuse_dense_joints(scene, outlines.points)
 
 
-def refuse_many_cells(regions: Regions, cover: CoverTable, place: str, even: bool = True) -> None:
+def refuse_many_cells(
+    regions: Regions, cover: CoverTable, place: str, net: type[Cover] | None
+) -> None:
     """Refuse nets whose cells take more memory than there is.
 
-    Cells that are not ``even``, as of a graded net that grow away from its foci, are counted where
-    they are laid.
+    Cells that are not `Cover.even`, as of a graded net that grow away from its foci, are counted
+    where they are laid. ``net`` is None for blocks.
 
     Raises
     ------
     NmmError
         Names the size.
     """
-    if cover.type == "block" or cover.finest is None:
+    if cover.finest is None:
         return
     points = regions.polygons.points
     nets = {net.block: net.size for net in cover.nets or () if net.size is not None}
     for block, size in nets.items():
         own = regions.polygons.take(regions.select(block))
         if len(own):
-            _refuse_cells(own.points, own.areas, size, cover, place, even)
+            _refuse_cells(own.points, own.areas, size, cover, place, net)
     if cover.size is not None:
-        _refuse_cells(points, regions.polygons.areas, cover.size, cover, place, even)
+        _refuse_cells(points, regions.polygons.areas, cover.size, cover, place, net)
 
 
 def _refuse_cells(
-    points: Floats, areas: Floats, size: float, cover: CoverTable, place: str, even: bool
+    points: Floats,
+    areas: Floats,
+    size: float,
+    cover: CoverTable,
+    place: str,
+    net: type[Cover] | None,
 ) -> None:
     """A regular net is laid over the box of the material before it is cut by it."""
     box = np.ptp(points, axis=0)
@@ -74,15 +80,14 @@ def _refuse_cells(
         value = f"{size:g} m, for blocks of {box.max():g} m"
         expected = "a size nearer to that of the blocks"
         raise FormulationError(Fault(place, value, expected, "check its unit"))
-    if not even:
+    if net is not None and not net.even:
         return
     longest = size * 1e6  # cells along a side: beyond it their number is no longer exact
     cells = float(np.prod(np.minimum(box, longest) / size + 1))
-    if cover.type == "sub_blocks":
+    if net is None:
         amount = float(areas.sum()) / size**2 * capacity.BLOCK
     else:
-        overlap = DISCS if cover.type == "mls" else 1.0
-        amount = cells * capacity.CELL * overlap * (1 + cover.highest_degree) ** 2
+        amount = cells * capacity.CELL * net.overlap * (1 + cover.highest_degree) ** 2
     what = f"size {size:g} m over {box[0]:g} m by {box[1]:g} m: {cells:,.0f} cells"
     capacity.refuse(place, what, amount, "take a larger size")
 

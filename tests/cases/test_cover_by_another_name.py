@@ -1,0 +1,75 @@
+"""What a cover gets is by its properties: under another name every digit is the same."""
+
+import pytest
+
+import nmm
+from covers.mathematical.bspline import BSplines
+from covers.mathematical.moving_least_squares import MovingLeastSquares
+from covers.mathematical.quads import Quads
+from covers.mathematical.triangles import Triangles
+from nmm.formulation import parse_formulation
+from nmm.scene import parse_scene
+
+
+class Hats(Triangles):
+    """Triangles by another name."""
+
+
+class Bilinear(Quads):
+    """Quads by another name."""
+
+
+class Smooth(BSplines):
+    """B-splines by another name."""
+
+
+class Discs(MovingLeastSquares):
+    """Discs by another name."""
+
+
+# A block that slides and rests on a slab of two glued materials: mortar contact under the exact
+# enforcement, supports and volumes of patches all ask what cover there is.
+SCENE = """
+plane = "strain"
+[materials.m]
+density = 2000
+young_modulus = "10 MPa"
+poisson_ratio = 0.45
+[interfaces.i]
+friction_angle = "30 deg"
+[contact]
+[gravity]
+[[blocks]]
+name = "base"
+material = "m"
+vertices = [[0, 0], [2, 0], [2, 0.5], [0, 0.5]]
+[[blocks]]
+name = "top"
+material = "m"
+vertices = [[0.7, 0.5], [1.3, 0.5], [1.3, 1.1], [0.7, 1.1]]
+[[supports]]
+name = "below"
+segment = [[0, 0], [2, 0]]
+fix = ["x", "y"]
+[[monitors]]
+name = "top"
+point = [1, 1.1]
+"""
+NAMES = {"triangles": Hats, "quads": Bilinear, "bspline": Smooth, "mls": Discs}
+
+
+def top(kind: str, supports: str) -> tuple[float, float]:
+    degree = "functions = 'monomials'\ndegree = 1\n" if "mls" not in kind.lower() else ""
+    text = f"[cover]\ntype = '{kind}'\nsize = 0.3\nangle = 0.3\n{degree}"
+    text += f"[contact]\nenforcement = 'cone'\n[supports]\nmethod = '{supports}'\n"
+    scene = parse_scene(SCENE, "scene")
+    done = nmm.run(scene, parse_formulation(text), allow_code=[__name__])
+    assert done.summary.status == "converged", done.summary.sentence
+    return done.history["monitor:top:uy"][-1], done.history["reaction:below:y"][-1]
+
+
+@pytest.mark.parametrize("supports", ["nitsche", "lagrange"])
+@pytest.mark.parametrize("kind", NAMES)
+def test_a_cover_by_another_name_gives_the_same_digits(kind: str, supports: str) -> None:
+    own = f"{__name__}:{NAMES[kind].__name__}"
+    assert top(own, supports) == top(kind, supports)
