@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import ValidationError
 
-from integration.arrays import Bools
+from integration.arrays import Bools, Floats
 from nmm.effects.base import Acting
 from nmm.errors import Fault, FormulationError, SceneError
+from nmm.model.origin import shifted
 from nmm.scene.cover_tables import CoverTable
 
 if TYPE_CHECKING:
@@ -50,8 +51,12 @@ class Stage:
         return self.duration is not None
 
 
-def stages_of(scene: "Scene", formulation: "Formulation", regions: "Regions") -> list[Stage]:
+def stages_of(
+    scene: "Scene", formulation: "Formulation", regions: "Regions", origin: Floats
+) -> list[Stage]:
     """Return the stages in order; none of a scene without any.
+
+    ``origin`` (2,) is where the axes of formulation and regions lie in those of the scene (m).
 
     Raises
     ------
@@ -60,14 +65,16 @@ def stages_of(scene: "Scene", formulation: "Formulation", regions: "Regions") ->
     FormulationError
         Keys of a cover that do not fit.
     """
-    return list(_resolved(scene, formulation, regions))
+    return list(_resolved(scene, formulation, regions, origin))
 
 
-def _resolved(scene: "Scene", formulation: "Formulation", regions: "Regions") -> Iterator[Stage]:
+def _resolved(
+    scene: "Scene", formulation: "Formulation", regions: "Regions", origin: Floats
+) -> Iterator[Stage]:
     present = np.ones(len(regions), dtype=bool)
     loads, supports, before = None, None, frozenset[str]()
     for number, table in enumerate(scene.stages):  # a handful of stages
-        place = _Place(scene, number)
+        place = _Place(scene, number, origin)
         present = _present(table, present, regions, place)
         formulation = _formulation(table, formulation, place)
         loads = loads if table.loads is None else table.loads
@@ -99,10 +106,11 @@ def _resolved(scene: "Scene", formulation: "Formulation", regions: "Regions") ->
 
 @dataclass(frozen=True)
 class _Place:
-    """Where a stage stands in its file."""
+    """Where a stage stands in its file, and (2,) where the axes of the model lie (m)."""
 
     scene: "Scene"
     number: int
+    origin: Floats
 
     def fault(self, key: str, value: str, expected: str, remedy: str) -> Fault:
         return Fault(self.scene.source.place("stages", self.number, key), value, expected, remedy)
@@ -141,14 +149,17 @@ def _formulation(table: "StageTable", now: "Formulation", place: _Place) -> "For
         return now
     known = now.cover.model_dump(exclude_unset=True, by_alias=True)
     try:
-        cover = CoverTable.model_validate({**known, **table.cover})
+        whole = CoverTable.model_validate({**known, **table.cover})
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         key = ".".join(str(part) for part in first["loc"]) or "cover"
         value = f"{key}: {first['input']!r:.60}: {first['msg']}"
         expected, remedy = "keys of [cover] of a formulation", "see nmm explain cover"
         raise FormulationError(place.fault("cover", value, expected, remedy)) from None
-    return now.model_copy(update={"cover": cover})
+    # The keys that stay have been shifted already.
+    moved = shifted(whole, -place.origin) if place.origin.any() else whole
+    own = {key: getattr(moved, key) for key in table.cover}
+    return now.model_copy(update={"cover": now.cover.model_copy(update=own)})
 
 
 def _of_present(formulation: "Formulation", there: set[str]) -> "Formulation":

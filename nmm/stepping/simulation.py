@@ -383,7 +383,8 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
         regions = shifted_regions(regions, -origin)
         scene, formulation = shifted(scene, -origin), shifted(formulation, -origin)
     stages = [
-        _staged(scene, one, regions, origin) for one in stages_of(scene, formulation, regions)
+        _staged(scene, one, regions, origin)
+        for one in stages_of(scene, formulation, regions, origin)
     ]
     setup = stages[0].setup if stages else _setup(scene, formulation, regions, origin)
     model, start, built = setup.model, setup.start, perf_counter()
@@ -420,6 +421,8 @@ def _setup(scene: "Scene", formulation: Formulation, regions: "Regions", origin:
 def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) -> Staged:
     """Return a stage with its own model; blocks keep their numbers and names."""
     check_parts(stage.scene, stage.formulation)
+    cover, place = stage.formulation.cover, scene.source.place("stages")
+    refuse_many_cells(regions, cover, place, cover.of_blocks or net_class(cover).even)
     setup = _setup(stage.scene, stage.formulation, regions.only(stage.present), origin)
     whole = replace(
         setup,

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.errors import FormulationError, SceneError
+from nmm.errors import FormulationError, NmmError, SceneError
+from nmm.model.origin import shifted
 from nmm.results.storage.stored_run import read_run
 from nmm.scene.read import parse_scene
 
@@ -518,3 +519,26 @@ def test_a_tunnel_in_prestressed_ground_closes_by_what_its_excavation_releases()
     released = np.pi * inner * pressure * abs(closed)
     taken = found.history["change_energy"]
     assert taken[1] - taken[0] == pytest.approx(-core - released, rel=0.02)
+
+
+def test_a_scene_far_away_goes_through_its_stages_as_one_at_the_origin():
+    stages = (
+        STAGES + '[[stages]]\nname = "graded"\ncover = { type = "graded", options = OPTIONS }\n'
+    )
+    runs = []
+    for x, y in ((0, 0), (2**21, -(2**20))):
+        scene = parse_scene((COLUMN + stages).replace("OPTIONS", f"{{ focus = [[{x}, {y}]] }}"))
+        moved = shifted(scene, np.array([x, y], dtype=float))
+        runs.append(nmm.run(moved, nmm.Formulation.model_validate({"cover": MESHES["triangles"]})))
+    near, far = runs
+    assert [len(one.elements) for one in near.topologies] == [
+        len(one.elements) for one in far.topologies
+    ]
+    for name in ("reaction:floor:y", "monitor:top:uy", "strain_energy"):
+        np.testing.assert_allclose(far.history[name], near.history[name], rtol=1e-9)
+
+
+def test_cells_that_no_memory_holds_are_refused_before_they_are_laid():
+    stages = '[[stages]]\nname = "one"\n[[stages]]\nname = "fine"\ncover = { size = 1e-6 }\n'
+    with pytest.raises(NmmError, match="cells"):
+        run(COLUMN + stages, MESHES["quads"])
