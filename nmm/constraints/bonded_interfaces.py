@@ -6,6 +6,7 @@ formulation's ``[glue]`` says how it holds: by springs, by Nitsche's method or b
 act at Gauss points of the shared edges, whatever the covers on either side.
 """
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -13,6 +14,7 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.assembly.model import Model
 from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
 from nmm.constraints.shared_edges import ORDER, gauss_interface, shared_edges
 from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
@@ -22,6 +24,7 @@ from nmm.effects.base import Setup
 from nmm.errors import FormulationError, SceneError
 
 if TYPE_CHECKING:
+    from nmm.effects.change import Change
     from nmm.formulation import Glue
 
 
@@ -49,10 +52,30 @@ class BondedInterfaces(TiedInterfaces):
             ties += glue_edges(model, joints.take(glued), part, size)
         return cls(ties, model.manifold.n_unknowns)
 
+    def follow(self, change: "Change") -> "BondedInterfaces":
+        """Return those of the new model; a block that is new is tied free of stress as it lies."""
+        new, state, fresh = type(self).from_setup(change.setup), change.state, change.parentage
+        known = [(tie.interface.first.position, _anchor(tie.interface)) for tie in self.ties]
+        for number, tie in enumerate(new.ties):
+            interface, place = tie.interface, tie.interface.first.position
+            anchor = _anchor(interface)
+            if known:
+                positions, values = (np.concatenate(part) for part in zip(*known, strict=True))
+                anchor = nearest(place, positions, values)
+            arrived = np.any([fresh.new_bodies[side.points.body] for side in interface.sides], 0)
+            anchor = np.where(arrived[:, None], interface.motion(state), anchor)
+            new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
+        return new
+
     @property
     def about(self) -> str:
         """See `Effect.about`."""
         return super().about or "no shared edges"
+
+
+def _anchor(interface: Interface) -> Floats:
+    """Jump (m, 2) at which the sides of an interface are free of stress (m)."""
+    return np.array(np.broadcast_to(interface.anchor, (len(interface), 2)))
 
 
 def glue_edges(model: Model, joints: Joints, part: "Glue", size: float | None) -> list[Imposition]:

@@ -133,3 +133,10 @@ def _run(unknowns: Ints) -> int:
     """Length of runs of points, all equally long, that share their unknowns."""
     change = np.flatnonzero((unknowns[1:] != unknowns[:-1]).any(axis=1)) + 1
     return int(np.gcd.reduce(np.diff([0, *change, len(unknowns)]))) or 1
+
+
+def nearest(points: Floats, known: Floats, values: Floats) -> Floats:
+    """Values (m, 2) of the nearest of ``known`` points for each of ``points``."""
+    from scipy.spatial import KDTree
+
+    return np.asarray(values[KDTree(known).query(points)[1]])

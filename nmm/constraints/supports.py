@@ -10,7 +10,7 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, at_point, on_block, on_segment
 from nmm.constraints.imposition import Imposition, Method, support_method
-from nmm.constraints.interface import Interface
+from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
 from nmm.constraints.nitsche import Nitsche
 from nmm.constraints.tied_interfaces import TiedInterfaces, instant_of
@@ -74,7 +74,7 @@ class Supports(TiedInterfaces):
             anchor = interface.motion(state)
             if before is not None:
                 positions = interface.first.position, before.first.position
-                anchor = _nearest(*positions, np.broadcast_to(before.anchor, (len(before), 2)))
+                anchor = nearest(*positions, np.broadcast_to(before.anchor, (len(before), 2)))
             new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
         return new
 
@@ -139,13 +139,6 @@ class Supports(TiedInterfaces):
 def _mean(displacement: Floats) -> Floats:
     """Mean (2,) of displacements."""
     return np.asarray(np.atleast_2d(displacement).mean(axis=0))
-
-
-def _nearest(points: Floats, known: Floats, values: Floats) -> Floats:
-    """Values (m, 2) of the nearest of ``known`` points for each of ``points``."""
-    from scipy.spatial import KDTree
-
-    return np.asarray(values[KDTree(known).query(points)[1]])
 
 
 def _anchored(tie: Imposition, state: State) -> Imposition:

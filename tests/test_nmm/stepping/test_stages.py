@@ -542,3 +542,22 @@ def test_cells_that_no_memory_holds_are_refused_before_they_are_laid():
     stages = '[[stages]]\nname = "one"\n[[stages]]\nname = "fine"\ncover = { size = 1e-6 }\n'
     with pytest.raises(NmmError, match="cells"):
         run(COLUMN + stages, MESHES["quads"])
+
+
+@pytest.mark.parametrize("glue", ["spring", "nitsche", "lagrange"])
+def test_a_lift_that_is_glued_on_a_settled_one_settles_under_later_loads_alone(glue):
+    text = COLUMN.replace("[contact]\n", "").replace("friction_angle = 0.5", BOND)
+    stages = (
+        '[[stages]]\nname = "one"\nblocks = ["lower"]\n[[stages]]\nname = "two"\nadd = ["upper"]\n'
+    )
+    upper = '[[monitors]]\nname = "crest"\npoint = [0.5, 3]\nblock = "upper"\n'
+    found = run(text + upper + stages, MESHES["quads"], glue={"method": glue})
+    assert found.summary.status == "converged", found.summary.sentence
+    # The lower one under its own weight; then by the upper one, which adds its own shortening.
+    first, by_upper, own = LOWER / 2 / E, UPPER / E, 2 * UPPER / 2 / E
+    history = found.history
+    np.testing.assert_allclose(history["monitor:top:uy"], [-first, -first - by_upper], rtol=1e-3)
+    assert history["monitor:crest:uy"][1] == pytest.approx(-by_upper - own, rel=1e-3)
+
+
+BOND = "friction_angle = 0.5\nbonded = true"
