@@ -1,4 +1,4 @@
-"""What keeps momentum and angular momentum where bodies touch: half way, and what is still owed."""
+"""What keeps momentum and angular momentum where bodies touch: midpoints, and what is owed."""
 
 from functools import cached_property
 
@@ -31,12 +31,12 @@ class Momentum:
         self._model, self._sides = model, sides
         self._held, self._curved = held, curved
 
-    def halfway(
+    def midpoint(
         self, solved: ContactSolution, before: State, after: State, used: State | None
     ) -> State | None:
         """Where the forces of a step should have acted; None if ``used`` (None: before) will do.
 
-        Gaps are off by about a turn times a motion; that matters beside the penetrations.
+        Gaps are off by about a rotation times a motion; that matters beside the penetrations.
         """
         acts = solved.answer.normal_force != 0
         if not acts.any() or not self._of_blocks or self._curved:
@@ -47,10 +47,10 @@ class Momentum:
         for edge in (solved.contacts.edge_a, solved.contacts.edge_b):
             touched[edges[edge[acts]]] = True
         body = np.flatnonzero(touched)
-        turn, turned = (_largest_turn(one, half, body) for one in (before, was))
-        way, moved = (_largest_way(one, half, body) for one in (before, was))
-        way += turn * float(np.sqrt(self._model.manifold.body_area[body].max()))
-        off = 2 * (turned * way + moved * turn)
+        rotation, rotated = (_largest_rotation(one, half, body) for one in (before, was))
+        shift, shifted = (_largest_displacement(one, half, body) for one in (before, was))
+        shift += rotation * float(np.sqrt(self._model.manifold.body_area[body].max()))
+        off = 2 * (rotated * shift + shifted * rotation)
         return half if off > MIDPOINT_GAPS * np.abs(solved.answer.gap[acts]).max() else None
 
     def kept(
@@ -58,7 +58,7 @@ class Momentum:
     ) -> Floats:
         """Velocity (n,) that a step lacks of what keeps momentum and angular momentum.
 
-        The moments that contact forces owe (`halfway.missing_moments`), and the sum of what is
+        The moments that contact forces owe (`midpoint.missing_moments`), and the sum of what is
         left of the forces ``balance`` (n,), load less inner forces, when contact has taken its own.
         """
         assert solved.rows is not None
@@ -95,9 +95,9 @@ class Momentum:
         return np.where(np.repeat(self._held, 3), 0.0, self._compliance_of_all)
 
 
-def _largest_turn(one: State, other: State, body: Ints) -> float:
+def _largest_rotation(one: State, other: State, body: Ints) -> float:
     return float(np.abs(other.frames.angle - one.frames.angle)[body].max())
 
 
-def _largest_way(one: State, other: State, body: Ints) -> float:
+def _largest_displacement(one: State, other: State, body: Ints) -> float:
     return float(np.hypot(*(other.frames.centre - one.frames.centre)[body].T).max())

@@ -39,7 +39,7 @@ SAME_POINT = 1e-9
 SAME_ROWS = 1e-12
 """Of the largest entry: rows of chord and material that differ by less are the same, and the field
 linear along the edge."""
-SAME_EASE = 1e-9
+SAME_COMPLIANCE = 1e-9
 """Share by which one face follows a pressure more easily before the choice between two is its."""
 
 # Joints.

@@ -1,4 +1,4 @@
-"""Contact over faces in the mean: one exact condition for each place that pressures can follow.
+"""Contact over faces in the mean: one exact condition for each node that pressures can follow.
 
 The points of overlaps integrate a pressure exactly (`nmm.contact.mortar.segments`), but are more
 than exact conditions may hold one by one. So the pressure is made of functions ``phi_j >= 0`` of
@@ -21,15 +21,15 @@ from scipy.sparse import block_diag, csc_array, csr_array, eye_array
 from integration.arrays import Floats, Ints
 from nmm.contact.detection.surface import Surface
 from nmm.contact.mortar.multiplier_basis import Entries, functions_along
-from nmm.contact.mortar.trace_space import Traces
+from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.step_problem import OPEN, Limits, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
 
 
 @dataclass(frozen=True, eq=False)
-class WeakFaces(Transform):
-    """Functions of places at the contacts of a problem.
+class FaceMeans(Transform):
+    """Functions of multiplier nodes at the contacts of a problem.
 
     Attributes
     ----------
@@ -46,8 +46,8 @@ class WeakFaces(Transform):
     nearest: Ints
 
     @classmethod
-    def of(cls, contacts: ContactPoints, surface: Surface, traces: Traces) -> Self | None:
-        """Return the functions of the stretches of faces among contacts; None without any."""
+    def of(cls, contacts: ContactPoints, surface: Surface, traces: TraceSpace) -> Self | None:
+        """Return the functions of the runs of faces among contacts; None without any."""
         found = functions_along(contacts, surface, traces)
         if not len(found.point):
             return None

@@ -1,6 +1,6 @@
-"""Pressures along stretches of faces: which functions of places act at which contact points.
+"""Pressures along runs of faces: which functions of multiplier nodes act at which contact points.
 
-A stretch is a run of points between two faces. Of the two the one gives the places that follows a
+A run is a row of points between two faces. Of the two the one gives the nodes that follows a
 pressure more easily (`nmm.contact.mortar.trace_space`). Inside, the functions are hats along it,
 the first and the last going on to the ends; the end points have functions of their own, so that a
 body that tilts turns about its corner. At every point the functions sum to one.
@@ -15,8 +15,8 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.measures import dot
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import RUN_APART, SAME_EASE
-from nmm.contact.mortar.trace_space import Traces
+from nmm.contact.detection.tolerances import RUN_APART, SAME_COMPLIANCE
+from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.points.contact_points import ContactPoints
 
 
@@ -37,7 +37,7 @@ class Entries:
     value: Floats
 
 
-def functions_along(contacts: ContactPoints, surface: Surface, traces: Traces) -> Entries:
+def functions_along(contacts: ContactPoints, surface: Surface, traces: TraceSpace) -> Entries:
     """Return the functions at the contact points that stand for a length of a face.
 
     Points of joints and mere vertices have none.
@@ -49,17 +49,17 @@ def functions_along(contacts: ContactPoints, surface: Surface, traces: Traces) -
     at, face, other = _sides(some, surface, traces)
     order = np.lexsort((at, some.interface, other, face))
     at, who = at[order], np.stack([face, other, some.interface])[:, order]
-    step = np.diff(traces.place)
-    interval = step[np.clip(np.searchsorted(traces.place, at, "right") - 1, 0, len(step) - 1)]
+    step = np.diff(traces.node)
+    interval = step[np.clip(np.searchsorted(traces.node, at, "right") - 1, 0, len(step) - 1)]
     new = np.ones(len(at), dtype=bool)
     new[1:] = (who[:, 1:] != who[:, :-1]).any(axis=0)
     new[1:] |= np.diff(at) > RUN_APART * np.maximum(interval[1:], interval[:-1])
-    found = _hats(at, new, traces.place)
+    found = _hats(at, new, traces.node)
     return Entries(points[order][found.point], found.function, found.value)
 
 
-def _sides(some: ContactPoints, surface: Surface, traces: Traces) -> tuple[Floats, Ints, Ints]:
-    """Where (m,) points are on the face that gives the places, that face, and the other."""
+def _sides(some: ContactPoints, surface: Surface, traces: TraceSpace) -> tuple[Floats, Ints, Ints]:
+    """Where (m,) points are on the face that gives the nodes, that face, and the other."""
     a, b, before = some.edge_a, some.edge_b, traces.previous[some.edge_a]
     # A corner belongs to the face that looks at the other body.
     looks = dot(surface.normal[a], some.normal) <= dot(surface.normal[before], some.normal)
@@ -75,10 +75,10 @@ def _sides(some: ContactPoints, surface: Surface, traces: Traces) -> tuple[Float
     return at[giver, m], face[giver, m], face[1 - giver, m]
 
 
-def _first_follows(at: Floats, face: Ints, soft: Floats, traces: Traces) -> Bools:
+def _first_follows(at: Floats, face: Ints, soft: Floats, traces: TraceSpace) -> Bools:
     """Whether the first of the sides (2, m) follows a pressure more easily.
 
-    That is the face with more places to its modulus over all points that the two faces share; of
+    That is the face with more nodes to its modulus over all points that the two faces share; of
     two alike the one that comes first on the line.
     """
     turned = face[0] > face[1]
@@ -86,40 +86,40 @@ def _first_follows(at: Floats, face: Ints, soft: Floats, traces: Traces) -> Bool
     _, pair = np.unique(np.stack([low, high]), axis=1, return_inverse=True)
     pair = pair.ravel()
     n = int(pair.max(initial=-1)) + 1
-    ease = []
+    compliance = []
     for side in (0, 1):
         row = np.where(turned, 1 - side, side)
         where, give = (np.take_along_axis(part, row[None], axis=0)[0] for part in (at, soft))
         least, most = np.full(n, np.inf), np.full(n, -np.inf)
         np.minimum.at(least, pair, where)
         np.maximum.at(most, pair, where)
-        count = np.subtract(*np.searchsorted(traces.place, np.stack([most, least])))
-        ease.append((1 + count) * np.bincount(pair, give, n) / np.bincount(pair, minlength=n))
+        count = np.subtract(*np.searchsorted(traces.node, np.stack([most, least])))
+        compliance.append((1 + count) * np.bincount(pair, give, n) / np.bincount(pair, minlength=n))
     # Equal but for rounding is equal.
-    return np.asarray((ease[0] >= (1 - SAME_EASE) * ease[1])[pair] != turned)
+    return np.asarray((compliance[0] >= (1 - SAME_COMPLIANCE) * compliance[1])[pair] != turned)
 
 
-def _hats(at: Floats, new: Bools, place: Floats) -> Entries:
-    """Functions at points that lie one after another on stretches.
+def _hats(at: Floats, new: Bools, node: Floats) -> Entries:
+    """Functions at points that lie one after another on runs.
 
-    ``new`` marks the first point of each stretch.
+    ``new`` marks the first point of each run.
     """
     first = np.flatnonzero(new)
     last = np.append(first[1:], len(at)) - 1
-    low, high = _inner(at[first], at[last], place)
+    low, high = _inner(at[first], at[last], node)
     count = high - low + 3
     offset = np.cumsum(count) - count
 
     inside = np.ones(len(at), dtype=bool)
     inside[first] = inside[last] = False
-    point, stretch = np.flatnonzero(inside), (np.cumsum(new) - 1)[inside]
-    x = np.clip(at[inside], place[low[stretch]], place[high[stretch]])
-    left = np.searchsorted(place, x, side="right") - 1
-    left = np.clip(left, low[stretch], high[stretch])
-    right = np.minimum(left + 1, high[stretch])
-    wide = place[right] - place[left]
-    share = np.divide(x - place[left], wide, out=np.zeros_like(x), where=wide > 0)
-    hat = offset[stretch] + 1 + left - low[stretch]
+    point, run = np.flatnonzero(inside), (np.cumsum(new) - 1)[inside]
+    x = np.clip(at[inside], node[low[run]], node[high[run]])
+    left = np.searchsorted(node, x, side="right") - 1
+    left = np.clip(left, low[run], high[run])
+    right = np.minimum(left + 1, high[run])
+    wide = node[right] - node[left]
+    share = np.divide(x - node[left], wide, out=np.zeros_like(x), where=wide > 0)
+    hat = offset[run] + 1 + left - low[run]
 
     one = np.ones(len(first))
     ends = last > first
@@ -134,14 +134,14 @@ def _hats(at: Floats, new: Bools, place: Floats) -> Entries:
     return Entries(i[acts], np.unique(j[acts], return_inverse=True)[1], value[acts])
 
 
-def _inner(begin: Floats, end: Floats, place: Floats) -> tuple[Ints, Ints]:
-    """First and last place inside stretches; the same one place where there is none.
+def _inner(begin: Floats, end: Floats, node: Floats) -> tuple[Ints, Ints]:
+    """First and last node inside runs; the same one node where there is none.
 
-    Places nearer to an end of the stretch than half of their interval there do not count.
+    Nodes nearer to an end of the run than half of their interval there do not count.
     """
-    low = np.clip(np.searchsorted(place, begin, side="right"), 1, len(place) - 1)
-    low = low + (place[low] - begin < 0.5 * (place[low] - place[low - 1]))
-    high = np.clip(np.searchsorted(place, end, side="left") - 1, 0, len(place) - 2)
-    high = high - (end - place[high] < 0.5 * (place[high + 1] - place[high]))
-    low = np.minimum(low, len(place) - 1)
+    low = np.clip(np.searchsorted(node, begin, side="right"), 1, len(node) - 1)
+    low = low + (node[low] - begin < 0.5 * (node[low] - node[low - 1]))
+    high = np.clip(np.searchsorted(node, end, side="left") - 1, 0, len(node) - 2)
+    high = high - (end - node[high] < 0.5 * (node[high + 1] - node[high]))
+    low = np.minimum(low, len(node) - 1)
     return low, np.maximum(high, low)

@@ -26,7 +26,7 @@ from nmm.contact.detection.pair_keys import pair_key, unordered_key
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import ANGLE, FACE_WALK, SAME_POINT
 
-# Stations in [0, 1] and weights of Lobatto's rules: exact to degree 1, 3 and 5.
+# Nodes in [0, 1] and weights of Lobatto's rules: exact to degree 1, 3 and 5.
 LOBATTO = {
     2: ((0.0, 1.0), (1 / 2, 1 / 2)),
     3: ((0.0, 0.5, 1.0), (1 / 6, 4 / 6, 1 / 6)),

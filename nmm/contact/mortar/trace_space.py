@@ -2,9 +2,9 @@
 
 A body answers a pressure with the traces of its functions. Points of a face where those are too
 much alike cannot be held one by one: forces on each of them have no unique values (Babuška 1973).
-So *places* are chosen along every face, as on boundaries that cut a mesh (Béchet, Moës and
+So *nodes* are chosen along every face, as on boundaries that cut a mesh (Béchet, Moës and
 Wohlmuth 2009): corner by corner, each the first whose functions differ enough from those of the
-place before. On meshes that fit the face these are its nodes.
+node before. On meshes that fit the face these are those of the mesh.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ Weights = dict[int, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Traces:
-    """Faces of all bodies laid on one line, one after another, and the places chosen on them.
+class TraceSpace:
+    """Faces of all bodies laid on one line, one after another, and the nodes chosen on them.
 
     Attributes
     ----------
@@ -31,8 +31,8 @@ class Traces:
         (n,) where each boundary edge begins and ends on the line (m).
     face
         (n,) face of each edge.
-    place
-        (p,) chosen places, rising; among them both ends of every face.
+    node
+        (p,) chosen nodes, rising; among them both ends of every face.
     softness
         (n,) one over Young's modulus at each edge (1/Pa).
     previous
@@ -42,13 +42,13 @@ class Traces:
     start: Floats
     end: Floats
     face: Ints
-    place: Floats
+    node: Floats
     softness: Floats
     previous: Ints
 
     @classmethod
-    def of(cls, sides: Sides, modulus: Floats) -> Traces:
-        """Return the places on the boundary of a manifold; ``modulus`` (E,) is of its elements."""
+    def of(cls, sides: Sides, modulus: Floats) -> TraceSpace:
+        """Return the nodes on the boundary of a manifold; ``modulus`` (E,) is of its elements."""
         edges = sides.manifold.boundary
         along = edges.end - edges.start
         length = np.hypot(*along.T)
@@ -60,13 +60,13 @@ class Traces:
         end[order] = np.cumsum(length[order] + float(length.mean()) * first)
         start = end - length
         weights = _weights(sides)
-        places: list[float] = []
+        nodes: list[float] = []
         for edge in np.split(order, np.flatnonzero(first)[1:]):  # faces, once a run
             corners = np.append(edge, edges.next[edge[-1]])
             chosen = _unlike([weights[corner] for corner in corners])
             on_line = np.append(start[edge], end[edge[-1]])
-            places.extend(on_line[chosen].tolist())
-        return cls(start, end, face, np.array(places), 1 / modulus[edges.element], edges.previous)
+            nodes.extend(on_line[chosen].tolist())
+        return cls(start, end, face, np.array(nodes), 1 / modulus[edges.element], edges.previous)
 
     def on(self, edge: Ints, parameter: Floats) -> Floats:
         """Places (m,) of fractions of edges on the line."""
@@ -109,7 +109,7 @@ def _weights(sides: Sides) -> list[Weights]:
 
 
 def _unlike(corners: list[Weights]) -> list[int]:
-    """Corners of a face that are places: both ends, and those unlike the place before."""
+    """Corners of a face that are nodes: both ends, and those unlike the node before."""
     chosen = [0]
     for k in range(1, len(corners) - 1):  # corners, once a run
         if _cosine(corners[chosen[-1]], corners[k]) <= ALIKE_COSINE:

@@ -12,7 +12,7 @@ from nmm.contact.points.boundary_points import Sides
 from nmm.interfaces.history import History
 
 if TYPE_CHECKING:
-    from nmm.contact.points.joint_points import Stations
+    from nmm.contact.points.joint_points import JointSites
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ def rows(
     sides: Sides,
     frames: Frames,
     n_unknowns: int,
-    stations: "Stations | None" = None,
+    stations: "JointSites | None" = None,
 ) -> tuple[csr_array, csr_array]:
     """Return the normal and tangent rows (m, n_unknowns): ``gap += N d``, ``slip += T d``.
 

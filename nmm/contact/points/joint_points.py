@@ -18,7 +18,7 @@ from nmm.contact.points.contact_points import ContactPoints
 
 
 @dataclass(frozen=True)
-class Stations:
+class JointSites:
     """Both sides of all points of joints; the point with the key ``-1 - k`` is row ``k``.
 
     Attributes

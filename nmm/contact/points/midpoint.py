@@ -54,7 +54,7 @@ def middle(before: State, after: State) -> State:
     return replace(before, frames=frames, deformation=(before.deformation + after.deformation) / 2)
 
 
-def halfway_rows(
+def midpoint_rows(
     contacts: ContactPoints, sides: Sides, model: Model, start: State, half: State
 ) -> ContactRows:
     """Return the rows of contacts with both sides where they are half way.

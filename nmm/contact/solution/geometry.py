@@ -8,12 +8,12 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.detection.surface import Surface
-from nmm.contact.mortar.face_means import WeakFaces
-from nmm.contact.mortar.trace_space import Traces
+from nmm.contact.mortar.face_means import FaceMeans
+from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints, rows
-from nmm.contact.points.joint_points import Stations
-from nmm.contact.points.midpoint import ContactRows, halfway_rows
+from nmm.contact.points.joint_points import JointSites
+from nmm.contact.points.midpoint import ContactRows, midpoint_rows
 from nmm.contact.points.tracking import Apart, apart_on
 
 
@@ -36,8 +36,8 @@ class ContactGeometry:
         self, model: Model, sides: Sides, joints: ContactPoints, bends: bool, means: bool
     ) -> None:
         self.model, self.sides, self.bends = model, sides, bends
-        self.traces = Traces.of(sides, model.modulus) if means else None
-        self._stations = Stations.of(sides, joints)
+        self.traces = TraceSpace.of(sides, model.modulus) if means else None
+        self._stations = JointSites.of(sides, joints)
 
     @property
     def curved(self) -> bool:
@@ -49,8 +49,8 @@ class ContactGeometry:
     ) -> ContactRows:
         """Return the rows of contacts in a state, or at the middle of a step."""
         if midpoint is not None:
-            return halfway_rows(contacts, self.sides, self.model, state, midpoint)
-        stations = Stations.at(self.sides, contacts) if self.bends else self._stations
+            return midpoint_rows(contacts, self.sides, self.model, state, midpoint)
+        stations = JointSites.at(self.sides, contacts) if self.bends else self._stations
         n_unknowns = self.model.manifold.n_unknowns
         found = rows(contacts, self.sides, state.frames, n_unknowns, stations)
         return ContactRows(*found, contacts.normal)
@@ -65,9 +65,9 @@ class ContactGeometry:
         """Return the gaps (m,) of points that the search found, in m."""
         if not self.bends:
             return points.gap
-        apart = Stations.at(self.sides, points).apart(points, state.frames, state.deformation)
+        apart = JointSites.at(self.sides, points).apart(points, state.frames, state.deformation)
         return np.asarray(np.einsum("ij,ij->i", apart, points.normal))
 
-    def face_means(self, contacts: ContactPoints, surface: Surface) -> WeakFaces | None:
+    def face_means(self, contacts: ContactPoints, surface: Surface) -> FaceMeans | None:
         """Return how exact conditions on faces of meshes are held in the mean; None elsewhere."""
-        return None if self.traces is None else WeakFaces.of(contacts, surface, self.traces)
+        return None if self.traces is None else FaceMeans.of(contacts, surface, self.traces)

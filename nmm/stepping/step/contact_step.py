@@ -83,29 +83,29 @@ class Touching:
         """
         contact, state = self._contact, equations.state
         passes, halves, looks = 0, 0, 0
-        contacts, halfway = self.candidates(state, reach, equations.step), None
+        contacts, midpoint = self.candidates(state, reach, equations.step), None
         crossed: Pairs | None = None
         held = self._conditions(equations)
         while True:
-            solved = self._solve(equations, contacts, breaking, halfway, held, reach)
+            solved = self._solve(equations, contacts, breaking, midpoint, held, reach)
             passes += solved.passes
             verdict = solved.answer.verdict
             result, rest = self._judged(equations, solved, held)
             good = verdict.converged and result.motion <= self._size and not solved.stopped
             if good and result.motion > reach:
                 reach = FURTHER * result.motion
-                contacts, halfway = self.candidates(state, reach, equations.step, crossed), None
+                contacts, midpoint = self.candidates(state, reach, equations.step, crossed), None
                 continue
             motion = contact.motion(state, result.state) if good else None
             missed = None if motion is None else contact.overlooked(contacts, motion)
             if missed is not None and looks < CROSSING_SOLUTIONS:
                 looks, crossed = looks + 1, _joined(crossed, missed)
-                contacts, halfway = self.candidates(state, reach, equations.step, crossed), None
+                contacts, midpoint = self.candidates(state, reach, equations.step, crossed), None
                 continue
             if good and equations.step is not None and not self._mover.still:
-                half = contact.momentum.halfway(solved, state, result.state, halfway)
+                half = contact.momentum.midpoint(solved, state, result.state, midpoint)
                 if half is not None and halves < MIDPOINT_SOLUTIONS:
-                    halfway, halves = half, halves + 1
+                    midpoint, halves = half, halves + 1
                     continue
                 result = self._kept(equations, solved, result, rest)
             passage = "" if motion is None else contact.passage(motion)
@@ -154,7 +154,7 @@ class Touching:
         equations: Equations,
         contacts: "ContactPoints",
         breaking: "Breaking",
-        halfway: State | None,
+        midpoint: State | None,
         held: "NullSpace | None",
         reach: float,
     ) -> "ContactSolution":
@@ -174,7 +174,7 @@ class Touching:
             near=near,
         )
         with self._clock.phase("solve"):
-            return self._contact.solve(contacts, equations.state, request, halfway)
+            return self._contact.solve(contacts, equations.state, request, midpoint)
 
     def _judged(
         self, equations: Equations, solved: "ContactSolution", held: "NullSpace | None"

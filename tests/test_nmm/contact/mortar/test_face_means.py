@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from nmm.assembly.motion import initial_state
-from nmm.contact.mortar.face_means import WeakFaces
-from nmm.contact.mortar.trace_space import Traces
+from nmm.contact.mortar.face_means import FaceMeans
+from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
 from nmm.stepping.run import run
@@ -47,7 +47,7 @@ def faces(kind, degree, **options):
     contact = simulation.stepper.plan.contact
     state = initial_state(simulation.stepper.model.manifold)
     found = contact.candidates(state, 1e-6)
-    weak = WeakFaces.of(found, contact._partners.surface(state), contact.geometry.traces)
+    weak = FaceMeans.of(found, contact._partners.surface(state), contact.geometry.traces)
     return found, weak, contact, state
 
 
@@ -88,10 +88,10 @@ def test_on_a_mesh_that_fits_the_face_places_are_its_nodes(degree):
     fitting = {"net": "", "size": 0.25, "nets": ""}
     _, _, contact, _ = faces("quads", degree, **fitting)
     edges, traces = contact.geometry.sides.manifold.boundary, contact.geometry.traces
-    assert isinstance(traces, Traces)
+    assert isinstance(traces, TraceSpace)
     # The square has 4 cells a side, the floor 16 x 4: as many intervals as edges.
     assert len(edges) == 16 + 40
-    assert len(traces.place) == len(edges) + 8
+    assert len(traces.node) == len(edges) + 8
 
 
 @pytest.mark.parametrize("enforcement", ["lagrange", "augmented", "cone"])
