@@ -166,9 +166,18 @@ class Plan:
         """Return the energy (J) that each effect of one's own stores, by its column of history."""
         return {
             f"energy:{name.removeprefix(OWN)}": effect.energy(state)
-            for name, effect in self._named("energy")
-            if name.startswith(OWN)
+            for name, effect in self._own_stores
         }
+
+    @cached_property
+    def _own_stores(self) -> list[tuple[str, Effect]]:
+        """Effects of one's own that store energy."""
+        return [(name, one) for name, one in self._named("energy") if name.startswith(OWN)]
+
+    @cached_property
+    def tellers(self) -> list[tuple[str, Effect]]:
+        """Effects with numbers for the history, by name."""
+        return self._named("history")
 
     @property
     def contact(self) -> "Contact | None":

@@ -57,10 +57,9 @@ class Declared:
     def row(self, plan: Plan, view: Callable[[], View]) -> dict[str, float]:
         """Return the numbers of a state by their columns of the history."""
         row: dict[str, float] = {}
-        for name, effect in plan.effects.items():
-            if defines(effect, "history"):
-                own = name.removeprefix(OWN)
-                row |= {f"{own}:{key}": float(n) for key, n in effect.history(view().state).items()}
+        for name, effect in plan.tellers:
+            own = name.removeprefix(OWN)
+            row |= {f"{own}:{key}": float(n) for key, n in effect.history(view().state).items()}
         seen = [one for one in self.outputs.values() if type(one).history is not Output.history]
         for output in seen:
             row |= {key: float(number) for key, number in output.history(view()).items()}
