@@ -44,9 +44,9 @@ def test_a_body_in_free_flight_neither_drifts_nor_gains(steps, formulation):
     kinetic = found.history["kinetic_energy"]
     assert kinetic[-1] <= kinetic[0] * (1 + rounding / 10 * steps)
     # 37 turns in a hundred seconds: the long side lies along x again; rho omega^2 a^2 / 12. Shi's
-    # rule hardly damps a sawtooth of 4 / Omega^2, 1e-4, and Newmark's not even the breathing.
+    # rule hardly damps a sawtooth of 4 / Omega^2, 1e-4, and Newmark's not even the breathing: 2 %.
     centrifugal = 1000 * OMEGA**2 * np.array([4, 1]) / 12
-    tolerance = 2.0 if formulation == "newmark" else 1e-4
+    tolerance = 0.05 if formulation == "newmark" else 1e-4
     assert found.stress[0, :2] == pytest.approx(centrifugal, rel=tolerance)
 
 

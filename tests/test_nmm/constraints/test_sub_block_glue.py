@@ -126,4 +126,4 @@ def test_sub_blocks_glued_by_nitsche_converge_by_their_degree(
     # Measured 1.00 to 1.10, 2.00 to 2.09, 2.94 to 2.99 and 1.98 to 2.05, 3.00 to 3.33,
     # 4.03 to 4.06: blocks are cut at the rim, and their sizes do not halve everywhere.
     assert energy == pytest.approx(degree, abs=0.15)
-    assert displacement == pytest.approx(degree + 1, abs=0.4)
+    assert degree + 1 - 0.05 < displacement < degree + 1 + 0.4
