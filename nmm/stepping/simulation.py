@@ -422,7 +422,7 @@ def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) ->
     """Return a stage with its own model; blocks keep their numbers and names."""
     check_parts(stage.scene, stage.formulation)
     cover, place = stage.formulation.cover, scene.source.place("stages")
-    refuse_many_cells(regions, cover, place, cover.of_blocks or net_class(cover).even)
+    refuse_many_cells(regions, cover, place, None if cover.of_blocks else net_class(cover))
     setup = _setup(stage.scene, stage.formulation, regions.only(stage.present), origin)
     whole = replace(
         setup,
