@@ -41,8 +41,10 @@ def check_parts(scene: "Scene", formulation: "Formulation") -> None:
             if keys:
                 check(part)
         except NmmError as error:
-            place = source.place(*path, *(keys if len(keys) == 1 else ()))
-            faults += [_placed(fault, place) for fault in error.faults]
+            faults += [
+                _placed(fault, source.place(*path, *_key_of(fault, part, keys)))
+                for fault in error.faults
+            ]
     faults += _of_effects(scene) + _of_outputs(scene)
     if faults:
         raise FormulationError(*faults)
@@ -76,6 +78,15 @@ def _of_outputs(scene: "Scene") -> list[Fault | str]:
             place = scene.source.place("output", "quantities", number)
             faults += [_placed(fault, place) for fault in error.faults]
     return faults
+
+
+def _key_of(fault: Fault | str, part: "BaseModel", keys: list[str]) -> list[str]:
+    """Return the key whose value is at fault, the only one, or none where it may be any."""
+    if isinstance(fault, Fault):
+        for key in keys:
+            if fault.value == f'"{getattr(part, key)}"':
+                return [key]
+    return keys if len(keys) == 1 else []
 
 
 def _placed(fault: Fault | str, place: str) -> Fault | str:

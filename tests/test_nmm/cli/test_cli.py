@@ -155,7 +155,7 @@ def test_check_finds_faults_of_geometry(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('"rigid_strain"', '"rigid_strian"', 'cover: functions: "rigid_strian"'),
+        ('"rigid_strain"', '"rigid_strian"', 'cover.functions: "rigid_strian"'),
         ('"block"  ', '"blok"  ', "expected one of block, sub_blocks, triangles"),
         ('"1 ms"', '"1 ms"\ntype = "newmarc"', 'did you mean "newmark"?'),
         (
@@ -183,7 +183,7 @@ def test_check_names_parts_that_do_not_exist_with_their_line(old, new, said, tmp
     ("table", "said"),
     [
         ('enforcement = "penality"', 'contact.enforcement: "penality"'),
-        ("options = {toleranc = 1e-9}", "toleranc: expected one of iteration, max_passes"),
+        ("options = {toleranc = 1e-9}", "toleranc: expected one of iterations, iteration"),
     ],
 )
 def test_a_wrong_enforcement_is_named_by_check_and_by_run(table, said, scene, tmp_path):
