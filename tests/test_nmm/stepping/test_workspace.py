@@ -28,8 +28,8 @@ def dropping(self, attempt, accept=Stepper.accept):
     return found
 
 
-# Springs of the wall under Shi's integrator are not settled from nowhere in one of the twenty steps,
-# which is cut; from the last steps' unknowns they are. Answers differ by that, not by a digit lost.
+# Springs of the wall under Shi's integrator are not settled from nowhere in one of twenty steps,
+# which is cut; from the last steps' unknowns they are. Answers differ by that, by no digit lost.
 CUT = pytest.mark.xfail(reason="a step that starts from nowhere is cut", strict=False)
 NAMES = [pytest.param(one, marks=CUT) if one == "wall" else one for one in scenes.SCENES]
 
