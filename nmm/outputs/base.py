@@ -3,13 +3,16 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.contact.points.contact_points import ContactPoints
 from nmm.quantity import Quantity
 from nmm.registry import Registry
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
 
 
 @dataclass(frozen=True)
@@ -26,7 +29,7 @@ class View:
 
     model: Model
     state: State
-    contacts: ContactPoints | None
+    contacts: "ContactPoints | None"
     stress_of: Callable[[State], Floats]
 
     @cached_property

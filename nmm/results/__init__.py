@@ -1,13 +1,12 @@
 """Run folders, frames, summaries and ParaView files."""
 
-from nmm.results.frame import ContactState, Frame, Topology
+from nmm.results.frame import Frame, Topology
 from nmm.results.sink import MemorySink, RunData, Sink
 from nmm.results.storage.run_folder import RunFolder
 from nmm.results.storage.stored_run import StoredRun, read_run
 from nmm.results.summary import Summary
 
 __all__ = [
-    "ContactState",
     "Frame",
     "MemorySink",
     "RunData",

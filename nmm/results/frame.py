@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
-from nmm.contact.problem.contact_state import ContactState as ContactState
 from nmm.quantity import Quantity
 
 
@@ -70,7 +69,7 @@ class Frame:
     contact_gap
         (C,) signed gap, m, positive open.
     contact_state
-        (C,) values of `ContactState`.
+        (C,) values of `nmm.contact.problem.contact_state.ContactState`.
     topology
         Which of the run's topologies the points belong to; sinks set it.
     fields

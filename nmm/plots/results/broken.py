@@ -8,7 +8,8 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
-from nmm.results.frame import ContactState, Frame, Topology
+from nmm.contact.problem.contact_state import ContactState
+from nmm.results.frame import Frame, Topology
 
 
 @dataclass(frozen=True)

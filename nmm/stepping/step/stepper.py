@@ -17,7 +17,6 @@ from nmm.stepping.step.booking import booked
 from nmm.stepping.step.budget import Budget
 from nmm.stepping.step.carried import CarriedOver, LaidAnew
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.contact_step import Touching
 from nmm.stepping.step.equations import Assembly, Equations, Linearisation
 from nmm.stepping.step.free_step import Alone
 from nmm.stepping.step.frozen import with_parts
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.effects.change import Change
     from nmm.model.plan import Plan
+    from nmm.stepping.step.contact_step import Touching
 
 
 class Stepper:
@@ -70,10 +70,25 @@ class Stepper:
         self._assembly = Assembly(self._current)
         self._mover = Mover(self._current, solver, small or lay is not None, clock)
         self._alone = Alone(self._current, self._mover, solver, small, clock)
-        self._touching = Touching(
-            self._current, self._mover, solver, self.size, self._integrator.carries, clock
-        )
-        self._carried = CarriedOver(self._touching.reach())
+        self._touching = self._contact_step() if among else None
+        self._carried = CarriedOver(self._reach())
+
+    def _contact_step(self) -> "Touching":
+        """Return what solves steps with contact; not imported where nothing may touch."""
+        from nmm.stepping.step.contact_step import Touching
+
+        carries = self._integrator.carries
+        return Touching(self._current, self._mover, self.solver, self.size, carries, self._clock)
+
+    def _reach(self, motion: float = 0.0) -> float:
+        """Return how far contacts are sought after a step that moved by ``motion`` (m)."""
+        return 0.0 if self._touching is None else self._touching.reach(motion)
+
+    @property
+    def _solvers(self) -> "tuple[Mover | Alone | Touching, ...]":
+        """What solves a step and keeps factors for it."""
+        always = self._mover, self._alone
+        return always if self._touching is None else (*always, self._touching)
 
     @property
     def carried(self) -> CarriedOver:
@@ -93,7 +108,7 @@ class Stepper:
 
     def forget(self) -> None:
         """Drop the workspace: factors, patterns, lists and starts that are kept for speed alone."""
-        for part in (self._assembly, self._mover, self._alone, self._touching, self.plan):
+        for part in (self._assembly, *self._solvers, self.plan):
             part.forget()
 
     @property
@@ -162,7 +177,7 @@ class Stepper:
     def _solved(self, equations: Equations, breaking: "Breaking") -> Attempt:
         """Solve equations, with contact where the scene has it."""
         try:
-            if self.plan.contact is None:
+            if self._touching is None:
                 return self._alone.attempt(equations)
             return self._touching.attempt(equations, breaking, self._carried.reach)
         except SolveError as fault:
@@ -203,7 +218,8 @@ class Stepper:
         self._current.discretisation = new
         self.reference = change.new.manifold.elements.points
         self._mover.follow(change)
-        self._touching.follow(change)
+        if self._touching is not None:
+            self._touching.follow(change)
 
     def begin_anew(
         self, change: "Change", new: Discretisation, solver: LinearSolver, integrator: Integrator
@@ -214,7 +230,7 @@ class Stepper:
         """
         self.follow(change, new)
         self.solver, self._integrator = solver, integrator
-        for part in (self._mover, self._alone, self._touching):
+        for part in self._solvers:
             part.solver = solver
         self.size = max(self.size, float(np.hypot(*np.ptp(self.reference, axis=0))))
         self._carried = CarriedOver(self._carried.reach)
@@ -222,7 +238,7 @@ class Stepper:
 
     def _following(self, attempt: Attempt) -> CarriedOver:
         """Return what is carried on from an accepted step."""
-        carried, reach = self._carried, self._touching.reach(attempt.motion)
+        carried, reach = self._carried, self._reach(attempt.motion)
         if attempt.solved is None or not self._integrator.restarts_at_impact:
             return with_parts(carried, reach=reach, knows_start=True)
         pushing = attempt.solved.pushing
@@ -231,6 +247,7 @@ class Stepper:
 
     def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
+        assert self._touching is not None
         return self._touching.candidates(state, reach, step)
 
     def remember(self) -> "ContactRecord | None":

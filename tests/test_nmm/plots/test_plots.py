@@ -8,6 +8,7 @@ import shapely
 
 from integration.polygons import Polygons
 from nmm import parse_scene, plots
+from nmm.contact.problem.contact_state import ContactState
 from nmm.errors import NmmError
 from nmm.plots.edges import cracks, outlines
 from nmm.plots.results.broken import broken_parts, edge_parts
@@ -16,7 +17,6 @@ from nmm.plots.results.stress import measure, scale_end
 from nmm.plots.shapes import fill
 from nmm.plots.units import prefixed, words_of
 from nmm.results import MemorySink, Topology
-from nmm.results.frame import ContactState
 
 SCENE = """
 title = "beam"
