@@ -76,11 +76,16 @@ def frame_plane(axes: "Axes", extent: Floats, title: str) -> None:
     title
         The title.
     """
+    limit_plane(axes, extent)
+    frame(axes, "x  (m)", "y  (m)", title)
+
+
+def limit_plane(axes: "Axes", extent: Floats) -> None:
+    """Give axes equal scales and limits with a margin around an extent (2, 2), m."""
     margin = 0.03 * float(np.max(extent[1] - extent[0]))
     axes.set_aspect("equal")
     axes.set_xlim(extent[0, 0] - margin, extent[1, 0] + margin)
     axes.set_ylim(extent[0, 1] - margin, extent[1, 1] + margin)
-    frame(axes, "x  (m)", "y  (m)", title)
 
 
 def frame(axes: "Axes", x_text: str, y_text: str, title: str) -> None:
@@ -123,6 +128,16 @@ def extent_of(*points: Floats) -> Floats:
 def size_of(polygons: Polygons) -> float:
     """Diagonal of the box around all polygons, m."""
     return float(np.hypot(*np.diff(extent_of(polygons.points), axis=0)[0]))
+
+
+def finished(
+    axes: "Axes", path: PathLike | None, *, fit: bool = False, beside: float = BESIDE
+) -> "Axes":
+    """Save a picture when a path is given, a new figure of the plane fitted to it; the axes."""
+    if fit:
+        fit_height([axes], beside)
+    save(axes, path)
+    return axes
 
 
 def save(axes: "Axes", path: PathLike | None) -> None:

@@ -7,10 +7,10 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import Polygons
-from nmm.plots.canvas import PathLike, axes_grid, extent_of
+from nmm.plots.canvas import PathLike, axes_grid, extent_of, limit_plane
 from nmm.plots.results.blocks import blocks
 from nmm.plots.results.conditions import LOAD, SUPPORT
-from nmm.plots.shapes import EDGE, fill
+from nmm.plots.shapes import EDGE, draw_outline, fill
 from nmm.plots.small import save_small
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from nmm.scene import Scene
 
 WIDTH, LEAST, MOST = 4.4, 1.3, 4.4  # inches
-MATERIAL, NET, CRACK = "#ddd8cb", "#a49d8b", "#b2182b"
+MATERIAL, NET = "#ddd8cb", "#a49d8b"
 ARROWS = 40  # tractions drawn at most
 LENGTH = 0.09  # longest arrow relative to the body
 
@@ -63,19 +63,13 @@ def solid_problem(
     path
         File to save the figure in.
     """
-    from matplotlib.collections import LineCollection
-
     axes = axes_grid(1, 1, 4.0)[0]
     elements = cut.elements
     width = float(np.clip(10.0 / np.sqrt(len(elements)), 0.1, 0.6))
     fill(axes, elements, facecolors=MATERIAL, edgecolors=NET, linewidths=width)
-    edges = cut.boundary
-    lines = np.stack([edges.start, edges.end], axis=1)
-    crack = edges.crack >= 0
-    axes.add_collection(LineCollection(list(lines[~crack]), colors=EDGE, linewidths=0.9))
-    axes.add_collection(LineCollection(list(lines[crack]), colors=CRACK, linewidths=1.6))
+    draw_outline(axes, cut, crack_width=1.6)
     axes.plot(*held.T, ".", color=SUPPORT, markersize=3.0, linestyle="none", zorder=4)
-    _limits(axes, _arrows(axes, loads, extent_of(elements.points)))
+    limit_plane(axes, _arrows(axes, loads, extent_of(elements.points)))
     _write(axes, path)
 
 
@@ -83,15 +77,8 @@ def polygons_problem(polygons: Polygons, path: PathLike) -> None:
     """Draw polygons alone."""
     axes = axes_grid(1, 1, 4.0)[0]
     fill(axes, polygons, facecolors=MATERIAL, edgecolors=EDGE, linewidths=0.9)
-    _limits(axes, extent_of(polygons.points))
+    limit_plane(axes, extent_of(polygons.points))
     _write(axes, path)
-
-
-def _limits(axes: "Axes", extent: Floats) -> None:
-    margin = 0.03 * float(np.max(extent[1] - extent[0]))
-    axes.set_aspect("equal")
-    axes.set_xlim(extent[0, 0] - margin, extent[1, 0] + margin)
-    axes.set_ylim(extent[0, 1] - margin, extent[1, 1] + margin)
 
 
 def _arrows(axes: "Axes", loads: Sequence[DrawnTractions], extent: Floats) -> Floats:

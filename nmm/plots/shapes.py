@@ -12,10 +12,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.collections import PathCollection
 
+    from covers.cutting.cut_cells import CutCells
+
 MATERIALS = ("#ddd8cb", "#93aac2", "#cfae8a", "#a9c2a0", "#c6a9bd", "#e4d39a")
 """Fill colours of materials in the order of the scene."""
 
-EDGE = "#3d3d3d"
+EDGE, CRACK = "#3d3d3d", "#b2182b"
 
 
 def material_colour(number: int) -> str:
@@ -52,6 +54,17 @@ def paths(polygons: Polygons) -> list[Any]:
     split = ends[oriented.polygon_offsets[1:-1] - 1]
     vertices = zip(np.split(closing, split), np.split(codes, split), strict=True)
     return [Path(points, code) for points, code in vertices]  # one object a polygon by nature
+
+
+def draw_outline(axes: "Axes", cut: "CutCells", crack_width: float) -> None:
+    """Draw the edges of the material and, in so many points, the faces of cracks."""
+    from matplotlib.collections import LineCollection
+
+    edges = cut.boundary
+    lines = np.stack([edges.start, edges.end], axis=1)
+    crack = edges.crack >= 0
+    axes.add_collection(LineCollection(list(lines[~crack]), colors=EDGE, linewidths=0.9))
+    axes.add_collection(LineCollection(list(lines[crack]), colors=CRACK, linewidths=crack_width))
 
 
 def draw_lines(

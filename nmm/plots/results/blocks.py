@@ -2,15 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from nmm.plots.canvas import (
-    PathLike,
-    axes_grid,
-    extent_of,
-    fit_height,
-    frame_plane,
-    legend_below,
-    save,
-)
+from nmm.plots.canvas import PathLike, axes_grid, extent_of, finished, frame_plane, legend_below
 from nmm.plots.results.conditions import draw_conditions
 from nmm.plots.shapes import draw_blocks, material_colour
 from nmm.results.frame import Topology
@@ -56,10 +48,7 @@ def blocks(
         extent = draw_conditions(axes, scene, extent)
     frame_plane(axes, extent, f"{title}, {block_count(topology)}")
     legend_below(axes, material_handles(topology))
-    if ax is None:
-        fit_height([axes])
-    save(axes, path)
-    return axes
+    return finished(axes, path, fit=ax is None)
 
 
 def block_count(topology: Topology) -> str:

@@ -4,15 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nmm.plots.canvas import (
-    PathLike,
-    axes_grid,
-    extent_of,
-    fit_height,
-    frame_plane,
-    legend_below,
-    save,
-)
+from nmm.plots.canvas import PathLike, axes_grid, extent_of, finished, frame_plane, legend_below
 from nmm.plots.results.deformed import magnified, moment
 from nmm.plots.shapes import draw_blocks
 from nmm.plots.units import prefixed
@@ -77,10 +69,7 @@ def contact_forces(
     text = f"largest {factor * largest:.3g} {unit}" if len(sizes) else "none acts"
     frame_plane(axes, extent, f"contact forces, {moment(shown)}, {text}")
     legend_below(axes, _handles(bool(pull.any()), bool((~pull).any())))
-    if ax is None:
-        fit_height([axes])
-    save(axes, path)
-    return axes
+    return finished(axes, path, fit=ax is None)
 
 
 def _handles(pull: bool, push: bool) -> "list[Line2D]":

@@ -8,7 +8,7 @@ from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons
 from nmm.errors import NmmError
 from nmm.plots.canvas import PathLike, axes_grid, extent_of, fit_height, frame_plane, save
-from nmm.plots.shapes import EDGE, fill
+from nmm.plots.shapes import CRACK, draw_outline, fill
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,7 +20,7 @@ COLOURS = ("#4477aa", "#ee8866", "#bbcc33", "#aa3377", "#44bb99", "#eedd88", "#2
 """Physical covers, neighbours of one patch in colours far apart."""
 PALE = ("#e8e4d9", "#dbe4ee", "#efe0cf", "#dfe9da", "#eadfe6", "#f4edd3")
 """Elements."""
-MATERIAL, NET, CRACK = "#ddd8cb", "#8a98a8", "#b2182b"
+MATERIAL, NET = "#ddd8cb", "#8a98a8"
 
 
 def covers(laid: "Cover", cut: "CutCells", *, path: PathLike | None = None) -> "list[Axes]":
@@ -122,13 +122,7 @@ def _elements(axes: "Axes", cut: "CutCells", extent: Floats) -> None:
 
 def _outline(axes: "Axes", cut: "CutCells") -> None:
     """Edges of the material, faces of cracks and their tips."""
-    from matplotlib.collections import LineCollection
-
-    edges = cut.boundary
-    lines = np.stack([edges.start, edges.end], axis=1)
-    crack = edges.crack >= 0
-    axes.add_collection(LineCollection(list(lines[~crack]), colors=EDGE, linewidths=0.9))
-    axes.add_collection(LineCollection(list(lines[crack]), colors=CRACK, linewidths=1.4))
+    draw_outline(axes, cut, crack_width=1.4)
     if len(cut.tips):
         axes.plot(*cut.tips.point.T, ls="", marker="o", ms=3.5, color=CRACK)
 

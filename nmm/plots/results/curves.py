@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import NmmError
-from nmm.plots.canvas import SMALL, PathLike, axes_grid, frame, save
+from nmm.plots.canvas import SMALL, PathLike, axes_grid, finished, frame, save
 from nmm.plots.units import label, prefixed, unit_of, words_of
 from nmm.results.sink import RunData
 
@@ -70,8 +70,7 @@ def curve(
     axes.plot(x_values, y_values, color=CYCLE[0], linewidth=1.2, marker=dots, markersize=3.0)
     title = f"{_signed(words_of(y), y_factor)} against {_signed(words_of(x), x_factor)}"
     _on_grid(axes, x_text, y_text, title)
-    save(axes, path)
-    return axes
+    return finished(axes, path)
 
 
 def load_displacement(
@@ -173,8 +172,7 @@ def history(
         axes.yaxis.set_major_locator(MaxNLocator("auto", integer=True, min_n_ticks=1))
     if not alone:
         axes.legend(loc="best", frameon=False, fontsize=SMALL)
-    save(axes, path)
-    return axes
+    return finished(axes, path)
 
 
 def overview(run: RunData, *, path: PathLike | None = None) -> "list[Axes]":

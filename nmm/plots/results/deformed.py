@@ -10,6 +10,7 @@ from nmm.plots.canvas import (
     PathLike,
     axes_grid,
     extent_of,
+    finished,
     fit_height,
     frame_plane,
     legend_below,
@@ -69,10 +70,7 @@ def deformed(
     marked = _draw_marks(axes, run, shown, topology, polygons)
     frame_plane(axes, extent, f"{title}, {moment(shown)}, displacements ×{factor:g}")
     legend_below(axes, [*material_handles(topology), *marked])
-    if ax is None:
-        fit_height([axes])
-    save(axes, path)
-    return axes
+    return finished(axes, path, fit=ax is None)
 
 
 def failure_mode(

@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import NmmError
 from nmm.outputs.stresses import principal, von_mises
-from nmm.plots.canvas import BESIDE, PathLike, axes_grid, extent_of, fit_height, frame_plane, save
+from nmm.plots.canvas import BESIDE, PathLike, axes_grid, extent_of, finished, frame_plane
 from nmm.plots.results.deformed import magnified, moment
 from nmm.plots.shapes import draw_lines, fill, line_width
 from nmm.plots.units import label, prefixed
@@ -98,10 +98,7 @@ def stress(
     bar.set_label(beside, fontsize=9.0)
     bar.ax.tick_params(labelsize=9.0, width=0.6)
     bar.outline.set_visible(False)
-    if ax is None:
-        fit_height([axes], beside=BESIDE + 0.9)
-    save(axes, path)
-    return axes
+    return finished(axes, path, fit=ax is None, beside=BESIDE + 0.9)
 
 
 def _chosen(frame: Frame, component: str) -> tuple[Floats, str]:
