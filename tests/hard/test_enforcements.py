@@ -148,20 +148,22 @@ def test_a_corner_that_falls_on_a_joint_between_blocks_stays_there(form, aside):
 
 
 @every
-def test_a_corner_that_falls_on_a_corner_slides_down_a_flank(form):
+def test_a_corner_that_falls_on_a_corner_tips_over_it(form, tipped):
     peak = text.turned(text.rectangle((-1, -1), (0, 0)), np.pi / 4)
     tables = [
         text.interface("contact", 0.0),
         text.block("peak", "rock", peak),
         text.held("peak"),
         text.block("diamond", "rock", DIAMOND + np.array([0.0, 0.05])),
-        text.monitor("middle", (0.0, 0.6), "diamond"),
+        text.monitor("centre", (0.0, 0.05 + np.sqrt(0.5)), "diamond"),
     ]
     found = done(form, text.weighty(5e-3, duration=0.3), tables)
     assert gain(found) < 1e-9 * 0.05 * WEIGHT
-    # As far aside as down, less the drop, on flanks of 45 degrees; it hops a little.
-    aside, down = np.abs(last_way(found, "middle"))
-    assert aside == pytest.approx(down - 0.05, rel=0.2)
+    # The blow falls within a step, which moves its turning by a few tenths of a percent: 0.4 % is
+    # the most that is measured, 2e-4 m of the way.
+    way, angle = tipped
+    assert np.abs(last_way(found, "centre")) == pytest.approx(np.abs(way), abs=1e-3)
+    assert abs(found.state.frames.angle[1]) == pytest.approx(abs(angle), rel=0.01)
 
 
 def under_penalty(form, penalty):
