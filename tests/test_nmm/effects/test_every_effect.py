@@ -37,7 +37,7 @@ def test_an_effect_on_blocks_keeps_what_every_one_promises(name):
 
 
 @pytest.mark.parametrize("cover", COVERS)
-@pytest.mark.parametrize("name", [*HELD, "seams"])
+@pytest.mark.parametrize("name", [*HELD, "bonded interfaces"])
 def test_an_effect_on_meshes_keeps_what_every_one_promises(name, cover):
     check_effect_of(nmm.parse_scene(BONDED + LOADS + COVERS[cover]), name)
 
