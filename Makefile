@@ -13,7 +13,7 @@ help:
 	@echo "make lint     ruff and mypy"
 	@echo "make verify   the studies of minutes against reference answers"
 	@echo "make manual   all benchmarks, and the pages that show them in docs/verification"
-	@echo "make bench    measured ratios, all in one session"
+	@echo "make bench    measured ratios, all in one run"
 	@echo "make report   what accuracy costs, measured anew into docs/accuracy_cost"
 	@echo "make docs     the manual as HTML in docs/_build"
 	@echo "make clean    remove everything that can be made again"
@@ -36,8 +36,9 @@ manual: .venv/.runtime
 	.venv/bin/nmm verify --slow --out docs/verification
 
 bench: .venv/.dev
-	@set -e; for script in $$(grep -l __main__ benchmarks/*.py); do \
-	  echo "== $$script"; $(PY) $$script; done
+	@mkdir -p build
+	$(PY) -m pytest benchmarks --benchmark-json=build/benchmarks.json
+	@$(PY) benchmarks/page.py build/benchmarks.json
 
 report: .venv/.runtime
 	$(PY) examples/studies/report.py docs/accuracy_cost

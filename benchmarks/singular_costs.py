@@ -4,14 +4,14 @@
 squares. Exact fields are of Williams' series: both singular modes, which the manifold's functions
 hold, and regular ones of it, which they do not (exponents 3/2 and 5/2 at the crack, the complex
 1.63 + 0.23 i at the corner). Displacements are prescribed on the outer edges; faces are free.
-`manifold_cost.py` runs it.
+`bench_manifold.py` runs it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache
 
 import numpy as np
 import skfem
@@ -44,9 +44,7 @@ from nmm.stepping.drive.linear_statics import END, hold
 
 KAPPA, SHEAR = LAW.kolosov("stress"), float(D[2, 2])
 RADIUS = 0.35
-POSITIONS = 20
 MANIFOLD = {1: (4, 8), 2: (4,)}
-UNIFORM = {2: (8, 16, 32, 64, 96), 3: (8, 16, 32, 64)}
 GRADED = {2: (0.8, 0.6, 0.4, 0.3, 0.2, 0.15, 0.1), 3: (0.8, 0.6, 0.4, 0.3, 0.2, 0.15)}
 
 
@@ -237,20 +235,3 @@ def _error(problem: Problem, mesh: skfem.MeshTri, kind: object, u: Floats) -> fl
         off = np.stack([g[0, 0], g[1, 1], g[0, 1] + g[1, 0]]) - exact
         total += [np.einsum("iek,ij,jek,ek->", e, D, e, basis.dx) for e in (off, exact)]
     return float(np.sqrt(total[0] / total[1]))
-
-
-def cases() -> Iterator[Callable[[], Cost]]:
-    """All solutions."""
-    for problem in (crack(), corner()):
-        for order in (2, 3):
-            for n in UNIFORM[order]:
-                make = partial(uniform_mesh, problem, n)
-                yield partial(elements, problem, order, make, "uniform")
-            for size in GRADED[order]:
-                make = partial(graded_mesh, problem, size, order)
-                yield partial(elements, problem, order, make, "graded")
-    for position in range(1, POSITIONS + 1):
-        for problem in (crack(), corner()):
-            for degree, sizes in MANIFOLD.items():
-                for n in sizes:
-                    yield partial(manifold, problem, degree, n, position)

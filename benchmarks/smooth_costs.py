@@ -3,7 +3,7 @@
 The problem has an exact smooth solution with displacements prescribed on all sides of the unit
 square (E = 1, nu = 0.3, plane stress). Both solve with SuperLU in symmetric mode and with the
 project's Cholesky factorisation, whose order of elimination is found anew each time. Seconds are
-processor seconds of one thread; errors are not timed. `manifold_cost.py` runs it.
+processor seconds of one thread; errors are not timed. `bench_manifold.py` runs it.
 """
 
 from __future__ import annotations
@@ -17,11 +17,9 @@ import skfem
 from scipy.sparse import csc_array
 from skfem.models.elasticity import linear_elasticity
 
-from covers.approximation.block_manifold import block_manifold
 from covers.approximation.mesh_manifold import mesh_manifold
-from covers.approximation.uncut import uncut
 from covers.cutting.cut import cut
-from covers.local_functions.polynomials import Monomials, RigidStrain
+from covers.local_functions.polynomials import Monomials
 from covers.mathematical.triangles import Triangles
 from integration.arrays import Floats
 from integration.polygons import Polygons
@@ -188,19 +186,6 @@ def on_cut(degree: int, n: int, position: int) -> Cost:
     """Solve on Shi's net at a random position (1, 2, ...)."""
     angle, first, second = np.random.default_rng(position).uniform(size=3).tolist()
     return manifold(degree, n, position, lambda: net(n, angle, (first, second)))
-
-
-def blocks(polygons: Polygons) -> Cost:
-    """Integrate and assemble the stiffness of blocks with one patch each (DDA); no solution."""
-    clock = Clock()
-    made = block_manifold(polygons, np.arange(len(polygons)), RigidStrain())
-    clock.stop("moments")
-    count = len(polygons)
-    stiff = np.broadcast_to(D, (count, 3, 3))
-    _ = Model(made, stiff, np.zeros(count), np.ones(count), 1.0, uncut(made)).stiffness
-    clock.stop("assembly")
-    seconds = clock.seconds | dict.fromkeys(SOLVERS, np.nan)
-    return Cost("blocks", "DDA", count, 0, made.n_unknowns, np.nan, seconds)
 
 
 def elements(order: int, n: int) -> Cost:

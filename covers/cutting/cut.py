@@ -8,7 +8,7 @@ faces are elements, shared edges connect them, and physical covers are connected
 no line touches keep their shape.
 
 100 000 triangles with 2 600 cut elements take 0.4 s of one core, 1 000 blocks on 10 000 triangles
-0.3 s (`benchmarks/cutting.py`).
+0.3 s (`benchmarks/bench_cutting.py`).
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ class Qdldl(DefiniteSolver):
     """``A = L D L^T`` (Davis 2005; Stellato et al. 2020); also for quasi-definite matrices.
 
     Columns are handled one by one: faster than SuperLU up to some hundred blocks, slower beyond
-    (benchmark `benchmarks/enforcement.py`).
+    (benchmark `benchmarks/bench_contact.py`).
     """
 
     name: ClassVar[str] = "qdldl"

@@ -5,7 +5,7 @@ the springs that act there makes the end quick, once most states are right: what
 contacts acceleration mends in as many solves. On a wall of 1 000 bricks at ten times Young's
 modulus 10 solves with the first, one factorisation and 6 solves with the second do what the first
 alone does in 30 to 100, and at a hundred times what it does not do in 300
-(`benchmarks/enforcement.py`).
+(`benchmarks/bench_contact.py`).
 """
 
 from dataclasses import dataclass

@@ -36,7 +36,7 @@ class Cholesky(DefiniteSolver):
 
     A matrix that is not positive definite is left to `FrontalLU`, one that is not symmetric to
     rounding to SuperLU. On walls of bricks a factorisation takes a fifth of SuperLU's time once
-    the pattern is known (benchmark `benchmarks/enforcement.py`).
+    the pattern is known (benchmark `benchmarks/bench_contact.py`).
     """
 
     name: ClassVar[str] = "cholesky"

@@ -44,7 +44,7 @@ class FrontalLU(DefiniteSolver):
     For matrices whose pattern is nearly symmetric and whose diagonal blocks are good pivots. Each
     factor is tried on one load; a matrix it does not serve is left to SuperLU, which searches
     pivots farther. On walls of bricks a factorisation takes a third of SuperLU's time once the
-    pattern is known (benchmark `benchmarks/enforcement.py`).
+    pattern is known (benchmark `benchmarks/bench_contact.py`).
     """
 
     name: ClassVar[str] = "lu"

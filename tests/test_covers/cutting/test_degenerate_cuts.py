@@ -109,6 +109,6 @@ def test_a_hundred_thousand_cells_are_cut_in_seconds() -> None:
     cracks = [[[-0.1, 0.5], [0.5, 0.52]], [[0.3, 0.3], [0.7, 0.72]]]
     begin = time.process_time()
     result = cut(net, disc, cracks)
-    # Measured 0.4 s of one core (benchmarks/cutting.py); the bound says seconds, not minutes.
+    # Measured 0.4 s of one core (benchmarks/bench_cutting.py); the bound says seconds, not minutes.
     assert time.process_time() - begin < 6.0
     assert abs(result.elements.areas.sum() - disc.areas.sum()) < 1e-12
