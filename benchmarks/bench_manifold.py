@@ -16,7 +16,7 @@ from smooth_costs import Cost
 
 SIZES = {0: (64, 128), 1: (32, 64), 2: (16, 32)}
 """Cells along a side, by degree of the manifold."""
-ELEMENTS = {1: (64, 128, 256), 2: (16, 32, 64, 128), 3: (8, 16, 32, 64)}
+ELEMENTS = {1: (32, 64, 128, 256), 2: (16, 32, 64, 128), 3: (8, 16, 32, 64)}
 """Cells along a side, by order of the elements: errors of the manifold lie between theirs."""
 
 
