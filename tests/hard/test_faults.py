@@ -24,6 +24,7 @@ from nmm.errors import DamageError, NmmWarning, StorageError
 from nmm.plots import draw_all
 from nmm.results import Frame, MemorySink, RunFolder, read_run
 from nmm.results.viewing.paraview import write_paraview
+from nmm.verification import text
 
 TESTS = Path(__file__).resolve().parents[1]
 KILLS = [*range(4), *(pytest.param(n, marks=pytest.mark.slow) for n in range(4, 40))]
@@ -232,34 +233,10 @@ def read(path):
         return read_run(path)
 
 
-SCENE = """
-title = "drop"
-plane = "strain"
-duration = "60 ms"
-[inertia]
-[gravity]
-[contact]
-[interfaces.any]
-friction_angle = "30 deg"
-[materials.rock]
-density = 2500
-young_modulus = "1 GPa"
-poisson_ratio = 0.2
-[[blocks]]
-name = "floor"
-material = "rock"
-vertices = [[-1, -1], [2, -1], [2, 0], [-1, 0]]
-[[supports]]
-name = "held"
-block = "floor"
-fix = ["x", "y"]
-[[blocks]]
-name = "stone"
-material = "rock"
-vertices = [[0, 0.001], [1, 0.001], [1, 1], [0, 1]]
-[formulation.integrator]
-step = "1 ms"
-"""
+SCENE = text.scene(
+    text.weighty(1e-3, duration=0.06),
+    [text.material("rock"), *text.floor(), text.box("stone", (0, 0.001), (1, 1))],
+)
 
 
 def limit_files():
@@ -379,9 +356,9 @@ def test_nothing_is_deleted_through_a_link(tmp_path, write_run):
     assert len(read_run(elsewhere).frames) == 2
 
 
-@pytest.mark.parametrize("text", ['{"status": "ok", "mine": 1}', "[1, 2]", "not json", ""])
-def test_the_summary_of_another_program_makes_no_run_folder(tmp_path, text):
-    (tmp_path / "summary.json").write_text(text)
+@pytest.mark.parametrize("content", ['{"status": "ok", "mine": 1}', "[1, 2]", "not json", ""])
+def test_the_summary_of_another_program_makes_no_run_folder(tmp_path, content):
+    (tmp_path / "summary.json").write_text(content)
     (tmp_path / "history.csv").write_text("mine")
     with pytest.raises(StorageError, match="is not a run folder"):
         RunFolder(tmp_path)

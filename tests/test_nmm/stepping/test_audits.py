@@ -12,35 +12,20 @@ from nmm.stepping.audits.judge import judged
 from nmm.stepping.audits.table import THRESHOLDS
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, UNBALANCED, RunVerdict
 from nmm.stepping.reports.ledger import Ledger
+from nmm.verification import text
 
 ROOT = Path(__file__).parents[3]
 
-DROP = """
-plane = "stress"
-duration = 0.5
-[contact]
-[inertia]
-[gravity]
-[materials.a]
-young_modulus = 1e7
-poisson_ratio = 0.0
-density = 2000.0
-[interfaces.any]
-between = "any"
-friction_angle = "0 deg"
-[[blocks]]
-name = "floor"
-material = "a"
-vertices = [[-1, -1], [2, -1], [2, 0], [-1, 0]]
-[[blocks]]
-name = "b"
-material = "a"
-vertices = [[0, 0.2], [1, 0.2], [1, 1.2], [0, 1.2]]
-[[supports]]
-name = "held"
-block = "floor"
-fix = ["x", "y"]
-"""
+DROP = text.scene(
+    'plane = "stress"\nduration = 0.5\n[contact]\n[inertia]\n[gravity]\n',
+    [
+        text.material("a", 1e7, 0.0, 2000.0),
+        text.interface("any", 0.0),
+        text.box("floor", (-1, -1), (3, 1), "a"),
+        text.box("b", (0, 0.2), (1, 1), "a"),
+        text.held("floor"),
+    ],
+)
 FREE = """
 plane = "stress"
 duration = 0.1
@@ -60,8 +45,8 @@ angular_velocity = 2.0
 """
 
 
-def run(text, **formulation):
-    return nmm.run(nmm.parse_scene(text), nmm.Formulation.model_validate(formulation)).summary
+def run(scene, **formulation):
+    return nmm.run(nmm.parse_scene(scene), nmm.Formulation.model_validate(formulation)).summary
 
 
 def test_a_free_block_that_turns_has_nothing_to_say():
@@ -72,32 +57,32 @@ def test_a_free_block_that_turns_has_nothing_to_say():
 
 def test_energy_that_a_coarse_step_loses_is_told_with_a_step_that_keeps_it():
     # Soft springs, so that the steps that resolve them are not too many.
-    text, contact = DROP.replace("0.5\n", "0.3\n"), {"normal_penalty": 0.5}
-    coarse = run(text, contact=contact, integrator={"type": "shi", "step": 5e-3})
-    (warning,) = [text for text in coarse.warnings if "energy_lost" in text]
+    shorter, contact = DROP.replace("0.5\n", "0.3\n"), {"normal_penalty": 0.5}
+    coarse = run(shorter, contact=contact, integrator={"type": "shi", "step": 5e-3})
+    (warning,) = [one for one in coarse.warnings if "energy_lost" in one]
     step = float(warning.split("steps of some ")[1].split(" s")[0])
     assert step < 5e-3
-    kept = run(text, contact=contact, integrator={"type": "shi", "step": step})
+    kept = run(shorter, contact=contact, integrator={"type": "shi", "step": step})
     # An estimate: it is stated as one.
     assert kept.audits["energy_lost"] < 1.5 * THRESHOLDS["energy_lost"].warns
 
 
 def test_an_impact_shorter_than_its_steps_is_told():
     found = run(DROP, integrator={"type": "newmark", "step": 1e-2})
-    assert any("contact_duration" in text for text in found.warnings)
+    assert any("contact_duration" in one for one in found.warnings)
     assert found.status == "converged"
 
 
 def test_soft_springs_of_contact_are_told_by_the_overlap():
     found = run(DROP, contact={"normal_penalty": 0.02}, integrator={"step": 1e-3})
-    assert any("audit penetration" in text for text in found.warnings)
+    assert any("audit penetration" in one for one in found.warnings)
 
 
 def test_the_growth_of_the_linear_update_is_told():
     found = run(FREE.replace("velocity = 2.0", "velocity = 20.0"), rotation={"update": "linear"})
     # Each step of angle t grows the area by t^2: 100 steps of 0.02 rad make 4 %.
     assert found.audits["mass"] == pytest.approx(0.04, rel=0.1)
-    assert any("audit mass" in text for text in found.warnings)
+    assert any("audit mass" in one for one in found.warnings)
 
 
 def test_a_failure_load_that_asks_for_too_much_is_not_hidden():
@@ -137,6 +122,6 @@ def test_the_page_has_the_tables_of_the_code():
     spec = importlib.util.spec_from_file_location("audit_page", ROOT / "docs/audit_page.py")
     page = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(page)
-    text = page.PAGE.read_text()
-    assert page.renewed(text) == text, "write it anew: python docs/audit_page.py"
-    assert all(f"| `{name}` |" in text for name in THRESHOLDS)
+    written = page.PAGE.read_text()
+    assert page.renewed(written) == written, "write it anew: python docs/audit_page.py"
+    assert all(f"| `{name}` |" in written for name in THRESHOLDS)

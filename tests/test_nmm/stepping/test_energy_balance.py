@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.verification import text
 
 MODULUS, DENSITY, HEIGHT, G = 1e7, 2000.0, 2.0, 9.81
 # Sums of some hundred numbers of like size: rounding.
@@ -27,14 +28,14 @@ QUADS = {"type": "quads", "size": 0.7, "degree": 2}
 MESHES = ["nitsche", "lagrange", "penalty"]
 
 
-def run(text, step=1e-3, integrator="shi", supports="auto", cover=None, update="auto", **more):
+def run(scene, step=1e-3, integrator="shi", supports="auto", cover=None, update="auto", **more):
     table = {
         "cover": cover or {},
         "supports": {"method": supports},
         "integrator": {"type": integrator, "step": step, **more},
         "rotation": {"update": update},
     }
-    return nmm.run(nmm.parse_scene(text), nmm.Formulation.model_validate(table))
+    return nmm.run(nmm.parse_scene(scene), nmm.Formulation.model_validate(table))
 
 
 def stored(history):
@@ -101,8 +102,8 @@ def test_work_of_a_driven_support_does_not_depend_on_the_increments(method):
 @pytest.mark.parametrize("load", ["[gravity]\n", BODY_LOAD])
 @pytest.mark.parametrize("cover", [{}, QUADS])
 def test_the_work_of_a_free_fall_is_its_kinetic_energy(load, update, cover):
-    text = "duration = 0.1\n" + COLUMN + load + "[inertia]\n"
-    found = run(text, integrator="newmark", update=update, cover=cover).history
+    scene = "duration = 0.1\n" + COLUMN + load + "[inertia]\n"
+    found = run(scene, integrator="newmark", update=update, cover=cover).history
     # The first step is Shi's and moves twice as far: v = g t all the same.
     right = DENSITY * HEIGHT * (G * found["time"]) ** 2 / 2
     assert found["kinetic_energy"] == pytest.approx(right, rel=1e-8)
@@ -130,8 +131,8 @@ INITIAL = '[[initial_stresses]]\nblock = "b"\nstress = [0, 1e5, 0]\n'
 @pytest.mark.parametrize("update", ["small", "exact"])
 @pytest.mark.parametrize("cover", [{}, QUADS])
 def test_a_block_under_initial_stress_keeps_the_energy_of_that_stress(update, cover):
-    text = "duration = 0.01\n" + COLUMN + INITIAL + "[inertia]\n"
-    found = run(text, step=5e-5, integrator="newmark", update=update, cover=cover).history
+    scene = "duration = 0.01\n" + COLUMN + INITIAL + "[inertia]\n"
+    found = run(scene, step=5e-5, integrator="newmark", update=update, cover=cover).history
     right = 1e5**2 / (2 * MODULUS) * HEIGHT
     # What the first step, Shi's, takes of it.
     assert stored(found)[0] == pytest.approx(right, rel=2e-2)
@@ -188,32 +189,16 @@ def test_the_loss_of_shis_integrator_is_that_of_its_recursion():
     assert found.history["integration_loss"][-1] == pytest.approx(mass / 2 - energies[-1], rel=1e-6)
 
 
-DROP = """
-plane = "stress"
-duration = 0.4
-[contact]
-[inertia]
-[gravity]
-[materials.a]
-young_modulus = 1e7
-poisson_ratio = 0.0
-density = 2000.0
-[interfaces.any]
-between = "any"
-friction_angle = "0 deg"
-[[blocks]]
-name = "floor"
-material = "a"
-vertices = [[-1, -1], [2, -1], [2, 0], [-1, 0]]
-[[blocks]]
-name = "b"
-material = "a"
-vertices = [[0, 0.2], [1, 0.2], [1, 1.2], [0, 1.2]]
-[[supports]]
-name = "held"
-block = "floor"
-fix = ["x", "y"]
-"""
+DROP = text.scene(
+    'plane = "stress"\nduration = 0.4\n[contact]\n[inertia]\n[gravity]\n',
+    [
+        text.material("a", 1e7, 0.0, 2000.0),
+        text.interface("any", 0.0),
+        text.box("floor", (-1, -1), (3, 1), "a"),
+        text.box("b", (0, 0.2), (1, 1), "a"),
+        text.held("floor"),
+    ],
+)
 
 
 @pytest.mark.parametrize("integrator", ["shi", "newmark", "generalized_alpha"])

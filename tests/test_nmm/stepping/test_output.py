@@ -8,59 +8,29 @@ import nmm
 from nmm.cli.app import app
 from nmm.errors import SceneError
 from nmm.scene.read import scene_hash
+from nmm.verification import text
 
-DROP = """
-title = "drop"
-plane = "strain"
-duration = "60 ms"
-[inertia]
-[gravity]
-[contact]
-[interfaces.any]
-friction_angle = "30 deg"
-[materials.rock]
-density = 2500
-young_modulus = "1 GPa"
-poisson_ratio = 0.2
-[[blocks]]
-name = "floor"
-material = "rock"
-vertices = [[-1, -1], [2, -1], [2, 0], [-1, 0]]
-[[supports]]
-name = "held"
-block = "floor"
-fix = ["x", "y"]
-[[blocks]]
-name = "stone"
-material = "rock"
-vertices = [[0, 0.001], [1, 0.001], [1, 1], [0, 1]]
-[formulation.integrator]
-step = "{step}"
-"""
+FLOOR = [
+    text.material("rock", modulus=1e9, density=2500.0),
+    text.interface("any", 30.0),
+    text.box("floor", (-1, -1), (3, 1)),
+    text.held("floor"),
+]
+DROP = text.scene(
+    'title = "drop"\nplane = "strain"\nduration = "60 ms"\n[inertia]\n[gravity]\n[contact]\n',
+    [
+        *FLOOR,
+        text.box("stone", (0, 0.001), (1, 0.999)),
+        '[formulation.integrator]\nstep = "{step}"\n',
+    ],
+)
 
-SLIDE = """
-title = "a block pushed over its friction"
-plane = "strain"
-[gravity]
-[contact]
-[interfaces.any]
-friction_angle = "30 deg"
-[materials.rock]
-density = 2500
-young_modulus = "1 GPa"
-poisson_ratio = 0.2
-[[blocks]]
-name = "floor"
-material = "rock"
-vertices = [[-1, -1], [2, -1], [2, 0], [-1, 0]]
-[[supports]]
-name = "held"
-block = "floor"
-fix = ["x", "y"]
-[[blocks]]
-name = "stone"
-material = "rock"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+SLIDE = text.scene(
+    'title = "a block pushed over its friction"\nplane = "strain"\n[gravity]\n[contact]\n',
+    [
+        *FLOOR,
+        text.box("stone", (0, 0), (1, 1)),
+        """
 [[loads]]
 name = "push"
 kind = "point"
@@ -73,7 +43,9 @@ scaled = ["push"]
 motion_after_failure = "20 ms"
 [formulation.loading]
 increment = 0.2
-"""
+""",
+    ],
+)
 
 
 def dropped(output="", step="1 ms"):
@@ -165,7 +137,7 @@ def test_the_summary_counts_the_frames_and_books_the_motion_after_failure():
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("scene", "said"),
     [
         (SLIDE.replace('motion_after_failure = "20 ms"', "") + "[output]\nevery_time = 1",
          "output.every_time: no [inertia]: expected a scene that moves in time"),
@@ -177,9 +149,9 @@ def test_the_summary_counts_the_frames_and_books_the_motion_after_failure():
         (DROP.format(step="1 ms") + "[output]\nframes = 3", "output.frames"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_stored_is_told_by_key(text, said):
+def test_what_cannot_be_stored_is_told_by_key(scene, said):
     with pytest.raises(SceneError) as fault:
-        nmm.parse_scene(text)
+        nmm.parse_scene(scene)
     assert said in str(fault.value)
 
 

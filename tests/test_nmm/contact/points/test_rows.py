@@ -7,32 +7,18 @@ import nmm
 from nmm.contact.points.contact_points import rows
 from nmm.formulation import Formulation
 from nmm.stepping.simulation import prepare
+from nmm.verification import text
 
-SCENE = """
-plane = "stress"
-duration = 1.0
-[materials.rock]
-density = 2600
-young_modulus = 1e9
-poisson_ratio = 0.2
-[interfaces.joint]
-friction_angle = "20 deg"
-[[blocks]]
-name = "base"
-material = "rock"
-vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
-[[blocks]]
-name = "block"
-material = "rock"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[supports]]
-name = "base"
-block = "base"
-fix = ["x", "y"]
-[gravity]
-[inertia]
-[contact]
-"""
+SCENE = text.scene(
+    'plane = "stress"\nduration = 1.0\n[gravity]\n[inertia]\n[contact]\n',
+    [
+        text.material("rock", modulus=1e9),
+        text.interface("joint", 20.0),
+        text.box("base", (-1, -1), (4, 1)),
+        text.box("block", (0, 0), (1, 1)),
+        text.held("base"),
+    ],
+)
 
 
 @pytest.mark.parametrize(

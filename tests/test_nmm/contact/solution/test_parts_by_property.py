@@ -14,33 +14,18 @@ from nmm.contact.enforcement.penalty import Penalty
 from nmm.formulation import Formulation
 from nmm.scene import parse_scene
 from nmm.stepping.simulation import prepare
+from nmm.verification import text
 
-SCENE = """
-title = "stack"
-plane = "strain"
-duration = 0.02
-[materials.rock]
-young_modulus = "1 GPa"
-poisson_ratio = 0.2
-density = 2500
-[interfaces.any]
-friction_angle = "30 deg"
-[[blocks]]
-name = "base"
-material = "rock"
-vertices = [[-1, -1], [2, -1], [2, 0], [-1, 0]]
-[[blocks]]
-name = "top"
-material = "rock"
-vertices = [[0, 0.001], [1, 0.001], [1, 1], [0, 1]]
-[[supports]]
-name = "held"
-block = "base"
-fix = ["x", "y"]
-[gravity]
-[inertia]
-[contact]
-"""
+SCENE = text.scene(
+    'plane = "strain"\nduration = 0.02\n[gravity]\n[inertia]\n[contact]\n',
+    [
+        text.material("rock", modulus=1e9, density=2500.0),
+        text.interface("any", 30.0),
+        text.box("base", (-1, -1), (3, 1)),
+        text.box("top", (0, 0.001), (1, 0.999)),
+        text.held("base"),
+    ],
+)
 ME = Path(__file__).stem
 
 
