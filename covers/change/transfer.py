@@ -13,9 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import coo_array, csc_array, csr_array
 
-from covers.approximation.element_groups import PolynomialGroup
 from covers.approximation.manifold import Manifold
-from covers.approximation.quadrature_groups import QuadratureGroup
 from covers.approximation.rows import Rows
 from covers.change.normal_equations import NormalEquations
 from covers.change.parentage import Parentage
@@ -54,7 +52,7 @@ class Transfer:
     @classmethod
     def of(cls, kin: Parentage, density: Floats) -> "Transfer":
         """Lay the points; ``density`` (E,) of the old elements weighs the mean square."""
-        order = 2 * max(degree(kin.old), degree(kin.new))
+        order = 2 * max(kin.old.degree, kin.new.degree)
         rule, found = polygon_rule(kin.pieces, order), kin.elements
         elements = np.stack([found.parent[rule.owner], found.child[rule.owner]])
         mass = rule.weights * density[elements[0]]
@@ -143,12 +141,6 @@ class _StrainRows:
         columns = np.repeat(self.unknowns[:, None, :], rows, axis=1).ravel()
         offsets = np.arange(rows * q + 1) * length
         return csr_array((self.values.ravel(), columns, offsets), shape=(rows * q, n_unknowns))
-
-
-def degree(manifold: Manifold) -> int:
-    """Highest degree of the functions, or that to which they are integrated."""
-    known = (PolynomialGroup, QuadratureGroup)
-    return max(group.shape_degree for group in manifold.groups if isinstance(group, known))
 
 
 def by_body(matrix: csr_array, sides: Floats) -> Floats:

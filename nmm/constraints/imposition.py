@@ -19,6 +19,7 @@ from nmm.assembly.places import Place
 from nmm.constraints.interface import Interface, Triplets
 from nmm.effects.base import Instant
 from nmm.errors import FormulationError
+from nmm.formulation import GHOST
 from nmm.registry import Registry
 
 if TYPE_CHECKING:
@@ -26,10 +27,6 @@ if TYPE_CHECKING:
 
     from nmm.constraints.multipliers import MultiplierValues
     from nmm.formulation import SupportMethod
-
-# Nitsche's ghost term in (lambda + 2 mu) / h^2: measured to keep the matrix positive down to cuts
-# of 1e-6 of a cell.
-GHOST = 0.5
 
 
 @dataclass(frozen=True)
