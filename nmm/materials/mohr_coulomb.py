@@ -7,12 +7,12 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import Fault, FormulationError
 from nmm.materials.base import History, Response
-from nmm.materials.elastic import Elastic, elastic_energy
+from nmm.materials.plasticity import Plastic, flowed
 from nmm.materials.principal_return import Pyramid, principal_return
 
 
 @dataclass(frozen=True)
-class MohrCoulombPlasticity(Elastic):
+class MohrCoulombPlasticity(Plastic):
     """Yield where ``(s1 - s3) + (s1 + s3) sin phi`` reaches ``2 c cos phi``, tension positive.
 
     Flow is along the same with the dilation angle. The step is implicit: stresses return to a
@@ -70,14 +70,6 @@ class MohrCoulombPlasticity(Elastic):
             )
         return super().stiffness(plane)
 
-    def variables(self, plane: str) -> History:
-        """See `Law.variables`."""
-        return {
-            "plastic_strain": np.zeros(4),
-            "accumulated_plastic_strain": np.zeros(1),
-            "stress_zz": np.zeros(1),
-        }
-
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
         """See `Law.update`."""
         pyramid = Pyramid.of(
@@ -89,14 +81,5 @@ class MohrCoulombPlasticity(Elastic):
         flow = found.plastic_strain - before
         flow = flow - flow[:, [0, 1, 3]].sum(axis=1)[:, None] / 3 * np.array([1, 1, 0, 1])
         size = np.sqrt(2 / 3 * (np.array([1, 1, 0.5, 1]) * flow**2).sum(axis=1))
-        variables = {
-            "plastic_strain": found.plastic_strain,
-            "accumulated_plastic_strain": history["accumulated_plastic_strain"] + size[:, None],
-            "stress_zz": found.stress[:, 3:],
-        }
-        return Response(found.stress[:, :3], found.tangent, variables)
-
-    def energy(self, stress: Floats, history: History, plane: str) -> Floats:
-        """Return the elastic energy."""
-        zz = history["stress_zz"][:, 0]
-        return elastic_energy(self.young_modulus, self.poisson_ratio, stress, zz)
+        accumulated = history["accumulated_plastic_strain"][:, 0] + size
+        return flowed(found.stress, found.tangent, found.plastic_strain, accumulated)

@@ -7,13 +7,13 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
-from nmm.materials.elastic import Elastic, elastic_energy
+from nmm.materials.plasticity import Plastic, flowed
 from nmm.materials.projected_return import projected_return
 from nmm.materials.radial_return import radial_return
 
 
 @dataclass(frozen=True)
-class VonMisesPlasticity(Elastic):
+class VonMisesPlasticity(Plastic):
     """Yield where ``sqrt(3/2 s : s)`` reaches ``yield_stress + hardening_modulus * p``.
 
     The step is implicit (backward Euler): the radial return in plane strain, the return projected
@@ -46,14 +46,6 @@ class VonMisesPlasticity(Elastic):
                 "0 is perfectly plastic; softening needs a law that knows the size of cells"
             )
 
-    def variables(self, plane: str) -> History:
-        """See `Law.variables`."""
-        return {
-            "plastic_strain": np.zeros(4),
-            "accumulated_plastic_strain": np.zeros(1),
-            "stress_zz": np.zeros(1),
-        }
-
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
         """See `Law.update`."""
         found = (projected_return if plane == "stress" else radial_return)(
@@ -62,16 +54,9 @@ class VonMisesPlasticity(Elastic):
             history["accumulated_plastic_strain"][:, 0],
             (self.young_modulus, self.poisson_ratio, self.yield_stress, self.hardening_modulus),
         )
-        variables = {
-            "plastic_strain": found.plastic_strain,
-            "accumulated_plastic_strain": found.accumulated[:, None],
-            "stress_zz": found.stress[:, 3:],
-        }
-        return Response(found.stress[:, :3], found.tangent, variables)
+        return flowed(found.stress, found.tangent, found.plastic_strain, found.accumulated)
 
     def energy(self, stress: Floats, history: History, plane: str) -> Floats:
         """Return the elastic energy and what hardening stores, ``H p^2 / 2``."""
-        zz = history["stress_zz"][:, 0]
-        elastic = elastic_energy(self.young_modulus, self.poisson_ratio, stress, zz)
         hard = self.hardening_modulus * history["accumulated_plastic_strain"][:, 0] ** 2
-        return np.asarray(elastic + hard / 2)
+        return np.asarray(super().energy(stress, history, plane) + hard / 2)

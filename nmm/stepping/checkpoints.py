@@ -23,8 +23,12 @@ if TYPE_CHECKING:
 At = TypeVar("At", InTime, UnderLoad)
 
 
-def checkpoint_choice(asked: "CheckpointTable", begin: float, in_time: bool) -> Choice:
-    """Return after which steps is stored; time counts in dynamics alone."""
+def checkpoint_choice(
+    asked: "CheckpointTable | None", begin: float, in_time: bool
+) -> Choice | None:
+    """Return after which steps is stored, None is never; time counts in dynamics alone."""
+    if asked is None:
+        return None
     return Choice(begin, asked.every_time if in_time else None, asked.every_steps)
 
 
@@ -36,29 +40,33 @@ class Checkpoints:
     ----------
     stepper, recorder
         Of the run.
-    choice
-        After which steps it is stored; None is never.
+    asked
+        What the scene says of checkpoints.
     store
         Takes what is stored.
+    choice
+        After which steps it is stored; None is never.
     stages
         Those that were entered; None of a run without stages.
     """
 
     stepper: Stepper
     recorder: Recorder
-    choice: Choice | None
+    asked: "CheckpointTable | None"
     store: Callable[[Arrays], None]
+    choice: Choice | None = None
     stages: StagesSoFar | None = None
     _periods: int = 0
 
-    def entered(
-        self, asked: "CheckpointTable | None", stages: StagesSoFar, in_time: bool
-    ) -> "Checkpoints":
-        """Go on with the present one of ``stages``, which says anew when to store."""
-        begin = stages.start.time
-        self.choice = None if asked is None else checkpoint_choice(asked, begin, in_time)
-        self.stages = stages
+    def counting(self, begin: float, in_time: bool) -> "Checkpoints":
+        """Count from ``begin`` (s), in time or under loads."""
+        self.choice = checkpoint_choice(self.asked, begin, in_time)
         return self
+
+    def entered(self, stages: StagesSoFar, in_time: bool) -> "Checkpoints":
+        """Go on with the present one of ``stages``, which counts anew."""
+        self.stages = stages
+        return self.counting(stages.start.time, in_time)
 
     def begin(self, at: At) -> At:
         """Store the start of a run, so that it can go on whenever it is stopped."""

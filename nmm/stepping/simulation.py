@@ -3,7 +3,6 @@
 import resource
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -41,7 +40,7 @@ from nmm.results.tee import FramesOnly, Tee
 from nmm.scene import scene_hash
 from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
-from nmm.stepping.checkpoints import Checkpoints, checkpoint_choice
+from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages, topology
 from nmm.stepping.drive.static_theorem import load_bound
@@ -156,7 +155,8 @@ class Simulation:
             sink.begin(self.topology)
             first = self.stages[0].stage.scene if self.stages else self.scene
             recorder.frame(self.start, "load" if first.inertia is None else "dynamic", None)
-        checkpoints = Checkpoints(self.stepper, recorder, self._checkpoint_choice(), store)
+        asked = None if output is None else output.checkpoint
+        checkpoints = Checkpoints(self.stepper, recorder, asked, store)
         if self.stages:
             return self._in_stages(recorder, progress, checkpoints, stood)
         state, verdict = self._advance(recorder, progress, checkpoints, stood)
@@ -188,15 +188,15 @@ class Simulation:
         """Run one stage after the other; audits judge the last one by its own start."""
         rule = make_integrator(self.formulation.integrator)
         so_far, at = StagesSoFar(self.start), None
-        asked = None if self.scene.output is None else self.scene.output.checkpoint
         if stood is not None and stood.stages is not None:
             so_far = stood.stages
             enter_again(self.stepper, recorder, so_far, self.stages, rule)
             present = self.stages[len(so_far.entered)].stage
-            at = checkpoints.entered(asked, so_far, present.dynamic).go_on(stood)
+            at = checkpoints.entered(so_far, present.dynamic).go_on(stood)
         self.stepper.budget.taken = recorder.steps
-        keeper = partial(checkpoints.entered, asked)
-        end = run_stages(self.stepper, recorder, so_far, self.stages, rule, progress, keeper, at)
+        end = run_stages(
+            self.stepper, recorder, so_far, self.stages, rule, progress, checkpoints.entered, at
+        )
         last = replace(self, scene=end.stage.scene, start=end.start)
         summary = last._summary(recorder, end.state, end.verdict)
         known = self.identity()
@@ -228,6 +228,7 @@ class Simulation:
         stood: RunState | None,
     ) -> tuple[State, RunVerdict]:
         stepper, scene = self.stepper, self.scene
+        checkpoints.counting(self.start.time, scene.inertia is not None)
         at = None if stood is None else checkpoints.go_on(stood)
         stepper.budget.taken = recorder.steps
         if scene.inertia is not None:
@@ -282,13 +283,6 @@ class Simulation:
         if self.scene.inertia is None or self.scene.duration is None:
             return choice_under_loads(self.scene.output)
         return choice_in_time(self.scene.output, self.start.time, self.scene.duration)
-
-    def _checkpoint_choice(self) -> Choice | None:
-        """Return after which steps a checkpoint is stored."""
-        asked = None if self.scene.output is None else self.scene.output.checkpoint
-        if asked is None:
-            return None
-        return checkpoint_choice(asked, self.start.time, self.scene.inertia is not None)
 
     @property
     def storage(self) -> Storage:

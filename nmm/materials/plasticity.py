@@ -1,0 +1,45 @@
+"""What laws of plastic flow share: variables that remember it, and elastic energy beside them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.materials.base import History, Response
+from nmm.materials.elastic import Elastic, elastic_energy
+
+
+@dataclass(frozen=True)
+class Plastic(Elastic):
+    """Base of laws of which strain is elastic and plastic; they define `update`.
+
+    Notes
+    -----
+    Internal variables: ``plastic_strain`` (4: xx, yy, 2 xy, zz), ``accumulated_plastic_strain``
+    and ``stress_zz`` (Pa).
+    """
+
+    def variables(self, plane: str) -> History:
+        """See `Law.variables`."""
+        return {
+            "plastic_strain": np.zeros(4),
+            "accumulated_plastic_strain": np.zeros(1),
+            "stress_zz": np.zeros(1),
+        }
+
+    def energy(self, stress: Floats, history: History, plane: str) -> Floats:
+        """Return the elastic energy."""
+        zz = history["stress_zz"][:, 0]
+        return elastic_energy(self.young_modulus, self.poisson_ratio, stress, zz)
+
+
+def flowed(
+    stress: Floats, tangent: Floats, plastic_strain: Floats, accumulated: Floats
+) -> Response:
+    """Return the response of points; stress (m, 4) has that across last."""
+    variables = {
+        "plastic_strain": plastic_strain,
+        "accumulated_plastic_strain": accumulated[:, None],
+        "stress_zz": stress[:, 3:],
+    }
+    return Response(stress[:, :3], tangent, variables)
