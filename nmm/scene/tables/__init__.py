@@ -1,0 +1,1 @@
+"""Tables of a scene that single effects read: one file a subject."""
