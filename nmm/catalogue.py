@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from nmm.contact.enforcement.base import ENFORCEMENTS
+from nmm.fracture.criteria.base import CRITERIA
 from nmm.integrators.base import INTEGRATORS
 from nmm.interfaces.base import INTERFACE_LAWS
 from nmm.materials.base import MATERIAL_LAWS
@@ -31,6 +32,7 @@ REGISTRIES: tuple[Registry[Any], ...] = (
     SOLVERS,
     EFFECTS,
     OUTPUTS,
+    CRITERIA,
 )
 
 

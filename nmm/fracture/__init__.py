@@ -1,1 +1,1 @@
-"""Cracks: stress intensity, corners."""
+"""Cracks: stress intensity, corners, toughness, criteria of growth."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from nmm.testing.covers import check_cover as check_cover
+    from nmm.testing.criteria import check_criterion as check_criterion
     from nmm.testing.effects import check_effect as check_effect
     from nmm.testing.effects import check_effect_of as check_effect_of
     from nmm.testing.enforcements import check_enforcement as check_enforcement
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
 _HOME = {
     "check_cover": "covers",
+    "check_criterion": "criteria",
     "check_effect": "effects",
     "check_effect_of": "effects",
     "check_enforcement": "enforcements",
@@ -34,6 +36,7 @@ _HOME = {
 
 __all__ = [
     "check_cover",
+    "check_criterion",
     "check_effect",
     "check_effect_of",
     "check_enforcement",

@@ -1,0 +1,19 @@
+"""Maximum hoop stress (Erdogan and Sih 1963)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.fracture.criteria.base import Criterion, Kink, hoop_angle
+
+
+@dataclass(frozen=True)
+class HoopStress(Criterion):
+    """Largest hoop stress about the tip: cracks grow where it is, when it is that of K_Ic."""
+
+    def kink(self, opening: Floats, sliding: Floats, kappa: Floats) -> Kink:
+        """See `Criterion.kink`."""
+        angle = hoop_angle(opening, sliding)
+        c, s = np.cos(angle / 2), np.sin(angle / 2)
+        return Kink(angle, np.asarray(c**2 * (opening * c - 3 * sliding * s)))
