@@ -1,0 +1,57 @@
+"""Work of small races, counted, is not above what is recorded: a loss is seen without a clock.
+
+`python benchmarks/counted_work.py` records anew what is meant to have changed.
+"""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+BENCHMARKS = Path(__file__).resolve().parents[1] / "benchmarks"
+SCENES = (
+    "two blocks",
+    "arch of 9",
+    "wall of 25",
+    "sliding wall of 25",
+    "pile of 25",
+    "slope of 40",
+)
+
+
+@pytest.fixture(autouse=True)
+def _benchmarks(monkeypatch):
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    yield
+    for path in BENCHMARKS.glob("*.py"):
+        sys.modules.pop(path.stem, None)
+
+
+def test_small_races_are_those_recorded():
+    from counted_work import recorded
+    from race_scenes import SMALL
+
+    assert list(SCENES) == list(SMALL) == list(recorded().work)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_work_of_a_step_is_at_most_five_percent_above_that_recorded(name):
+    from counted_work import lost, raced, recorded
+    from race_scenes import SMALL
+
+    record = recorded()
+    if not record.comparable:
+        pytest.skip("other libraries or another processor: rounding may lead to other passes")
+    # The first run of a process imports and compiles what it calls.
+    raced(SMALL[name])
+    assert not list(lost(raced(SMALL[name]).work, record.work[name], 0.05))
+
+
+def test_a_loss_of_six_percent_is_told_and_a_gain_is_not():
+    from counted_work import Work, lost
+
+    old = Work(10.0, 1.0, 5.0, 1000.0)
+    assert list(lost(Work(10.6, 0.5, 5.0, 900.0), old, 0.05)) == [
+        "passes a step: 10.6, recorded 10"
+    ]
+    assert not list(lost(old, old, 0.05))
