@@ -120,7 +120,7 @@ def _material(part: Any) -> None:
 
 
 def _interface(part: Any) -> None:
-    from nmm.effects.contact_pairs import interface_law
+    from nmm.interfaces.from_scene import interface_law
 
     interface_law(part)
 

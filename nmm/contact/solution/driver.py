@@ -12,10 +12,10 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.enforcement.rebalanced import solve_rebalanced
 from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.record import ContactSolution
 from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import Dashpots, RigidMass
@@ -27,7 +27,9 @@ from nmm.contact.problem.balance import with_springs
 from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
+from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.request import StepRequest
+from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
 
 
@@ -96,6 +98,16 @@ class ContactSolver:
         self._laws, self._softness, self._enforcement = laws, softness, enforcement
         self._mass, self._unknown_body = mass, unknown_body
 
+    @classmethod
+    def of(
+        cls, model: Model, laws: ContactLaws, enforcement: Enforcement, compliance: Floats
+    ) -> "ContactSolver":
+        """Return the solver of a model; ``compliance`` (3 B,) is that of its bodies as a whole."""
+        manifold = model.manifold
+        mass = RigidMass(manifold.boundary.body, manifold.rigid_modes, compliance)
+        unknown_body = np.repeat(manifold.cover_body, np.diff(manifold.cover_offset))
+        return cls(laws, Softness.of(model), enforcement, mass, unknown_body)
+
     def forget(self) -> None:
         """Drop what is kept for speed alone, and the last problem with its answer."""
         self.memory.forget_all()
@@ -155,6 +167,14 @@ class ContactSolver:
             np.where(closed, problem.normal_stiffness, 0.0),
             np.where(held, problem.shear_stiffness, 0.0),
         )
+
+    def condition(self, solver: LinearSolver) -> float | None:
+        """Estimate the condition number of the last system with the springs that acted in it."""
+        matrix = self.acting()
+        try:
+            return None if matrix is None else solver.factorise(matrix).condition()
+        except SolveError:
+            return None
 
     @property
     def stiffest(self) -> float | None:

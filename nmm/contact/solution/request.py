@@ -7,7 +7,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.contact.enforcement.null_space import NullSpace
-from nmm.contact.iteration.record import Breaking
+from nmm.contact.solution.record import Breaking
 from nmm.solvers.linear import LinearSolver
 
 

@@ -20,7 +20,7 @@ def bodies(run: Ended) -> Findings:
             deep / size,
             f"bodies overlap by up to {deep:.3g} m, {percent(deep / size)} of the smallest",
             "raise [contact] normal_penalty, take smaller steps, or an exact enforcement",
-            mild=contact.springs_named,
+            mild=contact.laws.stiff,
         )
     if run.formulation.rotation.update == "linear":
         before = float(areas(model.manifold.elements.with_points(run.stepper.reference)).sum())

@@ -23,8 +23,8 @@ from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
-    from nmm.contact.iteration.record import Breaking
     from nmm.contact.points.contact_points import ContactPoints
+    from nmm.contact.solution.record import Breaking
 
 # Corrections for the turn of contacts and bodies end when they move nothing by more than this
 # share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain,

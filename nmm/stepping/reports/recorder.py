@@ -249,7 +249,7 @@ class Recorder:
         totals = self.totals
         self.totals = with_parts(
             totals,
-            stiffest=max(totals.stiffest, contact.stiffest or 0.0),
+            stiffest=max(totals.stiffest, contact.solver.stiffest or 0.0),
             penetration=max(totals.penetration, penetration),
             largest={name: max(totals.largest.get(name, 0), n) for name, n in counts.items()},
             counts=counts,
@@ -268,7 +268,7 @@ class Recorder:
         if contacts is None or contact is None:
             return no_contacts()
         return {
-            "contact_position": contact.position(contacts, state),
+            "contact_position": contact.partners.position(contacts, state),
             "contact_normal": contacts.normal,
             "contact_length": contacts.length,
             "contact_force": np.stack([contacts.normal_force, contacts.shear_force], axis=1),

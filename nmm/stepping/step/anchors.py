@@ -43,7 +43,7 @@ def neutral(stepper: "Stepper", state: State, names: Sequence[str]) -> list[str]
     solver may leave a part without load where it stands, so they are asked where none were used.
     """
     model, contact = stepper.model, stepper.plan.contact
-    matrix = None if contact is None else contact.acting()
+    matrix = None if contact is None else contact.solver.acting()
     # Conditions held by multipliers leave a system of fewer unknowns, which is not judged.
     if matrix is None or matrix.shape[0] != model.manifold.n_unknowns:
         return []

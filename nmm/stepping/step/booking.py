@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from integration.arrays import Floats
 
 if TYPE_CHECKING:
-    from nmm.contact.iteration.record import ContactSolution
+    from nmm.contact.solution.record import ContactSolution
     from nmm.stepping.step.equations import Equations
 
 

@@ -26,8 +26,8 @@ from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.enforcement.null_space import NullSpace
-    from nmm.contact.iteration.record import Breaking, ContactSolution
     from nmm.contact.points.contact_points import ContactPoints
+    from nmm.contact.solution.record import Breaking, ContactSolution
     from nmm.effects.change import Change
     from nmm.effects.contact import Contact
 
@@ -96,7 +96,7 @@ class Touching:
                 reach = FURTHER * result.motion
                 contacts, midpoint = self.candidates(state, reach, equations.step, crossed), None
                 continue
-            motion = contact.motion(state, result.state) if good else None
+            motion = contact.partners.motion(state, result.state) if good else None
             missed = None if motion is None else contact.overlooked(contacts, motion)
             if missed is not None and looks < CROSSING_SOLUTIONS:
                 looks, crossed = looks + 1, _joined(crossed, missed)
@@ -108,7 +108,7 @@ class Touching:
                     midpoint, halves = half, halves + 1
                     continue
                 result = self._kept(equations, solved, result, rest)
-            passage = "" if motion is None else contact.passage(motion)
+            passage = "" if motion is None else contact.partners.passage(motion)
             return replace(
                 result,
                 converged=good and not passage,

@@ -27,8 +27,8 @@ from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
-    from nmm.contact.iteration.record import Breaking, ContactRecord
     from nmm.contact.points.contact_points import ContactPoints
+    from nmm.contact.solution.record import Breaking, ContactRecord
     from nmm.effects.change import Change
     from nmm.model.plan import Plan
     from nmm.stepping.step.contact_step import Touching
@@ -273,7 +273,7 @@ class Stepper:
         if self.factor is not None:
             return self.factor.condition()
         contact = self.plan.contact
-        return None if contact is None else contact.condition(self.solver)
+        return None if contact is None else contact.solver.condition(self.solver)
 
     @property
     def _rule(self) -> Integrator:

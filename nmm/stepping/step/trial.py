@@ -8,7 +8,7 @@ from nmm.assembly.motion import State
 from nmm.stepping.step.booking import Booked
 
 if TYPE_CHECKING:
-    from nmm.contact.iteration.record import ContactSolution
+    from nmm.contact.solution.record import ContactSolution
 
 
 @dataclass(frozen=True)

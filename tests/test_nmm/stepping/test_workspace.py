@@ -49,7 +49,7 @@ def test_a_workspace_dropped_after_every_step_changes_no_digit_that_counts(name,
 def test_the_workspace_of_contact_was_in_use_and_is_empty_after_it_was_dropped():
     run = nmm.run(nmm.parse_scene(scenes.scene_of("wall"), "wall"))
     contact = run.stepper.plan.contact
-    memory = contact._solver.memory
+    memory = contact.solver.memory
     assert memory.kept
     assert memory.found
     before = contact.record

@@ -47,7 +47,7 @@ def faces(kind, degree, **options):
     contact = simulation.stepper.plan.contact
     state = initial_state(simulation.stepper.model.manifold)
     found = contact.candidates(state, 1e-6)
-    weak = FaceMeans.of(found, contact._partners.surface(state), contact.geometry.traces)
+    weak = FaceMeans.of(found, contact.partners.surface(state), contact.geometry.traces)
     return found, weak, contact, state
 
 

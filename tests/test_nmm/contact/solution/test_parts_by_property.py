@@ -63,7 +63,7 @@ def test_passes_of_the_contact_table_reach_every_enforcement_that_counts_them() 
     options = {"iteration": "open_close"}
     for name in ("penalty", f"{ME}:OwnSprings"):
         made = prepared({"enforcement": name, "max_passes": 3, "options": options})
-        assert made._solver._enforcement.max_passes == 3
+        assert made.solver._enforcement.max_passes == 3
 
 
 def prepared(contact: dict[str, object], cover: dict[str, object] | None = None):
@@ -79,7 +79,7 @@ def test_a_net_of_ones_own_has_as_many_points_a_face_as_the_built_in_one(degree:
     """Hats of triangles are linear: their traces are of degree p + 1, whatever the class."""
     cover = {"functions": "monomials", "degree": degree, "size": 0.7}
     points = [
-        prepared({}, {"type": kind, **cover})._partners._face_points
+        prepared({}, {"type": kind, **cover}).partners._face_points
         for kind in ("triangles", f"{ME}:OwnTriangles")
     ]
     assert points == [(degree + 5) // 2] * 2

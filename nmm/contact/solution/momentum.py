@@ -9,9 +9,9 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.detection.tolerances import MIDPOINT_GAPS
-from nmm.contact.iteration.record import ContactSolution
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.midpoint import middle, missing_moments
+from nmm.contact.solution.record import ContactSolution
 
 
 class Momentum:

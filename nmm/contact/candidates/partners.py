@@ -6,6 +6,7 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.contact.candidates.pairs import GLUED, MISSING, Pairs, no_interface
 from nmm.contact.detection.crossing import Motion, crossings_in, motion_of
 from nmm.contact.detection.narrow_phase import Contacts, find_contacts, with_pairs
 from nmm.contact.detection.neighbour_list import NeighbourList
@@ -13,8 +14,8 @@ from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import DEPTH, FLUSH
 from nmm.contact.mortar.segments import faced
 from nmm.contact.points.boundary_points import sides
+from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.joint_book import JointBook
-from nmm.effects.contact_pairs import GLUED, MISSING, Pairs, no_interface
 from nmm.errors import SceneError, SolveError
 
 
@@ -72,6 +73,10 @@ class Partners:
 
     def _surface(self, state: State) -> Surface:
         return self.sides.surface(state.frames, state.deformation)
+
+    def position(self, contacts: ContactPoints, state: State) -> Floats:
+        """Return where contacts are (m, 2)."""
+        return self.surface(state).at(contacts.edge_b, contacts.parameter_b)
 
     def interfaces(self, vertex: Ints, edge: Ints) -> Ints:
         """Index (m,) of the interface of a vertex and an edge; GLUED and MISSING are negative."""

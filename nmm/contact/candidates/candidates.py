@@ -1,0 +1,128 @@
+"""The contact points of a step: followed joints, and what the search finds as bodies move.
+
+Joints (shared edges whose interface has strength or stiffness) are followed from the start.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Ints
+from nmm.assembly.motion import State
+from nmm.contact.candidates.partners import Partners
+from nmm.contact.detection.crossing import Motion, crossings_in, over_seams
+from nmm.contact.detection.narrow_phase import Contacts, follow
+from nmm.contact.detection.pair_keys import pair_key
+from nmm.contact.detection.tolerances import FLUSH
+from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.points.joint_book import JointBook
+from nmm.contact.points.reference_gap import counted
+from nmm.contact.points.tracking import answered, remember, searched_points
+from nmm.contact.problem.step_problem import Limits
+from nmm.contact.solution.geometry import ContactGeometry
+from nmm.contact.solution.record import ContactRecord, ContactSolution
+
+
+class Candidates:
+    """Contact points from what the last accepted step left, a `ContactRecord`; it keeps none.
+
+    Parameters
+    ----------
+    partners
+        The search over steps.
+    laws, geometry
+        Of the points that are found.
+    """
+
+    def __init__(self, partners: Partners, laws: ContactLaws, geometry: ContactGeometry) -> None:
+        self.partners, self._laws, self._geometry = partners, laws, geometry
+
+    def sought(
+        self,
+        record: ContactRecord,
+        state: State,
+        reach: float,
+        step: float | None = None,
+        crossed: tuple[Ints, Ints] | None = None,
+    ) -> tuple[Contacts, ContactPoints]:
+        """Return what search finds, and the contact points it makes with joints.
+
+        No point moves further than ``reach`` (m) in the step. ``step`` is its length (s), None in
+        statics: bodies in flight meet where they fly to. ``crossed`` are pairs of a vertex and an
+        edge that are contacts in any case (`overlooked`).
+        """
+        surface = self.partners.surface(state)
+        joints = self.joints(record.book, state)
+        found, interface = self.partners.search(
+            state, 2 * reach, step, record.book, record.found, crossed
+        )
+        loose = np.zeros(len(found), dtype=bool)
+        new = searched_points(found, interface, self._laws.initial(interface, loose), surface)
+        if self._laws.stiff:
+            new = self._laws.sized(new, surface)
+        new = replace(new, gap=self._geometry.gaps(new, state))
+        return found, concatenate([joints, self._followed(record, new, found)])
+
+    def joints(self, book: JointBook, state: State) -> ContactPoints:
+        """Return the contact points of joints as they stand."""
+        surface = self.partners.surface(state)
+        return book.now(surface, self._geometry.apart(state, surface))
+
+    def near(
+        self, record: ContactRecord, state: State, reach: float
+    ) -> tuple[tuple[csr_array, csr_array], Limits]:
+        """Return rows and strength of contacts that bonds hold or that are open by ``reach``."""
+        _, contacts = self.sought(record, state, reach)
+        contacts = contacts.take(contacts.bonded | (contacts.gap <= reach))
+        through = self._geometry.rows(contacts, state)
+        return (through.normal, through.tangent), self._laws.strength(contacts)
+
+    def overlooked(
+        self, record: ContactRecord, contacts: ContactPoints, motion: Motion
+    ) -> tuple[Ints, Ints] | None:
+        """Return vertex and edge of crossings of pairs that were no contacts; None without any.
+
+        Which edge a corner meets first is judged by where bodies seem to go; contacts on the way
+        may send them elsewhere.
+        """
+        found = crossings_in(motion, FLUSH)
+        if not len(found):
+            return None
+        surface, book = motion.before, record.book
+        known = contacts.take(~contacts.is_joint)
+        new = ~np.isin(
+            pair_key(surface, found.vertex, found.edge),
+            np.concatenate([pair_key(surface, known.edge_a, known.edge_b), book.pairs]),
+        )
+        new &= self.partners.interfaces(found.vertex, found.edge) >= 0
+        new &= ~book.holds(surface, found.vertex, found.edge)
+        new &= ~over_seams(found, motion, (known.edge_a, known.edge_b))
+        return (found.vertex[new], found.edge[new]) if new.any() else None
+
+    def left(
+        self, record: ContactRecord, found: Contacts | None, solved: ContactSolution, state: State
+    ) -> tuple[ContactRecord, ContactPoints]:
+        """Return the record after an accepted step, and its contacts with joints given up before.
+
+        ``found`` is what search found for it.
+        """
+        bonded = self._laws.bonded[solved.contacts.interface]
+        done = answered(solved.contacts, solved.answer, bonded)
+        surface = self.partners.surface(state)
+        apart = self._geometry.apart(state, surface)
+        book = record.book.keep(done.take(done.is_joint), surface, apart)
+        after = ContactRecord(book, found, done.take(~done.is_joint), solved.answer.stored)
+        return after, concatenate([done, book.lost])
+
+    def _followed(
+        self, record: ContactRecord, new: ContactPoints, found: Contacts
+    ) -> ContactPoints:
+        """Return found points with what the last accepted step left, and gaps as they count."""
+        before = np.full(len(new), -1, dtype=np.int64)
+        if record.found is not None and record.known is not None:
+            before = follow(record.found, found)
+            new = remember(new, record.known, before)
+        stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
+        return counted(new, record.known, before, stiffness, body)

@@ -1,0 +1,105 @@
+"""What contact is made of, as a scene and its formulation say it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Bools
+from nmm.contact.candidates.pairs import MISSING, Pairs
+from nmm.contact.candidates.partners import Partners
+from nmm.contact.enforcement.base import Enforcement, make_enforcement
+from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.mortar.segments import face_points
+from nmm.effects.base import Setup
+from nmm.errors import SceneError
+from nmm.interfaces.from_scene import interface_law
+
+
+@dataclass(frozen=True)
+class ContactParts:
+    """Parts of contact.
+
+    Attributes
+    ----------
+    laws, partners, enforcement
+        Which laws act, which points may meet, and how the laws are made to hold.
+    stations
+        "corners" or "gauss": where joints act along their edge.
+    held
+        (B,) bodies that a support holds as a whole, in both directions.
+    bends
+        Whether faces bend between their ends: contacts then act at points of the material.
+    means
+        Whether exact conditions on faces are held in the mean.
+    """
+
+    laws: ContactLaws
+    partners: Partners
+    enforcement: Enforcement
+    stations: str
+    held: Bools
+    bends: bool
+    means: bool
+
+
+def contact_parts(setup: Setup) -> ContactParts:
+    """Read ``[contact]``, the interfaces, and ``[contact]`` of the formulation."""
+    method, manifold = setup.formulation.contact, setup.model.manifold
+    given = {"max_passes": method.max_passes} if "max_passes" in method.model_fields_set else {}
+    enforcement = make_enforcement(method.enforcement, dict(method.options), given)
+    laws, points = _laws(setup), face_points(manifold, method.points)
+    # Fields of blocks follow what single points ask for; a mean has no stiffness of its own.
+    means = enforcement.multipliers and manifold.shared_covers and points > 0 and not laws.stiff
+    partners = Partners(
+        setup.model,
+        _pairs(setup),
+        within_bodies=bool(setup.scene.cracks),
+        face_points=points,
+        origin=setup.origin,
+        whole_faces=means,
+    )
+    return ContactParts(
+        laws, partners, enforcement, method.joint_points, _held(setup), points > 2, means
+    )
+
+
+def _laws(setup: Setup) -> ContactLaws:
+    """Return the interface laws, springs in multiples of the largest modulus."""
+    method, thickness = setup.formulation.contact, setup.model.thickness
+    unit = float(setup.model.modulus.max()) * thickness
+    penalty, bond = method.normal_penalty * unit, method.bond_stiffness * unit
+    return ContactLaws(
+        laws=[interface_law(item) for item in setup.scene.interfaces.values()],
+        thickness=thickness,
+        normal_penalty=penalty,
+        shear_penalty=penalty * method.shear_ratio,
+        normal_bond=bond,
+        shear_bond=bond * method.shear_ratio,
+    )
+
+
+def _pairs(setup: Setup) -> Pairs:
+    """Return the interfaces of a scene's materials."""
+    materials = list(setup.scene.materials)
+    names: Mapping[int, str] = dict(enumerate(materials))
+    order = {id(item): number for number, item in enumerate(setup.scene.interfaces.values())}
+    table = np.full((len(materials), len(materials)), MISSING)
+    for i, j in np.ndindex(*table.shape):  # pairs of materials
+        try:
+            table[i, j] = order[id(setup.scene.interface(names[i], names[j]))]
+        except SceneError:
+            continue
+    return Pairs(table, setup.region_material, setup.formulation.cover.glued)
+
+
+def _held(setup: Setup) -> Bools:
+    """Which bodies (B,) a support holds as a whole, in both directions."""
+    manifold = setup.model.manifold
+    held: Bools = np.zeros(manifold.n_bodies, dtype=bool)
+    for support in setup.scene.supports:  # a handful of supports
+        if support.point is None and support.segment is None and len(set(support.fix)) == 2:
+            regions = setup.regions(support.block)
+            inside = slice(None) if regions is None else regions[manifold.element_region]
+            held[manifold.element_body[inside]] = True
+    return held
