@@ -36,6 +36,8 @@ CALLED_BY = {
     "bonded interfaces": "bonded interface without contact",
     "initial velocity": "[[initial_velocities]]",
     "initial stress": "[[initial_stresses]]",
+    "viscous damping": "[damping] with mass, stiffness or ratios",
+    "local damping": "[damping] with local",
 }
 """How a scene names an effect, where that is not `[effect]`."""
 

@@ -139,6 +139,20 @@ class Effect(ABC):
         """Symmetric matrix (n, n) that joins the stiffness in the step that starts at ``state``."""
         raise NotImplementedError
 
+    def damping(self, state: State) -> csc_array:
+        """Symmetric matrix (n, n) of the force against the velocity, in steps in time alone.
+
+        The step takes the force with the weights of elastic ones, and books what it takes.
+        """
+        raise NotImplementedError
+
+    def added_mass(self, state: State) -> csc_array:
+        """Symmetric matrix (n, n) by which the mass resists more in the step.
+
+        It moves nothing by itself and stores no energy: what it takes or gives is booked as lost.
+        """
+        raise NotImplementedError
+
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Conditions ``rows @ d = sides`` on the step's unknowns (k, n); None without any."""
         raise NotImplementedError

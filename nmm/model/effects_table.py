@@ -30,6 +30,8 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "supports": "nmm.constraints.supports:Supports",
         "bonded interfaces": "nmm.constraints.bonded_interfaces:BondedInterfaces",
         "inertia": "nmm.effects.inertia:Inertia",
+        "viscous damping": "nmm.effects.damping.viscous:ViscousDamping",
+        "local damping": "nmm.effects.damping.local:LocalDamping",
         "contact": "nmm.effects.contact:Contact",
         "artificial joints": "nmm.constraints.artificial_joints:ArtificialJoints",
     },
@@ -47,6 +49,8 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
         s.contact is None and any(i.bonded for i in s.interfaces.values())
     ),
     "inertia": lambda s: s.inertia is not None,
+    "viscous damping": lambda s: s.damping is not None and s.damping.coefficients is not None,
+    "local damping": lambda s: s.damping is not None and s.damping.local is not None,
     "contact": lambda s: s.contact is not None,
 }
 """When a scene calls for a built-in effect, in the order in which they act."""

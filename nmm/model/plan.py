@@ -94,6 +94,20 @@ class Plan:
             kept = self.sums["matrix"] = parts, csc_array(sum(parts[1:], start=base))
         return kept[1]
 
+    def damping(self, state: State) -> dict[str, csc_array]:
+        """Return the damping matrix of each effect that has one, by name."""
+        return {
+            name: self._timed(name, partial(effect.damping, state))
+            for name, effect in self._named("damping")
+        }
+
+    def added_mass(self, state: State) -> dict[str, csc_array]:
+        """Return what joins the mass in the step that starts at ``state``, by effect."""
+        return {
+            name: self._timed(name, partial(effect.added_mass, state))
+            for name, effect in self._named("added_mass")
+        }
+
     def pressure(self, model: "Model", state: State) -> Floats | None:
         """Return the pressures (k,) on patches of a model; None where volumes are not projected."""
         if not model.projected or model.pressures is None:

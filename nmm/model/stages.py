@@ -91,6 +91,7 @@ def _resolved(
             "monitors": tuple(one for one in scene.monitors if _acts(one, None, there)),
             "duration": table.duration,
             "inertia": scene.inertia if table.duration else None,
+            "damping": scene.damping if table.duration else None,
             "initial_velocities": scene.initial_velocities if table.duration else (),
         }
         yield Stage(

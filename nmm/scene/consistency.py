@@ -152,6 +152,8 @@ def _effects(data: Tables) -> Iterator[Finding]:
     if data.get("initial_velocities") and "inertia" not in data:
         remedy = "add [inertia], or remove [[initial_velocities]]"
         yield ("initial_velocities",), "no [inertia]", "a dynamic scene", remedy
+    if "damping" in data and "inertia" not in data:
+        yield ("damping",), "no [inertia]", "a dynamic scene", "add [inertia], or remove [damping]"
     yield from _scaled_loads(data)
     yield from _output(data)
 

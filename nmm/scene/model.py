@@ -34,6 +34,7 @@ from nmm.scene.output import OutputTable
 from nmm.scene.own_tables import EffectTable
 from nmm.scene.solids import Block, Crack, InterfaceTable, JointSet, Material, Tessellation
 from nmm.scene.stages import StageTable
+from nmm.scene.tables.damping import DampingTable
 
 
 class Scene(Frozen):
@@ -72,6 +73,7 @@ class Scene(Frozen):
     loads: tuple[LoadTable, ...] = Field(default=(), description="tables [[loads]]")
     gravity: GravityTable | None = Field(default=None, description="a table [gravity]")
     inertia: InertiaTable | None = Field(default=None, description="a table [inertia]")
+    damping: DampingTable | None = Field(default=None, description="a table [damping]")
     contact: ContactTable | None = Field(default=None, description="a table [contact]")
     loading: Loading | None = Field(default=None, description="a table [loading]")
     initial_velocities: tuple[InitialVelocityTable, ...] = Field(

@@ -34,6 +34,7 @@ COMMON: dict[str, dict[str, str]] = {
     "J/m^2": {"J/m^2": "1", "kJ/m^2": "1e3", "N/m": "1", "N/mm": "1e3"},
     "m/s": {"m/s": "1", "mm/s": "1e-3", "cm/s": "1e-2", "km/h": str(Decimal("1") / Decimal("3.6"))},
     "m/s^2": {"m/s^2": "1", "mm/s^2": "1e-3"},
+    "1/s": {"1/s": "1", "Hz": "1"},
     "rad/s": {"rad/s": "1", "deg/s": "deg"},
     "N m": {"N m": "1"},
     "1": {},
@@ -41,7 +42,7 @@ COMMON: dict[str, dict[str, str]] = {
 EXAMPLES: dict[str, str] = {
     **{"m": "100 mm", "s": "10 ms", "rad": "37 deg", "N": "10 kN", "Pa": "27.5 GPa"},
     **{"kg/m^3": "2400 kg/m^3", "N/m^3": "25 kN/m^3", "Pa/m": "10 GPa/m", "J/m^2": "100 J/m^2"},
-    **{"m/s": "3 m/s", "m/s^2": "9.81 m/s^2", "rad/s": "30 deg/s"},
+    **{"m/s": "3 m/s", "m/s^2": "9.81 m/s^2", "rad/s": "30 deg/s", "1/s": "2 Hz"},
 }
 
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
@@ -92,6 +93,9 @@ def check_effect(effect: Effect, model: Model, state: State, seed: int = 0) -> N
             _work(effect, name, model, state, way)
     if defines(effect, "matrix"):
         _matrix(effect, name, model, state, ways)
+    for hook in ("damping", "added_mass"):
+        if defines(effect, hook):
+            _resistance(name, hook, getattr(effect, hook)(state), ways)
     if defines(effect, "carried"):
         _carried(effect, name, state)
     _declared(effect, name, model, state)
@@ -159,6 +163,17 @@ def _matrix(effect: Effect, name: str, model: Model, state: State, ways: list[Fl
         unit = float(np.abs(expected).max()) or 1.0
         what = f"{name}: change of the force with the motion against the matrix"
         close(what, change / unit, expected / unit, LINEAR)
+
+
+def _resistance(name: str, hook: str, matrix: csc_array, ways: list[Floats]) -> None:
+    """Dampers take energy at any velocity; what joins the mass is symmetric as they are."""
+    finite(f"{name}: {hook}", matrix.data)
+    size = float(abs(matrix).max()) if matrix.nnz else 0.0
+    off = float(abs(matrix - matrix.T).max()) if matrix.nnz else 0.0
+    claim(off <= 1e-12 * size, f"{name}: {hook} off from symmetric by {off:.3g} of {size:.3g}")
+    for way in ways if hook == "damping" else ():
+        taken, most = float(way @ (matrix @ way)), size * float(way @ way)
+        claim(taken >= -1e-12 * most, f"{name}: damping gives {-taken:.3g} W, it may only take")
 
 
 def _carried(effect: Effect, name: str, state: State) -> None:

@@ -43,6 +43,8 @@ class Ledger:
     work, friction_loss, material_loss
         Work of loads, weight and driven supports; what friction, dashpots and breaking bonds took;
         and what material points did, which flow or suffer damage.
+    damping_loss
+        What dampers took, by effect.
     integration_loss, contact_loss
         What time integration took, but for contact; and what springs of contact lost beyond
         friction: both are part of what is missing in the balance, and negative where energy came.
@@ -72,6 +74,7 @@ class Ledger:
     work: float = 0.0
     friction_loss: float = 0.0
     material_loss: float = 0.0
+    damping_loss: Mapping[str, float] = field(default_factory=dict)
     integration_loss: float = 0.0
     contact_loss: float = 0.0
     energies: Mapping[str, float] = field(default_factory=dict)
@@ -132,8 +135,12 @@ class Ledger:
         """Return the totals with what a step in time lost that began with ``earlier`` energies."""
         gain = {name: value - earlier[name] for name, value in self.energies.items()}
         lost = step.integration_loss(gain["kinetic_energy"])
+        damping = {
+            name: self.damping_loss.get(name, 0.0) + more for name, more in step.damping.items()
+        }
         return with_parts(
             self,
+            damping_loss={**self.damping_loss, **damping},
             integration_loss=self.integration_loss + lost,
             given=self.given + max(-lost, 0.0),
             contact_loss=self.contact_loss + step.contact_loss(gain["contact_energy"], loss),
@@ -142,7 +149,8 @@ class Ledger:
     @property
     def row(self) -> Mapping[str, float]:
         """What the history says of a step."""
-        return {**self.energies, "external_work": self.work}
+        damping = {f"damping_loss:{name}": loss for name, loss in self.damping_loss.items()}
+        return {**self.energies, "external_work": self.work, **damping}
 
     @property
     def balance(self) -> float:
@@ -160,7 +168,7 @@ class Ledger:
     @property
     def dissipated(self) -> float:
         """Energy (J) that friction, damping, breaking and flowing material took."""
-        return self.friction_loss + self.material_loss
+        return self.friction_loss + self.material_loss + sum(self.damping_loss.values())
 
     def weighed(self, time: float) -> "Ledger":
         """Return the totals with the size of the energies, and how much came from nowhere."""

@@ -6,7 +6,8 @@ at the end. What the mean of both ends would not have done is the integrator's o
 the velocity does not show of ``i``.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
@@ -30,12 +31,15 @@ class Booked:
         Work of contact forces on the bodies.
     contact_factor
         `Integrator.contact_factor`.
+    damping
+        Taken by dampers, by effect.
     """
 
     inertia: float
     beyond: float
     contact: float
     contact_factor: float
+    damping: Mapping[str, float] = field(default_factory=dict)
 
     def integration_loss(self, kinetic_gain: float) -> float:
         """Energy (J) that the integrator took, but for contact; negative if it gave some."""
@@ -57,14 +61,19 @@ def booked(
     heavy = terms.factor * float(increment @ (terms.mass @ increment))
     taken = heavy - float(increment @ terms.momentum)
     beyond = 0.0
+    lost: Mapping[str, float] = {}
+    damped = added = 0.0
+    if terms.damping is not None:
+        lost, damped, added = terms.damping.taken(increment, terms.factor, terms.rates)
     if terms.weight != 0.5:
         share = terms.contact_factor
         # The matrix is that of inertia and, weighted, of all that is elastic, over the share.
         whole = share * float(increment @ (equations.matrix @ increment))
         more = 0.0 if terms.gain is None else float(increment @ terms.gain)
-        beyond = (terms.weight - 0.5) * ((whole - heavy) / terms.weight - more)
+        elastic = whole - heavy - damped - added
+        beyond = (terms.weight - 0.5) * (elastic / terms.weight - more)
     work = 0.0
     if solved is not None and solved.rows is not None:
         forces = solved.answer.normal_force, solved.answer.shear_force
         work = -float(solved.rows.push(*forces) @ increment)
-    return Booked(taken, beyond, work, terms.contact_factor)
+    return Booked(taken, beyond, work, terms.contact_factor, lost)

@@ -5,7 +5,6 @@ stay linear in the whole increment, whatever the iterate.
 """
 
 from dataclasses import dataclass, replace
-from operator import is_not
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -16,6 +15,7 @@ from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
 from nmm.model.discretisation import Current
+from nmm.stepping.step.damping import Damping
 
 
 @dataclass(frozen=True)
@@ -56,19 +56,25 @@ class InertiaTerms:
         The matrix (n, n) and its factor in the step's matrix.
     momentum
         (n,) that joins the forces.
+    rates
+        (n,) whose product with the mass the momentum is.
     weight, contact_factor
         See `nmm.integrators.base`.
     gain
         (n,) by how much all forces but the matrix grow in the step, what its tangent misses of
         the material among them; None where nothing does.
+    damping
+        Dampers; None without any.
     """
 
     mass: csc_array
     factor: float
     momentum: Floats
+    rates: Floats
     weight: float
     contact_factor: float
     gain: Floats | None
+    damping: Damping | None = None
 
 
 # An out-of-balance force below this share of the forces that it is the difference of is rounding.
@@ -114,7 +120,7 @@ class Assembly:
 
     def forget(self) -> None:
         """Drop the sums of matrices."""
-        self._kept: tuple[float, tuple[csc_array, csc_array], csc_array] | None = None
+        self._kept: tuple[list[tuple[float, csc_array]], csc_array] | None = None
         self._weighted: tuple[csc_array, float, csc_array] | None = None
         self._soft: tuple[csc_array, csc_array] | None = None
 
@@ -156,13 +162,20 @@ class Assembly:
             gain = None if steady else force - earlier
             force = force if weight == 1 else weight * force + (1 - weight) * earlier
         velocity = rule.kinetic_factor * state.velocity
-        momentum = mass @ rule.momentum(velocity, state.acceleration, step)
-        factor = rule.mass_factor(step)
-        base = self._base(line.stiffness, factor / weight, mass)
+        rates = rule.momentum(velocity, state.acceleration, step)
+        momentum, factor = mass @ rates, rule.mass_factor(step)
+        damping = Damping.of(plan, rule, state, velocity, step)
+        parts = [(1.0, line.stiffness), (factor / weight, mass)]
+        pushed = force + momentum
+        if damping is not None:
+            parts += [(damping.rate / weight, one) for one in damping.dampers.values()]
+            parts += [(factor / weight, one) for one in damping.masses.values()]
+            pushed += damping.force()
+            pushed += sum(one @ rates for one in damping.masses.values())
         share = 1.0 if plan.contact is None else rule.contact_factor
-        terms = InertiaTerms(mass, factor, momentum, weight, share, gain)
-        matrix = self._times(weight / share, plan.matrix(state, base))
-        return replace(static, matrix=matrix, force=(force + momentum) / share, inertia=terms)
+        terms = InertiaTerms(mass, factor, momentum, rates, weight, share, gain, damping)
+        matrix = self._times(weight / share, plan.matrix(state, self._sum(parts)))
+        return replace(static, matrix=matrix, force=pushed / share, inertia=terms)
 
     def _anchored(self, stiffness: csc_array) -> csc_array:
         """Return a stiffness with anchors."""
@@ -174,14 +187,15 @@ class Assembly:
             self._soft = kept
         return kept[1]
 
-    def _base(self, stiffness: csc_array, mass_factor: float, mass: csc_array) -> csc_array:
-        """Return stiffness and inertia, which stay as long as both and the step's length do."""
-        parts = (stiffness, mass)
+    def _sum(self, parts: list[tuple[float, csc_array]]) -> csc_array:
+        """Return the sum of factors times matrices, the same one as long as all of them stay."""
         kept = self._kept
-        if kept is None or kept[0] != mass_factor or any(map(is_not, kept[1], parts)):
-            kept = mass_factor, parts, csc_array(parts[0] + mass_factor * mass)
-            self._kept = kept
-        return kept[2]
+        if kept is None or not _are(kept[0], parts):
+            total = parts[0][1]
+            for factor, matrix in parts[1:]:  # stiffness, mass, and a handful of dampers
+                total = csc_array(total + factor * matrix)
+            kept = self._kept = parts, total
+        return kept[1]
 
     def _times(self, factor: float, matrix: csc_array) -> csc_array:
         """Return ``factor * matrix``."""
@@ -191,6 +205,14 @@ class Assembly:
         if kept is None or kept[0] is not matrix or kept[1] != factor:
             kept = self._weighted = matrix, factor, csc_array(factor * matrix)
         return kept[2]
+
+
+def _are(some: list[tuple[float, csc_array]], others: list[tuple[float, csc_array]]) -> bool:
+    """Whether factors and matrices are the same objects."""
+    if len(some) != len(others):
+        return False
+    pairs = zip(some, others, strict=True)
+    return all(a == b and one is other for (a, one), (b, other) in pairs)
 
 
 def _rounded(force: Floats, applied: Floats, inner: Floats) -> bool:

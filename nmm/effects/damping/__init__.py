@@ -1,0 +1,1 @@
+"""Damping of the motion of matter and at its boundaries."""

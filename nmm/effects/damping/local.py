@@ -1,0 +1,84 @@
+"""Local damping: what speeds up is heavier, what slows down is lighter (Cundall 1987).
+
+Cundall's force on a mass is ``-alpha |F| sgn(v)``, ``F`` what is out of balance. With ``m a = F``
+less that force, ``m a = (1 - alpha s) F`` and ``s`` the sign of ``F v``: a mass of ``m / (1 -
+alpha s)``. Here the masses are elements: ``s`` is the sign of the power that the acceleration gives
+to an element, which no choice of unknowns changes, and the force takes energy of every element.
+"""
+
+from typing import Self
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.assembly import element_matrices
+from nmm.assembly.blocks import Part, assemble
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.effects.base import Effect, Setup
+
+
+class LocalDamping(Effect):
+    """Mass of elements in a step, by whether they speed up or slow down at its start.
+
+    A cycle at any frequency loses the same share of its energy: amplitudes fall by
+    ``sqrt((1 - alpha) / (1 + alpha))`` a half cycle, and the period grows. What falls freely gains
+    speed by ``1 - alpha`` of its weight.
+    """
+
+    name = "local damping"
+    placed = False
+
+    def __init__(self, model: Model, share: float) -> None:
+        self._share, self._manifold = share, model.manifold
+        element = element_matrices.lumped_mass if model.lumped else element_matrices.mass
+        density = model.thickness * model.density
+        self._masses = [
+            element(group, group.shape, density[group.elements])
+            for group in model.manifold.groups  # a handful of groups
+        ]
+        self._kept: tuple[Floats, csc_array] | None = None
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from ``[damping]``."""
+        assert setup.scene.damping is not None
+        assert setup.scene.damping.local is not None
+        return cls(setup.model, setup.scene.damping.local)
+
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        return f"{self._share:g} of what is out of balance, free fall included"
+
+    def added_mass(self, state: State) -> csc_array:
+        """Return what the mass gains or loses by the signs at the start of the step."""
+        sign = np.sign(self.power(state))
+        if self._kept is None or not np.array_equal(self._kept[0], sign):
+            self._kept = sign, self._matrix(1 / (1 - self._share * sign) - 1)
+        return self._kept[1]
+
+    def power(self, state: State) -> Floats:
+        """Return the power (E,) in W that the acceleration gives to each element."""
+        found = np.zeros(len(self._manifold.element_body))
+        for group, masses in zip(self._manifold.groups, self._masses, strict=True):
+            velocity, acceleration = (
+                v[group.unknowns] for v in (state.velocity, state.acceleration)
+            )
+            found[group.elements] = np.einsum("nl,nlm,nm->n", velocity, masses, acceleration)
+        return found
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._kept = None
+
+    def _matrix(self, factor: Floats) -> csc_array:
+        groups = zip(self._manifold.groups, self._masses, strict=True)
+        parts = [
+            Part(
+                group.unknowns, factor[group.elements, None, None] * masses, np.arange(len(masses))
+            )
+            for group, masses in groups
+        ]
+        return assemble(parts, self._manifold.n_unknowns, self._manifold.cover_offset)
