@@ -11,11 +11,14 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.geometry.geometry import Geometry
 from nmm.quantity import Quantity
 from nmm.scene.fields import Frozen
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
+    from nmm.effects.event import Event
+    from nmm.effects.view import View
     from nmm.formulation import Formulation
     from nmm.scene.model import Scene
 
@@ -60,6 +63,8 @@ class Setup:
         As read.
     model
         Manifold and materials.
+    geometry
+        Blocks and cracks that the manifold covers.
     region_name, region_material
         Name and material (index in the scene's order) of each input region.
     start
@@ -76,6 +81,7 @@ class Setup:
     scene: "Scene"
     formulation: "Formulation"
     model: Model
+    geometry: Geometry
     region_name: tuple[str, ...]
     region_material: Ints
     start: State
@@ -179,6 +185,15 @@ class Effect(ABC):
 
     def gap_volume(self, state: State, k: int) -> Floats:
         """Volumes (k,) left open at edges that the effect holds, for a model's k pressures (m2)."""
+        raise NotImplementedError
+
+    def event(self, view: "View") -> "Event | None":
+        """Return the change that an accepted state calls for; None where all stays as it is.
+
+        It is asked after every accepted step, once at an instant, and must leave the effect as it
+        was: a step that ends beyond the event may be taken again with a smaller increment. What
+        the effect remembers of the change it learns in `follow`, and hands over by `carried`.
+        """
         raise NotImplementedError
 
     def follow(self, change: "Change") -> "Effect":

@@ -144,6 +144,12 @@ class Contact(Effect):
         self._found = None
 
     @property
+    def standing(self) -> ContactPoints:
+        """The contact points that are known between two steps."""
+        book, known = self.record.book, self.record.known
+        return concatenate([book.points, *([] if known is None else [known]), book.lost])
+
+    @property
     def broken_bonds(self) -> int:
         """Number of joint points whose bond is broken."""
         return self.record.book.broken - self._unbonded

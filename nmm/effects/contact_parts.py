@@ -54,7 +54,7 @@ def contact_parts(setup: Setup) -> ContactParts:
     partners = Partners(
         setup.model,
         _pairs(setup),
-        within_bodies=bool(setup.scene.cracks),
+        within_bodies=bool(setup.geometry.cracks),
         face_points=points,
         origin=setup.origin,
         whole_faces=means,

@@ -1,12 +1,16 @@
 """From a scene and a formulation to a model that can be stepped."""
 
-from dataclasses import MISSING, fields, is_dataclass
+from dataclasses import MISSING, fields, is_dataclass, replace
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from integration.arrays import Floats
 from nmm.assembly.model import Model
+from nmm.assembly.motion import initial_state
+from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError
+from nmm.geometry.geometry import Geometry
 from nmm.materials.base import MATERIAL_LAWS, Law
 from nmm.model.covering import local_functions
 from nmm.model.from_polygons import covered
@@ -26,17 +30,40 @@ WHERE_GIVEN = (
 )
 
 
-def build_model(scene: "Scene", formulation: "Formulation", regions: "Regions") -> Model:
-    """Cover the regions and give the elements their materials."""
+def setup_of(
+    scene: "Scene", formulation: "Formulation", geometry: Geometry, origin: Floats
+) -> Setup:
+    """Return what effects are built from, with a model of all blocks at rest."""
+    model = build_model(scene, formulation, geometry)
+    start = replace(initial_state(model.manifold), history=model.history())
+    if scene.inertia is not None:
+        start = replace(start, load_factor=1.0)
+    names, material = tuple(geometry.regions.name), np.asarray(geometry.regions.material)
+    return Setup(scene, formulation, model, geometry, names, material, start, origin)
+
+
+def reshaped(setup: Setup, geometry: Geometry) -> Setup:
+    """Return what effects are built from on another geometry of the same blocks."""
+    new = setup_of(setup.scene, setup.formulation, geometry, setup.origin)
+    return replace(setup, model=new.model, geometry=geometry, start=new.start)
+
+
+def geometry_of(scene: "Scene", regions: "Regions") -> Geometry:
+    """Return blocks with the cracks of their scene."""
+    return Geometry(regions, tuple(np.array(crack.points) for crack in scene.cracks))
+
+
+def build_model(scene: "Scene", formulation: "Formulation", geometry: Geometry) -> Model:
+    """Cover a geometry and give the elements their materials."""
     materials = scene.materials.values()
     moves = scene.loading is not None and scene.loading.motion_after_failure is not None
     has_mass = scene.gravity is not None or scene.inertia is not None or moves
     return covered(
-        regions,
+        geometry.regions,
         formulation.cover,
         [_finite(name, material_law(item), scene) for name, item in scene.materials.items()],
         scene.plane,
-        cracks=[np.array(crack.points) for crack in scene.cracks],
+        cracks=list(geometry.cracks),
         density=np.array([(item.density or 0.0) * has_mass for item in materials]),
         thickness=scene.thickness,
         lumped=formulation.integrator.mass == "lumped",

@@ -23,9 +23,11 @@ if TYPE_CHECKING:
     from nmm.constraints.supports import Supports
     from nmm.effects.change import Change
     from nmm.effects.contact import Contact
+    from nmm.effects.event import Event
     from nmm.effects.inertia import Inertia
     from nmm.effects.initial_stress import InitialStress
     from nmm.effects.loads import Loads
+    from nmm.effects.view import View
 
 
 T = TypeVar("T")
@@ -192,6 +194,15 @@ class Plan:
     def tellers(self) -> list[tuple[str, Effect]]:
         """Effects with numbers for the history, by name."""
         return self._named("history")
+
+    @cached_property
+    def askers(self) -> tuple[str, ...]:
+        """Names of the effects that may ask for another geometry."""
+        return tuple(name for name, _ in self._named("event"))
+
+    def event(self, name: str, view: "View") -> "Event | None":
+        """Return the event that a state calls for by one of the `askers`."""
+        return self._timed(name, partial(self.effects[name].event, view))
 
     @property
     def contact(self) -> "Contact | None":

@@ -1,41 +1,12 @@
 """What an output is: quantities of a state for frames, and numbers of a step for the history."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
-from integration.arrays import Floats
-from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.effects.view import View
 from nmm.quantity import Quantity
 from nmm.registry import Registry
 
-if TYPE_CHECKING:
-    from nmm.contact.points.contact_points import ContactPoints
-
-
-@dataclass(frozen=True)
-class View:
-    """An accepted state as outputs see it.
-
-    Attributes
-    ----------
-    model, state
-        Manifold with its materials; where it is and how fast.
-    contacts
-        Its C contact points; None without contact.
-    """
-
-    model: Model
-    state: State
-    contacts: "ContactPoints | None"
-    stress_of: Callable[[State], Floats]
-
-    @cached_property
-    def stress(self) -> Floats:
-        """(E, 3) mean Cauchy stress (xx, yy, xy) of the elements in global axes (Pa)."""
-        return self.stress_of(self.state)
+__all__ = ["OUTPUTS", "Output", "View"]
 
 
 class Output:

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from nmm.scene.fields import Count, Frozen, PartName, Time, fault
 
-Event = Literal["first_contact", "first_slip", "bond_breaks", "state_changes"]
+Event = Literal["first_contact", "first_slip", "bond_breaks", "state_changes", "shape_changes"]
 
 
 class CheckpointTable(Frozen):
@@ -57,9 +57,9 @@ class OutputTable(Frozen):
     )
     events: tuple[Event, ...] = Field(
         default=(),
-        description='a list of "first_contact", "first_slip", "bond_breaks" and "state_changes" '
-        "(of the number of contact points that stick, slide, hold or are broken): the step after "
-        "which it is so is stored",
+        description='a list of "first_contact", "first_slip", "bond_breaks", "state_changes" (of '
+        "the number of contact points that stick, slide, hold or are broken) and "
+        '"shape_changes" (blocks divide): the step after which it is so is stored',
         examples=[["first_contact", "bond_breaks"]],
     )
     quantities: tuple[PartName, ...] = Field(

@@ -13,7 +13,7 @@ from nmm.stepping.drive.dynamics import InTime
 from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.statics import UnderLoad
 from nmm.stepping.reports.output import Choice
-from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.reports.recorder import Recorder, monitors
 from nmm.stepping.run_state import RunState
 from nmm.stepping.step.stepper import Stepper
 
@@ -84,6 +84,9 @@ class Checkpoints:
     def go_on(self, state: RunState) -> InTime | UnderLoad:
         """Take up a run where it stood."""
         self.stepper.carry(state.carried)
+        if state.carried.geometry is not None:
+            setup = self.stepper.discretisation.setup
+            self.recorder.monitors = monitors(setup, all_there=False)
         self.recorder.totals = state.totals
         if self.choice is not None:
             self._periods = self.choice.periods(state.at.state.time)

@@ -91,12 +91,15 @@ def _contact_points(run: RunState) -> Iterator["ContactPoints"]:
 
 
 _PLACES = {
+    "integration.polygons": ("Polygons",),
     "nmm.assembly.motion": ("State", "Frames"),
     "nmm.contact.detection.narrow_phase": ("Contacts",),
     "nmm.contact.detection.face_contacts": ("FaceContacts",),
     "nmm.contact.solution.record": ("ContactRecord", "ContactCarried"),
     "nmm.contact.points.contact_points": ("ContactPoints",),
     "nmm.contact.points.joint_book": ("JointBook",),
+    "nmm.geometry.blocks": ("Regions",),
+    "nmm.geometry.geometry": ("Geometry",),
     "nmm.stepping.drive.dynamics": ("InTime",),
     "nmm.stepping.drive.stages": ("StagesSoFar",),
     "nmm.stepping.drive.statics": ("UnderLoad", "Rest"),

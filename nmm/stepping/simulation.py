@@ -12,14 +12,13 @@ import numpy as np
 from covers.approximation.block_manifold import block_manifold
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, initial_state
-from nmm.effects.base import Setup
+from nmm.assembly.motion import State
 from nmm.errors import FormulationError
 from nmm.formulation import Formulation, formulation_hash
 from nmm.geometry.checks.amounts import refuse_many_cells
 from nmm.geometry.regions import regions as build_regions
 from nmm.integrators.base import make_integrator
-from nmm.model.build import block_functions, build_model
+from nmm.model.build import block_functions, geometry_of, reshaped, setup_of
 from nmm.model.consistency import check_together
 from nmm.model.discretisation import Discretisation
 from nmm.model.fault_places import placed
@@ -41,8 +40,9 @@ from nmm.scene import scene_hash
 from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.checkpoints import Checkpoints
+from nmm.stepping.drive.changes import topology
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
-from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages, topology
+from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages
 from nmm.stepping.drive.static_theorem import load_bound
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import FAILURE, RunVerdict
@@ -171,6 +171,8 @@ class Simulation:
 
     def _model_of(self, stood: RunState) -> Model:
         """Return the model that was solved where a run stood."""
+        if stood.carried.geometry is not None:
+            return reshaped(self.stepper.discretisation.setup, stood.carried.geometry).model
         if stood.stages is None or not self.stages:
             return self.stepper.model
         number = len(stood.stages.entered)
@@ -205,7 +207,7 @@ class Simulation:
             scene_hash=known.scene_hash,
             formulation_hash=known.formulation_hash,
             change_energy=recorder.ledger.change_energy,
-            changes=list(end.changes),
+            changes=[*end.changes, *recorder.totals.changes],
         )
         recorder.sink.finish(summary)
         return end.state
@@ -267,7 +269,7 @@ class Simulation:
         )
         quiet.budget = self.stepper.budget
         factor = (verdict.load_factor or 0.0) * (1 + 2 * (verdict.tolerance or 0.0))
-        times = Schedule(duration, self.formulation.integrator.step, factor, "failure")
+        times = Schedule(duration, self.formulation.integrator.step, factor, "failure", False)
         shown = FramesOnly(recorder.sink)
         asked = choice_in_time(self.scene.output, state.time, duration, FRAMES_AFTER_FAILURE)
         known = Totals(frames=recorder.totals.frames)
@@ -324,8 +326,9 @@ class Simulation:
         stepper, totals = self.stepper, recorder.totals
         condition = stepper.condition(state)
         scene, formulation = self.scene, self.formulation
+        start = totals.since or self.start
         findings = audit(
-            Ended(scene, formulation, stepper, recorder, self.start, state, verdict, condition)
+            Ended(scene, formulation, stepper, recorder, start, state, verdict, condition)
         )
         verdict, known = judged(verdict, findings), self.identity()
         load = None if verdict.load_factor is None else scaled_load(stepper, verdict.load_factor)
@@ -349,6 +352,8 @@ class Simulation:
             failure_factor=verdict.load_factor,
             failure_tolerance=verdict.tolerance,
             largest_contacts=dict(totals.largest),
+            change_energy=totals.ledger.change_energy if totals.changes else None,
+            changes=list(totals.changes),
         )
 
 
@@ -380,7 +385,8 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
         _staged(scene, one, regions, origin)
         for one in stages_of(scene, formulation, regions, origin)
     ]
-    setup = stages[0].setup if stages else _setup(scene, formulation, regions, origin)
+    whole = geometry_of(scene, regions)
+    setup = stages[0].setup if stages else setup_of(scene, formulation, whole, origin)
     model, start, built = setup.model, setup.start, perf_counter()
     discretisation = Discretisation.of(setup)
     for later in stages[1:]:
@@ -401,23 +407,13 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     return Simulation(*asked, regions, stepper, plan.begin(start), watched, begun, origin, stages)
 
 
-def _setup(scene: "Scene", formulation: Formulation, regions: "Regions", origin: Floats) -> Setup:
-    """Return what effects are built from, with a model of all blocks at rest."""
-    model = build_model(scene, formulation, regions)
-    start = replace(initial_state(model.manifold), history=model.history())
-    if scene.inertia is not None:
-        start = replace(start, load_factor=1.0)
-    return Setup(
-        scene, formulation, model, tuple(regions.name), np.asarray(regions.material), start, origin
-    )
-
-
 def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) -> Staged:
     """Return a stage with its own model; blocks keep their numbers and names."""
     check_parts(stage.scene, stage.formulation)
     cover, place = stage.formulation.cover, scene.source.place("stages")
     refuse_many_cells(regions, cover, place, None if cover.of_blocks else net_class(cover))
-    setup = _setup(stage.scene, stage.formulation, regions.only(stage.present), origin)
+    geometry = geometry_of(scene, regions.only(stage.present))
+    setup = setup_of(stage.scene, stage.formulation, geometry, origin)
     whole = replace(
         setup,
         region_name=tuple(regions.name),

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.stepping.drive.changes import Stands, with_events
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.budget import BudgetSpentError
@@ -34,12 +35,15 @@ class Schedule:
         Factor on the scaled loads, constant in dynamics.
     stage
         Name of the frames' stage.
+    events
+        Whether effects may change what is solved.
     """
 
     duration: float
     step: float
     load_factor: float = 1.0
     stage: str = "dynamic"
+    events: bool = True
 
 
 @dataclass(frozen=True)
@@ -125,12 +129,16 @@ def _next(
         cuts, last = cuts + 1, f"at {state.time:.6g} s: {why}"
         said = f"{said}  cut to {taken:.3g} s: {why}"
     recorder.offer(after, schedule.stage, contacts)
+    stands = Stands(after, contacts)
+    if schedule.events:
+        stands = with_events(recorder, stands, schedule.stage)
     end = at.begin + schedule.duration
-    text = "  ".join([f"time {after.time:.4g} s of {end:.4g} s", said]).rstrip()
+    parts = [f"time {after.time:.4g} s of {end:.4g} s", said, stands.what]
+    text = "  ".join(filter(None, parts))
     progress((after.time - at.begin) / schedule.duration, text)
     # After a cut the step grows back slowly: what made it fail is rarely over at once.
     step = min(schedule.step, 2 * taken) if taken < schedule.step else schedule.step
-    return InTime(after, contacts, at.begin, step, cuts, last)
+    return InTime(stands.state, stands.contacts, at.begin, step, cuts, last)
 
 
 def _arrived(at: InTime) -> RunVerdict:

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 import numpy as np
 
 from nmm.assembly.motion import State
-from nmm.model.solver_settings import solver_for
-from nmm.results.frame import Topology
+from nmm.stepping.drive.changes import difference, follow
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import CONVERGED, RunVerdict
 from nmm.stepping.reports.output import choice_in_time, choice_under_loads
 from nmm.stepping.reports.recorder import Recorder, monitors
+from nmm.stepping.step.frozen import with_parts
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:
@@ -127,11 +127,10 @@ def enter(
     change = _entered(stepper, state, staged, integrator)
     before = recorder.ledger.change_energy
     follow(recorder, change)
+    recorder.totals = with_parts(recorder.totals, taken=0, periods=0)
     added = recorder.ledger.change_energy - before
-    if not _same_elements(change):
-        recorder.sink.begin(topology(staged.setup))
     name = staged.stage.name
-    return change.state, f"stage {name} at {state.time:.6g}: {_what(change)}, {added:.6g} J"
+    return change.state, f"stage {name} at {state.time:.6g}: {difference(change)}, {added:.6g} J"
 
 
 def enter_again(
@@ -156,29 +155,8 @@ def _entered(stepper: Stepper, state: State, staged: Staged, integrator: "Integr
     else:
         state = replace(state, load_factor=0.0, velocity=still, acceleration=still)
     change = old.change(staged.setup, state)
-    solver = solver_for(change.new.manifold, stage.formulation.solver)
-    stepper.begin_anew(change, old.after(change), solver, integrator)
+    stepper.begin_anew(change, integrator)
     return change
-
-
-def follow(recorder: Recorder, change: "Change") -> None:
-    """Record the new model from now on: its monitors, and what the change did to the energies."""
-    recorder.monitors = monitors(change.setup, all_there=False)
-    stepper, totals = recorder.stepper, recorder.totals
-    ledger = totals.ledger.changed(stepper.plan, stepper.model, change.state)
-    recorder.totals = replace(totals, ledger=ledger, taken=0, periods=0)
-
-
-def topology(setup: "Setup") -> Topology:
-    """Return the elements of a model as frames need them."""
-    manifold = setup.model.manifold
-    return Topology(
-        elements=manifold.elements,
-        element_region=manifold.element_region,
-        region_material=np.asarray(setup.region_material, dtype=np.int64),
-        material_names=tuple(setup.scene.materials),
-        region_names=setup.region_name,
-    )
 
 
 def _solved(
@@ -207,21 +185,3 @@ def _solved(
     assert isinstance(under, UnderLoad)
     names = staged.setup.region_name
     return run_load(stepper, recorder, under, loads, progress, names, keeps.keep)
-
-
-def _same_elements(change: "Change") -> bool:
-    old, new = change.old.manifold, change.new.manifold
-    return (
-        np.array_equal(old.elements.points, new.elements.points)
-        and np.array_equal(old.elements.ring_offsets, new.elements.ring_offsets)
-        and np.array_equal(old.element_region, new.element_region)
-    )
-
-
-def _what(change: "Change") -> str:
-    """Say what changed: blocks and unknowns."""
-    old, new = (set(m.manifold.element_region.tolist()) for m in (change.old, change.new))
-    said = [f"{len(old - new)} blocks removed"] if old - new else []
-    said += [f"{len(new - old)} blocks added"] if new - old else []
-    before, after = change.old.manifold.n_unknowns, change.new.manifold.n_unknowns
-    return ", ".join([*said, f"{after} unknowns after {before}"])

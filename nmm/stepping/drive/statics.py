@@ -13,6 +13,7 @@ import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.stepping.drive.changes import Stands, called_for, with_events
 from nmm.stepping.drive.relaxation import Relaxed, relax
 from nmm.stepping.drive.static_theorem import carried
 from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED, FAILED, FAILURE, SPENT, RunVerdict
@@ -98,12 +99,20 @@ class UnderLoad:
         Of the load factor, which is tried next.
     rest
         How loose blocks were brought to rest; None when they were not.
+    changed
+        What has changed in this state, which is not in equilibrium again yet, in words.
     """
 
     state: State
     contacts: "ContactPoints | None"
     increment: float
     rest: Rest | None = None
+    changed: str = ""
+
+    @property
+    def rise(self) -> float:
+        """Of the load factor, to the state that is sought next."""
+        return 0.0 if self.changed else self.increment
 
     @classmethod
     def at_start(cls, state: State, schedule: LoadSchedule) -> "UnderLoad":
@@ -125,6 +134,8 @@ class Trial:
         Whether no smaller one would be tried before loose blocks are held or brought to rest.
     found, broke
         What came of it, and whether bonds broke in it.
+    event
+        Whether what was found calls for a change of what is solved.
     """
 
     factor: float
@@ -132,6 +143,7 @@ class Trial:
     last: bool
     found: "Settled"
     broke: bool
+    event: bool
 
 
 def run_load(
@@ -159,7 +171,7 @@ def run_load(
             if isinstance(found, RunVerdict):
                 verdict = found
             else:
-                grown = found.state.load_factor > at.state.load_factor
+                grown = at.changed or found.state.load_factor > at.state.load_factor
                 at = keep(found) if grown and not raising.reached(found) else found
         verdict = verdict or raising.arrived(at)
     except BudgetSpentError as spent:
@@ -181,17 +193,19 @@ class _Raising:
 
     def reached(self, at: UnderLoad) -> bool:
         """Whether the load has grown as far as it is to."""
-        return at.state.load_factor >= self.schedule.target * (1 - 1e-12)
+        full = at.state.load_factor >= self.schedule.target * (1 - 1e-12)
+        return full and not at.changed
 
     def next(self, at: UnderLoad) -> UnderLoad | RunVerdict:
         """Try an increment; then grow by it, or relax loose blocks, or try half of it, or end."""
         start = self.stepper.remember()
         trial = self._tried(at)
-        if trial.found.attempt.converged:
+        # What an event leaves is sought from where it happens, to the tolerance of the load.
+        if trial.found.attempt.converged and (trial.fine or not trial.event):
             return self._grown(at, trial)
         self.stepper.restore(start)
         unheld = self.stepper.plan.contact is not None and at.state.load_factor == 0
-        if unheld and at.rest is None and trial.last:
+        if unheld and at.rest is None and trial.last and not trial.event:
             return self._relaxed(at, trial)
         if trial.fine:
             return self._ended(at, trial)
@@ -200,8 +214,8 @@ class _Raising:
     def _tried(self, at: UnderLoad) -> Trial:
         """Look for equilibrium under one increment more, with anchors where nothing else helps."""
         stepper, schedule, state = self.stepper, self.schedule, at.state
-        factor = min(state.load_factor + at.increment, schedule.target)
-        fine = at.increment <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
+        factor = min(state.load_factor + at.rise, schedule.target)
+        fine = at.rise <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
         start, bonds = stepper.remember(), stepper.broken_bonds
         # A bond that breaks in a coarse increment is no news yet: the increment is cut first.
         end, breaking = self.schedule.instant(factor), _breaking(fine)
@@ -210,7 +224,9 @@ class _Raising:
         if last and _may_be_loose(stepper, found):
             stepper.restore(start)
             found = _anchored(stepper, state, end, breaking)
-        return Trial(factor, fine, last, found, stepper.broken_bonds > bonds)
+        stands = Stands(found.attempt.state, found.contacts)
+        event = found.attempt.converged and called_for(self.recorder, stands)
+        return Trial(factor, fine, last, found, stepper.broken_bonds > bonds, event)
 
     def _grown(self, at: UnderLoad, trial: Trial) -> UnderLoad:
         """Accept an increment; the next is larger unless bonds broke."""
@@ -220,8 +236,13 @@ class _Raising:
         recorder.offer(state, "load", found.contacts)
         text = "  ".join([f"load factor {trial.factor:.5g}", said]).rstrip()
         self.progress(min(trial.factor / schedule.target, 1.0), text)
+        stands = Stands(state, found.contacts)
+        if trial.event:
+            stands = with_events(recorder, stands, "load")
         longer = min(2 * at.increment, schedule.increment)
-        return UnderLoad(state, found.contacts, at.increment if trial.broke else longer, at.rest)
+        stays = trial.broke or trial.event or at.changed
+        increment = at.increment if stays else longer
+        return UnderLoad(stands.state, stands.contacts, increment, at.rest, stands.what)
 
     def _relaxed(self, at: UnderLoad, trial: Trial) -> UnderLoad | RunVerdict:
         """Bring loose blocks to rest, from where the load begins to grow anew."""
@@ -238,7 +259,7 @@ class _Raising:
     def _ended(self, at: UnderLoad, trial: Trial) -> RunVerdict:
         """Return the verdict on the finest increment, under which no equilibrium was found."""
         verdict = _no_equilibrium(
-            at.state, trial.factor, trial.found, self.schedule, self.stepper, self.names
+            at, trial.factor, trial.found, self.schedule, self.stepper, self.names
         )
         return _with_neutral(verdict, self.stepper, at.state, self.names)
 
@@ -356,7 +377,7 @@ def _no_rest(rest: Relaxed) -> RunVerdict:
 
 
 def _no_equilibrium(
-    state: State,
+    at: UnderLoad,
     factor: float,
     found: Settled,
     schedule: LoadSchedule,
@@ -364,22 +385,25 @@ def _no_equilibrium(
     names: Sequence[str],
 ) -> RunVerdict:
     """Return the verdict on a load that was not solved: of the structure, if that is shown."""
-    held, reason = state.load_factor, found.attempt.sentence
-    shown = evidence(stepper, state, factor, found, names)
+    held, reason = at.state.load_factor, found.attempt.sentence
+    shown = evidence(stepper, at.state, factor, found, names)
+    where = f"at load factor {held:.6g} after {at.changed}"
+    if not at.changed:
+        where = f"between load factors {held:.6g} and {factor:.6g}"
+    above = at.increment if at.changed else factor - held
+    tolerance = above / held if held else None
     if shown is None:
         sentence = (
-            f"no equilibrium was found between load factors {held:.6g} and {factor:.6g}: {reason}; "
+            f"no equilibrium was found {where}: {reason}; "
             "nothing shows that the structure is at fault: it may carry more; try another "
             "enforcement or a larger loading.tolerance"
         )
-        tolerance = (factor - held) / held if held else None
         return RunVerdict(FAILED, sentence, held, tolerance)
-    if not schedule.until_failure or held == 0:
-        sentence = f"no equilibrium between load factors {held:.6g} and {factor:.6g}: {shown}"
-        return RunVerdict(COLLAPSED, sentence, held)
-    tolerance = (factor - held) / held
+    if not schedule.until_failure or tolerance is None:
+        return RunVerdict(COLLAPSED, f"no equilibrium {where}: {shown}", held)
+    none = f"none after {at.changed}" if at.changed else f"none at {factor:.6g}"
     sentence = (
-        f"in equilibrium up to load factor {held:.6g}, none at {factor:.6g} "
+        f"in equilibrium up to load factor {held:.6g}, {none} "
         f"({100 * tolerance:.2g} % above): {shown}"
     )
     return RunVerdict(FAILURE, sentence, held, tolerance)

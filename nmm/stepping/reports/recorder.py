@@ -10,8 +10,8 @@ from integration.arrays import Floats
 from nmm.assembly.motion import MaterialPoints, State
 from nmm.assembly.places import at_point
 from nmm.effects.base import Setup
+from nmm.effects.view import View
 from nmm.errors import GeometryError
-from nmm.outputs.base import View
 from nmm.results.frame import Frame
 from nmm.results.sink import Sink
 from nmm.stepping.reports.declared import Declared
@@ -78,6 +78,10 @@ class Totals:
         Steps of this stretch of the run, and periods between frames that have passed.
     stored
         Whether the last state was stored as a frame.
+    changes
+        What events have changed so far, in words.
+    since
+        The state that the last change of what is solved has left; None before any.
     """
 
     ledger: Ledger = field(default_factory=Ledger)
@@ -92,6 +96,8 @@ class Totals:
     taken: int = 0
     periods: int = 0
     stored: bool = True
+    changes: tuple[str, ...] = ()
+    since: State | None = None
 
 
 @dataclass
@@ -161,7 +167,7 @@ class Recorder:
         }
         if after.history:
             row["material_loss"] = self.ledger.material_loss
-        if self.staged:
+        if self.staged or plan.askers:
             row["change_energy"] = self.ledger.change_energy
         if attempt.booked is not None:
             row["integration_loss"] = self.ledger.integration_loss
@@ -173,7 +179,7 @@ class Recorder:
         for monitor in self.monitors:
             way = monitor.points.place(after.frames, after.deformation)[0] - monitor.start
             row[f"monitor:{monitor.name}:ux"], row[f"monitor:{monitor.name}:uy"] = way
-        self.sink.row(row | self.declared.row(plan, lambda: self._view(after, contacts)))
+        self.sink.row(row | self.declared.row(plan, lambda: self.view(after, contacts)))
         held = [f"{count} {name}" for name, count in self.totals.counts.items() if count]
         noun = "pass" if attempt.passes == 1 else "passes"
         return f"{attempt.passes} {noun}, contacts: {', '.join(held)}" if held else ""
@@ -195,6 +201,15 @@ class Recorder:
         periods = max(choice.periods(state.time), totals.periods)
         self.totals = with_parts(totals, watch=watch, periods=periods)
         if due:
+            self.frame(state, stage, contacts)
+
+    def happened(
+        self, state: State, stage: str, contacts: "ContactPoints | None", what: str
+    ) -> None:
+        """Keep what an event changed; its state is a frame where events are asked for."""
+        changes = (*self.totals.changes, what)
+        self.totals = with_parts(self.totals, changes=changes, stored=False)
+        if "shape_changes" in self.choice.events:
             self.frame(state, stage, contacts)
 
     def frame(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
@@ -220,12 +235,13 @@ class Recorder:
             points=place,
             displacement=place - stepper.reference,
             velocity=state.frames.to_global(body, velocity),
-            stress=(view := self._view(state, contacts)).stress,
+            stress=(view := self.view(state, contacts)).stress,
             **self._contact_arrays(state, contacts),
             fields=self.declared.fields(stepper.plan, view),
         )
 
-    def _view(self, state: State, contacts: "ContactPoints | None") -> View:
+    def view(self, state: State, contacts: "ContactPoints | None") -> View:
+        """Return an accepted state with what can be read from it."""
         return View(self.stepper.model, state, contacts, self.stress)
 
     def stress(self, state: State) -> Floats:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.geometry.geometry import Geometry
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,8 @@ class CarriedOver:
         (`nmm.stepping.step.anchors`).
     laid
         Blocks that are laid anew after each step; None where they are not.
+    geometry
+        Blocks and cracks, where an effect has asked for others than those of the scene.
     effects
         What effects carry, by their names; empty while a stepper goes on, as they hold it.
     """
@@ -44,4 +47,5 @@ class CarriedOver:
     pushing: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     anchored: bool = False
     laid: LaidAnew | None = None
+    geometry: Geometry | None = None
     effects: Mapping[str, Any] = field(default_factory=dict)

@@ -11,7 +11,9 @@ from nmm.effects.base import Instant
 from nmm.errors import SolveError
 from nmm.integrators.base import Integrator
 from nmm.integrators.starting import rule_of
+from nmm.model.build import reshaped
 from nmm.model.discretisation import Current, Discretisation
+from nmm.model.solver_settings import solver_for
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.booking import booked
 from nmm.stepping.step.budget import Budget
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import Breaking, ContactRecord
     from nmm.effects.change import Change
+    from nmm.geometry.geometry import Geometry
     from nmm.model.plan import Plan
     from nmm.stepping.step.contact_step import Touching
 
@@ -66,12 +69,17 @@ class Stepper:
         self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
         self._current, self._lay, self._clock = Current(discretisation), lay, clock
         among = discretisation.plan.contact is not None
-        self._integrator = integrator.among_contacts if among else integrator
+        self._among = among
+        self._geometry: Geometry | None = None
+        self._integrator = self._ruling(integrator)
         self._assembly = Assembly(self._current)
         self._mover = Mover(self._current, solver, small or lay is not None, clock)
         self._alone = Alone(self._current, self._mover, solver, small, clock)
         self._touching = self._contact_step() if among else None
         self._carried = CarriedOver(self._reach())
+
+    def _ruling(self, integrator: Integrator) -> Integrator:
+        return integrator.among_contacts if self._among else integrator
 
     def _contact_step(self) -> "Touching":
         """Return what solves steps with contact; not imported where nothing may touch."""
@@ -96,11 +104,14 @@ class Stepper:
         laid, stress = None, self.plan.initial_stress
         if self._lay is not None and stress is not None:
             laid = LaidAnew(self.model.manifold.elements.points, stress.stress)
-        return replace(self._carried, laid=laid, effects=self.plan.carried())
+        effects = self.plan.carried()
+        return replace(self._carried, laid=laid, geometry=self._geometry, effects=effects)
 
     def carry(self, carried: CarriedOver) -> None:
         """Go on from what was carried elsewhere, with nothing that was kept here."""
-        self._carried = replace(carried, laid=None, effects={})
+        if carried.geometry is not None and self._geometry is None:
+            self.reshape(carried.geometry, self.discretisation.setup.start)
+        self._carried = replace(carried, laid=None, geometry=None, effects={})
         if self._lay is not None and carried.laid is not None:
             self._lay_again(self._lay, carried.laid)
         self.plan.carry(carried.effects)
@@ -221,15 +232,25 @@ class Stepper:
         if self._touching is not None:
             self._touching.follow(change)
 
-    def begin_anew(
-        self, change: "Change", new: Discretisation, solver: LinearSolver, integrator: Integrator
-    ) -> None:
-        """Solve ``new`` from now on, whose unknowns are others, by a solver that fits its covers.
+    def reshape(self, geometry: "Geometry", state: State) -> "Change":
+        """Solve the same blocks in another geometry; ``state`` is carried over to it."""
+        old = self.discretisation
+        change = old.change(reshaped(old.setup, geometry), state)
+        self.begin_anew(change)
+        self._geometry = geometry
+        return change
+
+    def begin_anew(self, change: "Change", integrator: Integrator | None = None) -> None:
+        """Solve what a change leads to from now on, whose unknowns are others.
 
         The next step is a first one: no acceleration is known, and nothing is kept for speed.
+        ``integrator`` is another one if the change asks for it.
         """
-        self.follow(change, new)
-        self.solver, self._integrator = solver, integrator
+        self.follow(change, self.discretisation.after(change))
+        solver = solver_for(change.new.manifold, change.setup.formulation.solver)
+        if integrator is not None:
+            self._integrator = self._ruling(integrator)
+        self.solver = solver
         for part in self._solvers:
             part.solver = solver
         self.size = max(self.size, float(np.hypot(*np.ptp(self.reference, axis=0))))

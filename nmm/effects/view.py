@@ -1,0 +1,36 @@
+"""An accepted state with what can be read from it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
+
+
+@dataclass(frozen=True)
+class View:
+    """An accepted state as outputs and effects see it.
+
+    Attributes
+    ----------
+    model, state
+        Manifold with its materials; where it is and how fast.
+    contacts
+        Its C contact points; None without contact.
+    """
+
+    model: Model
+    state: State
+    contacts: "ContactPoints | None"
+    stress_of: Callable[[State], Floats]
+
+    @cached_property
+    def stress(self) -> Floats:
+        """(E, 3) mean Cauchy stress (xx, yy, xy) of the elements in global axes (Pa)."""
+        return self.stress_of(self.state)

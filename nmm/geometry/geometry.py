@@ -1,0 +1,26 @@
+"""What a model covers: blocks, and the cracks in them."""
+
+from dataclasses import dataclass
+
+from integration.arrays import Floats
+from nmm.geometry.blocks import Regions
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """Blocks and cracks in the reference place, in the axes of the model.
+
+    It is that of the scene until an effect asks for another one. Pieces of a block that was
+    divided are polygons of one number (`Regions.number`): a region is a block of the scene,
+    whatever has become of it.
+
+    Attributes
+    ----------
+    regions
+        The blocks that are there.
+    cracks
+        Polylines (n, 2) that cut them, m.
+    """
+
+    regions: Regions
+    cracks: tuple[Floats, ...] = ()

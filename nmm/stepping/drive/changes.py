@@ -1,0 +1,100 @@
+"""What a run does when what it solves has changed, be it by a stage or by an event in mid-run.
+
+Blocks and cracks have another geometry, the state is carried over to it, effects follow, the
+recorder goes on with the new model and the sink is told the new elements. An event is asked for by an
+effect (`nmm.effects.base.Effect.event`) after an accepted step; a scene without such effects pays
+one look at an empty list.
+"""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nmm.assembly.motion import State
+from nmm.results.frame import Topology
+from nmm.stepping.reports.recorder import Recorder, monitors
+from nmm.stepping.step.frozen import with_parts
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
+    from nmm.effects.base import Setup
+    from nmm.effects.change import Change
+
+
+@dataclass(frozen=True)
+class Stands:
+    """An accepted state with its contacts, and what has happened in it, in words."""
+
+    state: State
+    contacts: "ContactPoints | None"
+    what: str = ""
+
+
+def called_for(recorder: Recorder, at: Stands) -> bool:
+    """Whether an effect asks for another geometry; none is changed."""
+    plan = recorder.stepper.plan
+    if not plan.askers:
+        return False
+    view = recorder.view(at.state, at.contacts)
+    return any(plan.event(name, view) is not None for name in plan.askers)
+
+
+def with_events(recorder: Recorder, at: Stands, stage: str) -> Stands:
+    """Let every effect change what it asks for, one after the other; return what stands then."""
+    stepper, said = recorder.stepper, []
+    for name in stepper.plan.askers:  # a handful of effects
+        event = stepper.plan.event(name, recorder.view(at.state, at.contacts))
+        if event is None:
+            continue
+        change = stepper.reshape(event.geometry, at.state)
+        follow(recorder, change)
+        contact = stepper.plan.contact
+        at = Stands(change.state, None if contact is None else contact.standing)
+        said.append(event.what)
+    if not said:
+        return at
+    what = ", ".join(said)
+    recorder.happened(at.state, stage, at.contacts, f"at {at.state.time:.6g}: {what}")
+    return Stands(at.state, at.contacts, what)
+
+
+def follow(recorder: Recorder, change: "Change") -> None:
+    """Record the new model from now on: monitors, elements, and what it did to the energies."""
+    recorder.monitors = monitors(change.setup, all_there=False)
+    stepper, totals = recorder.stepper, recorder.totals
+    ledger = totals.ledger.changed(stepper.plan, stepper.model, change.state)
+    recorder.totals = with_parts(totals, ledger=ledger, since=change.state)
+    if not same_elements(change):
+        recorder.sink.begin(topology(change.setup))
+
+
+def topology(setup: "Setup") -> Topology:
+    """Return the elements of a model as frames need them."""
+    manifold = setup.model.manifold
+    return Topology(
+        elements=manifold.elements,
+        element_region=manifold.element_region,
+        region_material=np.asarray(setup.region_material, dtype=np.int64),
+        material_names=tuple(setup.scene.materials),
+        region_names=setup.region_name,
+    )
+
+
+def same_elements(change: "Change") -> bool:
+    """Whether a change has left the elements as they were."""
+    old, new = change.old.manifold, change.new.manifold
+    return (
+        np.array_equal(old.elements.points, new.elements.points)
+        and np.array_equal(old.elements.ring_offsets, new.elements.ring_offsets)
+        and np.array_equal(old.element_region, new.element_region)
+    )
+
+
+def difference(change: "Change") -> str:
+    """Say what changed: blocks and unknowns."""
+    old, new = (set(m.manifold.element_region.tolist()) for m in (change.old, change.new))
+    said = [f"{len(old - new)} blocks removed"] if old - new else []
+    said += [f"{len(new - old)} blocks added"] if new - old else []
+    before, after = change.old.manifold.n_unknowns, change.new.manifold.n_unknowns
+    return ", ".join([*said, f"{after} unknowns after {before}"])
