@@ -13,18 +13,18 @@ from typing import Any
 
 from nmm.contact.enforcement.base import ENFORCEMENTS
 from nmm.fracture.criteria.base import CRITERIA
+from nmm.geometry.tessellation.cover_types import COVER_TYPES
 from nmm.integrators.base import INTEGRATORS
 from nmm.interfaces.base import INTERFACE_LAWS
 from nmm.materials.base import MATERIAL_LAWS
 from nmm.model.effects_table import EFFECTS
-from nmm.model.several_meshes import NETS
 from nmm.outputs.base import OUTPUTS
 from nmm.registry import Registry
 from nmm.solvers.linear import SOLVERS
 from nmm.trust import import_allowed
 
 REGISTRIES: tuple[Registry[Any], ...] = (
-    NETS,
+    COVER_TYPES,
     MATERIAL_LAWS,
     INTERFACE_LAWS,
     ENFORCEMENTS,

@@ -22,8 +22,20 @@ if TYPE_CHECKING:
     Recut = Callable[["Cover"], CutCells]
 
 
+class CoverType:
+    """A way of covering material: by patches over all of it, or by its pieces, one cover each.
+
+    Attributes
+    ----------
+    coordinates
+        options that are points, in the axes of the material.
+    """
+
+    coordinates: ClassVar[tuple[str, ...]] = ()
+
+
 @dataclass(frozen=True, eq=False)
-class Cover(ABC):
+class Cover(CoverType, ABC):
     """Patches over a mesh of convex cells; each cell knows the patches that are active in it.
 
     A cover is laid without regard to the material: the cut decides what is covered.
@@ -42,15 +54,12 @@ class Cover(ABC):
         length that scales coordinates about the centre to at most about one in the patch, m.
     cell_shape : (C,)
         cells of one number are translations of one another; -1 where nothing is known.
-    coordinates
-        options of ``regular`` that are points, in the axes of ``bounds``.
     even
         Whether all cells are of about the size that ``regular`` is given.
     overlap
         How many times the entries of a mesh's rows those of the cover have.
     """
 
-    coordinates: ClassVar[tuple[str, ...]] = ()
     even: ClassVar[bool] = True
     overlap: ClassVar[float] = 1.0
     vertices: Floats

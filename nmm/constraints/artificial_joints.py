@@ -20,7 +20,8 @@ from nmm.constraints.springs import Springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError
-from nmm.geometry.tessellation.sub_blocks import SubBlocks
+from nmm.geometry.tessellation.block_cover import PieceGlue
+from nmm.geometry.tessellation.cover_types import piece_glue
 
 
 class ArtificialJoints(TiedInterfaces):
@@ -32,20 +33,18 @@ class ArtificialJoints(TiedInterfaces):
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the options of the cover."""
-        options = SubBlocks.of(setup.formulation.cover)
-        stations = setup.formulation.contact.joint_points
-        return cls.of(setup.model, options.glue, options.stiffness, stations, setup.start)
+        glue = piece_glue(setup.formulation.cover)
+        assert glue is not None
+        return cls.of(setup.model, glue, setup.formulation.contact.joint_points, setup.start)
 
     @classmethod
-    def of(cls, model: Model, glue: str, stiffness: float, stations: str, start: State) -> Self:
+    def of(cls, model: Model, glue: PieceGlue, stations: str, start: State) -> Self:
         """Find the joints.
 
         Parameters
         ----------
         glue
-            "springs" or "nitsche".
-        stiffness
-            Of springs, in Young's moduli over the distance of the middles.
+            What they are.
         stations
             Where springs between linear fields act: "corners" or "gauss". Between fields that bend
             they act at as many Gauss points as their degree asks for.
@@ -57,10 +56,10 @@ class ArtificialJoints(TiedInterfaces):
         degree, n = model.manifold.degree, model.manifold.n_unknowns
         if not len(joints):  # blocks that are not divided
             return cls([], n)
-        if glue == "nitsche":
+        if glue.kind == "nitsche":
             check_linear(model, "[cover.options] glue", 'glue = "springs"')
             interface = gauss_interface(model, joints, 2 * degree)
-            tie = Method(glue, None, degree).impose(model, [interface])[0]
+            tie = Method(glue.kind, None, degree).impose(model, [interface])[0]
             if tie.free.any():
                 raise FormulationError(
                     '[cover.options] glue: "nitsche": with functions without strain: expected '
@@ -71,7 +70,7 @@ class ArtificialJoints(TiedInterfaces):
             interface = gauss_interface(model, joints, 2 * max(degree, 1))
         else:
             interface = station_interface(model, joints, stations, start)
-        return cls([Springs(interface, _spring(model, interface, stiffness))], n)
+        return cls([Springs(interface, _spring(model, interface, glue.stiffness))], n)
 
 
 def _spring(model: Model, interface: Interface, stiffness: float) -> Floats:

@@ -48,7 +48,7 @@ class BondedInterfaces(TiedInterfaces):
             ties.append(joint_springs(interface, np.where(np.isnan(stiffness), glue, stiffness)))
         cover = setup.formulation.cover
         if glued.any():
-            size = None if cover.of_blocks else cover.finest
+            size = cover.finest if model.manifold.shared_covers else None
             ties += glue_edges(model, joints.take(glued), part, size)
         return cls(ties, model.manifold.n_unknowns)
 

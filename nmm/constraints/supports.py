@@ -49,7 +49,7 @@ class Supports(TiedInterfaces):
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[supports]]``."""
         scene, cover = setup.scene, setup.formulation.cover
-        size = None if cover.of_blocks else cover.finest
+        size = cover.finest if setup.model.manifold.shared_covers else None
         part = setup.formulation.supports
         if size is not None:
             kind = method_for(setup.model, part.method, "penalty")

@@ -13,6 +13,7 @@ from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.mortar.segments import face_points
 from nmm.effects.base import Setup
 from nmm.errors import SceneError
+from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.interfaces.from_scene import interface_law
 
 
@@ -90,7 +91,8 @@ def _pairs(setup: Setup) -> Pairs:
             table[i, j] = order[id(setup.scene.interface(names[i], names[j]))]
         except SceneError:
             continue
-    return Pairs(table, setup.region_material, setup.formulation.cover.glued)
+    glued = piece_glue(setup.formulation.cover) is not None
+    return Pairs(table, setup.region_material, glued)
 
 
 def _held(setup: Setup) -> Bools:

@@ -11,6 +11,7 @@ from covers.approximation.uncut import uncut
 from covers.local_functions.polynomials import FUNCTIONS, LocalFunctions
 from integration.arrays import Floats
 from nmm.errors import FormulationError
+from nmm.geometry.tessellation.cover_types import block_cover
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -56,27 +57,24 @@ def cover_regions(
     """
     lines = [*cracks, *np.asarray(regions.cracks)]
     functions = local_functions(cover)
-    if cover.regions and (cover.of_blocks or cover.functions != "monomials"):
+    kind = block_cover(cover)
+    if cover.regions and (kind is not None or cover.functions != "monomials"):
         raise FormulationError(
             f'[[cover.regions]]: with type = "{cover.type}", functions = "{cover.functions}": '
             'expected a mesh of polynomials: use type = "triangles" and functions = "monomials"'
         )
-    if cover.nets and cover.of_blocks:
+    if cover.nets and kind is not None:
         raise FormulationError(
             f'[[cover.nets]]: with type = "{cover.type}" every block has its own cover: expected a '
             'mesh: use type = "triangles", or remove the nets'
         )
-    if cover.of_blocks:
+    if kind is not None:
         if lines:
             raise FormulationError(
                 f'[cover] type: "{cover.type}": {len(lines)} cracks end inside blocks: expected a '
                 'cover that cracks can cut: use type = "triangles" with a size'
             )
-        blocks, region = regions.polygons, np.arange(len(regions.polygons), dtype=np.int64)
-        if cover.type == "sub_blocks":
-            from nmm.geometry.tessellation.sub_blocks import divided
-
-            blocks, region = divided(blocks, cover)
+        blocks, region = kind.divided(regions.polygons, cover.size, cover.angle, cover.shift)
         manifold = block_manifold(blocks, region, functions)
         return Covering(manifold, uncut(manifold))
     return _mesh(regions, cover, functions, lines, kappa)

@@ -14,6 +14,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.geometry.blocks import Regions
+from nmm.geometry.tessellation.cover_types import COVER_TYPES
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import Sink
 from nmm.results.tee import Tee
@@ -64,7 +65,7 @@ def shifted(part: "ModelT", by: Floats) -> "ModelT":
         changed = _moved(value, by) if name in places else _shifted_within(value, by)
         if changed is not value:
             changes[name] = changed
-    if isinstance(part, CoverTable) and part.options and not part.of_blocks:
+    if isinstance(part, CoverTable) and part.options:
         changes["options"] = _moved_options(part, by)
     return part.model_copy(update=changes) if changes else part
 
@@ -87,10 +88,8 @@ def _marked(hint: Any) -> bool:
 
 
 def _moved_options(cover: CoverTable, by: Floats) -> dict[str, Any]:
-    from covers.mathematical.registry import cover_class
-
     moved = dict(cover.options)
-    for name in cover_class(cover.type).coordinates:
+    for name in COVER_TYPES.load(cover.type).coordinates:
         try:
             points = np.asarray(moved.get(name, ()), dtype=float).reshape(-1, 2)
         except (TypeError, ValueError):  # no points: the cover says so when it is laid

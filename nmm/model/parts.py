@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from nmm.errors import Fault, FormulationError, NmmError, SceneError
-from nmm.registry import check_values
 from nmm.scene.faults import suggestion
 
 if TYPE_CHECKING:
@@ -127,8 +126,7 @@ def _interface(part: Any) -> None:
 
 def _cover(part: Any) -> None:
     from covers.local_functions.polynomials import FUNCTIONS
-    from covers.mathematical.registry import COVERS
-    from nmm.geometry.tessellation.sub_blocks import SubBlocks
+    from nmm.geometry.tessellation.cover_types import COVER_TYPES, block_cover
     from nmm.model.several_meshes import net_class
 
     _known("functions", part.functions, [*FUNCTIONS])
@@ -136,20 +134,18 @@ def _cover(part: Any) -> None:
         from nmm.model.covering import local_functions
 
         local_functions(part)
-    if part.type == "sub_blocks":
-        SubBlocks.of(part)
-    if part.type == "block":
-        check_values("[cover.options]", {}, part.options)
+    if ":" not in part.type:
+        _known("cover", part.type, [*COVER_TYPES.table])
+    blocks = block_cover(part)
+    if blocks is None:
+        net_class(part)
+    elif not blocks.divides:
         for key in () if part.nets else ("size", "angle", "shift", "enrichment"):
             if getattr(part, key) != type(part).model_fields[key].default:
                 remedy = f"remove {key}, or choose a net such as triangles"
-                expected = 'no such key: type is "block", and blocks have no net'
+                expected = f'no such key: type is "{part.type}", and blocks have no net'
                 raise FormulationError(Fault(key, str(getattr(part, key)), expected, remedy))
-    if part.of_blocks:
         return
-    if ":" not in part.type:
-        _known("cover", part.type, ["block", "sub_blocks", *COVERS])
-    net_class(part)
     if part.size is None:
         expected = f'the size of a cell in m, as type is "{part.type}"'
         raise FormulationError(Fault("size", "missing", expected, "add for example size = 0.1"))

@@ -16,6 +16,7 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup, defines
 from nmm.errors import SolveError
+from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own, with_table
 
 if TYPE_CHECKING:
@@ -274,7 +275,7 @@ def plan_after(plan: Plan, change: "Change") -> Plan:
 def _makers(setup: Setup) -> dict[str, Callable[[], Effect]]:
     """Return what builds the effects that a scene names, in the order of the table."""
     kinds = [EFFECTS.load(name) for name, wanted in called_for(setup.scene).items() if wanted]
-    if setup.formulation.cover.glued:
+    if piece_glue(setup.formulation.cover) is not None:
         kinds.append(EFFECTS.load(GLUE))
     makers: dict[str, Callable[[], Effect]] = {
         kind.name: partial(kind.from_setup, setup) for kind in kinds

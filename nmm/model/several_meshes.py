@@ -11,17 +11,14 @@ from covers.cutting.cut_cells import CutCells
 from covers.cutting.several_meshes import joined_cover, joined_cut
 from covers.mathematical.base import Cover as MathematicalCover
 from covers.mathematical.polynomial_cover import PolynomialCover
-from covers.mathematical.registry import COVERS
 from integration.arrays import Floats, Ints
 from nmm.errors import Fault, FormulationError
-from nmm.registry import Registry, check_values
+from nmm.geometry.tessellation.cover_types import COVER_TYPES
+from nmm.registry import check_values
 
 if TYPE_CHECKING:
     from nmm.formulation import CoverNet, CoverTable
     from nmm.geometry.blocks import Regions
-
-NETS = Registry[type[MathematicalCover]]("cover", MathematicalCover, COVERS)
-"""Mathematical covers by name, or a user's own."""
 
 
 def laid_and_cut(
@@ -86,7 +83,7 @@ def net_class(cover: "CoverTable") -> Any:
     FormulationError
         When it is not known, may not be imported, lays no net, or has no such options.
     """
-    kind = NETS.load(cover.type)
+    kind: Any = COVER_TYPES.load(cover.type)
     regular = getattr(kind, "regular", None)
     if regular is None:
         expected, remedy = "a class method regular(bounds, size, ...)", "define it"

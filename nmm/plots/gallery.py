@@ -140,8 +140,6 @@ def _covers(run: RunData, scene: "Scene", path: Path) -> bool:
 
     text: str = getattr(run, "formulation", "")
     cover = parse_formulation(text).cover.model_copy(update={"enrichment": None})
-    if cover.of_blocks:
-        return False
     laid = cover_regions(regions(scene), cover, [np.array(item.points) for item in scene.cracks])
     if laid.laid is None:
         return False

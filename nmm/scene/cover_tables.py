@@ -23,6 +23,7 @@ from nmm.scene.fields import (
 )
 
 OWN = 'or "module:Name"'
+# Built-in types that carry a rigid motion with strain; all others carry polynomials.
 _OF_BLOCKS = ("block", "sub_blocks")
 
 
@@ -170,16 +171,6 @@ class CoverTable(PartTable):
     def highest_degree(self) -> int:
         """Highest degree of the polynomials, over all regions."""
         return max([self.degree or 0, *(item.degree for item in self.regions or ())])
-
-    @property
-    def of_blocks(self) -> bool:
-        """Whether each block, or sub-block, has one cover of its own."""
-        return self.type in _OF_BLOCKS
-
-    @property
-    def glued(self) -> bool:
-        """Whether blocks are divided into sub-blocks that never part."""
-        return self.type == "sub_blocks" and self.options.get("bond", "elastic") == "elastic"
 
     @model_validator(mode="before")
     @classmethod

@@ -17,6 +17,7 @@ from nmm.errors import FormulationError
 from nmm.formulation import Formulation, formulation_hash
 from nmm.geometry.checks.amounts import refuse_many_cells
 from nmm.geometry.regions import regions as build_regions
+from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.integrators.base import make_integrator
 from nmm.model.build import block_functions, geometry_of, reshaped, setup_of
 from nmm.model.consistency import check_together
@@ -25,7 +26,6 @@ from nmm.model.fault_places import placed
 from nmm.model.origin import MovedBack, own_origin, shifted, shifted_regions
 from nmm.model.parts import check_parts
 from nmm.model.plan import Plan, compile_plan
-from nmm.model.several_meshes import net_class
 from nmm.model.solver_settings import cures, solver_for, warnings
 from nmm.model.stages import Stage, stages_of
 from nmm.results.frame import Topology
@@ -375,8 +375,7 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     check_together(scene, formulation)
     check_parts(scene, formulation)
     cover = formulation.cover
-    net = None if cover.of_blocks else net_class(cover)
-    refuse_many_cells(regions, cover, formulation.source.place("cover", "size"), net)
+    refuse_many_cells(regions, cover, formulation.source.place("cover", "size"))
     asked, origin = (scene, formulation), own_origin(regions.polygons.points)
     if origin.any():
         regions = shifted_regions(regions, -origin)
@@ -411,7 +410,7 @@ def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) ->
     """Return a stage with its own model; blocks keep their numbers and names."""
     check_parts(stage.scene, stage.formulation)
     cover, place = stage.formulation.cover, scene.source.place("stages")
-    refuse_many_cells(regions, cover, place, None if cover.of_blocks else net_class(cover))
+    refuse_many_cells(regions, cover, place)
     geometry = geometry_of(scene, regions.only(stage.present))
     setup = setup_of(stage.scene, stage.formulation, geometry, origin)
     whole = replace(
@@ -434,7 +433,8 @@ def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
             'materials: blocks laid anew forget their strain: use update = "exact"'
         )
     functions = block_functions(formulation.cover)
-    if formulation.cover.type != "block" or functions.degree > 1:
+    kind = block_cover(formulation.cover)
+    if kind is None or kind.divides or functions.degree > 1:
         raise FormulationError(
             '[rotation] update: "linear": it lays blocks of linear functions anew: expected '
             'cover type "block" of degree 1: use update = "exact"'

@@ -10,6 +10,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
+from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.results.frame import Frame
 from nmm.results.storage.writing import told, write_text
 from nmm.scene import Scene
@@ -82,7 +83,7 @@ def compare_formulations(
 
 
 def _compared(case: StudyCase, grid: Raster, memory: bool) -> Compared:
-    family = "DDA" if case.formulation.cover.of_blocks else "manifold"
+    family = "manifold" if block_cover(case.formulation.cover) is None else "DDA"
     method = method_of(case.formulation)["cover"]
     try:
         run(case.scene, case.formulation)

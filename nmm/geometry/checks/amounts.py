@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from covers.mathematical.base import Cover
 from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm import capacity
 from nmm.errors import Fault, FormulationError
+from nmm.geometry.tessellation.cover_types import COVER_TYPES
 
 if TYPE_CHECKING:
-    from covers.mathematical.base import Cover
     from nmm.formulation import CoverTable
     from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
@@ -41,13 +42,11 @@ def refuse_many_blocks(scene: Scene, outlines: Polygons) -> None:
         _refuse_dense_joints(scene, outlines.points)
 
 
-def refuse_many_cells(
-    regions: Regions, cover: CoverTable, place: str, net: type[Cover] | None
-) -> None:
+def refuse_many_cells(regions: Regions, cover: CoverTable, place: str) -> None:
     """Refuse nets whose cells take more memory than there is.
 
     Cells that are not `Cover.even`, as of a graded net that grow away from its foci, are counted
-    where they are laid. ``net`` is None for blocks.
+    where they are laid.
 
     Raises
     ------
@@ -61,9 +60,9 @@ def refuse_many_cells(
     for block, size in nets.items():
         own = regions.polygons.take(regions.select(block))
         if len(own):
-            _refuse_cells(own.points, own.areas, size, cover, place, net)
+            _refuse_cells(own.points, own.areas, size, cover, place)
     if cover.size is not None:
-        _refuse_cells(points, regions.polygons.areas, cover.size, cover, place, net)
+        _refuse_cells(points, regions.polygons.areas, cover.size, cover, place)
 
 
 def _refuse_cells(
@@ -72,22 +71,21 @@ def _refuse_cells(
     size: float,
     cover: CoverTable,
     place: str,
-    net: type[Cover] | None,
 ) -> None:
     """A regular net is laid over the box of the material before it is cut by it."""
-    box = np.ptp(points, axis=0)
+    kind, box = COVER_TYPES.load(cover.type), np.ptp(points, axis=0)
     if size > COARSEST * box.max():
         value = f"{size:g} m, for blocks of {box.max():g} m"
         expected = "a size nearer to that of the blocks"
         raise FormulationError(Fault(place, value, expected, "check its unit"))
-    if net is not None and not net.even:
+    if issubclass(kind, Cover) and not kind.even:
         return
     longest = size * 1e6  # cells along a side: beyond it their number is no longer exact
     cells = float(np.prod(np.minimum(box, longest) / size + 1))
-    if net is None:
-        amount = float(areas.sum()) / size**2 * capacity.BLOCK
+    if issubclass(kind, Cover):
+        amount = cells * capacity.CELL * kind.overlap * (1 + cover.highest_degree) ** 2
     else:
-        amount = cells * capacity.CELL * net.overlap * (1 + cover.highest_degree) ** 2
+        amount = float(areas.sum()) / size**2 * capacity.BLOCK
     what = f"size {size:g} m over {box[0]:g} m by {box[1]:g} m: {cells:,.0f} cells"
     capacity.refuse(place, what, amount, "take a larger size")
 

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, Self
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Ints
 from integration.polygons import Polygons
 from nmm.errors import FormulationError
-from nmm.registry import check_values
+from nmm.geometry.tessellation.block_cover import BlockCover, PieceGlue
+from nmm.registry import above_zero
 
 if TYPE_CHECKING:
     from covers.mathematical.base import Cover as Net
-    from nmm.formulation import CoverTable
+    from covers.mathematical.quads import Quads
 
 MESHES = ("triangles", "quads", "voronoi")
 BONDS = ("elastic", "interface")
@@ -22,8 +23,8 @@ GLUES = ("springs", "nitsche")
 
 
 @dataclass(frozen=True)
-class SubBlocks:
-    """How blocks are divided: the options of ``[cover] type = "sub_blocks"``.
+class SubBlocks(BlockCover):
+    """Blocks divided by a mesh into sub-blocks that are glued, or may part (Ke 1996).
 
     Attributes
     ----------
@@ -33,75 +34,54 @@ class SubBlocks:
     bond
         "elastic": sub-blocks never part. "interface": they are joints of the scene's interface
         between the block's material and itself, and break as that says.
-    glue
-        What elastic bonds are: "springs", or "nitsche" for Nitsche's terms, which give by nothing.
-    stiffness
-        Springs in Young's moduli over the distance of the sub-blocks' middles.
+    glue, stiffness
+        What elastic bonds are; see `PieceGlue`.
     seed
         Of the Voronoi points.
     """
 
+    divides: ClassVar[bool] = True
     mesh: str = "triangles"
     bond: str = "elastic"
     glue: str = "springs"
-    stiffness: float = 100.0
+    stiffness: float = above_zero(100.0)
     seed: int = 1
 
-    @classmethod
-    def of(cls, cover: CoverTable) -> Self:
-        """Read the options of a formulation's cover.
-
-        Raises
-        ------
-        FormulationError
-            An unknown option or value, or no size.
-        """
-        check_values(
-            "[cover.options]", {item.name: item.type for item in fields(cls)}, cover.options
-        )
-        found = cls(**cover.options)
+    def __post_init__(self) -> None:
         for name, values in (("mesh", MESHES), ("bond", BONDS), ("glue", GLUES)):
-            if getattr(found, name) not in values:
+            if getattr(self, name) not in values:
                 raise FormulationError(
-                    f"[cover.options] {name}: {getattr(found, name)!r}: expected one of "
+                    f"[cover.options] {name}: {getattr(self, name)!r}: expected one of "
                     f"{', '.join(values)}: correct the name"
                 )
-        if not found.stiffness > 0:
-            raise FormulationError(
-                f"[cover.options] stiffness: {found.stiffness}: expected a number > 0"
-            )
-        if cover.size is None:
-            raise FormulationError(
-                "[cover] size: not given: expected the size of a sub-block in m with type = "
-                '"sub_blocks"'
-            )
-        return found
+
+    @property
+    def piece_glue(self) -> PieceGlue | None:
+        """See `BlockCover.piece_glue`."""
+        return PieceGlue(cast(Any, self.glue), self.stiffness) if self.bond == "elastic" else None
+
+    def divided(
+        self, blocks: Polygons, size: float | None, angle: float, shift: tuple[float, float]
+    ) -> tuple[Polygons, Ints]:
+        """See `BlockCover.divided`."""
+        assert size is not None
+        if self.mesh == "voronoi":
+            return _voronoi(blocks, size, self.seed)
+        from covers.cutting.cut import cut
+        from covers.mathematical.quads import Quads
+
+        points = blocks.points
+        bounds = np.stack([points.min(axis=0), points.max(axis=0)])
+        squares = Quads.regular(bounds, size, angle=angle, shift=shift)
+        net = _halved(squares) if self.mesh == "triangles" else squares
+        try:
+            pieces = cut(net, blocks)
+        except ValueError as fault:
+            raise FormulationError(f"[cover] {fault}") from fault
+        return pieces.elements, pieces.element_region
 
 
-def divided(blocks: Polygons, cover: CoverTable) -> tuple[Polygons, Ints]:
-    """Return the sub-blocks of all blocks and the block (n,) that each comes from."""
-    options = SubBlocks.of(cover)
-    assert cover.size is not None
-    if options.mesh == "voronoi":
-        return _voronoi(blocks, cover.size, options.seed)
-    from covers.cutting.cut import cut
-
-    points = blocks.points
-    bounds = np.stack([points.min(axis=0), points.max(axis=0)])
-    try:
-        pieces = cut(_net(bounds, cover, options.mesh == "triangles"), blocks)
-    except ValueError as fault:
-        raise FormulationError(f"[cover] {fault}") from fault
-    return pieces.elements, pieces.element_region
-
-
-def _net(bounds: Floats, cover: CoverTable, halved: bool) -> Net:
-    from covers.mathematical.quads import Quads
-
-    assert cover.size is not None
-    squares = Quads.regular(bounds, cover.size, angle=cover.angle, shift=cover.shift)
-    if not halved:
-        return squares
+def _halved(squares: Quads) -> Net:
     from skfem import MeshTri
 
     from covers.mathematical.triangles import Triangles

@@ -11,6 +11,7 @@ from typing import Any
 from nmm.errors import FormulationError, NmmError
 from nmm.formulation import Formulation, read_formulation
 from nmm.formulation import canonical_text as formulation_text
+from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.scene import Scene, build_scene
 from nmm.scene import canonical_text as scene_text
 from nmm.scene.document import build
@@ -96,7 +97,8 @@ def cases_of(
     file = Path(scene.source.name)
     folder = str(file.resolve().parent) if file.is_file() else ""
     for name, formulation in formulations.items():
-        blocks = formulation.cover.type == "block"
+        kind = block_cover(formulation.cover)
+        blocks = kind is not None and not kind.divides
         for settings in grid(vary):
             apt = {key: value for key, value in settings.items() if not (blocks and key == SIZE)}
             case = with_settings(StudyCase(name, scene, formulation, folder=folder), apt)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds, limit
 from nmm.verification.reading import converged
@@ -80,7 +81,7 @@ class ContactPatch(SceneCase):
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return meshes with a net of its own for the upper block."""
         found = super().formulation(scene, name)
-        if found.cover.of_blocks:
+        if block_cover(found.cover) is not None:
             return found
         return _covered(
             found,

@@ -31,7 +31,7 @@ def test_every_built_in_part_is_listed_with_a_description():
 def test_words_choose_lines():
     lines = call("cover").stdout.splitlines()
     assert [line.split()[1] for line in lines if line.split()[0] == "cover"] == [
-        "triangles", "quads", "graded", "bspline", "mls"
+        "block", "sub_blocks", "triangles", "quads", "graded", "bspline", "mls"
     ]  # fmt: skip
     (line,) = call("cover", "bspline").stdout.splitlines()
     assert "built-in" in line

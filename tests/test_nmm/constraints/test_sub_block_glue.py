@@ -13,6 +13,7 @@ from nmm.assembly.places import Place, on_edges
 from nmm.constraints.artificial_joints import ArtificialJoints
 from nmm.constraints.imposition import Method
 from nmm.formulation import CoverTable
+from nmm.geometry.tessellation.block_cover import PieceGlue
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.stepping.drive.linear_statics import body_force, equilibrium, hold, traction
@@ -41,7 +42,7 @@ def side(model: Model, axis: int, value: float, order: int = 8) -> Place:
 
 def glue(model: Model, kind: str, stations: str = "corners") -> ArtificialJoints:
     start = initial_state(model.manifold)
-    return ArtificialJoints.of(model, kind, 100.0, stations, start)
+    return ArtificialJoints.of(model, PieceGlue(kind, 100.0), stations, start)
 
 
 @pytest.mark.parametrize("stations", ["corners", "gauss"])

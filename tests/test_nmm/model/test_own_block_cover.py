@@ -1,0 +1,143 @@
+"""A block-like cover defined here gets the same treatment as the built-in ones."""
+
+import sys
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+import nmm
+from integration.polygons import Polygons
+from nmm.errors import NmmError
+from nmm.formulation import Formulation
+from nmm.geometry.tessellation.block_cover import BlockCover, PieceGlue
+from nmm.geometry.tessellation.sub_blocks import SubBlocks
+from nmm.scene import parse_scene
+from nmm.verification import text
+
+ME = Path(__file__).stem
+WALL = text.scene(
+    'plane = "strain"\nduration = 0.02\n[gravity]\n[inertia]\n[contact]\n',
+    [
+        text.material("rock", modulus=1e9, density=2500.0),
+        text.interface("any", 30.0),
+        text.box("base", (-1, -1), (3, 1)),
+        text.box("top", (0, 0.001), (1, 0.999)),
+        text.held("base"),
+    ],
+)
+PRESSED = text.scene(
+    'plane = "stress"\n',
+    [
+        text.material("rock", modulus=2e9, poisson=0.0, density=2500.0),
+        text.box("column", (0, 0), (1, 3)),
+        '[[supports]]\nname = "foot"\nsegment = [[0, 0], [1, 0]]\nfix = ["x", "y"]\n',
+        '[[loads]]\nname = "press"\nkind = "edge"\nsegment = [[0, 3], [1, 3]]\n'
+        "traction = [0, -4e6]\n",
+        '[[monitors]]\nname = "head"\npoint = [0.5, 3]\n',
+        '[[monitors]]\nname = "sole"\npoint = [0.5, 0]\n',
+    ],
+)
+
+
+@dataclass(frozen=True)
+class Stones(BlockCover):
+    """Whole blocks under another name."""
+
+
+@dataclass(frozen=True)
+class Divided(SubBlocks):
+    """Sub-blocks under another name."""
+
+
+@dataclass(frozen=True)
+class Courses(BlockCover):
+    """Rectangles divided into courses as high as the size, glued by Nitsche's terms."""
+
+    divides: ClassVar[bool] = True
+    lowest: float = 1.0
+
+    def divided(self, blocks, size, angle, shift):
+        """Return the courses from below; the lowest may be lower than the others."""
+        pieces, source = [], []
+        for number in range(len(blocks)):
+            points = blocks.take([number]).points
+            (left, low), (right, high) = points.min(axis=0), points.max(axis=0)
+            heights = [low, *np.arange(low + self.lowest * size, high - 1e-9, size), high]
+            for a, b in pairwise(heights):
+                pieces.append(np.array([[left, a], [right, a], [right, b], [left, b]]))
+                source.append(number)
+        return Polygons.from_vertices(pieces), np.array(source)
+
+    @property
+    def piece_glue(self):
+        """See `BlockCover.piece_glue`."""
+        return PieceGlue("nitsche")
+
+
+@pytest.fixture(autouse=True)
+def importable(monkeypatch):
+    monkeypatch.setitem(sys.modules, ME, sys.modules[__name__])
+
+
+def run(scene, cover, **tables):
+    formulation = Formulation.model_validate({"cover": cover, **tables})
+    return nmm.run(parse_scene(scene), formulation, allow_code=[ME])
+
+
+FLYING = text.scene(
+    'plane = "stress"\nduration = "1 s"\n[inertia]\n',
+    [
+        text.material("rock", modulus=1e9, density=2500.0),
+        text.box("stone", (0, 0), (1, 0.6)),
+        '[[initial_velocities]]\nblock = "stone"\nvelocity = [2, 0]\nangular_velocity = 1.5\n',
+    ],
+)
+LINEAR = {"rotation": {"update": "linear"}, "integrator": {"step": "0.02 s"}}
+SUB_BLOCKS = {"size": 0.5, "functions": "rigid_strain", "options": {"mesh": "quads"}}
+
+
+@pytest.mark.parametrize(
+    ("scene", "own", "built_in", "cover", "tables"),
+    [
+        (WALL, "Stones", "block", {"functions": "rigid_strain"}, {}),
+        (WALL, "Stones", "block", {"functions": "monomials", "degree": 2}, {}),
+        # The classical update lays whole blocks anew, whatever their cover is called.
+        (FLYING, "Stones", "block", {"functions": "rigid_strain"}, LINEAR),
+        (WALL, "Divided", "sub_blocks", SUB_BLOCKS, {}),
+    ],
+)
+def test_a_block_cover_under_another_name_has_the_same_digits(scene, own, built_in, cover, tables):
+    kinds = (f"{ME}:{own}", built_in)
+    one, other = (run(scene, {"type": kind, **cover}, **tables) for kind in kinds)
+    assert one.history.keys() == other.history.keys()
+    np.testing.assert_array_equal(one.frames[-1].points, other.frames[-1].points)
+    assert np.ptp(one.frames[-1].points - one.frames[0].points) > 1e-5  # something moved
+
+
+@pytest.mark.parametrize(("lowest", "courses"), [(1.0, 6), (0.5, 7)])
+def test_blocks_divided_and_glued_by_ones_own_cover_shorten_as_a_column(lowest, courses):
+    cover = {"type": f"{ME}:Courses", "size": 0.5, "options": {"lowest": lowest}}
+    done = run(PRESSED, cover)
+    assert len(done.manifold.elements) == courses
+    shorter = done.history["monitor:sole:uy"][-1] - done.history["monitor:head:uy"][-1]
+    # p h / E = 4e6 * 3 / 2e9, to rounding: Nitsche's terms give by nothing.
+    assert shorter == pytest.approx(6e-3, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("cover", "said"),
+    [
+        ({"type": f"{ME}:Stones", "size": 0.1}, "blocks have no net"),
+        ({"type": f"{ME}:Stones", "options": {"mesh": "quads"}}, "mesh: expected no option"),
+        ({"type": f"{ME}:Courses"}, "the size of a cell in m"),
+        ({"type": f"{ME}:Courses", "size": 1, "options": {"lowest": "half"}}, "a number"),
+        ({"type": f"{ME}:Stones", "nets": [{"block": "column", "size": 1}]}, "its own cover"),
+    ],
+)
+def test_what_a_block_cover_of_ones_own_cannot_take_is_told(cover, said):
+    with pytest.raises(NmmError, match=said):
+        run(PRESSED, cover)
