@@ -19,7 +19,7 @@ class Wedges(HardClass):
 
     name = "wedges"
     title = "a wedge in a crack of half angle 0.001 to 0.3, its faces meeting in one point"
-    oracle = "N = W / (2 (sin a + mu cos a)) on both faces, no fall, energy never rises"
+    oracle = "both faces press by W / (2 (sin a + mu cos a)), more where wedged in; W is carried"
 
     def cases(self, seed: int) -> Iterator[HardCase]:
         """Yield every half angle in statics, and one in time."""
@@ -70,18 +70,27 @@ def _statics(scene: Document) -> Checks:
     half = float(np.arctan2(points[1, 0], points[1, 1]))
     friction = np.tan(scene["interfaces"]["contact"]["friction_angle"])
     right = weight / (2 * (np.sin(half) + friction * np.cos(half)))
-    side = np.sign(frame.contact_position[:, 0])
-    forces = [-float(frame.contact_force[side == s, 0].sum()) for s in (-1.0, 1.0)]
+    # The faces touch each other at their foot, below the wedge; that is no force on it.
+    on_wedge = frame.contact_position[:, 1] > points[0, 1] / 2
+    side = np.sign(frame.contact_position[:, 0]) * on_wedge
+    forces, shear = (
+        [float(np.abs(column[side == s].sum())) for s in (-1.0, 1.0)]
+        for column in frame.contact_force.T
+    )
     # Faces give by N / (100 E), which the wedge turns into N / (100 E sin a) of sinking.
     sunk = 20.0 * right / (100 * 20e9) / np.sin(half) + 1e-9
     down = -float(found.run.history["monitor:foot:uy"][-1])
     reason = "closed form; strains turn faces by 1e-6 / a"
-    # Without friction the smallest half angle presses a face with 500 weights.
-    return checks | {
-        "force left": Check(forces[0], right, 1e-2, reason),
-        "force right": Check(forces[1], right, 1e-2, reason),
+    carried = sum(forces) * np.sin(half) + sum(shear) * np.cos(half)
+    checks |= {
+        "carried": Check(carried, weight, 1e-2, reason),
+        "both alike": Check(forces[0], forces[1], 1e-2, reason),
+        # Without friction the smallest half angle presses a face with 500 weights.
         "sinks": Check(down, 0.0, 1.0, "what its springs give", sunk + 1e-5),
     }
+    if friction > np.tan(half):  # wedged in: any larger force is in balance too
+        return checks | {"force": holds(forces[0] > 0.99 * right, f"{forces[0]:.4g} N a face")}
+    return checks | {"force": Check(forces[0], right, 1e-2, reason)}
 
 
 def _in_time(scene: Document) -> Checks:
