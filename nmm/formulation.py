@@ -180,6 +180,21 @@ class Solver(PartTable):
     )
 
 
+class Diffusion(Frozen):
+    """Steps in time of temperature and water heads, which are those of the run or parts of them."""
+
+    theta: Number = Field(
+        default=1.0,
+        ge=0.5,
+        le=1.0,
+        description="a weight of the end of a step in [0.5, 1]: 0.5 is of order 2, 1 damps most",
+        examples=[0.5],
+    )
+    step: Time | None = Field(
+        default=None, gt=0, description="the longest step in s, > 0", examples=["60 s"]
+    )
+
+
 class Formulation(Frozen):
     """Cover, contact enforcement, integrator, rotation, load steps and linear solver."""
 
@@ -194,6 +209,7 @@ class Formulation(Frozen):
     rotation: Rotation = Field(default=Rotation(), description="a table [rotation]")
     loading: LoadSteps = Field(default=LoadSteps(), description="a table [loading]")
     solver: Solver = Field(default=Solver(), description="a table [solver]")
+    diffusion: Diffusion | None = Field(default=None, description="a table [diffusion]")
 
     _source: Source = PrivateAttr(default_factory=lambda: Source("formulation"))
 

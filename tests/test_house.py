@@ -42,6 +42,8 @@ ROOMS = (
     "contact",
     "effects",
     "constraints",
+    "diffusion",
+    "heat",
     "fracture",
     "outputs",
     "results",

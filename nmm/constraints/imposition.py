@@ -17,7 +17,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
 from nmm.constraints.interface import Interface, Triplets
-from nmm.effects.base import Instant
+from nmm.effects.base import Instant, StressAt
 from nmm.errors import FormulationError
 from nmm.formulation import GHOST
 from nmm.registry import Registry
@@ -73,6 +73,10 @@ class Imposition(ABC):
     def earlier_forces(self, state: State, jump: Floats) -> Floats:
         """Return the same of the state in which a step began."""
         return self.point_forces(state, jump)
+
+    def added(self, state: State, stresses: Sequence[StressAt], time: float) -> Floats:
+        """Forces (m, 2) in N on the first side of stresses that other effects add."""
+        return np.zeros((len(self.interface), 2))
 
     def energy(self, state: State, jump: Floats) -> float:
         """Energy stored (J)."""

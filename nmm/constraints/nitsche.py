@@ -6,6 +6,7 @@ with tractions on the first side and jumps first less second. Against the ground
 is the body's own.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Self
 
@@ -21,6 +22,7 @@ from nmm.constraints.linear_matter import check_linear
 from nmm.constraints.nitsche_terms import against_ground, between_bodies
 from nmm.constraints.traction_donors import Flux
 from nmm.constraints.volume_lift import Lift
+from nmm.effects.base import StressAt
 
 
 @dataclass(frozen=True)
@@ -94,6 +96,15 @@ class Nitsche(Imposition):
             pressure = part.pressure(state.deformation, self._gap(state, jump))
             total += self.interface.held * (pressure[:, None] * self.interface.normal(state))
         return np.asarray(total)
+
+    def added(self, state: State, stresses: Sequence[StressAt], time: float) -> Floats:
+        """See `Imposition.added`."""
+        total = np.zeros((len(self.interface), 2))
+        for one in self.fluxes:  # at most two sides
+            for stress in stresses:  # a handful of effects
+                pull = one.of_stress(stress(one.elements, one.points, time))
+                total += state.frames.to_global(one.body, pull)
+        return self.interface.area[:, None] * total
 
     def energy(self, state: State, jump: Floats) -> float:
         """Minus tractions times jumps, half the penalty's and the ghost's; it may be negative."""

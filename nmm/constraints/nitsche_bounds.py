@@ -55,7 +55,7 @@ def element_bounds(
         own = values.shape[2]
         each = np.einsum("mia,m,mib->mab", values, weight, values)
         np.add.at(flux[:, :own, :own], place, each)
-    ratio = _largest_ratio(flux, element_stiffness(model, served, length))
+    ratio = largest_ratio(flux, element_stiffness(model, served, length))
     return [ratio[place] for place in numbers]
 
 
@@ -140,7 +140,7 @@ def element_stiffness(model: Model, elements: Ints, length: int) -> Floats:
     return total
 
 
-def _largest_ratio(flux: Floats, energy: Floats) -> Floats:
+def largest_ratio(flux: Floats, energy: Floats) -> Floats:
     """Largest eigenvalue (m,) of ``flux x = r energy x`` over all but free motions."""
     diagonal = np.einsum("mii->mi", energy)
     scale = np.where(diagonal > 0, 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0)), 0.0)

@@ -52,9 +52,8 @@ def against_ground(model: Model, interface: Interface, method: Method) -> Terms:
         method.ghost * model.thickness * soft / method.size**2,
         model.manifold.degree,
     )
-    flux = Flux(
-        place.points.body, *traction_rows(model, place.elements, place.position, place.normal)
-    )
+    rows = traction_rows(model, place.elements, place.position, place.normal)
+    flux = Flux(place.points.body, *rows, place.elements, place.position, place.normal)
     gamma = GAMMA[min(method.degree, 3)] if method.gamma is None else method.gamma
     penalty = gamma * hard[place.elements] / method.size
     if method.gamma is None:
@@ -79,8 +78,17 @@ def between_bodies(model: Model, interface: Interface, method: Method) -> Terms:
     total = compliance[0] + compliance[1]
     share = [part / np.where(total > 0, total, 1.0) for part in compliance]
     fluxes = tuple(
-        Flux(side.points.body, unknowns, weight[:, None, None] * values)
-        for side, (unknowns, values), weight in zip(interface.sides, rows, share, strict=True)
+        Flux(
+            side.points.body,
+            unknowns,
+            weight[:, None, None] * values,
+            own,
+            side.position,
+            weight[:, None] * normal,
+        )
+        for side, (unknowns, values), weight, own in zip(
+            interface.sides, rows, share, donor, strict=True
+        )
     )
     factor = SAFETY_BODIES if method.gamma is None else method.gamma
     lifts = [

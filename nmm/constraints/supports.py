@@ -110,10 +110,17 @@ class Supports(TiedInterfaces):
 
     def reactions(self, state: State) -> dict[str, Floats]:
         """Return the force (2,) in N that each support exerts on the bodies."""
+        now = instant_of(state)
         return {
-            tie.interface.name: tie.point_forces(state, jump).sum(axis=0)
-            for tie, jump in zip(self.ties, self._jumps(state, instant_of(state)), strict=True)
+            tie.interface.name: self._total(tie.point_forces(state, jump), tie, state)
+            for tie, jump in zip(self.ties, self._jumps(state, now), strict=True)
         }
+
+    def _total(self, forces: Floats, tie: Imposition, state: State) -> Floats:
+        """Sum (2,) of forces (m, 2) in N with those of stresses that other effects add."""
+        if self._stresses:
+            forces = forces + tie.interface.held * self._added(tie, state, instant_of(state))
+        return np.asarray(forces.sum(axis=0))
 
     def _driven(self, before: State, after: State) -> Iterator[tuple[int, Floats, Floats]]:
         """Number of each support and its displacements, (2,) or (m, 2), at both ends of a step."""
@@ -129,11 +136,11 @@ class Supports(TiedInterfaces):
         """
         tie = self.ties[number]
         jump = self._jumps(after, instant_of(after))[number]
-        last = tie.point_forces(after, jump).sum(axis=0)
+        last = self._total(tie.point_forces(after, jump), tie, after)
         if tie.shared is not None and self._in_time:
             return last, last
         jump = self._jumps(before, instant_of(before))[number]
-        return tie.earlier_forces(before, jump).sum(axis=0), last
+        return self._total(tie.earlier_forces(before, jump), tie, before), last
 
 
 def _mean(displacement: Floats) -> Floats:

@@ -12,7 +12,7 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import joined
-from nmm.effects.base import Effect, Instant
+from nmm.effects.base import Effect, Instant, StressAt
 
 # Multipliers (k,) of each space as found last and as the step began (Pa).
 LastMultipliers = tuple[tuple[Floats | None, Floats | None], ...]
@@ -36,6 +36,7 @@ class TiedInterfaces(Effect):
         self._known: list[tuple[State, list[Floats]]] = []
         self._spaces = list({id(t.shared): t.shared for t in ties if t.shared}.values())
         turning = [t.interface.bodies for t in ties if t.turns]
+        self._stresses: Sequence[StressAt] = ()
         self._turning = np.unique(np.concatenate([*turning, np.zeros(0, dtype=np.int64)]))
 
     @property
@@ -68,7 +69,17 @@ class TiedInterfaces(Effect):
         total = np.zeros(self._n)
         for tie, jump in zip(self.ties, self._jumps(state, end), strict=True):
             total += tie.force(state, jump)
+            if self._stresses:
+                total += tie.interface.spread(state, self._added(tie, state, end))
         return total
+
+    def feel(self, stresses: Sequence[StressAt]) -> None:
+        """See `Effect.feel`."""
+        self._stresses = stresses
+
+    def _added(self, tie: Imposition, state: State, end: Instant) -> Floats:
+        """Forces (m, 2) in N on the first side of a tie by stresses that other effects add."""
+        return tie.added(state, self._stresses, end.time)
 
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Conditions ``rows @ d = sides`` on the step's unknowns; None without multipliers."""
@@ -105,8 +116,12 @@ class TiedInterfaces(Effect):
 
     def energy(self, state: State) -> float:
         """Energy (J) stored in ``state``, with places of its own instant."""
-        jumps = self._jumps(state, instant_of(state))
-        return sum(tie.energy(state, jump) for tie, jump in zip(self.ties, jumps, strict=True))
+        now = instant_of(state)
+        pairs = list(zip(self.ties, self._jumps(state, now), strict=True))
+        total = sum(tie.energy(state, jump) for tie, jump in pairs)
+        if self._stresses:
+            total -= sum(float(np.sum(jump * self._added(tie, state, now))) for tie, jump in pairs)
+        return total
 
     def gap_volume(self, state: State, k: int) -> Floats:
         """See `Effect.gap_volume`."""

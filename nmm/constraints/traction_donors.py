@@ -29,11 +29,22 @@ class Flux:
         (m,) whose axes the rows are in.
     unknowns, values
         (m, L) and (m, 2, L).
+    elements, points
+        (m,) and (m, 2) where the stress is asked for.
+    normal
+        (m, 2) normals of the first side times the weight of this one.
     """
 
     body: Ints
     unknowns: Ints
     values: Floats
+    elements: Ints
+    points: Floats
+    normal: Floats
+
+    def of_stress(self, stress: Floats) -> Floats:
+        """Weighted traction (m, 2) in body axes of stresses (m, 3) at the points."""
+        return across(stress, self.normal)
 
 
 def donors(model: Model, elements: Ints) -> Ints:
@@ -62,6 +73,14 @@ def donors(model: Model, elements: Ints) -> Ints:
             break
         found[near] = moved
     return np.asarray(found[elements])
+
+
+def across(stress: Floats, normal: Floats) -> Floats:
+    """Tractions (m, 2) of stresses (m, 3) on planes with normals (m, 2)."""
+    x, y, shear = stress.T
+    return np.stack(
+        [x * normal[:, 0] + shear * normal[:, 1], shear * normal[:, 0] + y * normal[:, 1]], 1
+    )
 
 
 def traction_rows(

@@ -1,7 +1,7 @@
 """What an effect is to the step loop, and what it is built from."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -96,6 +96,10 @@ class Setup:
         return np.array([one == name or one.startswith(f"{name}.") for one in self.region_name])
 
 
+StressAt = Callable[[Ints, Floats, float], Floats]
+"""From elements, points and a time to stresses (m, 3) in body axes: see `Effect.stress_at`."""
+
+
 class Effect(ABC):
     """Base of effects: override the hooks the effect has; those left alone are never called.
 
@@ -181,6 +185,22 @@ class Effect(ABC):
 
     def history(self, state: State) -> Mapping[str, float]:
         """Numbers of a state by name, for a line of the history; asked for after each step."""
+        raise NotImplementedError
+
+    def mean_stress(self, state: State) -> Floats:
+        """Stress (E, 3) in body axes that it adds to that of the strain, mean of the elements."""
+        raise NotImplementedError
+
+    def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        """The same (m, 3) at reference points of elements, at a time."""
+        raise NotImplementedError
+
+    def feel(self, stresses: Sequence[StressAt]) -> None:
+        """Take the `stress_at` of the other effects: what holds edges by tractions needs them."""
+        raise NotImplementedError
+
+    def imbalance(self, state: State) -> float:
+        """What a conserved quantity lacks, as a share of all that came and went."""
         raise NotImplementedError
 
     def gap_volume(self, state: State, k: int) -> Floats:

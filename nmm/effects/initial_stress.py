@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
@@ -65,6 +65,14 @@ class InitialStress(Effect):
     def force(self, state: State, end: Instant) -> Floats:
         """Return the constant internal force."""
         return self._force
+
+    def mean_stress(self, state: State) -> Floats:
+        """See `Effect.mean_stress`."""
+        return self.stress
+
+    def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        """See `Effect.stress_at`."""
+        return np.asarray(self.stress[elements])
 
     def energy(self, state: State) -> float:
         """Energy (J) that the stress adds to that of the strain, ``1/2 eps : D eps``."""

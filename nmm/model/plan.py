@@ -14,7 +14,7 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
-from nmm.effects.base import Effect, Instant, Setup, defines
+from nmm.effects.base import Effect, Instant, Setup, StressAt, defines
 from nmm.errors import SolveError
 from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own, with_table
@@ -55,6 +55,18 @@ class Plan:
     def joined(self, effect: Effect) -> "Plan":
         """Return the plan with one effect more."""
         return Plan({**self.effects, effect.name: effect})
+
+    def connected(self) -> "Plan":
+        """Tell the effects that ask which stresses others add; return the plan itself."""
+        if self.stresses:
+            for effect in self._with("feel"):
+                effect.feel(self.stresses)
+        return self
+
+    @property
+    def stresses(self) -> list[StressAt]:
+        """What tells the stresses that effects add to that of the strain."""
+        return [effect.stress_at for effect in self._with("stress_at")]
 
     def begin(self, state: State) -> State:
         """Return the state at the start of the run."""
@@ -134,6 +146,11 @@ class Plan:
         """Volumes (k,) between edges and where they are held."""
         gaps = [effect.gap_volume(state, k) for effect in self._with("gap_volume")]
         return sum(gaps, start=np.zeros(k))
+
+    def added_stress(self, state: State) -> Floats | None:
+        """Return the mean stress (E, 3) beyond that of the strain; None where nothing adds any."""
+        parts = [effect.mean_stress(state) for effect in self._with("mean_stress")]
+        return np.asarray(sum(parts[1:], start=parts[0])) if parts else None
 
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Return conditions on the step's unknowns that multipliers hold, None without any."""
@@ -256,7 +273,7 @@ def compile_plan(setup: Setup) -> Plan:
     plan = Plan({})
     for name, make in _makers(setup).items():
         plan.effects[name] = plan._timed(name, make)
-    return plan
+    return plan.connected()
 
 
 def plan_after(plan: Plan, change: "Change") -> Plan:
@@ -269,7 +286,7 @@ def plan_after(plan: Plan, change: "Change") -> Plan:
     new = Plan({}, plan.seconds)
     for name, make in makers.items():
         new.effects[name] = new._timed(name, make)
-    return new
+    return new.connected()
 
 
 def _makers(setup: Setup) -> dict[str, Callable[[], Effect]]:

@@ -34,7 +34,7 @@ from nmm.scene.fields import (
 _HISTORY = "pairs [t, factor] with t increasing"
 
 
-class _Placed(Frozen):
+class Placed(Frozen):
     """Something that acts at a place: a point, a segment, a block, or a part of a block."""
 
     name: Name = Field(description=NAME, examples=["left"])
@@ -56,7 +56,7 @@ class _Placed(Frozen):
         return value
 
 
-class SupportTable(_Placed):
+class SupportTable(Placed):
     """Displacement components that are prescribed at a place."""
 
     fix: Annotated[tuple[Literal["x", "y"], ...], Field(min_length=1)] = Field(
@@ -87,7 +87,7 @@ _LOADS = {
 }
 
 
-class LoadTable(_Placed):
+class LoadTable(Placed):
     """A force at a point, a traction on a segment of the boundary, or a force on volume."""
 
     kind: Literal["point", "edge", "body"] = Field(

@@ -14,14 +14,16 @@ from pydantic import BaseModel
 from nmm.scene.faults import suggestion
 from nmm.scene.lines import Path
 from nmm.scene.stage_rules import stage_contradictions
+from nmm.scene.tables.heat_rules import PARTS as HEAT
+from nmm.scene.tables.heat_rules import heat_contradictions
 
 Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
 Tables = Mapping[str, Any]
 Rule = Callable[[Tables], Iterator[Finding]]
 
 _SOLIDS = ("blocks", "tessellations")
-_NAMED = ("joint_sets", "cracks", "supports", "loads", "monitors", "stages")
-_AT_BLOCKS = ("supports", "loads", "monitors")
+_NAMED = ("joint_sets", "cracks", "supports", "loads", "monitors", "stages", *HEAT)
+_AT_BLOCKS = ("supports", "loads", "monitors", *HEAT)
 _ON_BLOCKS = ("initial_velocities", "initial_stresses", "joint_sets")
 
 
@@ -31,7 +33,7 @@ def contradictions(data: object) -> list[Finding]:
     if not isinstance(plain, Mapping):
         return []
     own: tuple[Rule, ...] = (_solids, _names, _materials, _interfaces, _block_names, _densities)
-    rules = (*own, _effects, stage_contradictions)
+    rules = (*own, _effects, stage_contradictions, heat_contradictions)
     return [finding for rule in rules for finding in rule(plain)]
 
 

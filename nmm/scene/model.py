@@ -35,6 +35,13 @@ from nmm.scene.own_tables import EffectTable
 from nmm.scene.solids import Block, Crack, InterfaceTable, JointSet, Material, Tessellation
 from nmm.scene.stages import StageTable
 from nmm.scene.tables.damping import DampingTable
+from nmm.scene.tables.heat import (
+    ConvectionTable,
+    HeatFluxTable,
+    HeatSourceTable,
+    HeatTable,
+    TemperatureTable,
+)
 
 
 class Scene(Frozen):
@@ -81,6 +88,17 @@ class Scene(Frozen):
     )
     initial_stresses: tuple[InitialStressTable, ...] = Field(
         default=(), description="tables [[initial_stresses]]"
+    )
+    heat: HeatTable | None = Field(default=None, description="a table [heat]")
+    temperatures: tuple[TemperatureTable, ...] = Field(
+        default=(), description="tables [[temperatures]]"
+    )
+    heat_fluxes: tuple[HeatFluxTable, ...] = Field(default=(), description="tables [[heat_fluxes]]")
+    heat_sources: tuple[HeatSourceTable, ...] = Field(
+        default=(), description="tables [[heat_sources]]"
+    )
+    convections: tuple[ConvectionTable, ...] = Field(
+        default=(), description="tables [[convections]]"
     )
     effects: dict[TableName, EffectTable] = Field(
         default={}, description="tables [effects.NAME] of effects of one's own"

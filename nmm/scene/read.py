@@ -47,10 +47,12 @@ def _read_from(source: Source, scene: Scene) -> Scene:
 def canonical_text(scene: Scene) -> str:
     """The scene in one form, whatever its file's order, units and comments.
 
-    The default formulation and what is stored are left out: they are no part of what happens.
+    The default formulation and what is stored are left out: they are no part of what happens. So
+    are tables that are not there.
     """
+    empty = {name for name in Scene.model_fields if getattr(scene, name) in ((), {})}
     content = scene.model_dump(
-        mode="json", by_alias=True, exclude_none=True, exclude={"formulation", "output"}
+        mode="json", by_alias=True, exclude_none=True, exclude={"formulation", "output", *empty}
     )
     return json.dumps(content, sort_keys=True, separators=(",", ":"), allow_nan=False)
 

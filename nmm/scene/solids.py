@@ -27,6 +27,7 @@ from nmm.scene.fields import (
     SurfaceEnergy,
     example,
     fault,
+    quantity,
 )
 
 
@@ -82,7 +83,37 @@ class Material(Frozen):
         description="a dilation angle from 0, no change of volume, to the friction angle, rad",
         examples=["10 deg"],
     )
+    conductivity: Annotated[float, quantity("W/m/K")] | None = Field(
+        default=None,
+        gt=0,
+        description="a conductivity of heat in W/(m K), > 0",
+        examples=example("W/m/K"),
+    )
+    heat_capacity: Annotated[float, quantity("J/kg/K")] | None = Field(
+        default=None,
+        gt=0,
+        description="a heat capacity in J/(kg K), > 0",
+        examples=example("J/kg/K"),
+    )
+    thermal_expansion: Annotated[float, quantity("1/K")] | None = Field(
+        default=None, description="a strain for each kelvin in 1/K", examples=example("1/K")
+    )
     options: Options = Field(default={}, description="a table of options of a law of one's own")
+
+
+_EXCHANGE = quantity("W/m^2/K")
+
+
+def _conductance(value: object) -> object:
+    if value == "perfect":
+        return value
+    found = _EXCHANGE.func(value)  # type: ignore[call-arg]
+    if isinstance(found, float) and found > 0:
+        return found
+    raise fault(value, 'a conductance in W/(m2 K), > 0, or "perfect"', 'write "100 W/m^2/K"')
+
+
+Conductance = Annotated[float | Literal["perfect"], BeforeValidator(_conductance)]
 
 
 def _pair(value: object) -> object:
@@ -159,6 +190,12 @@ class InterfaceTable(Frozen):
         description="a coefficient of restitution in (0, 1], in place of damping",
         examples=[0.5],
     )
+    conductance: Conductance | None = Field(
+        default=None,
+        description='a heat flux for each kelvin between the faces in W/(m2 K), > 0, or "perfect" '
+        "where the temperature is one; edges that blocks share insulate if not given",
+        examples=["100 W/m^2/K"],
+    )
     options: Options = Field(default={}, description="a table of options of a law of one's own")
 
     @model_validator(mode="after")
@@ -191,6 +228,12 @@ class Crack(Frozen):
     name: Name = Field(description=NAME, examples=["notch"])
     points: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(
         description="two or more points [x, y] in m", examples=[[[0, 0], [0.5, 0]]]
+    )
+    conductance: Conductance | None = Field(
+        default=None,
+        description='a heat flux for each kelvin between the faces in W/(m2 K), > 0, or "perfect"; '
+        "it insulates if not given",
+        examples=["100 W/m^2/K"],
     )
 
 

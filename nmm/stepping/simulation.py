@@ -298,7 +298,9 @@ class Simulation:
     def _load_schedule(self) -> LoadSchedule:
         loading, steps = self.scene.loading, self.formulation.loading
         if loading is None:
-            return LoadSchedule(1.0, False, 1.0, steps.tolerance)
+            followed = self.scene.heat is not None and self.scene.heat.transient
+            increment = steps.increment if followed else 1.0
+            return LoadSchedule(1.0, False, increment, steps.tolerance)
         until = loading.until == "failure"
         target = loading.maximum_factor or (np.inf if until else float(loading.until))
         return LoadSchedule(target, until, steps.increment, steps.tolerance)

@@ -109,9 +109,8 @@ def _stress(run: "Run", elements: Ints, points: Floats) -> Floats:
     if model.matter is not None:
         near = model.matter.stress_near(run.state.history, elements, points)
         stress = np.where(np.isnan(near), stress, near)
-    initial = plan.initial_stress
-    if initial is not None:
-        stress = stress + initial.stress[elements]
+    for tells in plan.stresses:  # a handful of effects
+        stress = stress + tells(elements, points, run.state.time)
     turn = run.state.frames.rotation[run.manifold.element_body[elements]]
     tensor = turn @ stress[:, [[0, 2], [2, 1]]] @ np.swapaxes(turn, 1, 2)
     return np.asarray(np.stack([tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 0, 1]], axis=1))

@@ -49,6 +49,12 @@ THRESHOLDS: dict[str, Threshold] = {
     "residual": Threshold(
         "largest out-of-balance force of an accepted step, over the load", 1e-6, 1e-3, "all"
     ),
+    "field_imbalance": Threshold(
+        "heat or water that was taken up and is not stored, over all that came and went",
+        1e-8,
+        1e-3,
+        "heat and water that flow",
+    ),
     "condition": Threshold(
         "estimate of the condition number of the last system", 1e14, None, "all"
     ),

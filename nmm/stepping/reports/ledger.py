@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 # Effects whose springs count as supports: those of the scene, glue, and what holds sub-blocks.
 HOLDING = ("supports", "bonded interfaces", "artificial joints")
+# Effects whose energy is that of the solid, beyond that of its strain.
+STRAINING = ("initial stress", "heat")
 
 
 @dataclass(frozen=True)
@@ -200,7 +202,7 @@ def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
     strain = model.strain_energy(state) + lifted
     return {
         "kinetic_energy": plan.energy("inertia", state),
-        "strain_energy": strain + plan.energy("initial stress", state),
+        "strain_energy": strain + sum(plan.energy(name, state) for name in STRAINING),
         "contact_energy": plan.energy("contact", state),
         "support_energy": sum(plan.energy(name, state) for name in HOLDING) - lifted,
         **plan.own_energies(state),
@@ -213,5 +215,5 @@ def standing(plan: "Plan", before: State, after: State) -> float:
     It is what holds a start that is not in equilibrium and is withdrawn evenly in the first step.
     """
     held = replace(after, time=before.time, load_factor=before.load_factor)
-    stress = plan.energy("initial stress", before) - plan.energy("initial stress", after)
+    stress = sum(plan.energy(name, before) - plan.energy(name, held) for name in STRAINING)
     return (plan.work(before, held) + stress) / 2

@@ -246,11 +246,11 @@ class Recorder:
 
     def stress(self, state: State) -> Floats:
         """Return the mean Cauchy stress (E, 3) of the elements in global axes (Pa)."""
-        model, initial = self.stepper.model, self.stepper.plan.initial_stress
+        model, added = self.stepper.model, self.stepper.plan.added_stress(state)
         pressure = self.stepper.plan.pressure(model, state)
         stress = model.stress(state, pressure)
-        if initial is not None:
-            stress = stress + initial.stress
+        if added is not None:
+            stress = stress + added
         return turned_stress(stress, state.frames.angle[model.manifold.element_body])
 
     def _contact_row(self, attempt: Attempt, contacts: "ContactPoints") -> dict[str, float]:

@@ -1,0 +1,147 @@
+"""A field in the course of time: what it was when the step began, and at ends that were tried.
+
+A step may be tried more than once, with other ends. What the field is at each follows from what it
+was when the step began; once the next one begins, all others are dropped.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.diffusion.problem import DiffusionProblem
+
+# Of a step, about what its length may exceed the longest by.
+ROUNDING = 1e-9
+# Steps of theta = 1 in place of the first one (Rannacher 1984).
+SOFT = 4
+
+
+@dataclass(frozen=True)
+class FieldAt:
+    """A field at a time (s).
+
+    Attributes
+    ----------
+    time
+        s.
+    unknowns
+        (n,).
+    taken
+        What it has taken up since the start of the run, by what gave it.
+    stored
+        What it holds more than at the start.
+    """
+
+    time: float
+    unknowns: Floats
+    taken: Mapping[str, float]
+    stored: float = 0.0
+
+    @property
+    def imbalance(self) -> float:
+        """What was taken up and is not stored, over all that came and went."""
+        all_ways = sum(abs(amount) for amount in self.taken.values())
+        lacking = self.stored - sum(self.taken.values())
+        return abs(lacking) / all_ways if all_ways else 0.0
+
+
+Parts = tuple[float, Floats, Mapping[str, float], float]
+
+
+def _parts(field: FieldAt) -> Parts:
+    return field.time, field.unknowns, field.taken, field.stored
+
+
+class Course:
+    """What a field was and becomes.
+
+    Parameters
+    ----------
+    problem
+        Its equations.
+    start
+        The field at the start; None where it is steady at any time.
+    theta, step
+        Of the theta method; the longest step (s), None for those of the run.
+    """
+
+    def __init__(
+        self,
+        problem: DiffusionProblem,
+        start: FieldAt | None,
+        theta: float = 1.0,
+        step: float | None = None,
+    ) -> None:
+        self.problem, self._theta, self._step = problem, theta, step
+        self._start = self._began = start
+        self._ends: dict[float, FieldAt] = {}
+
+    def at(self, time: float) -> FieldAt:
+        """Return the field at a time."""
+        began = self._began
+        if began is not None and began.time == time:
+            return began
+        if time not in self._ends:
+            self._ends[time] = self._found(time)
+        return self._ends[time]
+
+    def begin(self, time: float) -> None:
+        """Drop all but the field at which a step begins."""
+        if self._began is None or self._began.time != time:
+            self._began, self._ends = self.at(time), {}
+
+    @property
+    def steady(self) -> bool:
+        """Whether nothing is stored."""
+        return self._start is None
+
+    def go_on_from(self, field: FieldAt) -> None:
+        """Begin at a field that came from elsewhere."""
+        self._start = self._began = field
+        self._ends = {}
+
+    def carried(self) -> tuple[Parts | None, tuple[Parts, ...]]:
+        """Return what the next step needs, as plain values."""
+        began = None if self._began is None else _parts(self._began)
+        return began, tuple(_parts(one) for one in self._ends.values())
+
+    def carry(self, known: tuple[Parts | None, tuple[Parts, ...]]) -> None:
+        """Take back what `carried` returned."""
+        began, ends = known
+        self._began = None if began is None else FieldAt(*began)
+        self._ends = {parts[0]: FieldAt(*parts) for parts in ends}
+
+    def _found(self, time: float) -> FieldAt:
+        start, began = self._start, self._began
+        if start is None or began is None:
+            unknowns = self.problem.steady(time)
+            return FieldAt(time, unknowns, self.problem.taken(unknowns, time))
+        return self._gone_on(began if time > began.time else start, time)
+
+    def _gone_on(self, last: FieldAt, time: float) -> FieldAt:
+        """Step from a field to a later time."""
+        problem, unknowns, taken = self.problem, last.unknowns, dict(last.taken)
+        for begin, end, theta in self._steps(last.time, time):  # steps in time
+            after = problem.stepped(unknowns, begin, end, theta)
+            for share, field, at in ((1 - theta, unknowns, begin), (theta, after, end)):
+                for name, rate in problem.taken(field, at).items():  # a handful of edges
+                    taken[name] = taken.get(name, 0.0) + share * (end - begin) * rate
+            unknowns = after
+        gained = problem.stored(unknowns) - problem.stored(last.unknowns)
+        return FieldAt(time, unknowns, taken, last.stored + gained)
+
+    def _steps(self, begin: float, end: float) -> Iterator[tuple[float, float, float]]:
+        """Yield begin and end of equal steps, as few as their length allows, and theta."""
+        span = end - begin
+        number = 1 if self._step is None else int(np.ceil(span / self._step * (1 - ROUNDING)))
+        times = [begin + span * i / number for i in range(number)] + [end]
+        if self._theta < 1 and self._start is not None and begin == self._start.time:
+            # What edges do at once at the start would ring on: it is damped first.
+            first = times[1] - begin
+            quarters = [begin + first * i / SOFT for i in range(SOFT)] + [times[1]]
+            yield from ((a, b, 1.0) for a, b in pairwise(quarters))
+            times = times[1:]
+        yield from ((a, b, self._theta) for a, b in pairwise(times))

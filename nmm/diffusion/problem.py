@@ -1,0 +1,167 @@
+"""The equations of a scalar field: ``M dT/dt + K T = f(t)``, with fields that are given.
+
+Steps in time are those of the theta method,
+
+    (M + theta dt K) T1 = M T0 + dt ((1 - theta) (f0 - K T0) + theta f1),
+
+stable whatever the step for theta >= 1/2 (Crank and Nicolson 1947 for 1/2). What the field takes up
+in a step is ``dt`` times the weighted mean of what edges and sources give at both ends; it equals
+what is stored, for the constant field is a test function.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from covers.approximation.manifold import Manifold
+from covers.scalar.space import ScalarSpace
+from integration.arrays import Bools, Floats
+from nmm.diffusion.edges import Edge, Factor
+from nmm.formulation import Solver
+from nmm.solvers.linear import Factor as Decomposed
+from nmm.solvers.linear import LinearSolver, make_solver
+
+# Decompositions that are kept, of steps of as many lengths.
+KEPT = 3
+
+
+def field_solver(manifold: Manifold, asked: Solver) -> LinearSolver:
+    """Return the linear solver that a formulation names, for functions that may be dependent."""
+    made = make_solver(asked.type, asked.options)
+    return made.deflated() if manifold.dependent and not made.shift else made
+
+
+@dataclass(frozen=True)
+class VolumeSource:
+    """What the volume gives to the field: a load (n,) at factor 1, and its factor."""
+
+    name: str
+    load: Floats
+    factor: Factor
+
+
+@dataclass(frozen=True)
+class GivenField:
+    """The field of whole bodies: which functions (n,), their unknowns (n,), and a factor."""
+
+    name: str
+    chosen: Bools
+    unknowns: Floats
+    factor: Factor
+
+
+@dataclass(frozen=True)
+class DiffusionProblem:
+    """A field and all that acts on it.
+
+    Attributes
+    ----------
+    space
+        Its functions.
+    conduction, capacity
+        (n, n) ``K`` without edges, and ``M``; None where nothing is stored.
+    edges, sources, given
+        Conditions on edges and joints, in the volume, and fields of whole bodies.
+    solver
+        Of linear systems.
+    """
+
+    space: ScalarSpace
+    conduction: csc_array
+    capacity: csc_array | None
+    edges: Sequence[Edge]
+    sources: Sequence[VolumeSource]
+    given: Sequence[GivenField]
+    solver: LinearSolver
+    _factors: dict[float, Decomposed] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def matrix(self) -> csc_array:
+        """``K`` (n, n) with the edges' terms."""
+        return csc_array(sum((one.matrix for one in self.edges), start=self.conduction))
+
+    @cached_property
+    def free(self) -> Bools:
+        """(n,) functions that are not given."""
+        found = np.ones(self.space.n, dtype=bool)
+        for one in self.given:  # a handful
+            found &= ~one.chosen
+        return found
+
+    def load(self, time: float) -> Floats:
+        """``f`` (n,)."""
+        total = np.zeros(self.space.n)
+        for edge in self.edges:  # a handful
+            total += edge.factor(time) * edge.load
+        for source in self.sources:  # a handful
+            total += source.factor(time) * source.load
+        return total
+
+    def held(self, time: float) -> Floats:
+        """Unknowns (n,) of given fields, zero elsewhere; later ones overwrite earlier ones."""
+        total = np.zeros(self.space.n)
+        for one in self.given:  # a handful
+            total[one.chosen] = one.factor(time) * one.unknowns[one.chosen]
+        return total
+
+    def steady(self, time: float) -> Floats:
+        """Unknowns (n,) of the field that no longer changes."""
+        return self._solved(0.0, self.matrix, self.load(time), time)
+
+    def stepped(self, before: Floats, begin: float, end: float, theta: float) -> Floats:
+        """Unknowns (n,) after a step; what is given jumps to its value at the end.
+
+        ``before`` (n,) are those at its beginning.
+        """
+        assert self.capacity is not None
+        step = end - begin
+        force = self.capacity @ before + step * theta * self.load(end)
+        if theta < 1:
+            force += step * (1 - theta) * (self.load(begin) - self.matrix @ before)
+        matrix = csc_array(self.capacity + theta * step * self.matrix)
+        return self._solved(theta * step, matrix, force, end)
+
+    def taken(self, unknowns: Floats, time: float) -> Mapping[str, float]:
+        """What the bodies that are not given take up in a unit of time, by what gives it.
+
+        Edges and sources of one name are summed; joints count for what given bodies give.
+        """
+        found: dict[str, float] = {}
+        for one in self.edges:  # a handful
+            rate = one.factor(time) * one.load - one.matrix @ unknowns
+            found[one.name] = found.get(one.name, 0.0) + float(self._test @ rate)
+        for source in self.sources:  # a handful
+            rate = source.factor(time) * source.load
+            found[source.name] = found.get(source.name, 0.0) + float(self._test @ rate)
+        return found
+
+    def stored(self, unknowns: Floats) -> float:
+        """What these bodies hold beyond a field of zero."""
+        return 0.0 if self.capacity is None else float(self._test @ (self.capacity @ unknowns))
+
+    @cached_property
+    def _test(self) -> Floats:
+        """(n,) the field that is one in bodies that are not given."""
+        return np.where(self.free, self.space.one, 0.0)
+
+    def forget(self) -> None:
+        """Drop the decompositions."""
+        self._factors.clear()
+
+    def _solved(self, key: float, matrix: csc_array, force: Floats, time: float) -> Floats:
+        """Solve for what is free; ``key`` names the matrix."""
+        free, found = self.free, self.held(time)
+        if not free.any():
+            return found
+        factor = self._factors.get(key)
+        if factor is None:
+            own = matrix if free.all() else csc_array(matrix[free][:, free])
+            if len(self._factors) > KEPT:
+                self._factors.clear()
+            factor = self._factors[key] = self.solver.factorise(own)
+        force = force - matrix @ found
+        found[free] = factor.solve(force[free])
+        return found
