@@ -15,15 +15,13 @@ from nmm.constraints.linear_matter import method_for
 from nmm.constraints.nitsche import Nitsche
 from nmm.constraints.tied_interfaces import TiedInterfaces, instant_of
 from nmm.constraints.volume_lift import sharing
-from nmm.effects.base import Instant, Setup
-from nmm.effects.load_factor import displacement_factor
+from nmm.effects.base import Setup
+from nmm.effects.motion.ground import Ground
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.scene.actions import SupportTable
-
-    pass
 
 # Degree of polynomials that points along edges of blocks integrate exactly.
 ORDER = 4
@@ -40,10 +38,11 @@ class Supports(TiedInterfaces):
         n_unknowns: int,
         state: State,
         in_time: bool = False,
-        still: bool = True,
     ) -> None:
         super().__init__([_anchored(one, state) for one in _sharing(supports)], n_unknowns)
-        self._in_time, self._still = in_time, still
+        self._in_time = in_time
+        grounds = [tie.interface.displacement for tie in self.ties]
+        self._grounds = [ground for ground in grounds if isinstance(ground, Ground)]
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -61,9 +60,8 @@ class Supports(TiedInterfaces):
         along = method.impose(setup.model, [interfaces[i] for i in edges])
         for i, support in zip(edges, along, strict=True):
             found[i] = support
-        still = all(one.history is None or not any(one.displacement) for one in scene.supports)
         n_unknowns = setup.model.manifold.n_unknowns
-        return cls(found, n_unknowns, setup.start, scene.inertia is not None, still)
+        return cls(found, n_unknowns, setup.start, scene.inertia is not None)
 
     def follow(self, change: "Change") -> "Supports":
         """Return the supports of the new model; those that are new hold the material as it is."""
@@ -81,7 +79,12 @@ class Supports(TiedInterfaces):
     @property
     def steady(self) -> bool:
         """See `Effect.steady`."""
-        return self._still
+        return all(ground.still for ground in self._grounds)
+
+    @property
+    def resolves(self) -> float | None:
+        """See `Effect.resolves`."""
+        return min((one.step for one in self._grounds if one.step is not None), default=None)
 
     def work(self, before: State, after: State) -> float:
         """Mean reaction of each driven support times the way it is driven."""
@@ -89,7 +92,7 @@ class Supports(TiedInterfaces):
         for number, start, end in self._driven(before, after):
             if (end != start).any():
                 first, last = self._ends(number, before, after)
-                total += float((first + last) / 2 @ _mean(end - start))
+                total += float(np.sum((first + last) / 2 * (end - start)))
         for shared in self._spaces:
             shared.before = shared.values
         return total
@@ -104,23 +107,25 @@ class Supports(TiedInterfaces):
         for number, start, end in self._driven(before, after):
             if start.any():
                 first, last = self._ends(number, before, after)
-                total += float(last @ _mean(end)) / 2
-                total -= float((first + last) / 2 @ _mean(end - start))
+                total += float(np.sum(last * end)) / 2
+                total -= float(np.sum((first + last) / 2 * (end - start)))
         return total
 
     def reactions(self, state: State) -> dict[str, Floats]:
         """Return the force (2,) in N that each support exerts on the bodies."""
         now = instant_of(state)
         return {
-            tie.interface.name: self._total(tie.point_forces(state, jump), tie, state)
+            tie.interface.name: self._with_added(tie.point_forces(state, jump), tie, state).sum(
+                axis=0
+            )
             for tie, jump in zip(self.ties, self._jumps(state, now), strict=True)
         }
 
-    def _total(self, forces: Floats, tie: Imposition, state: State) -> Floats:
-        """Sum (2,) of forces (m, 2) in N with those of stresses that other effects add."""
-        if self._stresses:
-            forces = forces + tie.interface.held * self._added(tie, state, instant_of(state))
-        return np.asarray(forces.sum(axis=0))
+    def _with_added(self, forces: Floats, tie: Imposition, state: State) -> Floats:
+        """Forces (m, 2) in N with those of stresses that other effects add."""
+        if not self._stresses:
+            return forces
+        return forces + tie.interface.held * self._added(tie, state, instant_of(state))
 
     def _driven(self, before: State, after: State) -> Iterator[tuple[int, Floats, Floats]]:
         """Number of each support and its displacements, (2,) or (m, 2), at both ends of a step."""
@@ -130,22 +135,17 @@ class Supports(TiedInterfaces):
             yield number, driven(start), driven(end)
 
     def _ends(self, number: int, before: State, after: State) -> tuple[Floats, Floats]:
-        """Reactions (2,) in N of a support at both ends of a step.
+        """Forces (m, 2) in N of a support on its points at both ends of a step.
 
         In time a multiplier is the mean force of its step, in statics the force at its end.
         """
         tie = self.ties[number]
         jump = self._jumps(after, instant_of(after))[number]
-        last = self._total(tie.point_forces(after, jump), tie, after)
+        last = self._with_added(tie.point_forces(after, jump), tie, after)
         if tie.shared is not None and self._in_time:
             return last, last
         jump = self._jumps(before, instant_of(before))[number]
-        return self._total(tie.earlier_forces(before, jump), tie, before), last
-
-
-def _mean(displacement: Floats) -> Floats:
-    """Mean (2,) of displacements."""
-    return np.asarray(np.atleast_2d(displacement).mean(axis=0))
+        return self._with_added(tie.earlier_forces(before, jump), tie, before), last
 
 
 def _anchored(tie: Imposition, state: State) -> Imposition:
@@ -163,14 +163,10 @@ def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
 def _interface(setup: Setup, support: "SupportTable", method: Method) -> Interface:
     model = setup.model
     place = _place(setup, support, ORDER if method.size is None else method.order(model))
-    to, factor = np.array(support.displacement), displacement_factor(setup, support)
-
-    def displacement(end: Instant) -> Floats:
-        return to * factor(end)
-
+    ground = Ground.of(setup, support, place)
     held = np.array(("x" in support.fix, "y" in support.fix))
     area = place.weight * model.thickness
-    return Interface(place, None, area, support.name, held, displacement)
+    return Interface(place, None, area, support.name, held, ground)
 
 
 def _place(setup: Setup, support: "SupportTable", order: int) -> Place:

@@ -137,6 +137,11 @@ class Effect(ABC):
         return ""
 
     @property
+    def resolves(self) -> float | None:
+        """Shortest time between samples of what drives it, that steps resolve (s); None is none."""
+        return None
+
+    @property
     def steady(self) -> bool:
         """Whether the force depends on the state alone and not on the instant, in dynamics."""
         return True

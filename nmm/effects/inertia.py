@@ -15,7 +15,8 @@ class Inertia(Effect):
     """Centrifugal force ``rho omega^2 (X - Xc)`` in the turning axes of each body, and energy.
 
     The integrator adds the mass itself. In axes that turn with the body its own rotation would
-    otherwise leave no trace in the stress. The classical update, whose axes never turn, has none.
+    otherwise leave no trace in the stress. Where axes never turn, in the classical update and for
+    small displacements, there is none.
     """
 
     name = "inertia"
@@ -30,7 +31,7 @@ class Inertia(Effect):
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from ``[inertia]``."""
-        return cls(setup.model, setup.formulation.rotation.update != "linear")
+        return cls(setup.model, setup.formulation.rotation.update not in ("linear", "small"))
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the centrifugal force of the rotation at the start of the step."""

@@ -25,6 +25,7 @@ from nmm.scene.fields import (
     Prose,
     Segment,
     Stress,
+    TableName,
     Text,
     Time,
     Velocity,
@@ -65,6 +66,11 @@ class SupportTable(Placed):
     displacement: tuple[Length, Length] = Field(
         default=(0.0, 0.0), description="a displacement [ux, uy] in m", examples=[[0, 0]]
     )
+    motion: dict[Literal["x", "y"], TableName] = Field(
+        default={},
+        description="names of records that the ground follows along x and y; needs inertia",
+        examples=[{"x": "quake"}],
+    )
 
     @model_validator(mode="after")
     def _check(self) -> SupportTable:
@@ -76,6 +82,9 @@ class SupportTable(Placed):
             if value != 0 and axis not in self.fix:
                 remedy = f'add "{axis}" to fix'
                 raise fault(f"displacement in {axis}", f"{axis} in fix", remedy)
+        for axis in self.motion:
+            if axis not in self.fix:
+                raise fault(f"motion along {axis}", f"{axis} in fix", f'add "{axis}" to fix')
         return self
 
 

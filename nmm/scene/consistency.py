@@ -16,6 +16,7 @@ from nmm.scene.lines import Path
 from nmm.scene.stage_rules import stage_contradictions
 from nmm.scene.tables.heat_rules import PARTS as HEAT
 from nmm.scene.tables.heat_rules import heat_contradictions
+from nmm.scene.tables.motion_rules import motion_contradictions
 
 Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
 Tables = Mapping[str, Any]
@@ -33,7 +34,7 @@ def contradictions(data: object) -> list[Finding]:
     if not isinstance(plain, Mapping):
         return []
     own: tuple[Rule, ...] = (_solids, _names, _materials, _interfaces, _block_names, _densities)
-    rules = (*own, _effects, stage_contradictions, heat_contradictions)
+    rules = (*own, _effects, stage_contradictions, heat_contradictions, motion_contradictions)
     return [finding for rule in rules for finding in rule(plain)]
 
 
@@ -154,8 +155,6 @@ def _effects(data: Tables) -> Iterator[Finding]:
     if data.get("initial_velocities") and "inertia" not in data:
         remedy = "add [inertia], or remove [[initial_velocities]]"
         yield ("initial_velocities",), "no [inertia]", "a dynamic scene", remedy
-    if "damping" in data and "inertia" not in data:
-        yield ("damping",), "no [inertia]", "a dynamic scene", "add [inertia], or remove [damping]"
     yield from _scaled_loads(data)
     yield from _output(data)
 

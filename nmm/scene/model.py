@@ -42,6 +42,7 @@ from nmm.scene.tables.heat import (
     HeatTable,
     TemperatureTable,
 )
+from nmm.scene.tables.records import RecordTable
 
 
 class Scene(Frozen):
@@ -76,6 +77,9 @@ class Scene(Frozen):
     )
     joint_sets: tuple[JointSet, ...] = Field(default=(), description="tables [[joint_sets]]")
     cracks: tuple[Crack, ...] = Field(default=(), description="tables [[cracks]]")
+    records: dict[TableName, RecordTable] = Field(
+        default={}, description="tables [records.NAME] of motions over time"
+    )
     supports: tuple[SupportTable, ...] = Field(default=(), description="tables [[supports]]")
     loads: tuple[LoadTable, ...] = Field(default=(), description="tables [[loads]]")
     gravity: GravityTable | None = Field(default=None, description="a table [gravity]")

@@ -38,6 +38,10 @@ def build_scene(tables: dict[str, Any], place: str = "scene") -> Scene:
 
 def _read_from(source: Source, scene: Scene) -> Scene:
     """Tell a scene, and the formulation in it, where they stand."""
+    if any(record.file for record in scene.records.values()):
+        from nmm.scene.tables.read_files import with_files
+
+        scene = with_files(scene, source)
     scene._source = source
     if scene.formulation is not None:
         scene.formulation._source = replace(source, root=("formulation",))

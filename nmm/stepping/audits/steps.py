@@ -14,6 +14,20 @@ FEW = 10
 def steps(run: Ended) -> Findings:
     """Audit time steps and load increments."""
     yield from _impacts(run) if run.dynamic else _increments(run)
+    yield from _records(run) if run.dynamic else ()
+
+
+def _records(run: Ended) -> Findings:
+    """Tell records whose samples the steps pass over."""
+    step = run.formulation.integrator.step
+    for name, effect in run.stepper.plan.effects.items():
+        if effect.resolves is not None:
+            yield AuditFinding(
+                "record_step",
+                step / effect.resolves,
+                f"{name}: a record has samples every {effect.resolves:.3g} s, a step is {step:g} s",
+                f"take steps of at most {effect.resolves / 2:.3g} s, or a coarser record",
+            )
 
 
 def impact_lasts(run: Ended) -> float | None:

@@ -97,6 +97,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "dynamics with springs in contact",
     ),
+    "record_step": Threshold(
+        "time step over the time between samples of a record that drives the run",
+        0.5 * (1 + 1e-9),
+        None,
+        "dynamics with records",
+    ),
     "failure_tolerance": Threshold(
         "width of the bracket of a failure load over `[loading] tolerance`",
         1.01,

@@ -1,0 +1,1 @@
+"""Motion of the ground: records, boundaries that waves leave through, the free field."""

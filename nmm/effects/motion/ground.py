@@ -1,0 +1,65 @@
+"""Where the ground is that supports hold: displaced by a factor, and along records."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.places import Place
+from nmm.effects.base import Instant, Setup
+from nmm.effects.load_factor import displacement_factor
+
+if TYPE_CHECKING:
+    from nmm.effects.motion.record import GroundMotion
+    from nmm.scene.actions import SupportTable
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Displacement of the ground under a support, by the instant.
+
+    Attributes
+    ----------
+    way, factor
+        A displacement (2,) in m and its factor.
+    motions
+        Motions along x (0) and y (1).
+    still
+        Whether it stays where it is in dynamics.
+    """
+
+    way: Floats
+    factor: Callable[[Instant], float]
+    motions: Mapping[int, "GroundMotion"]
+    still: bool
+
+    @classmethod
+    def of(cls, setup: Setup, support: "SupportTable", place: Place) -> Self:
+        """Return the ground of a scene's support."""
+        motions = _motions(setup, support)
+        moves = any(support.displacement) and support.history is not None
+        factor = displacement_factor(setup, support)
+        return cls(np.array(support.displacement), factor, motions, not (moves or motions))
+
+    def __call__(self, end: Instant) -> Floats:
+        """Return the displacement (2,) at an instant (m)."""
+        found = self.way * self.factor(end)
+        for axis, motion in self.motions.items():
+            found[axis] += motion.displacement_at(end.time)
+        return np.asarray(found)
+
+    @property
+    def step(self) -> float | None:
+        """Shortest time between samples of a record (s); None without records."""
+        return min((one.shortest_step for one in self.motions.values()), default=None)
+
+
+def _motions(setup: Setup, support: "SupportTable") -> "dict[int, GroundMotion]":
+    if not support.motion:
+        return {}
+    from nmm.effects.motion.record import GroundMotion
+
+    records = setup.scene.records
+    return {"xy".index(one): GroundMotion.of(records[name]) for one, name in support.motion.items()}

@@ -1,0 +1,110 @@
+"""A record as a motion: integrated exactly, linear as it is between its samples."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.records import RecordTable
+
+
+@dataclass(frozen=True)
+class GroundMotion:
+    """Acceleration, velocity and displacement at any time, from the samples of one of them.
+
+    Attributes
+    ----------
+    times
+        (k,) of the samples, increasing (s).
+    acceleration
+        (k, 2) from the right and from the left at the samples, linear between (m/s2).
+    velocity, displacement
+        (k,) at the samples (m/s, m).
+    """
+
+    times: Floats
+    acceleration: Floats
+    velocity: Floats
+    displacement: Floats
+
+    @classmethod
+    def of(cls, table: "RecordTable") -> Self:
+        """Return the motion of a scene's record, with its baseline corrected."""
+        times, values = (np.array(column) for column in table.times_and_values)
+        if table.quantity == "acceleration":
+            return cls.from_acceleration(times, corrected(times, values, table.baseline))
+        steps = np.diff(times)
+        slope = np.append(np.diff(values) / steps, 0.0)
+        if table.quantity == "velocity":
+            way = np.cumsum(np.append(0.0, steps * (values[1:] + values[:-1]) / 2))
+            # A sudden velocity at the first sample is one at the last too.
+            both = np.stack([slope, np.append(slope[:1], slope[:-1])], axis=1)
+            return cls(times, both, values, way)
+        none = np.zeros((len(times), 2))
+        return cls(times, none, slope, values)
+
+    @classmethod
+    def from_acceleration(cls, times: Floats, values: Floats) -> Self:
+        """Integrate accelerations (k,) in m/s2, linear between ``times`` (k,) in s, from rest."""
+        steps = np.diff(times)
+        velocity = np.cumsum(np.append(0.0, steps * (values[1:] + values[:-1]) / 2))
+        more = velocity[:-1] * steps + steps**2 * (2 * values[:-1] + values[1:]) / 6
+        way = np.cumsum(np.append(0.0, more))
+        return cls(times, np.stack([values, values], axis=1), velocity, way)
+
+    @cached_property
+    def shortest_step(self) -> float:
+        """Shortest time between two samples (s)."""
+        return float(np.diff(self.times).min())
+
+    def displacement_at(self, time: float) -> float:
+        """Return the displacement (m)."""
+        number, after, slope = self._piece(time)
+        if number < 0:
+            return float(self.displacement[0])
+        start = self.acceleration[number, 0] * (number < len(self.times) - 1)
+        return float(
+            self.displacement[number]
+            + after * (self.velocity[number] + after * (start / 2 + after * slope / 6))
+        )
+
+    def velocity_at(self, time: float) -> float:
+        """Return the velocity (m/s)."""
+        number, after, slope = self._piece(time)
+        if number < 0:
+            return 0.0
+        start = self.acceleration[number, 0] * (number < len(self.times) - 1)
+        return float(self.velocity[number] + after * (start + after * slope / 2))
+
+    def _piece(self, time: float) -> tuple[int, float, float]:
+        """Number of the sample before, the time since, and the slope of the acceleration after."""
+        number = int(np.searchsorted(self.times, time, side="right")) - 1
+        if number < 0:
+            return -1, 0.0, 0.0
+        after = float(time - self.times[number])
+        if number == len(self.times) - 1:
+            return number, after, 0.0
+        ends = self.acceleration[number + 1, 1] - self.acceleration[number, 0]
+        return number, after, float(ends / (self.times[number + 1] - self.times[number]))
+
+
+def corrected(times: Floats, values: Floats, baseline: str) -> Floats:
+    """Return accelerations (k,) less a constant or a line, so that the motion ends at rest.
+
+    With ``c0 + c1 (t - t0)`` taken off, velocity and displacement at the end lose ``c0 T + c1 T^2 /
+    2`` and ``c0 T^2 / 2 + c1 T^3 / 6``.
+    """
+    if baseline == "none":
+        return values
+    whole = GroundMotion.from_acceleration(times, values)
+    speed, way, since = whole.velocity[-1], whole.displacement[-1], times - times[0]
+    span = since[-1]
+    if baseline == "velocity":
+        return np.asarray(values - speed / span)
+    matrix = [[span, span**2 / 2], [span**2 / 2, span**3 / 6]]
+    first, slope = np.linalg.solve(matrix, [speed, way])
+    return np.asarray(values - first - slope * since)

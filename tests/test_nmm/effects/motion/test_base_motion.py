@@ -1,0 +1,168 @@
+"""Supports that follow records: one mass on a spring against the exact answer, and its books."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import nmm
+
+# Record R1: m/s2, every 0.1 s, linear between.
+R1 = [0, 0.6, 1.8, -1.2, -3.0, 0.9, 3.4, 2.1, -0.8, -3.6, -1.5, 2.4, 1.1, -2.2, 0.4, 1.6, -0.9]
+R1 += [-0.5, 0.3, -0.1, 0]
+# A bilinear cell that only shears, with its base driven: the top is 1.5 times the oscillator.
+SCENE = """
+title = "one cell on a shaken base"
+plane = "strain"
+duration = {duration}
+[materials.soil]
+young_modulus = {young}
+poisson_ratio = 0.25
+density = 1000
+[[blocks]]
+name = "cell"
+material = "soil"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[records.R1]
+values = {values}
+step = 0.1
+[[supports]]
+name = "base"
+segment = [[0, 0], [1, 0]]
+fix = ["x"]
+motion = {{ x = "R1" }}
+[[supports]]
+name = "level"
+block = "cell"
+fix = ["y"]
+[[monitors]]
+name = "top"
+point = [0.5, 1]
+[[monitors]]
+name = "base"
+point = [0.5, 0]
+[inertia]
+[damping]
+stiffness = {damping}
+[formulation.cover]
+type = "quads"
+size = 1.0
+degree = 0
+[formulation.integrator]
+type = "newmark"
+step = {step}
+[formulation.rotation]
+update = "small"
+[formulation.supports]
+method = "lagrange"
+"""
+
+
+def scene(period=0.5, ratio=0.05, step=0.005, duration=2.0):
+    omega = 2 * math.pi / period
+    shear = 1000 * omega**2 / 3
+    return SCENE.format(
+        values=R1, young=2.5 * shear, damping=2 * ratio / omega, step=step, duration=duration
+    )
+
+
+def oscillator(**more):
+    """History of the top relative to the base as that of one mass on a spring; and the run."""
+    run = nmm.run(nmm.parse_scene(scene(**more)))
+    assert run.summary.status == "converged"
+    return (run.history["monitor:top:ux"] - run.history["monitor:base:ux"]) / 1.5, run
+
+
+def at(run, values, time):
+    return float(np.interp(time, run.history["time"], values))
+
+
+def test_the_ground_follows_the_integral_of_the_record():
+    _, run = oscillator(step=0.025)
+    base = run.history["monitor:base:ux"]
+    assert base[-1] == pytest.approx(0.204, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("period", "ratio", "largest", "first", "last"),
+    [
+        (0.5, 0.05, 0.08199225, 0.0756450992, 0.0482207489),
+        (0.3, 0.0, 0.02778873, 0.0113379287, 0.0186646556),
+    ],
+)
+def test_one_mass_under_the_record_has_the_exact_displacements(period, ratio, largest, first, last):
+    found, run = oscillator(period=period, ratio=ratio, step=period / 100)
+    # Second order: 1e-3 of the largest displacement at a hundred steps a period. The period is
+    # (2 pi / 100)^2 / 12 longer, so that undamped swings are late by w t times it.
+    late = (2 * math.pi / 100) ** 2 / 12 * 2 * math.pi / period
+    assert np.abs(found).max() == pytest.approx(largest, rel=1.5e-3)
+    assert at(run, found, 1.0) == pytest.approx(first, abs=(1e-3 + late) * largest)
+    assert at(run, found, 2.0) == pytest.approx(last, abs=(1e-3 + 2 * late) * largest)
+
+
+def test_errors_fall_fourfold_when_steps_are_halved_that_do_not_divide_the_samples():
+    errors = []
+    for step in (0.03, 0.015):
+        found, run = oscillator(step=step)
+        errors.append(np.abs(found - exact(run.history["time"])).max())
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.15)
+
+
+def exact(times, period=0.5, ratio=0.05):
+    """Relative displacements by an independent integration to 1e-9."""
+    omega, samples = 2 * math.pi / period, np.arange(21) * 0.1
+
+    def rates(t, y):
+        return [y[1], -np.interp(t, samples, R1) - 2 * ratio * omega * y[1] - omega**2 * y[0]]
+
+    asked = {"t_eval": times, "rtol": 1e-9, "atol": 1e-12, "max_step": 0.01}
+    return solve_ivp(rates, (0, times[-1] + 1e-9), [0.0, 0.0], method="DOP853", **asked).y[0]
+
+
+def test_the_work_of_the_shaken_ground_is_in_the_books():
+    _, run = oscillator(step=0.01)
+    h = run.history
+    stored = h["kinetic_energy"] + h["strain_energy"] + h["support_energy"]
+    missing = (
+        h["external_work"] - stored - h["damping_loss:viscous damping"] - h["integration_loss"]
+    )
+    assert np.abs(missing).max() < 1e-9 * h["external_work"].max()
+    assert abs(h["integration_loss"][-1]) < 1e-2 * h["external_work"].max()
+
+
+@pytest.mark.parametrize(("step", "warns"), [(0.05, False), (0.06, True), (0.2, True)])
+def test_a_step_above_half_of_the_record_s_warns(step, warns):
+    _, run = oscillator(step=step, duration=0.4)
+    told = [line for line in run.summary.warnings if "(audit record_step)" in line]
+    assert bool(told) is warns
+
+
+@pytest.mark.parametrize(
+    ("baseline", "speed", "way"), [("velocity", 0.0, 0.124), ("displacement", 0.0, 0.0)]
+)
+def test_baselines_bring_the_record_to_rest(baseline, speed, way):
+    from nmm.effects.motion.record import GroundMotion
+    from nmm.scene.tables.records import RecordTable
+
+    table = RecordTable(values=R1, step=0.1, baseline=baseline)
+    motion = GroundMotion.of(table)
+    assert motion.velocity_at(2.0) == pytest.approx(speed, abs=1e-12)
+    assert motion.displacement_at(2.0) == pytest.approx(way, abs=1e-12)
+    assert motion.displacement_at(3.0) == pytest.approx(way, abs=1e-12)
+
+
+@pytest.mark.parametrize("quantity", ["velocity", "displacement"])
+def test_a_record_of_velocity_or_displacement_moves_by_it(quantity):
+    from nmm.effects.motion.record import GroundMotion
+    from nmm.scene.tables.records import RecordTable
+
+    values = [0.0, 1.0, 3.0, 0.0]
+    motion = GroundMotion.of(RecordTable(values=values, step=0.5, quantity=quantity))
+    if quantity == "displacement":
+        assert motion.displacement_at(0.75) == pytest.approx(2.0)
+        assert motion.velocity_at(0.75) == pytest.approx(4.0)
+    else:
+        assert motion.velocity_at(0.75) == pytest.approx(2.0)
+        assert motion.displacement_at(0.75) == pytest.approx(0.25 + 0.25 * 1.5)
+        assert motion.displacement_at(2.0) == pytest.approx(0.25 + 1.0 + 0.75)
