@@ -1,7 +1,7 @@
 """What is solved: a model and the effects on it, one version after the other."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Protocol, Self
 
 from covers.change.parentage import Parentage
 from nmm.assembly.carried_state import carried
@@ -68,6 +68,18 @@ class Discretisation:
     def after(self, change: Change) -> "Discretisation":
         """Return the next version: every effect follows the change."""
         return Discretisation(change.setup, plan_after(self.plan, change), self.version + 1)
+
+
+class Solved(Protocol):
+    """What is solved: a model and the effects on it."""
+
+    @property
+    def model(self) -> "Model":
+        """What is approximated and of what it is made."""
+
+    @property
+    def plan(self) -> Plan:
+        """The effects on it."""
 
 
 @dataclass

@@ -8,27 +8,26 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, initial_state, strain_only
+from nmm.assembly.motion import State, initial_state
 from nmm.assembly.places import Place
 from nmm.constraints.bonded_interfaces import BondedInterfaces, glue_edges
 from nmm.constraints.imposition import Method
 from nmm.constraints.shared_edges import shared_edges
 from nmm.constraints.supports import Supports
-from nmm.effects.base import Effect, Instant, defines
+from nmm.effects.base import Effect, Instant
 from nmm.effects.field_loads import FieldLoad
 from nmm.effects.loads import Load, Loads
 from nmm.errors import FormulationError
-from nmm.formulation import Glue, Solver
+from nmm.formulation import Glue, IntegratorTable, Solver
+from nmm.integrators.base import make_integrator
 from nmm.model.plan import Plan
 from nmm.model.solver_settings import solver_for
-from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor
-from nmm.solvers.rigid_apart import ROUNDED, rounding, solve_apart
-from nmm.stepping.step.rigid_bodies import rigid_bodies
+from nmm.stepping.step.equations import Assembly
+from nmm.stepping.step.linear_system import LinearSystem
 
 Field = Callable[[Floats], Floats]
 
@@ -76,6 +75,14 @@ class Equilibrium:
         return replace(self.state, time=END.time, load_factor=END.load_factor)
 
 
+@dataclass(frozen=True)
+class Declared:
+    """A model and effects on it that no scene names."""
+
+    model: Model
+    plan: Plan
+
+
 def equilibrium(
     model: Model, effects: Sequence[Effect], solver: Solver | None = None
 ) -> Equilibrium:
@@ -92,31 +99,16 @@ def equilibrium(
         raise FormulationError(
             "linear statics: a material that is not linear: expected elastic laws: run a scene"
         )
+    solved = Declared(model, _plan(effects))
+    system = LinearSystem(solved, solver_for(model.manifold, solver or Solver()), small=True)
     start = initial_state(model.manifold)
-    n = model.manifold.n_unknowns
-    held, force = csc_array((n, n)), np.zeros(n)
-    linear = solver_for(model.manifold, solver or Solver())
-    for effect in effects:
-        if defines(effect, "matrix"):
-            held = csc_array(held + effect.matrix(start))
-        if defines(effect, "force"):
-            force = force + effect.force(start, END)
-    matrix = csc_array(model.stiffness + held)
-    border = _plan(effects).border(start, END)
-    if border is not None:
-        matrix, force = bordered(matrix, border[0]), np.concatenate([force, border[1]])
-        linear = linear.indefinite()
-    factor = linear.factorise(matrix)
-    found = factor.solve(force)
-    residual = factor.relative_residual(found, force)
-    bodies = rigid_bodies(model)
-    if model.manifold.n_bodies > 1 and rounding(factor, bodies, found, force) > ROUNDED:
-        apart = solve_apart(factor, bodies, held, force, None if border is None else border[0])
-        if apart.residual < residual:
-            state = strain_only(model, start, apart.strain, apart.rigid)
-            return Equilibrium(model, state, apart.residual, factor, tuple(effects))
-    state = strain_only(model, start, found[:n])
-    return Equilibrium(model, state, residual, factor, tuple(effects))
+    equations = Assembly(solved).of(
+        start, END, None, make_integrator(IntegratorTable()), anchored=False
+    )
+    solution = system.solve(equations)
+    assert system.factor is not None
+    state = solution.moved(model, start)
+    return Equilibrium(model, state, solution.residual, system.factor, tuple(effects))
 
 
 def _plan(effects: Sequence[Effect]) -> Plan:

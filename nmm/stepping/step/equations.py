@@ -14,7 +14,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
-from nmm.model.discretisation import Current
+from nmm.model.discretisation import Solved
 from nmm.stepping.step.damping import Damping
 
 
@@ -114,8 +114,8 @@ class Equations:
 class Assembly:
     """Makes the equations of steps; a matrix of the same parts is the same object."""
 
-    def __init__(self, current: Current) -> None:
-        self._current = current
+    def __init__(self, solved: Solved) -> None:
+        self._solved = solved
         self.forget()
 
     def forget(self) -> None:
@@ -137,7 +137,7 @@ class Assembly:
 
         ``matter`` is None where it is linear.
         """
-        model, plan = self._current.model, self._current.plan
+        model, plan = self._solved.model, self._solved.plan
         line = Linearisation.linear(model, state) if matter is None else matter
         applied = plan.force(state, end)
         force = applied - line.force
@@ -152,7 +152,7 @@ class Assembly:
 
     def _in_time(self, static: Equations, line: Linearisation, linear: bool) -> Equations:
         """Return the equations with inertia, over the factor of contact forces."""
-        plan, rule, state, step = self._current.plan, static.rule, static.state, static.step
+        plan, rule, state, step = self._solved.plan, static.rule, static.state, static.step
         assert step is not None
         assert plan.inertia is not None
         weight, force, gain, mass = rule.end_weight, static.force, None, plan.inertia.mass
@@ -183,7 +183,7 @@ class Assembly:
         if kept is None or kept[0] is not stiffness:
             from nmm.stepping.step.anchors import anchors
 
-            kept = stiffness, csc_array(stiffness + anchors(self._current.model))
+            kept = stiffness, csc_array(stiffness + anchors(self._solved.model))
             self._soft = kept
         return kept[1]
 

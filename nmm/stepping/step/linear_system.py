@@ -1,0 +1,122 @@
+"""The linear system of a step in which nothing touches, with conditions if supports make them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State, strain_only
+from nmm.model.discretisation import Solved
+from nmm.solvers.bordered import bordered
+from nmm.solvers.linear import Factor, LinearSolver
+from nmm.solvers.rigid_apart import ROUNDED, Apart, Bodies, rounding, solve_apart
+from nmm.stepping.step.equations import Equations
+
+
+@dataclass(frozen=True)
+class LinearSolution:
+    """Solution of a linear system.
+
+    Attributes
+    ----------
+    increment
+        (n,) unknowns.
+    rounded
+        Residual of these, as a share of the load.
+    apart
+        The solution with rigid motions apart, where these lose less by rounding; else None.
+    """
+
+    increment: Floats
+    rounded: float
+    apart: Apart | None = None
+
+    @property
+    def residual(self) -> float:
+        """Residual of the better of the two, as a share of the load."""
+        return self.rounded if self.apart is None else self.apart.residual
+
+    def moved(self, model: Model, state: State) -> State:
+        """Return the state after the step in small displacements."""
+        if self.apart is None:
+            return strain_only(model, state, self.increment)
+        return strain_only(model, state, self.apart.strain, self.apart.rigid)
+
+
+class LinearSystem:
+    """Solves the equations of steps.
+
+    Parameters
+    ----------
+    small
+        Whether displacements are small: rigid motions may then be kept apart from the strain.
+
+    Attributes
+    ----------
+    factor
+        Of the last system; it stands as long as the matrix has the same entries.
+    """
+
+    def __init__(self, solved: Solved, solver: LinearSolver, small: bool) -> None:
+        self._solved, self.solver, self._small = solved, solver, small
+        self.factor: Factor | None = None
+
+    def solve(self, equations: Equations) -> LinearSolution:
+        """Solve a step; supports keep their multipliers.
+
+        Raises
+        ------
+        SolveError
+            Where the load moves a part that nothing holds.
+        """
+        plan, matrix, force = self._solved.plan, equations.matrix, equations.force
+        border = plan.border(equations.state, equations.end)
+        n, solver = len(force), self.solver
+        if border is not None:
+            matrix = bordered(matrix, border[0])
+            force, solver = np.concatenate([force, border[1]]), solver.indefinite()
+        if not equations.symmetric:
+            solver = self.solver.unsymmetric()
+        if self.factor is None or not _same(self.factor.matrix, matrix):
+            self.factor = solver.factorise(matrix)
+        increment = self.factor.solve(force)
+        residual, apart = self.factor.relative_residual(increment, force), None
+        if equations.step is None:
+            apart = self._apart(equations, self.factor, increment, force, border)
+            apart = apart if apart is not None and apart.residual < residual else None
+        if border is not None:
+            plan.keep(increment[n:] if apart is None else apart.multipliers)
+        return LinearSolution(increment[:n], residual, apart)
+
+    def _apart(
+        self,
+        equations: Equations,
+        factor: Factor,
+        increment: Floats,
+        force: Floats,
+        border: tuple[csr_array, Floats] | None,
+    ) -> Apart | None:
+        """Solution with rigid motions apart where rounding would spoil the stress; else None."""
+        model = self._solved.model
+        if not self._small or model.manifold.n_bodies == 1 or model.matter is not None:
+            return None
+        bodies = rigid_bodies(model)
+        if rounding(factor, bodies, increment, force) <= ROUNDED:
+            return None
+        held = self._solved.plan.matrix(equations.state, csc_array(model.stiffness.shape))
+        return solve_apart(factor, bodies, held, force, None if border is None else border[0])
+
+
+def rigid_bodies(model: Model) -> Bodies:
+    """Return the rigid motions of a model's bodies."""
+    manifold = model.manifold
+    measure = model.measure if manifold.dependent else None
+    return Bodies(model.stiffness, manifold.rigid_modes, model.rigid_projection, measure)
+
+
+def _same(a: csc_array, b: csc_array) -> bool:
+    return a is b or (
+        a.nnz == b.nnz and np.array_equal(a.data, b.data) and np.array_equal(a.indices, b.indices)
+    )
