@@ -70,8 +70,8 @@ class Discretisation:
         return Discretisation(change.setup, plan_after(self.plan, change), self.version + 1)
 
 
-class Solved(Protocol):
-    """What is solved: a model and the effects on it."""
+class ModelWithEffects(Protocol):
+    """A model and the effects on it."""
 
     @property
     def model(self) -> "Model":

@@ -1,9 +1,9 @@
 """What a run does when what it solves has changed, be it by a stage or by an event in mid-run.
 
 Blocks and cracks have another geometry, the state is carried over to it, effects follow, the
-recorder goes on with the new model and the sink is told the new elements. An event is asked for by an
-effect (`nmm.effects.base.Effect.event`) after an accepted step; a scene without such effects pays
-one look at an empty list.
+recorder goes on with the new model and the sink is told the new elements. An event is asked for by
+an effect (`nmm.effects.base.Effect.event`) after an accepted step; a scene without such effects
+pays one look at an empty list.
 """
 
 from dataclasses import dataclass

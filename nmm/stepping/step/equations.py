@@ -14,7 +14,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
-from nmm.model.discretisation import Solved
+from nmm.model.discretisation import ModelWithEffects
 from nmm.stepping.step.damping import Damping
 
 
@@ -114,7 +114,7 @@ class Equations:
 class Assembly:
     """Makes the equations of steps; a matrix of the same parts is the same object."""
 
-    def __init__(self, solved: Solved) -> None:
+    def __init__(self, solved: ModelWithEffects) -> None:
         self._solved = solved
         self.forget()
 

@@ -8,7 +8,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, strain_only
-from nmm.model.discretisation import Solved
+from nmm.model.discretisation import ModelWithEffects
 from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.solvers.rigid_apart import ROUNDED, Apart, Bodies, rounding, solve_apart
@@ -59,7 +59,7 @@ class LinearSystem:
         Of the last system; it stands as long as the matrix has the same entries.
     """
 
-    def __init__(self, solved: Solved, solver: LinearSolver, small: bool) -> None:
+    def __init__(self, solved: ModelWithEffects, solver: LinearSolver, small: bool) -> None:
         self._solved, self.solver, self._small = solved, solver, small
         self.factor: Factor | None = None
 
