@@ -76,7 +76,7 @@ class Equilibrium:
 
 
 @dataclass(frozen=True)
-class Declared:
+class WithEffects:
     """A model and effects on it that no scene names."""
 
     model: Model
@@ -99,7 +99,7 @@ def equilibrium(
         raise FormulationError(
             "linear statics: a material that is not linear: expected elastic laws: run a scene"
         )
-    solved = Declared(model, _plan(effects))
+    solved = WithEffects(model, _plan(effects))
     system = LinearSystem(solved, solver_for(model.manifold, solver or Solver()), small=True)
     start = initial_state(model.manifold)
     equations = Assembly(solved).of(
