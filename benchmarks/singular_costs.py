@@ -20,8 +20,8 @@ from scipy.sparse import csc_array
 from skfem.models.elasticity import linear_elasticity
 from smooth_costs import LAW, TRIANGLE, Clock, Cost, D, solutions
 
-from covers.approximation.enrichment import Enrichment, singular_fields
 from covers.approximation.mesh_manifold import mesh_manifold
+from covers.approximation.singular.enrichment import Enrichment, singular_fields
 from covers.cutting.cut import cut
 from covers.local_functions.corner_functions import corner_functions
 from covers.local_functions.crack_tip_functions import crack_tip_functions
@@ -70,7 +70,7 @@ class Problem:
         u, g = np.zeros((len(p), 2)), np.zeros((len(p), 2, 2))
         for functions in (self.known, self.other):
             item = Enrichment(functions, np.zeros(2), self.direction)
-            value, gradient = singular_fields(item, p, side)
+            value, gradient = singular_fields(item, p, np.pi / 2 * side)
             strength = 1 / (2 * SHEAR) / np.arange(1, functions.number + 1)
             u += np.real(np.einsum("mnc,n->mc", value, strength))
             g += np.real(np.einsum("mncd,n->mcd", gradient, strength))

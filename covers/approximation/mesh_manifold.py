@@ -7,7 +7,6 @@ import numpy as np
 
 from covers.approximation.dependence import dependent_functions
 from covers.approximation.element_groups import ElementGroup
-from covers.approximation.enrichment import EnrichedFields, Enrichment, enriched_covers, sides
 from covers.approximation.local_coordinates import (
     covers_coordinates,
     elements_coordinates,
@@ -25,7 +24,10 @@ from covers.approximation.polynomial_groups import (
 )
 from covers.approximation.quadrature_groups import QuadratureGroup
 from covers.approximation.rigid_modes import rigid_modes, stretch_modes
-from covers.approximation.singular_rules import singular_rule
+from covers.approximation.singular.carriers import Carriers, carriers, no_carriers
+from covers.approximation.singular.enriched_fields import EnrichedFields
+from covers.approximation.singular.enrichment import Enrichment
+from covers.approximation.singular.rules import singular_rule
 from covers.approximation.weighted_fields import RATIONAL, WeightedFields
 from covers.approximation.whitening import LocalFrames
 from covers.cutting.cut_cells import CutCells
@@ -93,9 +95,15 @@ def mesh_manifold(
         richest=cover.precision + max(degrees),
         fitted=int(builder.fitted.sum()),
         mended=cover.mended,
-        enriched=int((builder.enriched >= 0).sum()),
-        singular=np.array([item.point for item in enrichments]).reshape(-1, 2),
+        enriched=int((builder.carriers.counts > 0).sum()),
+        singular=_carried(enrichments, builder.carriers),
     )
+
+
+def _carried(enrichments: Sequence[Enrichment], found: Carriers) -> Floats:
+    """Singular points (n, 2) whose functions are carried."""
+    places = np.array([item.point for item in enrichments]).reshape(-1, 2)
+    return np.asarray(places[found.carried.astype(bool)])
 
 
 def _uniform(functions: LocalFunctions, n: int) -> Kinds:
@@ -120,18 +128,18 @@ class _Builder:
     covers: PhysicalCovers
     offset: Ints
     fitted: Bools
-    enriched: Ints
+    carriers: Carriers
     frames: LocalFrames
 
     @classmethod
     def of(
         cls, cover: Cover, cut: CutCells, kinds: Kinds, enrichments: tuple[Enrichment, ...]
     ) -> "_Builder":
-        enriched = enriched_covers(cut, cover.patch_centre, enrichments)
         size = kinds.each(lambda item: item.n_unknowns)
+        carried = no_carriers(cut)
         if enrichments:
-            extra = np.array([item.functions.number for item in enrichments])
-            size = size + np.where(enriched >= 0, extra[enriched], 0)
+            carried = carriers(cut, cover.patch_centre, enrichments)
+            size = size + enrichments[0].functions.number * carried.counts
         offset = np.concatenate([[0], np.cumsum(size)])
         frames, parts = part_frames(cut)
         fitted = fitted_covers(cut, kinds)
@@ -147,31 +155,30 @@ class _Builder:
             covers,
             offset,
             fitted,
-            enriched,
+            carried,
             elements_coordinates(cut, frames, parts),
         )
 
     def groups(self) -> Iterator[ElementGroup]:
         """One group for each pattern of local functions among the covers of elements."""
-        for elements, slots, codes in self._patterns():
-            functions = [self.kinds.functions[code // 2] for code in codes]
-            n_enriched = int(np.sum(codes % 2))
+        for elements, slots, kinds, counts in self._patterns():
+            functions = [self.kinds.functions[kind] for kind in kinds]
             active = np.take_along_axis(self.cut.covers[elements], slots, axis=1)
-            if n_enriched:
-                yield self._enriched(elements, slots, active, functions, n_enriched)
+            if counts.any():
+                yield self._enriched(elements, slots, active, functions, counts)
             elif self.cover.weight_degree is None:
                 yield self._rational(elements, slots, active, functions)
             else:
                 yield self._polynomial(elements, slots, active, functions)
 
-    def _patterns(self) -> Iterator[tuple[Ints, Ints, Ints]]:
-        """Elements (n,), their active slots (n, k), enriched ones first, and the codes (k,)."""
-        covers = self.cut.covers
-        none = 2 * len(self.kinds.functions)
-        code = 2 * self.kinds.which + (self.enriched >= 0)
+    def _patterns(self) -> Iterator[tuple[Ints, Ints, Ints, Ints]]:
+        """Elements (n,), their active slots (n, k), functions (k,), points carried (k,)."""
+        covers, most = self.cut.covers, self.carriers.points.shape[1] + 1
+        none = most * len(self.kinds.functions)
+        code = most * self.kinds.which + self.carriers.counts
         codes = np.where(covers >= 0, code[covers], none)
         # Enriched slots first, then by functions, inactive ones last; equal ones stay in order.
-        rank = np.where(codes == none, none, codes - none * (codes % 2))
+        rank = np.where(codes == none, none, codes - none * (codes % most))
         slots = np.argsort(rank, axis=1, kind="stable")
         codes = np.take_along_axis(codes, slots, axis=1)
         if (codes == codes[0]).all():
@@ -180,9 +187,9 @@ class _Builder:
             distinct, pattern = np.unique(codes, axis=0, return_inverse=True)
             pattern = pattern.ravel()
         for number, row in enumerate(distinct):  # a handful of patterns
-            k = int((row < none).sum())
+            active = row[row < none]
             elements = np.flatnonzero(pattern == number)
-            yield elements, slots[elements, :k], row[:k]
+            yield elements, slots[elements, : len(active)], active // most, active % most
 
     def _polynomial(
         self, elements: Ints, slots: Ints, active: Ints, functions: list[LocalFunctions]
@@ -252,24 +259,29 @@ class _Builder:
         slots: Ints,
         active: Ints,
         functions: list[LocalFunctions],
-        n_enriched: int,
+        counts: Ints,
     ) -> ElementGroup:
-        which = self.enriched[active[:, :n_enriched]]
+        carrying = np.repeat(np.arange(len(counts)), counts)
+        rank = np.arange(len(carrying)) - np.repeat(np.cumsum(counts) - counts, counts)
+        cover = active[:, carrying]
+        which = self.carriers.points[cover, rank]
         degree = max(item.degree for item in functions) + (self.cover.weight_degree or 2)
         number = self.enrichments[0].functions.number
         base = combined(functions)
         polynomial = unknowns_of(functions, self.covers, active)
-        last = self.offset[active[:, :n_enriched] + 1] - number
-        singular = (last[:, :, None] + np.arange(number)).reshape(len(elements), -1)
+        first = self.offset[cover + 1] - number * (counts[carrying] - rank)
+        singular = (first[:, :, None] + np.arange(number)).reshape(len(elements), -1)
         total = polynomial.shape[1]
         rows = total if base is None else len(base)
-        vectors = number * n_enriched
+        vectors = number * len(carrying)
         # Two scalar functions, of the x and the y component, make one vector function.
         combination = np.zeros((rows + 4 * vectors, total + vectors))
         combination[:rows, :total] = np.eye(rows) if base is None else base
         vector = np.arange(vectors)
         combination[rows + 4 * vector, total + vector] = 1.0
         combination[rows + 4 * vector + 3, total + vector] = 1.0
+        element = np.repeat(elements, len(carrying))
+        bearing = self.carriers.bearings(element, cover.ravel(), which.ravel())
         return QuadratureGroup(
             elements=elements,
             unknowns=np.concatenate([polynomial, singular], axis=1),
@@ -277,14 +289,12 @@ class _Builder:
             shape=np.arange(len(elements)),
             fields=EnrichedFields(
                 self._fields(elements, slots, active, functions),
-                n_enriched,
+                carrying,
                 self.enrichments,
                 which,
-                sides(self.cut.elements.centroids[elements], self.enrichments, which),
+                bearing.reshape(which.shape),
             ),
-            rule=singular_rule(
-                self.cut.elements.take(elements), self.enrichments, which[:, 0], degree
-            ),
+            rule=singular_rule(self.cut.elements.take(elements), self.enrichments, which, degree),
         )
 
     def _fields(

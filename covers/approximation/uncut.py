@@ -3,6 +3,7 @@
 import numpy as np
 
 from covers.approximation.manifold import Manifold
+from covers.cutting.connectivity import Joins
 from covers.cutting.cut_boundary import CrackTips, CutBoundary
 from covers.cutting.cut_cells import CutCells
 
@@ -29,6 +30,7 @@ def uncut(manifold: Manifold) -> CutCells:
             opposite=none,
         ),
         tips=CrackTips(nowhere, nowhere, no_number, no_number),
+        joins=Joins(no_number, no_number, nowhere, nowhere),
         step=0.0,
         crack_tolerance=0.0,
         slivers=0,

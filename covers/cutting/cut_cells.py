@@ -46,6 +46,8 @@ class CutCells:
         edges of all bodies, faces of cracks included, the material on the left hand.
     tips : CrackTips
         ends of cracks inside bodies.
+    joins : Joins
+        pairs of elements that share an interval of an edge which nothing parts.
     step : float
         resolution: points and lines nearer than this are one, m.
     crack_tolerance : float
@@ -65,6 +67,7 @@ class CutCells:
     cover_body: Ints = field(metadata=numbers("body"))
     boundary: CutBoundary
     tips: CrackTips
+    joins: Joins
     step: float
     crack_tolerance: float
     slivers: int
@@ -121,6 +124,7 @@ def assembled(
         cover_body=body[parts.first],
         boundary=replace(boundary, body=body[boundary.element]),
         tips=concatenate([layer.tips for layer in layers], offsets),
+        joins=joins,
         step=resolution.step,
         crack_tolerance=moved,
         slivers=sum(part.lost for part in pieces),

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from covers.approximation.enrichment import Enrichment, touching_covers
+from covers.approximation.singular.enrichment import Enrichment
 from integration.arrays import Floats, Ints
 from nmm.errors import FormulationError
 
@@ -12,15 +12,11 @@ if TYPE_CHECKING:
     from covers.cutting.cut_cells import CutCells
     from nmm.formulation import CoverTable
 
-# Distance from a straight line in parts of the length looked at.
-STRAIGHT = 1e-6
-
 
 def enrichments(cut: "CutCells", cover: "CoverTable", kappa: Floats | None) -> list[Enrichment]:
     """Return crack-tip functions and the corner functions that ``[cover.enrichment]`` names.
 
-    Without the table the covers about a tip carry its functions where the crack is straight and
-    alone in them; with it those of all tips do, and those within its radius.
+    The covers about a tip carry its functions, with the table those within its radius too.
 
     Raises
     ------
@@ -61,21 +57,4 @@ def _tips(cut: "CutCells", cover: "CoverTable") -> Ints:
     every = np.arange(len(cut.tips))
     if cover.enrichment is not None:
         return every if cover.enrichment.tips else every[:0]
-    if cover.functions != "monomials":
-        return every[:0]
-    return np.array([n for n in every.tolist() if _straight_and_alone(cut, n)], dtype=np.int64)
-
-
-def _straight_and_alone(cut: "CutCells", tip: int) -> bool:
-    """Whether all faces of cracks in the covers about a tip lie on the line behind it."""
-    point, ahead = cut.tips.point[tip], cut.tips.direction[tip]
-    mine = np.zeros(cut.n_covers + 1, dtype=bool)
-    mine[touching_covers(cut, point)] = True
-    held = np.asarray(mine[:-1][cut.covers] & (cut.covers >= 0))
-    edges = cut.boundary
-    about = np.asarray(held.any(axis=1))
-    faces = about[edges.element] & (edges.crack >= 0)
-    ends = np.concatenate([edges.start[faces], edges.end[faces]]) - point
-    reach = STRAIGHT * float(np.abs(ends).max(initial=0.0))
-    aside = np.abs(ends[:, 0] * ahead[1] - ends[:, 1] * ahead[0])
-    return bool((aside <= reach).all() and (ends @ ahead <= reach).all())
+    return every if cover.functions == "monomials" else every[:0]

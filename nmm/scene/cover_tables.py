@@ -36,8 +36,7 @@ class PartTable(Frozen):
 class EnrichmentTable(Frozen):
     """Singular functions on the covers about all crack tips, and about corners that are named.
 
-    Without the table the covers about a tip carry its functions where the crack is straight and
-    alone in them.
+    Without the table the covers that touch a tip carry its functions.
     """
 
     radius: Length = Field(

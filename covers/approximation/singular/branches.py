@@ -1,0 +1,116 @@
+"""The branch of the angle about a singular point on each element, continuous within covers.
+
+The angle about the tip of a crack jumps across the crack and nowhere else, however it is kinked,
+curved or ended by another. No formula knows where that is, but the cut does: elements share edges
+where no crack parts them. From element to element of a cover the angle is continued across these
+edges, and the crack that leads to the tip keeps the two sides apart.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.approximation.singular.enrichment import Enrichment, near, polar
+from covers.cutting.components import components
+from covers.cutting.connectivity import Joins
+from covers.cutting.cut_cells import CutCells
+from integration.arrays import Bools, Floats, Ints
+from integration.polygons import Polygons
+
+# A vertex this near to the point, in parts of its polygon, is the point.
+AT = 1e-9
+
+
+@dataclass(frozen=True)
+class Branches:
+    """Branches of the angle about one point.
+
+    Attributes
+    ----------
+    bearing
+        (n,) of each place: angles of its element lie within half a turn of it (rad).
+    torn
+        (n,) places of parts in which no continuous angle exists: the way about the point is open,
+        as about a crack that lies within one cover.
+    """
+
+    bearing: Floats
+    torn: Bools
+
+
+def branches(cut: CutCells, item: Enrichment, element: Ints, part: Ints) -> Branches:
+    """Return the branches on places, each an element in a part that hangs together.
+
+    Parameters
+    ----------
+    element, part
+        (n,) element and number of the part of each place: a cover, or 0 for all.
+    """
+    middle = middles(cut.elements.take(element), item)
+    first, second, turns = _edges(cut.joins, item, element, part, middle)
+    group = components(len(element), first, second)
+    roots = np.lexsort((np.abs(middle), group))
+    roots = roots[np.unique(group[roots], return_index=True)[1]]
+    lift, known = np.zeros(len(element)), np.zeros(len(element), dtype=bool)
+    known[roots] = True
+    one, two = np.concatenate([first, second]), np.concatenate([second, first])
+    step = np.concatenate([turns, -turns])
+    while True:  # as many passes as elements lie one behind the other
+        reached = np.flatnonzero(known[one] & ~known[two])
+        if not len(reached):
+            break
+        lift[two[reached]] = lift[one[reached]] + step[reached]
+        known[two[reached]] = True
+    wrong = lift[first] + turns != lift[second]
+    torn = np.isin(group, group[first[wrong]])
+    return Branches(middle + 2 * np.pi * lift, torn)
+
+
+def middles(polygons: Polygons, item: Enrichment) -> Floats:
+    """Middle (n,) of the angles that polygons span about a point, from its bisector (rad)."""
+    radius, angle = polar(item, polygons.points)
+    owner, follower = polygons.polygon_of_point, polygons.next_point
+    first = polygons.first_point
+    size = np.maximum.reduceat(radius, first)[owner]
+    there = radius <= AT * size
+    turn = near(angle[follower] - angle, np.zeros(len(angle)))
+    turn[there | there[follower]] = 0.0
+    # Through a corner at the point the angle goes back by what it has come around the others.
+    whole = np.add.reduceat(turn, first)
+    turn[np.flatnonzero(there[follower])] = -whole[owner[there[follower]]]
+    # A ring that begins at the point has no angle there: it begins with the next one's.
+    began = first[there[first]]
+    angle = angle.copy()
+    angle[began] = angle[follower[began]]
+    turn[began] = 0.0
+    gone = np.cumsum(turn) - turn
+    at = angle[first][owner] + gone - gone[first][owner]
+    low = np.minimum.reduceat(np.where(there, np.inf, at), first)
+    high = np.maximum.reduceat(np.where(there, -np.inf, at), first)
+    return near((low + high) / 2, np.zeros(len(first)))
+
+
+def _edges(
+    joins: Joins, item: Enrichment, element: Ints, part: Ints, middle: Floats
+) -> tuple[Ints, Ints, Floats]:
+    """Pairs of joined places of one part, and the turns by which their angles differ."""
+    least = int(joins.second.max(initial=-1)) if len(joins.first) else -1
+    n = max(least, int(joins.first.max(initial=-1)), int(element.max(initial=-1))) + 1
+    there = np.zeros(n, dtype=bool)
+    there[element] = True
+    joins = joins.take(there[joins.first] & there[joins.second])
+    key = part * n + element
+    order = np.argsort(key)
+    ordered = key[order]
+    found = []
+    for number in np.unique(part):  # the covers about one point
+        sides = []
+        for side in (joins.first, joins.second):
+            at = np.searchsorted(ordered, number * n + side).clip(max=len(order) - 1)
+            sides.append(np.where(ordered[at] == number * n + side, order[at], -1))
+        both = np.flatnonzero((sides[0] >= 0) & (sides[1] >= 0))
+        found.append(np.stack([sides[0][both], sides[1][both], both]))
+    first, second, join = np.concatenate(found, axis=1)
+    angle = polar(item, (joins.start[join] + joins.end[join]) / 2)[1]
+    one, two = near(angle, middle[first]), near(angle, middle[second])
+    return first, second, np.round((one - two) / (2 * np.pi))

@@ -1,0 +1,118 @@
+"""Which covers carry functions of which singular points."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.approximation.singular.branches import branches
+from covers.approximation.singular.enrichment import Enrichment
+from covers.cutting.cut_cells import CutCells
+from integration.arrays import Floats, Ints
+
+NEAR = 1e-9
+
+
+@dataclass(frozen=True)
+class Carriers:
+    """Covers with functions of singular points.
+
+    Attributes
+    ----------
+    points
+        (C, k) singular points that each physical cover carries; -1 fills up rows.
+    place, point, bearing
+        (n,) element times the number of covers plus cover, sorted within each point; the point;
+        and the branch of the angle there (`Branches`).
+    carried
+        (N,) whether the covers about each singular point carry its functions.
+    """
+
+    points: Ints
+    place: Ints
+    point: Ints
+    bearing: Floats
+    carried: Ints
+
+    @property
+    def counts(self) -> Ints:
+        """(C,) how many points each cover carries."""
+        return np.asarray((self.points >= 0).sum(axis=1))
+
+    def bearings(self, element: Ints, cover: Ints, point: Ints) -> Floats:
+        """Return the branch (n,) on elements of covers for the points that they carry."""
+        n = len(self.points)
+        found = np.zeros(len(element))
+        for one in np.unique(point):  # a handful of singular points
+            mine, rows = np.flatnonzero(self.point == one), np.flatnonzero(point == one)
+            at = np.searchsorted(self.place[mine], element[rows] * n + cover[rows])
+            found[rows] = self.bearing[mine[at]]
+        return found
+
+
+def carriers(cut: CutCells, patch_centre: Floats, enrichments: Sequence[Enrichment]) -> Carriers:
+    """Return which covers carry what.
+
+    Covers of the elements that touch a point carry its functions, each of several points if it
+    must; covers within a radius those of the nearest one besides. A point about which a cover has
+    no continuous angle, as about the tip of a crack within one cover, is carried by none.
+    """
+    n = cut.n_covers
+    centre = patch_centre[cut.cover_patch]
+    distance = np.array([np.hypot(*(centre - item.point).T) for item in enrichments])
+    within = np.array([item.radius for item in enrichments])[:, None] > distance
+    nearest = np.argmin(np.where(within, distance, np.inf), axis=0)
+    chosen = within & (nearest == np.arange(len(enrichments))[:, None])
+    for number, item in enumerate(enrichments):  # a handful of singular points
+        chosen[number, touching_covers(cut, item.point)] = True
+        if item.body is not None:
+            chosen[number] &= cut.cover_body == item.body
+    places, carried = [], np.ones(len(enrichments), dtype=bool)
+    for number, item in enumerate(enrichments):
+        held = np.append(chosen[number], False)[cut.covers]
+        element, slot = np.nonzero(held)
+        cover = cut.covers[element, slot]
+        found = branches(cut, item, element, cover)
+        if found.torn.any():
+            chosen[number], carried[number] = False, False
+            continue
+        key = element * n + cover
+        order = np.argsort(key)
+        places.append((key[order], np.full(len(key), number), found.bearing[order]))
+    points = _rows(chosen)
+    if not places:
+        none = np.empty(0, dtype=np.int64)
+        return Carriers(points, none, none, np.empty(0), carried)
+    key, point, bearing = (np.concatenate(parts) for parts in zip(*places, strict=True))
+    return Carriers(points, key, point, bearing, carried)
+
+
+def _rows(chosen: Ints) -> Ints:
+    """Numbers of the rows of a table (N, C) that are chosen for each column, filled up by -1."""
+    most = int(chosen.sum(axis=0).max(initial=0))
+    order = np.argsort(~chosen, axis=0, kind="stable")[:most].T
+    return np.where(np.take_along_axis(chosen.T, order, axis=1), order, -1)
+
+
+def no_carriers(cut: CutCells) -> Carriers:
+    """Return that no cover carries anything."""
+    none = np.empty(0, dtype=np.int64)
+    return Carriers(np.empty((cut.n_covers, 0), dtype=np.int64), none, none, np.empty(0), none)
+
+
+def touching_covers(cut: CutCells, point: Floats) -> Ints:
+    """Covers of the elements that hold the point in their boxes grown by rounding, and inside."""
+    import shapely
+
+    owner = cut.elements.polygon_of_point
+    away = np.hypot(*(cut.elements.points - point).T)
+    size = np.hypot(*np.ptp(cut.elements.points, axis=0))
+    found = np.unique(owner[away <= NEAR * size])
+    if not len(found):  # a point inside an element
+        low = np.minimum.reduceat(cut.elements.points, cut.elements.first_point, axis=0)
+        high = np.maximum.reduceat(cut.elements.points, cut.elements.first_point, axis=0)
+        within = np.flatnonzero(((low <= point) & (point <= high)).all(axis=1))
+        shapes = cut.elements.take(within).to_shapely()
+        found = within[shapely.intersects(shapes, shapely.Point(point))]
+    active = cut.covers[found]
+    return np.unique(active[active >= 0])

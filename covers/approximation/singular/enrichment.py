@@ -1,0 +1,62 @@
+"""Singular functions about a point, in global axes and on a branch of the angle."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.local_functions.singular_functions import SingularFunctions
+from integration.arrays import Floats
+
+
+@dataclass(frozen=True)
+class Enrichment:
+    """Singular functions about one point.
+
+    Attributes
+    ----------
+    functions
+        The functions.
+    point, direction
+        (2,) singular point (m) and unit vector of the bisector: ahead of a crack, into the
+        material at a corner.
+    radius
+        Covers whose centre is nearer (m) are enriched; those of the elements that touch the
+        point always are.
+    body
+        Only covers of this body; None is all.
+    """
+
+    functions: SingularFunctions
+    point: Floats
+    direction: Floats
+    radius: float = 0.0
+    body: int | None = None
+
+
+def polar(item: Enrichment, points: Floats) -> tuple[Floats, Floats]:
+    """Distance (m,) from the singular point and angle (m,) from its bisector, within pi."""
+    along, across = _local(item, points).T
+    return np.hypot(along, across), np.arctan2(across, along)
+
+
+def near(angle: Floats, bearing: Floats) -> Floats:
+    """Angles that differ from ``angle`` by whole turns and from ``bearing`` by half a turn."""
+    return np.asarray(bearing + np.mod(angle - bearing + np.pi, 2 * np.pi) - np.pi)
+
+
+def singular_fields(item: Enrichment, points: Floats, bearing: Floats) -> tuple[Floats, Floats]:
+    """Values (m, n, 2) and gradients (m, n, 2, 2) of singular functions in global axes.
+
+    ``bearing`` (m,) settles on which branch of the angle a point lies: the one within half a turn
+    of it (rad, from the bisector). The two faces of a crack lie on different branches.
+    """
+    d = np.asarray(item.direction, dtype=float)
+    turn = np.array([[d[0], -d[1]], [d[1], d[0]]])
+    radius, angle = polar(item, points)
+    value, gradient = item.functions.evaluate(np.maximum(radius, 1e-30), near(angle, bearing))
+    return value @ turn.T, np.einsum("ab,mnbc,dc->mnad", turn, gradient, turn)
+
+
+def _local(item: Enrichment, points: Floats) -> Floats:
+    d = np.asarray(item.direction, dtype=float)
+    return np.asarray((points - item.point) @ np.array([[d[0], -d[1]], [d[1], d[0]]]))
