@@ -36,6 +36,8 @@ CALLED_BY = {
     "bonded interfaces": "bonded interface without contact",
     "initial velocity": "[[initial_velocities]]",
     "initial stress": "[[initial_stresses]]",
+    "viscous boundaries": "[[viscous_boundaries]]",
+    "free fields": "[[free_fields]]",
     "viscous damping": "[damping] with mass, stiffness or ratios",
     "local damping": "[damping] with local",
 }

@@ -31,6 +31,8 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "supports": "nmm.constraints.supports:Supports",
         "bonded interfaces": "nmm.constraints.bonded_interfaces:BondedInterfaces",
         "inertia": "nmm.effects.inertia:Inertia",
+        "viscous boundaries": "nmm.effects.motion.viscous_boundaries:ViscousBoundaries",
+        "free fields": "nmm.effects.motion.free_fields:FreeFields",
         "viscous damping": "nmm.effects.damping.viscous:ViscousDamping",
         "local damping": "nmm.effects.damping.local:LocalDamping",
         "contact": "nmm.effects.contact:Contact",
@@ -51,6 +53,8 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
         s.contact is None and any(i.bonded for i in s.interfaces.values())
     ),
     "inertia": lambda s: s.inertia is not None,
+    "viscous boundaries": lambda s: bool(s.viscous_boundaries),
+    "free fields": lambda s: bool(s.free_fields),
     "viscous damping": lambda s: s.damping is not None and s.damping.coefficients is not None,
     "local damping": lambda s: s.damping is not None and s.damping.local is not None,
     "contact": lambda s: s.contact is not None,

@@ -92,6 +92,8 @@ def _resolved(
             "duration": table.duration,
             "inertia": scene.inertia if table.duration else None,
             "damping": scene.damping if table.duration else None,
+            "viscous_boundaries": _edges(scene.viscous_boundaries, table, there),
+            "free_fields": _edges(scene.free_fields, table, there),
             "initial_velocities": scene.initial_velocities if table.duration else (),
         }
         yield Stage(
@@ -179,9 +181,15 @@ def _acts(item: Any, listed: tuple[str, ...] | None, there: set[str]) -> bool:
     return listed is None or item.name in listed
 
 
+def _edges(items: tuple[Any, ...], table: "StageTable", there: set[str]) -> tuple[Any, ...]:
+    """Return the boundaries of blocks that are there, which act in time alone."""
+    return tuple(one for one in items if table.duration and _acts(one, None, there))
+
+
 def _names(scene: "Scene", formulation: "Formulation") -> set[str]:
     """Names of blocks that anything refers to."""
     cover = formulation.cover
     placed = (*scene.loads, *scene.supports, *scene.monitors)
+    placed += (*scene.viscous_boundaries, *scene.free_fields)
     items: tuple[Any, ...] = (*placed, *(cover.nets or ()), *(cover.regions or ()))
     return {item.block for item in items if item.block is not None}

@@ -16,15 +16,15 @@ from nmm.scene.lines import Path
 from nmm.scene.stage_rules import stage_contradictions
 from nmm.scene.tables.heat_rules import PARTS as HEAT
 from nmm.scene.tables.heat_rules import heat_contradictions
-from nmm.scene.tables.motion_rules import motion_contradictions
+from nmm.scene.tables.motion_rules import EDGES, motion_contradictions
 
 Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
 Tables = Mapping[str, Any]
 Rule = Callable[[Tables], Iterator[Finding]]
 
 _SOLIDS = ("blocks", "tessellations")
-_NAMED = ("joint_sets", "cracks", "supports", "loads", "monitors", "stages", *HEAT)
-_AT_BLOCKS = ("supports", "loads", "monitors", *HEAT)
+_NAMED = ("joint_sets", "cracks", "supports", "loads", "monitors", "stages", *HEAT, *EDGES)
+_AT_BLOCKS = ("supports", "loads", "monitors", *HEAT, *EDGES)
 _ON_BLOCKS = ("initial_velocities", "initial_stresses", "joint_sets")
 
 

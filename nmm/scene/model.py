@@ -34,6 +34,7 @@ from nmm.scene.output import OutputTable
 from nmm.scene.own_tables import EffectTable
 from nmm.scene.solids import Block, Crack, InterfaceTable, JointSet, Material, Tessellation
 from nmm.scene.stages import StageTable
+from nmm.scene.tables.boundaries import FreeFieldTable, ViscousBoundaryTable
 from nmm.scene.tables.damping import DampingTable
 from nmm.scene.tables.heat import (
     ConvectionTable,
@@ -82,6 +83,12 @@ class Scene(Frozen):
     )
     supports: tuple[SupportTable, ...] = Field(default=(), description="tables [[supports]]")
     loads: tuple[LoadTable, ...] = Field(default=(), description="tables [[loads]]")
+    viscous_boundaries: tuple[ViscousBoundaryTable, ...] = Field(
+        default=(), description="tables [[viscous_boundaries]]"
+    )
+    free_fields: tuple[FreeFieldTable, ...] = Field(
+        default=(), description="tables [[free_fields]]"
+    )
     gravity: GravityTable | None = Field(default=None, description="a table [gravity]")
     inertia: InertiaTable | None = Field(default=None, description="a table [inertia]")
     damping: DampingTable | None = Field(default=None, description="a table [damping]")

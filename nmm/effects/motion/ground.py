@@ -59,7 +59,6 @@ class Ground:
 def _motions(setup: Setup, support: "SupportTable") -> "dict[int, GroundMotion]":
     if not support.motion:
         return {}
-    from nmm.effects.motion.record import GroundMotion
+    from nmm.effects.motion.record import motions_of
 
-    records = setup.scene.records
-    return {"xy".index(one): GroundMotion.of(records[name]) for one, name in support.motion.items()}
+    return motions_of(setup.scene, support.motion)

@@ -1,15 +1,19 @@
 """A record as a motion: integrated exactly, linear as it is between its samples."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
 
 from integration.arrays import Floats
 
 if TYPE_CHECKING:
+    from nmm.scene.model import Scene
     from nmm.scene.tables.records import RecordTable
+
+Axis = Literal["x", "y"]
 
 
 @dataclass(frozen=True)
@@ -90,6 +94,11 @@ class GroundMotion:
             return number, after, 0.0
         ends = self.acceleration[number + 1, 1] - self.acceleration[number, 0]
         return number, after, float(ends / (self.times[number + 1] - self.times[number]))
+
+
+def motions_of(scene: "Scene", named: Mapping[Axis, str]) -> dict[int, GroundMotion]:
+    """Motions along x (0) and y (1) of the records of a scene that are named."""
+    return {"xy".index(axis): GroundMotion.of(scene.records[name]) for axis, name in named.items()}
 
 
 def corrected(times: Floats, values: Floats, baseline: str) -> Floats:

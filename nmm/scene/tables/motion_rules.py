@@ -14,6 +14,8 @@ from nmm.scene.lines import Path
 Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
 Tables = Mapping[str, Any]
 
+EDGES = ("viscous_boundaries", "free_fields")
+
 
 def motion_contradictions(data: Tables) -> Iterator[Finding]:
     """Yield records that are not there, and what moves in scenes without time."""
@@ -24,6 +26,24 @@ def motion_contradictions(data: Tables) -> Iterator[Finding]:
         if row.get("motion") and "inertia" not in data:
             remedy = "add [inertia], or give displacement with a history"
             yield (*path, "motion"), "no [inertia]", "a dynamic scene", remedy
+    for path, row in _rows(data, "viscous_boundaries"):
+        yield from _named_records(data, (*path, "incoming"), row.get("incoming"))
+    for key in EDGES:
+        if data.get(key) and "inertia" not in data:
+            yield (key,), "no [inertia]", "a dynamic scene", f"add [inertia], or remove [[{key}]]"
+    yield from _bases(data)
+
+
+def _bases(data: Tables) -> Iterator[Finding]:
+    """Yield bases of free fields that are no boundary and no moving support."""
+    bases = [row.get("name") for _, row in _rows(data, "viscous_boundaries")]
+    bases += [row.get("name") for _, row in _rows(data, "supports") if row.get("motion")]
+    for path, row in _rows(data, "free_fields"):
+        name = row.get("base")
+        if isinstance(name, str) and name not in bases:
+            expected = "the name of a viscous boundary or of a support with a motion"
+            known = [one for one in bases if isinstance(one, str)]
+            yield (*path, "base"), f'"{name}"', expected, suggestion(name, known)
 
 
 def _named_records(data: Tables, path: Path, motion: object) -> Iterator[Finding]:

@@ -1,0 +1,79 @@
+"""Dashpots along an edge: impedances of the ground beyond, and their matrix."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.assembly.places import Place
+
+
+@dataclass(frozen=True)
+class EdgeDashpots:
+    """Dashpots on points of an edge; they turn with the material.
+
+    Attributes
+    ----------
+    place
+        The points.
+    impedance
+        (m, 2) density times speed of pressure and of shear waves (Pa s/m).
+    area
+        (m,) of edge that each point stands for (m2).
+    """
+
+    place: Place
+    impedance: Floats
+    area: Floats
+
+    @classmethod
+    def of(cls, model: Model, place: Place, ground: Floats | None = None) -> Self:
+        """Return those of the material at the edge, or of a ``ground`` (2,) of other impedance."""
+        own = impedances(model, place) if ground is None else np.tile(ground, (len(place), 1))
+        return cls(place, own, place.weight * model.thickness)
+
+    def tractions(self, velocity: Floats) -> Floats:
+        """Tractions (m, 2) in Pa of velocities (2,) or (m, 2), in the reference place."""
+        normal = self.place.normal
+        assert normal is not None
+        across = np.sum(normal * velocity, axis=1)[:, None] * normal
+        along = velocity - across
+        return np.asarray(self.impedance[:, :1] * across + self.impedance[:, 1:] * along)
+
+    def matrix(self, n: int) -> csc_array:
+        """Matrix (n, n) of the force against the velocity."""
+        normal = self.place.normal
+        assert normal is not None
+        rows = self.place.points.rows.matrix(n)
+        shear = diags_array(np.repeat(self.area * self.impedance[:, 1], 2))
+        more = diags_array(self.area * (self.impedance[:, 0] - self.impedance[:, 1]))
+        m = len(self.area)
+        pick = csr_array(
+            (normal.ravel(), (np.repeat(np.arange(m), 2), np.arange(2 * m))), shape=(m, 2 * m)
+        )
+        normals = csr_array(pick @ rows)
+        return csc_array(rows.T @ shear @ rows + normals.T @ more @ normals)
+
+    def push(self, state: State, traction: Floats) -> Floats:
+        """Force (n,) on the unknowns of tractions (m, 2) in global axes."""
+        points = self.place.points
+        local = points.along(state.frames, self.area[:, None] * traction)
+        unknowns = points.rows.unknowns.ravel()
+        return np.bincount(unknowns, local.ravel(), minlength=len(state.deformation)).astype(float)
+
+    def work(self, before: State, after: State, traction: Floats) -> float:
+        """Work (J) of tractions (m, 2) in Pa that are the mean of a step."""
+        points = self.place.points
+        first = points.place(before.frames, before.deformation)
+        way = points.place(after.frames, after.deformation) - first
+        return float(np.sum(self.area[:, None] * traction * way))
+
+
+def impedances(model: Model, place: Place) -> Floats:
+    """Density times the speeds of pressure and shear waves (m, 2) of the material at points."""
+    density, elasticity = model.density[place.elements], model.elasticity[place.elements]
+    return np.sqrt(density[:, None] * elasticity[:, [0, 2], [0, 2]])

@@ -1,0 +1,160 @@
+"""Free-field boundaries: columns of ground beside the model that drive its sides."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.assembly.places import Place, on_segment
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.motion.edge_dashpots import EdgeDashpots
+from nmm.effects.motion.ground_column import Drive, GroundColumn
+from nmm.effects.motion.record import motions_of
+from nmm.effects.motion.viscous_boundaries import ground_of
+from nmm.errors import GeometryError
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.boundaries import FreeFieldTable
+
+# Linear elements of a column to a piece of the edge between two vertices of the mesh: one beside
+# finite elements, so that waves are as fast in both; beside functions of higher degree so many.
+FINER = 6
+
+
+@dataclass(frozen=True)
+class FreeField:
+    """One side: its dashpots, and the columns of motion along x and along y.
+
+    Attributes
+    ----------
+    dashpots
+        On the edge.
+    columns
+        Along x (shear) and along y (pressure waves).
+    lateral
+        (m,) stress across a column over that along it, of pressure waves.
+    """
+
+    dashpots: EdgeDashpots
+    columns: tuple[GroundColumn, GroundColumn]
+    lateral: Floats
+
+    def traction(self, time: float) -> Floats:
+        """Tractions (m, 2) of the free field on the edge: its stress, and its dashpots' pull."""
+        height, level = self.columns[0].height, self.dashpots.place.position[:, 1]
+        velocity = [np.interp(level, height, one.velocity(time)) for one in self.columns]
+        element = np.clip(np.searchsorted(height, level) - 1, 0, len(height) - 2)
+        shear, along = (one.stress(time)[element] for one in self.columns)
+        normal = self.dashpots.place.normal
+        assert normal is not None
+        side = normal[:, 0]
+        stress = np.stack([side * self.lateral * along, side * shear], axis=1)
+        return stress + self.dashpots.tractions(np.stack(velocity, axis=1))
+
+
+class FreeFields(Effect):
+    """Sides of a model that goes on beyond them as level ground."""
+
+    name = "free fields"
+
+    def __init__(self, sides: list[FreeField], n_unknowns: int) -> None:
+        self.sides, self._n = sides, n_unknowns
+        none = csc_array((n_unknowns, n_unknowns))
+        self._matrix = sum((one.dashpots.matrix(n_unknowns) for one in sides), start=none)
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[free_fields]]``."""
+        found = [_side(setup, one) for one in setup.scene.free_fields]  # a handful
+        return cls(found, setup.model.manifold.n_unknowns)
+
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        counts = [len(one.columns[0].modulus) for one in self.sides]
+        return f"columns of {' and '.join(map(str, counts))} elements"
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`."""
+        return False
+
+    def damping(self, state: State) -> csc_array:
+        """See `Effect.damping`; always the same object."""
+        return self._matrix
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return what the free field does on the sides, but for their own velocity."""
+        total = np.zeros(self._n)
+        for side in self.sides:
+            total += side.dashpots.push(state, side.traction(end.time))
+        return total
+
+    def work(self, before: State, after: State) -> float:
+        """Mean force of the free field times the motion of the sides."""
+        return sum(
+            one.dashpots.work(
+                before, after, (one.traction(before.time) + one.traction(after.time)) / 2
+            )
+            for one in self.sides
+        )
+
+
+def _side(setup: Setup, table: "FreeFieldTable") -> FreeField:
+    model = setup.model
+    order = 2 * max(model.manifold.degree, 1)
+    place = on_segment(model.manifold, np.array(table.segment), setup.regions(table.block), order)
+    if not len(place):
+        raise GeometryError(
+            f"free field {table.name}: {table.segment}: expected a vertical edge of the material: "
+            "move it there"
+        )
+    linear = setup.formulation.cover.highest_degree == 0
+    height, element = _layers(place, 1 if linear else FINER)
+    damping = setup.scene.damping
+    factors = (None if damping is None else damping.coefficients) or (0.0, 0.0)
+    step = setup.formulation.integrator.step
+    columns = []
+    for axis, entry in enumerate((2, 0)):  # shear along x, pressure along y
+        modulus = model.elasticity[element, entry, entry]
+        base = _base(setup, table, axis, float(model.density[element[0]] * modulus[0]) ** 0.5)
+        columns.append(GroundColumn(height, modulus, model.density[element], factors, step, base))
+    elasticity = model.elasticity[place.elements]
+    lateral = elasticity[:, 0, 1] / elasticity[:, 0, 0]
+    return FreeField(EdgeDashpots.of(model, place), (columns[0], columns[1]), lateral)
+
+
+def _layers(place: Place, finer: int) -> tuple[Floats, Floats]:
+    """Nodes (k + 1,) of a column from below, and the element (k,) of the model beside each."""
+    assert place.piece is not None
+    first = np.flatnonzero(np.diff(place.piece, prepend=-1))
+    length = np.add.reduceat(place.weight, first)
+    middle = np.add.reduceat(place.weight * place.position[:, 1], first) / length
+    order = np.argsort(middle)
+    low, high = (middle - length / 2)[order], (middle + length / 2)[order]
+    shares = np.arange(finer) / finer
+    nodes = (low[:, None] + shares * (high - low)[:, None]).ravel()
+    return np.append(nodes, high[-1]), np.repeat(place.elements[first][order], finer)
+
+
+def _base(
+    setup: Setup, table: "FreeFieldTable", axis: int, own: float
+) -> tuple[float | None, Drive]:
+    """Return impedance and incoming velocity below a column, or the displacement of its base."""
+    scene = setup.scene
+    boundary = next((one for one in scene.viscous_boundaries if one.name == table.base), None)
+    if boundary is not None:
+        ground, wave = ground_of(boundary), motions_of(scene, boundary.incoming).get(axis)
+        impedance = own if ground is None else float(ground[1 - axis])
+        return impedance, (lambda time: 0.0) if wave is None else wave.velocity_at
+    support = next((one for one in scene.supports if one.name == table.base), None)
+    if support is None:
+        raise GeometryError(
+            f"free field {table.name}: base {table.base} is not there in this stage: expected the "
+            "boundary below: keep it, or remove the free field"
+        )
+    motion = motions_of(scene, support.motion).get(axis)
+    return None, (lambda time: 0.0) if motion is None else motion.displacement_at
