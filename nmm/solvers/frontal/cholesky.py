@@ -5,29 +5,13 @@ from typing import ClassVar
 
 from scipy.sparse import csc_array
 
-from integration.arrays import Floats
 from nmm.solvers.factor import Decomposition
-from nmm.solvers.frontal import fronts
-from nmm.solvers.frontal.blas import addresses, words
-from nmm.solvers.frontal.factor_blocks import Borrowed, Panels
+from nmm.solvers.frontal.frontal_factor import FrontalFactor
 from nmm.solvers.frontal.lu import FrontalLU
 from nmm.solvers.frontal.metis import ordering
 from nmm.solvers.frontal.symbolic import symmetric_plan
-from nmm.solvers.frontal.workspace import Loan
 from nmm.solvers.linear import sorted_rows
 from nmm.solvers.superlu import DefiniteSolver, SuperLU
-from nmm.solvers.threads import one_thread
-
-
-@dataclass(frozen=True)
-class Factorised(Panels):
-    """Panels of a factor and the plan they belong to."""
-
-    kernels: ClassVar[tuple[str, ...]] = fronts.CHOLESKY_KERNELS
-
-    def _fill(self, outside: Borrowed, rhs: Floats, solution: Floats) -> None:
-        p = self.plan
-        fronts.solve(*outside, rhs, p.order, *p.shape, self.panels.numbers, solution)
 
 
 @dataclass(frozen=True)
@@ -47,22 +31,8 @@ class Cholesky(DefiniteSolver):
         plan = symmetric_plan(matrix)
         if plan is None:
             return SuperLU(self.refinements, self.shift).decompose(matrix)
-        panels, stack = Loan(plan.panel_start[-1]), Loan(plan.stack_size)
-        with one_thread():
-            bad = fronts.factorise(
-                addresses(*fronts.CHOLESKY_KERNELS),
-                *words(),
-                matrix.data,
-                plan.source,
-                plan.target,
-                plan.n_children,
-                *plan.shape,
-                panels.numbers,
-                stack.numbers,
-            )
-        if bad >= 0:
-            return self.unsymmetric().decompose(matrix)
-        return Factorised(plan, panels)
+        found = FrontalFactor.cholesky(matrix, plan)
+        return self.unsymmetric().decompose(matrix) if found is None else found
 
     def describe(self, unknowns: int) -> str:
         """See `LinearSolver.describe`."""

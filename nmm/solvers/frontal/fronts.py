@@ -1,13 +1,18 @@
-"""Numbers of a multifrontal Cholesky factorisation (Duff, Reid 1983) on a plan of fronts."""
+"""Numbers of multifrontal factorisations on a plan of fronts: Cholesky and LU (Duff, Reid 1983/84).
+
+Panels hold the factor of the pivot block with ``L`` below. For LU, rows are exchanged within the
+pivot block of a front alone, so the plan of a symmetric pattern stands whatever the numbers are;
+the transpose of ``U`` beside the pivot block is kept behind all panels. What differs hangs on
+whether there is room for exchanges, ``swaps``; the two share all that runs over fronts.
+"""
 
 import numba as nb
 import numpy as np
 import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
-from nmm.solvers.frontal.blas import Index, call5, call8, call10, call11
-
-CHOLESKY_KERNELS = "dpotrf", "dtrsm", "dsyrk", "dtrsv", "dgemv"
+from nmm.solvers.frontal.blas import Index, call5, call6, call8, call10, call11, call13
+from nmm.solvers.frontal.extend_add import collect_lower, collect_whole, runs
 
 
 @nb.njit(cache=True)
@@ -24,11 +29,14 @@ def factorise(
     row_start: Ints,
     rows: Ints,
     panel_start: Ints,
+    beside_start: Ints,
     panels: Floats,
+    swaps: Index,
     stack: Floats,
 ) -> int:
-    """Fill the panels of the factor; the first place whose pivot is not positive (-1: none)."""
-    panels[: panel_start[-1]] = 0.0
+    """Fill panels and exchanges of rows; the first place whose pivot will not do (-1: none)."""
+    symmetric = len(swaps) == 0
+    panels[: panel_start[-1] if symmetric else beside_start[-1]] = 0.0
     for k in range(len(source)):
         panels[target[k]] += data[source[k]]
     count = len(first) - 1
@@ -39,15 +47,16 @@ def factorise(
     local = np.empty(first[-1], dtype=np.int64)
     start, shift = np.empty_like(local), np.empty_like(local)
     at = letters.ctypes.data
-    lower, plain, right, turned = at, at + 1, at + 2, at + 3
+    low, plain, right, turned, high = at, at + 1, at + 2, at + 3, at + 4
     n_c = sizes.ctypes.data
     n_r, n_h, info = n_c + 4, n_c + 8, n_c + 12
     one = scalars.ctypes.data
     minus = one + 8
     for s in range(count):
         c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
-        h = c + r
         panel = panels[panel_start[s] : panel_start[s + 1]]
+        beside = panel[:0] if symmetric else panels[beside_start[s] : beside_start[s + 1]]
+        swap = swaps[:0] if symmetric else swaps[first[s] : first[s + 1]]
         update = stack[base[n_held] : base[n_held] + r * r]
         update[:] = 0.0
         for k in range(c):
@@ -60,16 +69,36 @@ def factorise(
             size = row_start[child + 1] - row_start[child]
             n_runs = runs(rows[row_start[child] : row_start[child + 1]], local, c, start, shift)
             part = stack[base[n_held] : base[n_held + 1]]
-            _collect(panel, update, part, c, h, size, start, shift, n_runs)
-        sizes[0], sizes[1], sizes[2] = c, r, h
+            if symmetric:
+                collect_lower(panel, update, part, c, r, size, start, shift, n_runs)
+            else:
+                collect_whole(panel, beside, update, part, c, r, size, start, shift, n_runs)
+        sizes[0], sizes[1], sizes[2] = c, r, c + r
         block = panel.ctypes.data
-        call5(kernels[0], (lower, n_c, block, n_h, info))
+        if symmetric:
+            call5(kernels[0], (low, n_c, block, n_h, info))
+        else:
+            call6(kernels[0], (n_c, n_c, block, n_h, swap.ctypes.data, info))
         if sizes[3] != 0:
             return int(first[s] + sizes[3] - 1)
         if r > 0:
-            below, new = panel[c:].ctypes.data, update.ctypes.data
-            call11(kernels[1], (right, lower, turned, plain, n_r, n_c, one, block, n_h, below, n_h))
-            call10(kernels[2], (lower, plain, n_r, n_c, minus, below, n_h, one, new, n_r))
+            left, new = panel[c:].ctypes.data, update.ctypes.data
+            if symmetric:
+                call11(
+                    kernels[1], (right, low, turned, plain, n_r, n_c, one, block, n_h, left, n_h)
+                )
+                call10(kernels[2], (low, plain, n_r, n_c, minus, left, n_h, one, new, n_r))
+            else:
+                _exchange(beside, swap, r)
+                top = beside.ctypes.data
+                call11(
+                    kernels[1], (right, high, plain, plain, n_r, n_c, one, block, n_h, left, n_h)
+                )
+                call11(kernels[1], (right, low, turned, high, n_r, n_c, one, block, n_h, top, n_r))
+                call13(
+                    kernels[2],
+                    (plain, turned, n_r, n_r, n_c, minus, left, n_h, top, n_r, one, new, n_r),
+                )
             place = base[n_held]
             if n_children[s] > 0:
                 for k in range(r * r):  # down to where the children's updates were
@@ -81,60 +110,13 @@ def factorise(
 
 
 @nb.njit(cache=True)
-def runs(rows: Ints, local: Ints, c: int, start: Ints, shift: Ints) -> int:
-    """Stretches of rows that stay neighbours in a front, none across its pivot block's end.
-
-    Row ``i`` of a stretch goes to ``i + shift``. Returns their number; one more start ends them.
-    """
-    count = 0
-    for i in range(len(rows)):
-        at = local[rows[i]]
-        if i == 0 or at == c or at - i != shift[count - 1]:
-            start[count], shift[count] = i, at - i
-            count += 1
-    start[count] = len(rows)
-    return count
-
-
-@nb.njit(cache=True)
-def _collect(
-    panel: Floats,
-    update: Floats,
-    child: Floats,
-    c: int,
-    h: int,
-    size: int,
-    start: Ints,
-    shift: Ints,
-    n_runs: int,
-) -> None:
-    for q in range(n_runs):
-        for j in range(start[q], start[q + 1]):
-            column = j + shift[q]
-            if column < c:
-                add(panel[column * h :], 0, child[j * size :], j, q, start, shift, n_runs)
-            else:
-                into = update[(column - c) * (h - c) :]
-                add(into, c, child[j * size :], j, q, start, shift, n_runs)
-
-
-@nb.njit(cache=True, inline="always")
-def add(
-    into: Floats,
-    above: int,
-    column: Floats,
-    begin: int,
-    run: int,
-    start: Ints,
-    shift: Ints,
-    n_runs: int,
-) -> None:
-    """Add a column from row ``begin`` on to one that leaves out ``above`` rows."""
-    for p in range(run, n_runs):
-        a, b, off = max(begin, start[p]), start[p + 1], shift[p] - above
-        given, taken = column[a:b], into[a + off : b + off]
-        for i in range(len(given)):  # slices: plain enough for vector instructions
-            taken[i] += given[i]
+def _exchange(beside: Floats, swap: Index, r: int) -> None:
+    for k in range(len(swap)):
+        other = swap[k] - 1  # LAPACK counts from one
+        if other != k:
+            for i in range(r):
+                a, b = beside[k * r + i], beside[other * r + i]
+                beside[k * r + i], beside[other * r + i] = b, a
 
 
 @nb.njit(cache=True)
@@ -149,17 +131,19 @@ def solve(
     row_start: Ints,
     rows: Ints,
     panel_start: Ints,
+    beside_start: Ints,
     panels: Floats,
+    swaps: Index,
     solution: Floats,
 ) -> None:
     """Fill in the solution for one right-hand side: arrays are slow to return."""
-    n, count = len(rhs), len(first) - 1
+    n, count, symmetric = len(rhs), len(first) - 1, len(swaps) == 0
     x = np.empty(n)
     for k in range(n):
         x[k] = rhs[order[k]]
     work = np.empty(n)
     at = letters.ctypes.data
-    lower, plain, turned = at, at + 1, at + 3
+    low, plain, turned, high = at, at + 1, at + 3, at + 4
     n_c = sizes.ctypes.data
     n_r, n_h, step = n_c + 4, n_c + 8, n_c + 12
     sizes[3] = 1
@@ -169,24 +153,35 @@ def solve(
     for s in range(count):
         c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
         sizes[0], sizes[1], sizes[2] = c, r, c + r
-        own = x[first[s] :].ctypes.data
-        block = panels[panel_start[s] :].ctypes.data
-        call8(kernels[3], (lower, plain, plain, n_c, block, n_h, own, step))
+        if not symmetric:
+            for k in range(first[s], first[s + 1]):
+                other = first[s] + swaps[k] - 1
+                x[k], x[other] = x[other], x[k]
+        own, block = x[first[s] :].ctypes.data, panels[panel_start[s] :].ctypes.data
+        if symmetric:
+            call8(kernels[3], (low, plain, plain, n_c, block, n_h, own, step))
+        else:  # the diagonal of L is ones
+            call8(kernels[3], (low, plain, high, n_c, block, n_h, own, step))
         if r > 0:
-            below = panels[panel_start[s] + c :].ctypes.data
-            call11(kernels[4], (plain, n_r, n_c, minus, below, n_h, own, step, zero, ends, step))
+            left = panels[panel_start[s] + c :].ctypes.data
+            call11(kernels[4], (plain, n_r, n_c, minus, left, n_h, own, step, zero, ends, step))
             for k in range(r):
                 x[rows[row_start[s] + k]] += work[k]
     for s in range(count - 1, -1, -1):
         c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
         sizes[0], sizes[1], sizes[2] = c, r, c + r
-        own = x[first[s] :].ctypes.data
-        block = panels[panel_start[s] :].ctypes.data
-        if r > 0:
-            below = panels[panel_start[s] + c :].ctypes.data
-            for k in range(r):
-                work[k] = x[rows[row_start[s] + k]]
-            call11(kernels[4], (turned, n_r, n_c, minus, below, n_h, ends, step, one, own, step))
-        call8(kernels[3], (lower, turned, plain, n_c, block, n_h, own, step))
+        own, block = x[first[s] :].ctypes.data, panels[panel_start[s] :].ctypes.data
+        for k in range(r):
+            work[k] = x[rows[row_start[s] + k]]
+        if symmetric:
+            if r > 0:
+                left = panels[panel_start[s] + c :].ctypes.data
+                call11(kernels[4], (turned, n_r, n_c, minus, left, n_h, ends, step, one, own, step))
+            call8(kernels[3], (low, turned, plain, n_c, block, n_h, own, step))
+        else:
+            if r > 0:
+                top = panels[beside_start[s] :].ctypes.data
+                call11(kernels[4], (turned, n_r, n_c, minus, top, n_r, ends, step, one, own, step))
+            call8(kernels[3], (high, plain, plain, n_c, block, n_h, own, step))
     for k in range(n):
         solution[order[k]] = x[k]

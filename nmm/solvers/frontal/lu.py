@@ -9,32 +9,15 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.solvers.factor import Decomposition
-from nmm.solvers.frontal import lu_fronts
-from nmm.solvers.frontal.blas import Index, addresses, words
-from nmm.solvers.frontal.factor_blocks import Borrowed, Panels
+from nmm.solvers.frontal.frontal_factor import FrontalFactor
 from nmm.solvers.frontal.metis import ordering
 from nmm.solvers.frontal.symbolic import any_plan
-from nmm.solvers.frontal.workspace import Loan
 from nmm.solvers.linear import sorted_rows
 from nmm.solvers.superlu import DefiniteSolver, SuperLU
-from nmm.solvers.threads import one_thread
 
 TRUSTED = 1e-6
 """Largest residual of a load of ones of either sign. On contact problems SuperLU leaves as much
 as the fronts do, 1e-11 to 4e-7; each turn of refinement takes off that part of what is left."""
-
-
-@dataclass(frozen=True)
-class FactorisedLU(Panels):
-    """Panels of both factors, exchanged rows, and the plan they belong to."""
-
-    kernels: ClassVar[tuple[str, ...]] = lu_fronts.LU_KERNELS
-    swaps: Index
-
-    def _fill(self, outside: Borrowed, rhs: Floats, solution: Floats) -> None:
-        p = self.plan
-        numbers = p.beside_start, self.panels.numbers, self.swaps
-        lu_fronts.solve(*outside, rhs, p.order, *p.shape, *numbers, solution)
 
 
 @dataclass(frozen=True)
@@ -52,7 +35,7 @@ class FrontalLU(DefiniteSolver):
     def decompose(self, matrix: csc_array) -> Decomposition:
         """Factorise a scaled matrix; `RankDeficientError` at a zero pivot."""
         matrix = sorted_rows(matrix)
-        found = _factorised(matrix)
+        found = FrontalFactor.lu(matrix, any_plan(matrix))
         if found is not None and _residual(matrix, found) <= TRUSTED:
             return found
         return SuperLU(self.refinements, self.shift).unsymmetric().decompose(matrix)
@@ -66,28 +49,7 @@ class FrontalLU(DefiniteSolver):
         return self
 
 
-def _factorised(matrix: csc_array) -> FactorisedLU | None:
-    """Factor of a matrix; None at a zero pivot."""
-    plan = any_plan(matrix)
-    panels, stack = Loan(plan.beside_start[-1]), Loan(plan.stack_size)
-    swaps = np.empty(matrix.shape[0], dtype=np.int32)
-    with one_thread():
-        bad = lu_fronts.factorise(
-            addresses(*lu_fronts.LU_KERNELS),
-            *words(),
-            matrix.data,
-            *plan.places,
-            plan.n_children,
-            *plan.shape,
-            plan.beside_start,
-            panels.numbers,
-            swaps,
-            stack.numbers,
-        )
-    return FactorisedLU(plan, panels, swaps) if bad < 0 else None
-
-
-def _residual(matrix: csc_array, found: FactorisedLU) -> float:
+def _residual(matrix: csc_array, found: Decomposition) -> float:
     """Largest residual of a load of ones of either sign; infinite for numbers that are not."""
     load = _ones(matrix.shape[0])
     rest = np.abs(load - matrix @ found.solve(load))

@@ -1,0 +1,94 @@
+"""How the update of a child's front joins the front of its parent: by stretches of rows."""
+
+import numba as nb
+
+from integration.arrays import Floats, Ints
+
+
+@nb.njit(cache=True)
+def runs(rows: Ints, local: Ints, c: int, start: Ints, shift: Ints) -> int:
+    """Stretches of rows that stay neighbours in a front, none across its pivot block's end.
+
+    Row ``i`` of a stretch goes to ``i + shift``. Returns their number; one more start ends them.
+    """
+    count = 0
+    for i in range(len(rows)):
+        at = local[rows[i]]
+        if i == 0 or at == c or at - i != shift[count - 1]:
+            start[count], shift[count] = i, at - i
+            count += 1
+    start[count] = len(rows)
+    return count
+
+
+@nb.njit(cache=True)
+def collect_lower(
+    panel: Floats,
+    update: Floats,
+    child: Floats,
+    c: int,
+    r: int,
+    size: int,
+    start: Ints,
+    shift: Ints,
+    n_runs: int,
+) -> None:
+    """Add the lower triangle of a child's update (size, size) to panel and update of a front."""
+    for q in range(n_runs):
+        for j in range(start[q], start[q + 1]):
+            column = j + shift[q]
+            if column < c:
+                _add(panel[column * (c + r) :], 0, child[j * size :], j, q, start, shift, n_runs)
+            else:
+                into = update[(column - c) * r :]
+                _add(into, c, child[j * size :], j, q, start, shift, n_runs)
+
+
+@nb.njit(cache=True)
+def collect_whole(
+    panel: Floats,
+    beside: Floats,
+    update: Floats,
+    child: Floats,
+    c: int,
+    r: int,
+    size: int,
+    start: Ints,
+    shift: Ints,
+    n_runs: int,
+) -> None:
+    """Add a child's update (size, size) to a front, what stands right of its pivots ``beside``."""
+    inner = 0
+    while inner < n_runs and start[inner] + shift[inner] < c:
+        inner += 1
+    for q in range(inner):
+        for j in range(start[q], start[q + 1]):
+            into = panel[(j + shift[q]) * (c + r) :]
+            _add(into, 0, child[j * size :], 0, 0, start, shift, n_runs)
+    inside = start[inner]
+    for q in range(inner, n_runs):
+        for j in range(start[q], start[q + 1]):
+            column = j + shift[q] - c
+            _add(update[column * r :], c, child[j * size :], inside, inner, start, shift, n_runs)
+            for p in range(inner):
+                for i in range(start[p], start[p + 1]):
+                    beside[(i + shift[p]) * r + column] += child[j * size + i]
+
+
+@nb.njit(cache=True, inline="always")
+def _add(
+    into: Floats,
+    above: int,
+    column: Floats,
+    begin: int,
+    run: int,
+    start: Ints,
+    shift: Ints,
+    n_runs: int,
+) -> None:
+    """Add a column from row ``begin`` on to one that leaves out ``above`` rows."""
+    for p in range(run, n_runs):
+        a, b, off = max(begin, start[p]), start[p + 1], shift[p] - above
+        given, taken = column[a:b], into[a + off : b + off]
+        for i in range(len(given)):  # slices: plain enough for vector instructions
+            taken[i] += given[i]

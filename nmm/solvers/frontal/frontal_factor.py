@@ -1,0 +1,113 @@
+"""Factors on fronts: panels of numbers, and the plan they belong to."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats, Ints
+from nmm.solvers.factor import Decomposition
+from nmm.solvers.frontal import fronts
+from nmm.solvers.frontal.blas import Index, addresses, words
+from nmm.solvers.frontal.elimination import Fronts
+from nmm.solvers.frontal.workspace import Loan
+from nmm.solvers.threads import one_thread
+
+CHOLESKY_KERNELS = "dpotrf", "dtrsm", "dsyrk", "dtrsv", "dgemv"
+LU_KERNELS = "dgetrf", "dtrsm", "dgemm", "dtrsv", "dgemv"
+NO_SWAPS = np.empty(0, dtype=np.int32)
+
+
+@dataclass(frozen=True)
+class FrontalFactor:
+    """A decomposition on fronts.
+
+    Attributes
+    ----------
+    plan
+        Which unknowns are eliminated together, and where their numbers go.
+    panels
+        Numbers of the factor, or of both.
+    swaps
+        Rows exchanged (n,) in LU; empty in Cholesky, which exchanges none.
+    """
+
+    plan: Fronts
+    panels: Loan
+    swaps: Index
+
+    @classmethod
+    def cholesky(cls, matrix: csc_array, plan: Fronts) -> Self | None:
+        """Return ``L`` of a symmetric matrix; None where it is not positive definite."""
+        made = cls(plan, Loan(plan.panel_start[-1]), NO_SWAPS)
+        return made if made._filled(matrix, (plan.source, plan.target)) else None
+
+    @classmethod
+    def lu(cls, matrix: csc_array, plan: Fronts) -> Self | None:
+        """Return ``L`` and ``U`` of a matrix; None at a zero pivot."""
+        swaps = np.empty(matrix.shape[0], dtype=np.int32)
+        made = cls(plan, Loan(plan.beside_start[-1]), swaps)
+        return made if made._filled(matrix, plan.places) else None
+
+    def solve(self, rhs: Floats) -> Floats:
+        """Return the solution of one right-hand side (n,) or of several (n, k)."""
+        if rhs.ndim == 2:
+            return np.stack([self.solve(column) for column in rhs.T], axis=1)
+        x, plan = np.empty(len(rhs)), self.plan
+        one = np.ascontiguousarray(rhs, dtype=np.float64)
+        with one_thread():
+            fronts.solve(
+                addresses(*self._kernels),
+                *words(),
+                one,
+                plan.order,
+                *plan.shape,
+                self._beside_start,
+                self.panels.numbers,
+                self.swaps,
+                x,
+            )
+        return x
+
+    def _filled(self, matrix: csc_array, places: tuple[Ints, Ints]) -> bool:
+        """Factorise a matrix whose entries go to ``places``; say whether all pivots will do."""
+        plan, stack = self.plan, Loan(self.plan.stack_size)
+        with one_thread():
+            bad = fronts.factorise(
+                addresses(*self._kernels),
+                *words(),
+                matrix.data,
+                *places,
+                plan.n_children,
+                *plan.shape,
+                self._beside_start,
+                self.panels.numbers,
+                self.swaps,
+                stack.numbers,
+            )
+        return bool(bad < 0)
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether it is ``L L^T``."""
+        return not len(self.swaps)
+
+    @property
+    def _kernels(self) -> tuple[str, ...]:
+        return CHOLESKY_KERNELS if self.symmetric else LU_KERNELS
+
+    @property
+    def _beside_start(self) -> Ints:
+        """Where rows beside pivots start (S+1,); not read in Cholesky, which has none."""
+        return self.plan.panel_start if self.symmetric else self.plan.beside_start
+
+
+def is_cholesky(found: Decomposition) -> bool:
+    """Whether a decomposition is Cholesky's on fronts."""
+    return isinstance(found, FrontalFactor) and found.symmetric
+
+
+def is_lu(found: Decomposition) -> bool:
+    """Whether a decomposition is LU on fronts."""
+    return isinstance(found, FrontalFactor) and not found.symmetric
