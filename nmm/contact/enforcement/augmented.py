@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from nmm.contact.enforcement.iterative import ExactEnforcement
-from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.exact import exact_round
 from nmm.contact.iteration.interior_point import Goal
 from nmm.contact.iteration.memory import Memory
@@ -14,6 +13,7 @@ from nmm.contact.iteration.multiplier_rounds import (
     first_round,
     stiff_springs,
 )
+from nmm.contact.iteration.options import IterationBudget
 from nmm.contact.problem.step_problem import StepProblem
 from nmm.registry import above_zero
 from nmm.solvers.linear import LinearSolver

@@ -8,11 +8,11 @@ import numpy as np
 from nmm.contact.barrier.potential import Potential
 from nmm.contact.barrier.search import Search
 from nmm.contact.enforcement.iterative import IterativeEnforcement
-from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.answers import free_part, singular_answer, worst_contacts
 from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import compliances, stiff_springs
+from nmm.contact.iteration.options import IterationBudget
 from nmm.contact.problem.coulomb import label
 from nmm.contact.problem.cut_springs import IterationResult
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict

@@ -8,36 +8,15 @@ alone does in 30 to 100, and at a hundred times what it does not do in 300
 (`benchmarks/bench_contact.py`).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.iteration.memory import KeptFactor, Memory
 from nmm.contact.iteration.modified_newton import ModifiedNewton
-from nmm.contact.iteration.options import DEFAULT, AlternationOptions, Patience
+from nmm.contact.iteration.options import DEFAULT, IterationBudget, IterationOptions, Patience
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.errors import SolveError
 from nmm.solvers.linear import Factor, LinearSolver
-
-
-@dataclass(frozen=True)
-class IterationBudget:
-    """How long each method may try.
-
-    Attributes
-    ----------
-    solves
-        Most search steps.
-    factors
-        Most factorisations of the springs that act.
-    interior
-        Most factorisations of the interior point.
-    """
-
-    solves: int = 1000
-    factors: int = 40
-    interior: int = 100
 
 
 class Alternation:
@@ -50,10 +29,11 @@ class Alternation:
         memory: Memory,
         tolerance: float,
         increment: Floats,
-        options: AlternationOptions = DEFAULT.alternation,
+        options: IterationOptions = DEFAULT,
     ) -> None:
         self.springs, self.linear, self.memory = springs, linear, memory
-        self.tolerance, self.options = tolerance, options
+        self.tolerance, self.options = tolerance, options.alternation
+        self._price = options.ways.acting
         self.increment, self.residual = increment, springs.residual(increment)
         self.solves = self.factorisations = 0
 
@@ -68,7 +48,7 @@ class Alternation:
         kept, options = self._all_acting(), self.options
         self._steps(kept.factor, min(options.wide, budget.solves), options.slow)
         narrow = 0
-        while self._open and narrow < budget.factors and self.solves < budget.solves:
+        while self._open and narrow < budget.factors and self._within(budget):
             before, narrow = self.residual.size, narrow + 1
             factor = self._acting()
             if factor is not None:
@@ -87,6 +67,10 @@ class Alternation:
             self.factorisations,
             story,
         )
+
+    def _within(self, budget: IterationBudget) -> bool:
+        spent = self.solves + self._price * self.factorisations
+        return self.solves < budget.solves and spent < budget.cost
 
     @property
     def _open(self) -> bool:

@@ -1,7 +1,8 @@
-"""Solve cut springs: by modified Newton steps with two factors and, by rule, the interior point.
+"""Solve cut springs: by modified Newton steps with two factors, or by the interior point.
 
 The interior point finds most states in ten factorisations whatever the stiffness, and takes many
 more over the last few; modified Newton is quick where most states are right, and lost where not.
+Which of them goes first follows from what both cost in the last steps (`ways`).
 """
 
 from dataclasses import replace
@@ -9,11 +10,11 @@ from dataclasses import replace
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.iteration.alternation import Alternation, IterationBudget
+from nmm.contact.iteration.alternation import Alternation
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.options import DEFAULT, SMALL, IterationOptions
+from nmm.contact.iteration.options import DEFAULT, SMALL, IterationBudget, IterationOptions
 from nmm.contact.iteration.semismooth_newton import polish
 from nmm.contact.iteration.warm_start import start_from
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
@@ -45,20 +46,50 @@ def solve_springs(
         quick = _polished(springs, linear, memory, increment, options)
         if quick.size <= tolerance:
             return _kept(quick, memory)
-    first = (
-        replace(budget, factors=min(budget.factors, options.springs.first))
-        if budget.interior
-        else budget
-    )
-    found = Alternation(springs, linear, memory, tolerance, increment, options.alternation).run(
-        first
-    )
-    if found.size <= tolerance and small:
+    way = _by_cost if budget.interior else _alternated
+    found = way(springs, linear, memory, tolerance, increment, budget, options)
+    if small and found.size <= tolerance:
         end = _polished(springs, linear, memory, found.increment, options)
         found = replace(found, increment=end.increment, size=end.size)
-    elif not found.size <= tolerance and budget.interior > 0:
-        found = _inside(found, linear, memory, tolerance, budget, options)
     return _kept(found, memory)
+
+
+def _by_cost(
+    springs: CutSprings,
+    linear: LinearSolver,
+    memory: Memory,
+    tolerance: float,
+    increment: Floats,
+    budget: IterationBudget,
+    options: IterationOptions,
+) -> IterationResult:
+    """Best of both ways; the one that cost less in the last steps goes first."""
+    ways, size = memory.ways, springs.residual(increment).size
+    near = size <= options.ways.nearness
+    found = IterationResult(springs, increment, size, 0, 0, "")
+    first = ways.budget(budget, near, options.ways)
+    if first is not None:
+        found = _alternated(springs, linear, memory, tolerance, increment, first, options)
+    if found.size <= tolerance:
+        if not near:
+            ways.alternation_met()
+        return found
+    ended = _inside(found, linear, memory, tolerance, budget, options)
+    if not near and ended.size <= tolerance:
+        ways.interior_took(_less(ended, found), options.ways)
+    return ended
+
+
+def _alternated(
+    springs: CutSprings,
+    linear: LinearSolver,
+    memory: Memory,
+    tolerance: float,
+    increment: Floats,
+    budget: IterationBudget,
+    options: IterationOptions,
+) -> IterationResult:
+    return Alternation(springs, linear, memory, tolerance, increment, options).run(budget)
 
 
 def _inside(
@@ -69,24 +100,23 @@ def _inside(
     budget: IterationBudget,
     options: IterationOptions,
 ) -> IterationResult:
-    """Best of the interior point, broken off near the end for modified Newton, and gone on with."""
+    """Best of the interior point; broken off near the end for the alternation where that helps."""
     springs, problem, best = found.springs, found.springs.problem, found
     stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
     sides = Complementarity.of(springs, np.zeros(problem.n_contacts, dtype=bool), 1 / stiffness)
     start = inside_start(sides, linear, memory, options)
-    for balance in (options.springs.loose, tolerance):
+    loose = options.springs.loose
+    for balance in (loose, tolerance) if memory.ways.finishes else (tolerance,):
         method = InteriorPoint(sides, memory.pattern_of(problem), linear, options.interior)
         if best.size > balance:
             best = _joined(best, method.run(start, budget.interior, Goal(max(balance, tolerance))))
+            start = method.reached if best.size <= balance else start
         if best.size <= tolerance:
             break
-        rest = replace(budget, factors=options.springs.first)
-        best = _joined(
-            best,
-            Alternation(
-                springs, linear, memory, tolerance, best.increment, options.alternation
-            ).run(rest),
-        )
+        rest = replace(budget, factors=options.springs.first, cost=options.ways.finish)
+        more = _alternated(springs, linear, memory, tolerance, best.increment, rest, options)
+        best = _joined(best, more)
+        memory.ways.finishes = best.size <= tolerance
         if best.size <= tolerance:
             break
     return best
@@ -122,6 +152,15 @@ def _joined(before: IterationResult, then: IterationResult) -> IterationResult:
         solves=before.solves + then.solves,
         factorisations=before.factorisations + then.factorisations,
         story=f"{before.story}, then {then.story}",
+    )
+
+
+def _less(whole: IterationResult, part: IterationResult) -> IterationResult:
+    """The whole with the cost of what came after the part alone."""
+    return replace(
+        whole,
+        solves=whole.solves - part.solves,
+        factorisations=whole.factorisations - part.factorisations,
     )
 
 

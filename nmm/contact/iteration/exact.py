@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.complementarity import Complementarity
 from nmm.contact.iteration.cut_spring_solver import inside_start
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
@@ -23,7 +22,7 @@ from nmm.contact.iteration.multiplier_rounds import (
     multiplier_round,
     stiff_springs,
 )
-from nmm.contact.iteration.options import DEFAULT, SMALL, IterationOptions
+from nmm.contact.iteration.options import DEFAULT, SMALL, IterationBudget, IterationOptions
 from nmm.contact.problem.step_problem import StepProblem
 from nmm.solvers.linear import LinearSolver
 

@@ -36,8 +36,42 @@ class Goal:
         return max(found.size / self.balance, found.error / self.error)
 
 
+class Settling:
+    """Tells when hardly a contact changes its state any more from point to point of a path.
+
+    Newton's method on springs from there mostly ends it. Where it does not, the next try waits
+    until a quarter as many contacts change.
+
+    Parameters
+    ----------
+    share
+        Part (-) of the contacts that may change.
+    """
+
+    def __init__(self, share: float) -> None:
+        self._share, self._last = share, np.zeros(0, dtype=bool)
+
+    def seen(self, sides: Complementarity, point: InteriorIterate) -> bool:
+        """Whether so few have changed since the point before."""
+        now = np.concatenate(sides.springs.states(point.increment))
+        changed = int((now != self._last).sum()) if len(self._last) else len(now)
+        self._last = now
+        if changed > self._share * len(now):
+            return False
+        self._share = 0.25 * changed / len(now)
+        return True
+
+
 class InteriorPoint:
-    """One search for forces on the springs and sharp contacts of ``sides``."""
+    """One search for forces on the springs and sharp contacts of ``sides``.
+
+    Attributes
+    ----------
+    reached
+        Last point of the path, from which another search may go on.
+    factorisations, solves
+        So far.
+    """
 
     def __init__(
         self,
@@ -49,10 +83,11 @@ class InteriorPoint:
         self.options = options
         self.sides, self.pattern, self.linear = sides, pattern, linear.unsymmetric()
         self.factorisations = self.solves = 0
+        self.reached: InteriorIterate
 
     def run(self, start: InteriorIterate, budget: int, goal: Goal) -> IterationResult:
         """Follow paths with at most ``budget`` factorisations in all; return the best found."""
-        best = self.sides.judged(start)
+        best, self.reached = self.sides.judged(start), start
         for distance in self.options.distances:
             slack, flow = distance * start.slack, distance * start.flow
             at = replace(start, slack=slack, flow=flow)
@@ -92,7 +127,8 @@ class InteriorPoint:
         self, point: InteriorIterate, best: IterationResult, budget: int, goal: Goal
     ) -> IterationResult:
         """Best of what is known and of the path from ``point``."""
-        length, tried, mark, idle = 1.0, 1e-3, np.inf, 0
+        length, mark, idle = 1.0, np.inf, 0
+        settling = Settling(self.options.settled)
         while (
             self.factorisations < budget
             and goal.distance(best) > 1
@@ -106,9 +142,9 @@ class InteriorPoint:
             point, length = self._moved(point, kappa, length < self.options.jam)
             if not np.isfinite(point.increment).all():
                 break
-            found = self.sides.judged(point)
-            if found.size < tried and not self.sides.exact.any():
-                tried, found = 0.1 * found.size, self._polished(found, goal)
+            self.reached, found = point, self.sides.judged(point)
+            if not self.sides.exact.any() and settling.seen(self.sides, point):
+                found = self._polished(found, goal)
             best = found if goal.distance(found) < goal.distance(best) else best
         return best
 

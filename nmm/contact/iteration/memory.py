@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.contact.iteration.ways import Ways
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.step_problem import Limits, StepAnswer, StepProblem
@@ -80,6 +81,8 @@ class Memory:
     answered
         The problem solved last and its answer: a step that finds no other contacts when it looks
         further asks the same again.
+    ways
+        What the ways to the forces of springs cost in the last steps.
     barrier_width
         Width of the barrier chosen in the first step (m). It is no cache: answers depend on it.
     """
@@ -89,6 +92,7 @@ class Memory:
     moving: bool = False
     kept: list[KeptFactor] = field(default_factory=list)
     answered: tuple[StepProblem, StepAnswer] | None = None
+    ways: Ways = field(default_factory=Ways)
     barrier_width: float | None = None
     _load: Floats | None = None
 
@@ -128,6 +132,7 @@ class Memory:
         """Drop what is kept for speed alone: patterns, factors and starts."""
         self.forget_answers()
         self.pattern, self.kept, self.moving, self._load = None, [], False, None
+        self.ways = Ways()
 
     def keep(self, increment: Floats, load: Floats) -> None:
         """Keep the unknowns found under a load, in place of what was found under it before."""

@@ -6,12 +6,11 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Floats
-from nmm.contact.iteration.alternation import IterationBudget
 from nmm.contact.iteration.answers import judge
 from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.interior_point import Goal
 from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.options import DEFAULT, SMALL, IterationOptions
+from nmm.contact.iteration.options import DEFAULT, SMALL, IterationBudget, IterationOptions
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.step_problem import StepProblem, Verdict
 from nmm.solvers.linear import LinearSolver

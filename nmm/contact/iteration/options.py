@@ -6,12 +6,34 @@ blocks.
 """
 
 from dataclasses import dataclass, field
-from math import log
+from math import inf, log
 
 from nmm.registry import above_zero
 
 SMALL = 120
 """Unknowns up to which exactness costs nothing: Newton's method is tried first."""
+
+
+@dataclass(frozen=True)
+class IterationBudget:
+    """How long each method may try.
+
+    Attributes
+    ----------
+    solves
+        Most search steps.
+    factors
+        Most factorisations of the springs that act.
+    interior
+        Most factorisations of the interior point.
+    cost
+        Solves after which no new factor is made, factorisations counted as `WayOptions.acting`.
+    """
+
+    solves: int = 1000
+    factors: int = 40
+    interior: int = 100
+    cost: float = inf
 
 
 @dataclass(frozen=True)
@@ -29,7 +51,7 @@ class Patience:
     """
 
     ahead: float
-    below: float = float("inf")
+    below: float = inf
     look: int = 4
 
     def lost(self, sizes: list[float], tolerance: float) -> bool:
@@ -86,7 +108,7 @@ class SpringOptions:
     fine
         Relative out-of-balance force (-) at which Newton's method need not go on.
     first
-        Factors of acting springs after which the interior point is asked where they are.
+        Most factors of acting springs where the interior point has found most states.
     loose
         Out-of-balance force (-) at which the interior point has found most states.
     """
@@ -95,6 +117,41 @@ class SpringOptions:
     fine: float = above_zero(1e-13)
     first: int = above_zero(6)
     loose: float = above_zero(1e-4)
+
+
+@dataclass(frozen=True)
+class WayOptions:
+    """Of the choice which way goes first (`nmm.contact.iteration.ways`); costs in solves.
+
+    Attributes
+    ----------
+    acting
+        Cost of a factorisation of the springs that act, with its matrix.
+    inside
+        Cost of a step of the interior point besides its own solves: an unsymmetric factorisation
+        and the equations around it.
+    guess
+        Cost of the interior point before it was ever taken.
+    trial
+        What the alternation may cost where the interior point leads and it is tried again.
+    finish
+        What it may cost where the interior point has found most states.
+    near
+        The same from a start that is near its end.
+    nearness
+        Relative out-of-balance force (-) up to which a start is near.
+    longest
+        Most steps between two trials.
+    """
+
+    acting: float = above_zero(12.0)
+    inside: float = above_zero(20.0)
+    guess: float = above_zero(300.0)
+    trial: float = above_zero(60.0)
+    finish: float = above_zero(100.0)
+    near: float = above_zero(120.0)
+    nearness: float = above_zero(1e-3)
+    longest: int = above_zero(16)
 
 
 @dataclass(frozen=True)
@@ -113,6 +170,9 @@ class InteriorOptions:
         How much longer (-) a corrected step is meant to become, and must become to be taken.
     spread
         Products within this factor (-) of their mean are not corrected.
+    settled
+        Part (-) of the contacts whose states may still change from step to step when Newton's
+        method on springs is tried.
     patience
         Steps without halving the mean product after which a path is left.
     distances
@@ -136,6 +196,7 @@ class InteriorOptions:
     reach: float = 0.3
     gain: float = 0.03
     spread: float = above_zero(10.0)
+    settled: float = 1e-3
     patience: int = 8
     distances: tuple[float, ...] = (1.0, 10.0, 0.1, 3.0)
     soft: float = 1e-7
@@ -236,6 +297,7 @@ class IterationOptions:
 
     alternation: AlternationOptions = field(default_factory=AlternationOptions)
     springs: SpringOptions = field(default_factory=SpringOptions)
+    ways: WayOptions = field(default_factory=WayOptions)
     interior: InteriorOptions = field(default_factory=InteriorOptions)
     rounds: RoundOptions = field(default_factory=RoundOptions)
     barrier: BarrierOptions = field(default_factory=BarrierOptions)

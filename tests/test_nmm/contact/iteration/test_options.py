@@ -39,7 +39,10 @@ def test_tables_of_a_formulation_reach_the_iterations() -> None:
         ({"iterations": {"interior": {"bondary": 0.9}}}, 'did you mean "boundary"'),
         ({"iterations": {"interior": {"boundary": -1.0}}}, "a number > 0"),
         ({"iterations": {"interior": {"boundary": "wide"}}}, "a number"),
-        ({"iterations": {"inside": {}}}, "one of alternation, springs, interior, rounds, barrier"),
+        (
+            {"iterations": {"inside": {}}},
+            "one of alternation, springs, ways, interior, rounds, barrier",
+        ),
         ({"iterations": 3}, "a table of options"),
     ],
 )
