@@ -10,11 +10,11 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
-from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.results.frame import Frame
 from nmm.results.storage.writing import told, write_text
 from nmm.scene import Scene
 from nmm.stepping.run import Run, run
+from nmm.study.cases.block_covers import blocks_of
 from nmm.study.cases.measure import Progress, machine, method_of
 from nmm.study.cases.memory import added_memory
 from nmm.study.cases.variants import StudyCase
@@ -83,7 +83,7 @@ def compare_formulations(
 
 
 def _compared(case: StudyCase, grid: Raster, memory: bool) -> Compared:
-    family = "manifold" if block_cover(case.formulation.cover) is None else "DDA"
+    family = "manifold" if blocks_of(case.formulation.cover) is None else "DDA"
     method = method_of(case.formulation)["cover"]
     try:
         run(case.scene, case.formulation)

@@ -9,7 +9,7 @@ from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
 
 from nmm.errors import NmmError
-from nmm.geometry.tessellation.cover_types import block_cover
+from nmm.study.cases.block_covers import blocks_of
 from nmm.study.cases.memory import added_memories
 from nmm.study.cases.quantities import Measured, quantity
 from nmm.study.cases.record import Record
@@ -130,7 +130,7 @@ def _identity(case: StudyCase) -> dict[str, Any]:
 def method_of(formulation: "Formulation") -> dict[str, str]:
     """Return what a formulation is in words: cover and degree, enforcement, integrator."""
     cover = formulation.cover
-    linear = 0 if block_cover(cover) is None else 1
+    linear = 0 if blocks_of(cover) is None else 1
     parts = [cover.type, str(cover.degree if cover.degree is not None else linear)]
     if cover.enrichment is not None:
         parts.append("enriched")

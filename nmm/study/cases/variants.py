@@ -11,11 +11,11 @@ from typing import Any
 from nmm.errors import FormulationError, NmmError
 from nmm.formulation import Formulation, read_formulation
 from nmm.formulation import canonical_text as formulation_text
-from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.scene import Scene, build_scene
 from nmm.scene import canonical_text as scene_text
 from nmm.scene.document import build
 from nmm.scene.faults import Source
+from nmm.study.cases.block_covers import blocks_of
 from nmm.trust import given
 
 SIZE = "formulation.cover.size"
@@ -97,7 +97,7 @@ def cases_of(
     file = Path(scene.source.name)
     folder = str(file.resolve().parent) if file.is_file() else ""
     for name, formulation in formulations.items():
-        kind = block_cover(formulation.cover)
+        kind = blocks_of(formulation.cover)
         blocks = kind is not None and not kind.divides
         for settings in grid(vary):
             apt = {key: value for key, value in settings.items() if not (blocks and key == SIZE)}

@@ -1,5 +1,7 @@
 """Finite elements of scikit-fem as a yardstick: meshes that fit, answers of their own, refusals."""
 
+import sys
+
 import numpy as np
 import pytest
 import shapely
@@ -156,3 +158,9 @@ def test_scenes_the_elements_do_not_carry_are_failures_with_a_reason():
 def test_an_element_that_is_not_offered_is_named():
     with pytest.raises(NmmError, match="--yardstick Q1: expected some of P1, P2, P3, P4"):
         yardsticks(["Q1"])
+
+
+def test_a_mesh_without_the_package_that_makes_it_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "triangle", None)
+    with pytest.raises(NmmError, match="pip install triangle"):
+        fitted_mesh(shapely.box(0, 0, 1, 1), [], np.zeros((0, 2)), 0.5)
