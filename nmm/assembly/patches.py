@@ -48,6 +48,8 @@ class _Part:
         for one in np.unique(self.slot):  # the covers of one element
             at = self.chosen[self.slot == one]
             there = np.flatnonzero(self.patch[:, one] >= 0)
+            if not len(there):  # its functions may be more than any pressure has
+                continue
             yield self.patch[there, one], products[:, at[:, None], at][self.group.shape[there]]
 
 

@@ -87,6 +87,18 @@ def test_an_enforcement_that_joins_the_registry_joins_the_matrix(monkeypatch):
     assert all(case.scene["formulation"]["contact"]["enforcement"] == "mine" for case in joined)
 
 
+def test_digits_that_rounding_takes_are_told():
+    """A soft piece of 1/40 of a cell, glued by springs to one a thousand times as stiff."""
+    for cover in ("bspline degree 1", "mls degree 1"):
+        cases = chosen_cases(["solids"], [1], parts=[cover])
+        group, case = next(one for one in cases if "seed 9," in one[1].label)
+        assert "audit rounding" in " ".join(ran(case.scene).run.summary.warnings)
+        found = judged(group, case)
+        assert found.passed, found.words
+        # Images of it, with loads of no weight among them, differ by far more than 1e-6.
+        assert found.checks["named effects of no weight"].computed > 1e-5
+
+
 def two_squares(apart):
     squares = [[[0, 0], [1, 0], [1, 1], [0, 1]], [[apart, 0], [apart + 1, 0], [apart + 1, 1]]]
     scene = rock()

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from nmm.assembly.motion import vertex_points
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings
 
 # Residual from which on dependent functions are worth a word.
@@ -25,6 +26,7 @@ def equations(run: Ended) -> Findings:
             f"some {max(16 - np.log10(run.condition), 0):.0f} digits of soft motions are left",
             "bring stiffnesses of materials, supports and contacts nearer to each other",
         )
+    yield from _rounding(run)
     if not run.stepper.model.cut.element_whole.all():
         area = run.stepper.model.element_area
         at = int(np.argmin(area))
@@ -44,3 +46,26 @@ def equations(run: Ended) -> Findings:
             f"the residual is {residual:.1e}",
             "take functions of a lower degree or smaller cells",
         )
+
+
+def _rounding(run: Ended) -> Findings:
+    """Audit what rounding of the last solution may move, and where most."""
+    changes = run.stepper.rounding_changes()
+    if not changes:
+        return
+    elements = run.stepper.model.manifold.elements
+    points = vertex_points(run.stepper.model.manifold)
+    moved = np.abs(run.stepper.place(run.state) - elements.points).max()
+    off = np.max([np.abs(points.rows.apply(change)).max(axis=1) for change in changes], axis=0)
+    at = int(np.argmax(off))
+    if not moved > 0:
+        return
+    x, y = elements.points[at]
+    yield AuditFinding(
+        "rounding",
+        float(off[at] / moved),
+        f"rounding may have changed displacements by some {off[at] / moved:.0e} of the largest, "
+        f"most at ({x:.6g}, {y:.6g})",
+        "do not rely on more digits there; bring stiffnesses nearer to each other, take smaller "
+        "cells over small pieces, or functions of a lower degree",
+    )

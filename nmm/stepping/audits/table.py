@@ -58,6 +58,13 @@ THRESHOLDS: dict[str, Threshold] = {
     "condition": Threshold(
         "estimate of the condition number of the last system", 1e14, None, "all"
     ),
+    "rounding": Threshold(
+        "change of a displacement that rounding of the last solution may make, over the largest "
+        "displacement",
+        1e-6,
+        None,
+        "statics without contact",
+    ),
     "smallest_cut": Threshold(
         "largest element over the smallest", 1e10, None, "covers that cut blocks"
     ),

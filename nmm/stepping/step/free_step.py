@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from integration.arrays import Floats
 from nmm.errors import SolveError
 from nmm.model.discretisation import Current
 from nmm.solvers.linear import Factor, LinearSolver
@@ -41,7 +42,11 @@ class Alone:
 
     def forget(self) -> None:
         """Drop the factor."""
-        self._system.factor = None
+        self._system.forget()
+
+    def rounding_changes(self) -> list[Floats]:
+        """Changes (n,) that rounding may have made of the last step, as its system says."""
+        return self._system.rounding_changes()
 
     def attempt(self, equations: Equations) -> Attempt:
         """Solve a step.

@@ -12,6 +12,7 @@ from nmm.model.discretisation import ModelWithEffects
 from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.solvers.rigid_apart import ROUNDED, Apart, Bodies, rounding, solve_apart
+from nmm.solvers.rounding_error import rounding_changes
 from nmm.stepping.step.equations import Equations
 
 
@@ -62,6 +63,21 @@ class LinearSystem:
     def __init__(self, solved: ModelWithEffects, solver: LinearSolver, small: bool) -> None:
         self._solved, self.solver, self._small = solved, solver, small
         self.factor: Factor | None = None
+        self._last: tuple[Floats, Floats] | None = None
+
+    def forget(self) -> None:
+        """Drop the factor and what it solved last."""
+        self.factor = self._last = None
+
+    def rounding_changes(self) -> list[Floats]:
+        """Changes (n,) that rounding may have made of the last step's unknowns in statics.
+
+        Empty where rigid motions were solved apart, which keeps the digits of the rest.
+        """
+        if self.factor is None or self._last is None:
+            return []
+        n = self._solved.model.manifold.n_unknowns
+        return [change[:n] for change in rounding_changes(self.factor, *self._last)]
 
     def solve(self, equations: Equations) -> LinearSolution:
         """Solve a step; supports keep their multipliers.
@@ -86,6 +102,7 @@ class LinearSystem:
         if equations.step is None:
             apart = self._apart(equations, self.factor, increment, force, border)
             apart = apart if apart is not None and apart.residual < residual else None
+        self._last = (increment, force) if equations.step is None and apart is None else None
         if border is not None:
             plan.keep(increment[n:] if apart is None else apart.multipliers)
         return LinearSolution(increment[:n], residual, apart)

@@ -296,6 +296,10 @@ class Stepper:
         contact = self.plan.contact
         return None if contact is None else contact.solver.condition(self.solver)
 
+    def rounding_changes(self) -> list[Floats]:
+        """Changes (n,) that rounding may have made of the last static step without contact."""
+        return self._alone.rounding_changes()
+
     @property
     def _rule(self) -> Integrator:
         """The integrator of the step."""

@@ -124,6 +124,48 @@ def test_a_scene_runs_with_the_regions_of_its_formulation() -> None:
     assert abs(ends[1] - ends[2]) < 0.02 * abs(ends[0] - ends[2])
 
 
+TWO = """
+plane = "strain"
+[materials.stiff]
+young_modulus = 1
+poisson_ratio = 0.45
+[materials.m]
+young_modulus = 1
+poisson_ratio = 0.3
+[interfaces.any]
+friction_angle = "0 deg"
+cohesion = 1e9
+tensile_strength = 1e9
+bonded = true
+[[blocks]]
+name = "a"
+material = "stiff"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "b"
+material = "m"
+vertices = [[1, 0], [2, 0], [2, 1], [1, 1]]
+[[supports]]
+name = "left"
+segment = [[0, 0], [0, 1]]
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[2, 0], [2, 1]]
+traction = [0.3, 0]
+"""
+
+
+def test_a_higher_degree_may_stand_where_no_material_needs_pressures() -> None:
+    """Pressures of the nearly incompressible block have fewer functions than the other block."""
+    regions = '[[cover.regions]]\ndegree = 2\nblock = "b"\n[supports]\nmethod = "nitsche"\n'
+    found = run(parse_scene(TWO, "scene"), parse_formulation(COVER.format(1) + regions))
+    assert found.summary.status == "converged", found.summary.sentence
+    # Equilibrium, to the rounding of a small system.
+    assert found.history["reaction:left:x"][-1] == pytest.approx(-0.3, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("region", "message"),
     [
