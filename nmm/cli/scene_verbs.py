@@ -32,6 +32,9 @@ Read = TypeVar("Read")
 CALLED_BY = {
     "loads": "[[loads]]",
     "body loads": '[[loads]] of kind "body"',
+    "field loads": "[[loads]] with a field",
+    "pressures": '[[loads]] of kind "pressure"',
+    "moving loads": '[[loads]] of kind "moving"',
     "supports": "[[supports]]",
     "bonded interfaces": "bonded interface without contact",
     "initial velocity": "[[initial_velocities]]",

@@ -35,12 +35,11 @@ class BodyLoads(Effect):
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """Build from the ``[[loads]]`` of kind "body"."""
+        """Build from the ``[[loads]]`` with a density."""
         region = setup.model.manifold.element_region
         found = []
         for load in setup.scene.loads:  # a handful of loads
-            if load.kind == "body":
-                assert load.density is not None
+            if load.density is not None:
                 regions = setup.regions(load.block)
                 inside = np.ones(len(region)) if regions is None else regions[region] * 1.0
                 density = inside[:, None] * np.array(load.density)

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 from nmm.effects.base import Instant, Setup, factor_of
 
 if TYPE_CHECKING:
-    from nmm.scene.actions import LoadTable, SupportTable
+    from nmm.scene.actions import SupportTable
+    from nmm.scene.tables.loads import LoadTable
 
 
 def load_factor(setup: Setup, load: "LoadTable") -> Callable[[Instant], float]:

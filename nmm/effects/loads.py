@@ -14,7 +14,7 @@ from nmm.effects.load_factor import load_factor
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
-    from nmm.scene.actions import LoadTable as SceneLoad
+    from nmm.scene.tables.loads import LoadTable as SceneLoad
 
 LEAST_ORDER = 4
 """Least degree that the work of a traction along an edge is integrated to: that of most covers."""
@@ -60,8 +60,9 @@ class Loads(Effect):
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """Build from the ``[[loads]]`` of kind "point" and "edge"."""
-        found = [_load(setup, load) for load in setup.scene.loads if load.kind != "body"]
+        """Build from the ``[[loads]]`` with forces at points and tractions along edges."""
+        dead = [one for one in setup.scene.loads if one.force or one.traction]
+        found = [_load(setup, load) for load in dead if load.kind != "moving"]
         return cls(found, setup.model.manifold.n_unknowns)
 
     def force(self, state: State, end: Instant) -> Floats:

@@ -28,6 +28,9 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "heat": "nmm.heat.temperature:Heat",
         "loads": "nmm.effects.loads:Loads",
         "body loads": "nmm.effects.body_loads:BodyLoads",
+        "field loads": "nmm.effects.loading.field_loads:FieldLoads",
+        "pressures": "nmm.effects.loading.pressures:SurfacePressures",
+        "moving loads": "nmm.effects.loading.moving_loads:MovingLoads",
         "supports": "nmm.constraints.supports:Supports",
         "bonded interfaces": "nmm.constraints.bonded_interfaces:BondedInterfaces",
         "inertia": "nmm.effects.inertia:Inertia",
@@ -46,8 +49,11 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
     "initial stress": lambda s: bool(s.initial_stresses),
     "gravity": lambda s: s.gravity is not None,
     "heat": lambda s: s.heat is not None,
-    "loads": lambda s: any(load.kind != "body" for load in s.loads),
-    "body loads": lambda s: any(load.kind == "body" for load in s.loads),
+    "loads": lambda s: any(load.force or load.traction for load in s.loads if not load.speed),
+    "body loads": lambda s: any(load.density is not None for load in s.loads),
+    "field loads": lambda s: any(load.field is not None for load in s.loads),
+    "pressures": lambda s: any(load.kind == "pressure" for load in s.loads),
+    "moving loads": lambda s: any(load.kind == "moving" for load in s.loads),
     "supports": lambda s: bool(s.supports),
     "bonded interfaces": lambda s: (
         s.contact is None and any(i.bonded for i in s.interfaces.values())

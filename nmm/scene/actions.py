@@ -14,8 +14,6 @@ from nmm.scene.fields import (
     AngularVelocity,
     AnyQuantity,
     BlockName,
-    Force,
-    ForceDensity,
     Frozen,
     History,
     Length,
@@ -31,6 +29,7 @@ from nmm.scene.fields import (
     Velocity,
     fault,
 )
+from nmm.scene.tables.expressions import FieldOf
 
 _HISTORY = "pairs [t, factor] with t increasing"
 
@@ -66,6 +65,11 @@ class SupportTable(Placed):
     displacement: tuple[Length, Length] = Field(
         default=(0.0, 0.0), description="a displacement [ux, uy] in m", examples=[[0, 0]]
     )
+    field: FieldOf | None = Field(
+        default=None,
+        description="displacements [ux, uy] in m as expressions of x, y, t, or a name of [fields]",
+        examples=[["1e-4*x", "-2e-5*y"]],
+    )
     motion: dict[Literal["x", "y"], TableName] = Field(
         default={},
         description="names of records that the ground follows along x and y; needs inertia",
@@ -74,58 +78,24 @@ class SupportTable(Placed):
 
     @model_validator(mode="after")
     def _check(self) -> SupportTable:
-        given = _given(self, "point", "segment", "block")
-        if not given or {"point", "segment"} <= set(given):
+        places = given(self, "point", "segment", "block")
+        if not places or {"point", "segment"} <= set(places):
             remedy = "give point, segment or block; block may also narrow point or segment"
-            raise fault(", ".join(given) or "no place", "one place", remedy)
+            raise fault(", ".join(places) or "no place", "one place", remedy)
         for axis, value in zip("xy", self.displacement, strict=True):
             if value != 0 and axis not in self.fix:
                 remedy = f'add "{axis}" to fix'
                 raise fault(f"displacement in {axis}", f"{axis} in fix", remedy)
+        if self.field is not None and any(self.displacement):
+            raise fault("displacement and field", "one of the two", "remove one of them")
         for axis in self.motion:
             if axis not in self.fix:
                 raise fault(f"motion along {axis}", f"{axis} in fix", f'add "{axis}" to fix')
         return self
 
 
-# kind -> (key of its magnitude, keys that may give its place)
-_LOADS = {
-    "point": ("force", ("point",)),
-    "edge": ("traction", ("segment",)),
-    "body": ("density", ()),
-}
-
-
-class LoadTable(Placed):
-    """A force at a point, a traction on a segment of the boundary, or a force on volume."""
-
-    kind: Literal["point", "edge", "body"] = Field(
-        description='"point", "edge" or "body"', examples=["edge"]
-    )
-    force: tuple[Force, Force] | None = Field(
-        default=None, description="a force [fx, fy] in N", examples=[[0, "-10 kN"]]
-    )
-    traction: tuple[Stress, Stress] | None = Field(
-        default=None, description="a traction [tx, ty] in Pa", examples=[[0, "-1 MPa"]]
-    )
-    density: tuple[ForceDensity, ForceDensity] | None = Field(
-        default=None, description="a force on volume [bx, by] in N/m3", examples=[[0, "-25 kN/m^3"]]
-    )
-
-    @model_validator(mode="after")
-    def _check(self) -> LoadTable:
-        key, places = _LOADS[self.kind]
-        if _given(self, "force", "traction", "density") != [key]:
-            found = ", ".join(_given(self, "force", "traction", "density")) or "no magnitude"
-            raise fault(found, f"{key}, as kind is {self.kind}", f"give {key} and nothing else")
-        if tuple(_given(self, "point", "segment")) != places:
-            wanted = places[0] if places else "block or no place"
-            found = ", ".join(_given(self, "point", "segment")) or "no place"
-            raise fault(found, f"{wanted}, as kind is {self.kind}", f"give {wanted}")
-        return self
-
-
-def _given(item: Frozen, *keys: str) -> list[str]:
+def given(item: Frozen, *keys: str) -> list[str]:
+    """Return which of the keys of a table are given."""
     return [key for key in keys if getattr(item, key) is not None]
 
 

@@ -176,7 +176,8 @@ def _output(data: Tables) -> Iterator[Finding]:
 
 
 def _scaled_loads(data: Tables) -> Iterator[Finding]:
-    driven = [row for _, row in _rows(data, "supports") if row.get("displacement")]
+    supports = [row for _, row in _rows(data, "supports")]
+    driven = [row for row in supports if row.get("displacement") or row.get("field")]
     rows = [row for _, row in _rows(data, "loads")] + driven
     known = [row["name"] for row in rows if isinstance(row.get("name"), str)]
     scaled = _table(data, "loading").get("scaled", "all")

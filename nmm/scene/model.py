@@ -22,7 +22,6 @@ from nmm.scene.actions import (
     InitialStressTable,
     InitialVelocityTable,
     Loading,
-    LoadTable,
     MonitorTable,
     ReferenceTable,
     SupportTable,
@@ -36,6 +35,7 @@ from nmm.scene.solids import Block, Crack, InterfaceTable, JointSet, Material, T
 from nmm.scene.stages import StageTable
 from nmm.scene.tables.boundaries import FreeFieldTable, ViscousBoundaryTable
 from nmm.scene.tables.damping import DampingTable
+from nmm.scene.tables.fields import FieldTable
 from nmm.scene.tables.heat import (
     ConvectionTable,
     HeatFluxTable,
@@ -43,6 +43,7 @@ from nmm.scene.tables.heat import (
     HeatTable,
     TemperatureTable,
 )
+from nmm.scene.tables.loads import LoadTable
 from nmm.scene.tables.records import RecordTable
 
 
@@ -80,6 +81,9 @@ class Scene(Frozen):
     cracks: tuple[Crack, ...] = Field(default=(), description="tables [[cracks]]")
     records: dict[TableName, RecordTable] = Field(
         default={}, description="tables [records.NAME] of motions over time"
+    )
+    fields: dict[TableName, FieldTable] = Field(
+        default={}, description="tables [fields.NAME] of values over places and times"
     )
     supports: tuple[SupportTable, ...] = Field(default=(), description="tables [[supports]]")
     loads: tuple[LoadTable, ...] = Field(default=(), description="tables [[loads]]")

@@ -38,7 +38,8 @@ def build_scene(tables: dict[str, Any], place: str = "scene") -> Scene:
 
 def _read_from(source: Source, scene: Scene) -> Scene:
     """Tell a scene, and the formulation in it, where they stand."""
-    if any(record.file for record in scene.records.values()):
+    files = [one.file for one in scene.records.values()]
+    if any([*files, *(one.file for one in scene.fields.values())]):
         from nmm.scene.tables.read_files import with_files
 
         scene = with_files(scene, source)

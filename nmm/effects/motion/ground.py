@@ -23,14 +23,14 @@ class Ground:
     Attributes
     ----------
     way, factor
-        A displacement (2,) in m and its factor.
+        A displacement by the time, (2,) or (m, 2) in m, and its factor.
     motions
         Motions along x (0) and y (1).
     still
         Whether it stays where it is in dynamics.
     """
 
-    way: Floats
+    way: Callable[[float], Floats]
     factor: Callable[[Instant], float]
     motions: Mapping[int, "GroundMotion"]
     still: bool
@@ -39,21 +39,35 @@ class Ground:
     def of(cls, setup: Setup, support: "SupportTable", place: Place) -> Self:
         """Return the ground of a scene's support."""
         motions = _motions(setup, support)
-        moves = any(support.displacement) and support.history is not None
-        factor = displacement_factor(setup, support)
-        return cls(np.array(support.displacement), factor, motions, not (moves or motions))
+        moves = any(support.displacement) or support.field is not None
+        way, varies = _way(setup, support, place)
+        moves = bool(motions) or varies or (moves and support.history is not None)
+        return cls(way, displacement_factor(setup, support), motions, not moves)
 
     def __call__(self, end: Instant) -> Floats:
-        """Return the displacement (2,) at an instant (m)."""
-        found = self.way * self.factor(end)
+        """Return the displacement (2,) or (m, 2) at an instant (m)."""
+        found = self.factor(end) * self.way(end.time)
         for axis, motion in self.motions.items():
-            found[axis] += motion.displacement_at(end.time)
+            found[..., axis] += motion.displacement_at(end.time)
         return np.asarray(found)
 
     @property
     def step(self) -> float | None:
         """Shortest time between samples of a record (s); None without records."""
         return min((one.shortest_step for one in self.motions.values()), default=None)
+
+
+def _way(
+    setup: Setup, support: "SupportTable", place: Place
+) -> tuple[Callable[[float], Floats], bool]:
+    """Return the displacement at factor 1 by the time, and whether that matters."""
+    if support.field is None:
+        way = np.array(support.displacement)
+        return (lambda time: way), False
+    from nmm.effects.loading.fields import ValueField
+
+    field = ValueField.named(setup, support.field, f"[[supports]] {support.name}")
+    return (lambda time: field.values(place.position, time)), field.varies
 
 
 def _motions(setup: Setup, support: "SupportTable") -> "dict[int, GroundMotion]":

@@ -10,7 +10,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from nmm.scene import Scene
-    from nmm.scene.actions import LoadTable, SupportTable
+    from nmm.scene.actions import SupportTable
+    from nmm.scene.tables.loads import LoadTable
 
 SUPPORT = "#1f5f3f"
 LOAD = "#8c2d19"

@@ -32,6 +32,7 @@ def motion_contradictions(data: Tables) -> Iterator[Finding]:
         if data.get(key) and "inertia" not in data:
             yield (key,), "no [inertia]", "a dynamic scene", f"add [inertia], or remove [[{key}]]"
     yield from _bases(data)
+    yield from _fields(data)
 
 
 def _bases(data: Tables) -> Iterator[Finding]:
@@ -44,6 +45,21 @@ def _bases(data: Tables) -> Iterator[Finding]:
             expected = "the name of a viscous boundary or of a support with a motion"
             known = [one for one in bases if isinstance(one, str)]
             yield (*path, "base"), f'"{name}"', expected, suggestion(name, known)
+
+
+def _fields(data: Tables) -> Iterator[Finding]:
+    """Yield tables of fields that are not there, and forces that travel without time."""
+    known = data.get("fields")
+    names = list(known) if isinstance(known, Mapping) else []
+    for key in ("loads", "supports"):
+        for path, row in _rows(data, key):
+            name = row.get("field")
+            if isinstance(name, str) and name not in names:
+                expected = "the name of one of [fields.NAME], or two expressions"
+                yield (*path, "field"), f'"{name}"', expected, suggestion(name, names)
+            if row.get("kind") == "moving" and "inertia" not in data:
+                remedy = "add [inertia]; in statics place a point load where it stands"
+                yield (*path, "kind"), '"moving", no [inertia]', "a dynamic scene", remedy
 
 
 def _named_records(data: Tables, path: Path, motion: object) -> Iterator[Finding]:

@@ -5,16 +5,23 @@ Run folders, hashes and published cases then hold the numbers and depend on no o
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TypeVar
+
+from pydantic_core import PydanticCustomError
 
 from nmm.errors import Fault, SceneError
-from nmm.scene.tables.columns import all_faults, record_of
+from nmm.scene.tables.columns import all_faults, record_of, rows_of
+from nmm.scene.tables.fields import check_rows
 
 if TYPE_CHECKING:
     from nmm.scene.faults import Source
     from nmm.scene.model import Scene
+    from nmm.scene.tables.fields import FieldTable
     from nmm.scene.tables.records import RecordTable
+
+Table = TypeVar("Table", "RecordTable", "FieldTable")
 
 
 def with_files(scene: Scene, source: Source) -> Scene:
@@ -26,23 +33,46 @@ def with_files(scene: Scene, source: Source) -> Scene:
         Every fault of every file, by its line.
     """
     folder, errors = Path(source.name).parent, list[SceneError]()
-    records: dict[str, RecordTable] = {}
-    for name, table in scene.records.items():
-        records[name] = table
-        if table.file is not None:
-            try:
-                records[name] = _read(table, folder / table.file, source, name)
-            except SceneError as error:
-                errors.append(error)
+    records = _all(scene.records, _record, folder, errors)
+    fields = _all(scene.fields, _field, folder, errors)
     if errors:
         raise SceneError(*all_faults(errors))
-    return scene.model_copy(update={"records": records})
+    return scene.model_copy(update={"records": records, "fields": fields})
 
 
-def _read(table: RecordTable, path: Path, source: Source, name: str) -> RecordTable:
+def _all(
+    tables: Mapping[str, Table],
+    read: Callable[[Table, Path], Table],
+    folder: Path,
+    errors: list[SceneError],
+) -> dict[str, Table]:
+    """Read the files of tables; gather what is wrong."""
+    found = dict(tables)
+    for name, table in tables.items():
+        if table.file is not None:
+            try:
+                found[name] = read(table, folder / table.file)
+            except SceneError as error:
+                errors.append(error)
+    return found
+
+
+def _record(table: RecordTable, path: Path) -> RecordTable:
     pairs, values = record_of(path, table.step)
     if len(pairs) + len(values) < 2:
-        place, found = source.place("records", name, "file"), f"{path}: one value"
-        raise SceneError(Fault(place, found, "at least two", "give the whole record"))
-    read: dict[str, Any] = {"file": None, "samples": tuple(pairs) or None}
-    return table.model_copy(update={**read, "values": tuple(values) or None})
+        remedy = "give the whole record"
+        raise SceneError(Fault(str(path), "one value", "at least two", remedy))
+    own = {"file": None, "samples": tuple(pairs) or None, "values": tuple(values) or None}
+    return table.model_copy(update=own)
+
+
+def _field(table: FieldTable, path: Path) -> FieldTable:
+    rows = rows_of(path)
+    numbers = tuple(tuple(row) for _, row in rows)
+    try:
+        check_rows(numbers)
+    except PydanticCustomError as error:
+        said = error.context or {}
+        told = (str(said[key]) for key in ("value", "expected", "remedy"))
+        raise SceneError(Fault(str(path), *told)) from None
+    return table.model_copy(update={"file": None, "rows": numbers})

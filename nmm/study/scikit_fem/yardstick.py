@@ -20,7 +20,7 @@ from nmm.scene import scene_hash
 
 if TYPE_CHECKING:
     from nmm.scene import Scene
-    from nmm.scene.actions import LoadTable
+    from nmm.scene.tables.loads import LoadTable
 
 DEGREES = (1, 2, 3, 4)
 NEAR = 1e-9  # of the body's extent: what lies on a segment
@@ -140,6 +140,9 @@ def _refuse(scene: "Scene", formulation: Formulation) -> None:
         "[[initial_stresses]]": bool(scene.initial_stresses),
         f'the law "{material.law}"': material.law != "elastic",
         "a history": timed,
+        "a load with a field": any(one.field is not None for one in scene.loads),
+        "a support with a field": any(one.field is not None for one in scene.supports),
+        "a pressure": any(one.kind == "pressure" for one in scene.loads),
         "a support of a block": any(not (s.point or s.segment) for s in scene.supports),
     }
     found = next((name for name, there in beyond.items() if there), None)

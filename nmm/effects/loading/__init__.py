@@ -1,0 +1,1 @@
+"""Loads that are fields, that turn with a surface, and that travel."""

@@ -1,0 +1,114 @@
+"""Tractions along edges and forces on volume that are fields of place and time; dead loads."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from integration.rules import polygon_rule
+from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.places import on_segment
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.load_factor import load_factor
+from nmm.effects.loading.fields import ValueField
+from nmm.errors import GeometryError
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.loads import LoadTable
+
+# Degree of polynomials that fields times functions of the covers are integrated to, beyond theirs.
+BEYOND = 6
+
+
+@dataclass(frozen=True)
+class SpreadLoad:
+    """A field over points of the material.
+
+    Attributes
+    ----------
+    points, position, share
+        The m points, (m, 2) where they were drawn (m), and the (m,) area or volume of each.
+    field, factor
+        Force over that area or volume, and its factor.
+    steady
+        Whether neither depends on the time.
+    """
+
+    points: MaterialPoints
+    position: Floats
+    share: Floats
+    field: ValueField
+    factor: Callable[[Instant], float]
+    steady: bool
+
+    def forces(self, end: Instant) -> Floats:
+        """Forces (m, 2) on the points at an instant (N)."""
+        values = self.field.values(self.position, end.time)
+        return np.asarray(self.factor(end) * self.share[:, None] * values)
+
+
+class FieldLoads(Effect):
+    """All loads of a scene that are given by a field; they keep their direction."""
+
+    name = "field loads"
+
+    def __init__(self, loads: list[SpreadLoad], n_unknowns: int) -> None:
+        self.loads, self._n = loads, n_unknowns
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[loads]]`` with a field."""
+        found = [_load(setup, one) for one in setup.scene.loads if one.field is not None]
+        return cls(found, setup.model.manifold.n_unknowns)
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`."""
+        return all(load.steady for load in self.loads)
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the loads in the bodies' axes."""
+        total = np.zeros(self._n)
+        for load in self.loads:  # a handful of loads
+            local = load.points.along(state.frames, load.forces(end))
+            unknowns = load.points.rows.unknowns.ravel()
+            total += np.bincount(unknowns, local.ravel(), minlength=self._n)
+        return total
+
+    def work(self, before: State, after: State) -> float:
+        """Mean of the loads at both ends of the step times the motion of their points."""
+        ends = (Instant(before.time, before.load_factor), Instant(after.time, after.load_factor))
+        total = 0.0
+        for load in self.loads:
+            mean = (load.forces(ends[0]) + load.forces(ends[1])) / 2
+            places = [load.points.place(one.frames, one.deformation) for one in (before, after)]
+            total += float(np.sum(mean * (places[1] - places[0])))
+        return total
+
+
+def _load(setup: Setup, load: "LoadTable") -> SpreadLoad:
+    assert load.field is not None
+    model, regions = setup.model, setup.regions(load.block)
+    manifold, order = model.manifold, model.manifold.degree + BEYOND
+    if load.segment is not None:
+        place = on_segment(manifold, np.array(load.segment), regions, order)
+        points, position, share = place.points, place.position, place.weight
+    else:
+        rule = polygon_rule(manifold.elements, order)
+        inside = np.ones(len(rule.owner), dtype=bool)
+        if regions is not None:
+            inside = regions[manifold.element_region[rule.owner]]
+        owner, position = rule.owner[inside], rule.points[inside]
+        points, share = material_points(manifold, owner, position), rule.weights[inside]
+    if not len(share):
+        raise GeometryError(
+            f"load {load.name}: {load.segment or load.block}: expected a place on the material: "
+            "move it onto a block or onto the edge of one"
+        )
+    what = f"[[loads]] {load.name}"
+    field = ValueField.named(setup, load.field, what)
+    steady = load.history is None and not field.varies
+    factor = load_factor(setup, load)
+    return SpreadLoad(points, position, share * model.thickness, field, factor, steady)

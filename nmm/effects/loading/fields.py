@@ -1,0 +1,173 @@
+"""A field of two values over places and time: from expressions, or from a table of values."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.effects.base import Setup
+from nmm.effects.loading.evaluation import evaluated
+from nmm.errors import Fault, SceneError
+from nmm.scene.tables.expressions import Expression
+
+if TYPE_CHECKING:
+    from scipy.spatial import Delaunay
+
+    from nmm.scene.tables.fields import FieldTable
+
+# Places of a table lie on a line when they are this close to one, in sizes of them all; and points
+# as far outside of them are still among them.
+ON_LINE, OUTSIDE = 1e-9, 1e-6
+
+Interpolation = Callable[[Floats], Floats]
+
+
+@dataclass(frozen=True)
+class ValueField:
+    """Two values over places and time.
+
+    Attributes
+    ----------
+    varies
+        Whether it depends on the time.
+    of
+        From points (m, 2) in the scene's axes and a time to values (m, 2).
+    origin
+        (2,) where the axes of the model lie in those of the scene (m).
+    what
+        What it is of, for errors.
+    """
+
+    varies: bool
+    of: Callable[[Floats, float], Floats]
+    origin: Floats
+    what: str
+
+    @classmethod
+    def named(cls, setup: Setup, given: "tuple[str, str] | str", what: str) -> Self:
+        """Return the field that a load or support gives by expressions or by a table's name."""
+        if isinstance(given, str):
+            table = ValueTable.of(setup.scene.fields[given])
+            return cls(len(table.times) > 1, table.values, setup.origin, what)
+        parts = [Expression.of(text) for text in given]
+
+        def values(points: Floats, time: float) -> Floats:
+            return np.stack([evaluated(one, points, time) for one in parts], axis=1)
+
+        return cls(any(one.varies for one in parts), values, setup.origin, what)
+
+    def values(self, points: Floats, time: float) -> Floats:
+        """Return the values (m, 2) at points (m, 2) in the axes of the model.
+
+        Raises
+        ------
+        SceneError
+            Where a value is no finite number, naming the place.
+        """
+        places = points + self.origin
+        found = self.of(places, time)
+        wrong = np.flatnonzero(~np.isfinite(found).all(axis=1))
+        if len(wrong):
+            x, y = places[wrong[0]]
+            raise SceneError(
+                Fault(
+                    self.what,
+                    f"field is {found[wrong[0]].tolist()} at ({x:.6g}, {y:.6g}), t = {time:.6g}",
+                    "finite values wherever it acts",
+                    "correct the expressions, or give a table that covers the place",
+                )
+            )
+        return found
+
+
+@dataclass(frozen=True)
+class ValueTable:
+    """Values at places that are the same at all times.
+
+    Attributes
+    ----------
+    times
+        (k,) increasing (s).
+    places
+        (n, 2) m.
+    known
+        (k, n, 2) values.
+    """
+
+    times: Floats
+    places: Floats
+    known: Floats
+
+    @classmethod
+    def of(cls, table: "FieldTable") -> Self:
+        """Return the values of a scene's table.
+
+        Raises
+        ------
+        SceneError
+            Places that are not the same at every time, or stand twice.
+        """
+        rows = np.array(table.rows)
+        if rows.shape[1] == 4:
+            rows = np.column_stack([np.zeros(len(rows)), rows])
+        rows = rows[np.lexsort((rows[:, 2], rows[:, 1], rows[:, 0]))]
+        times, counts = np.unique(rows[:, 0], return_counts=True)
+        number = counts[0]
+        parts = rows[:, 1:].reshape(len(times), -1, 4) if (counts == number).all() else None
+        if parts is None or (parts[:, :, :2] != parts[:1, :, :2]).any():
+            remedy = "give every place at every time"
+            raise SceneError(Fault("fields", "other places at other times", "the same", remedy))
+        if len(np.unique(parts[0, :, :2], axis=0)) < number:
+            raise SceneError(Fault("fields", "a place twice", "each place once", "remove one row"))
+        return cls(times, parts[0, :, :2], table.scale * parts[:, :, 2:])
+
+    def values(self, points: Floats, time: float) -> Floats:
+        """Return the values (m, 2) at points (m, 2); not numbers outside of the places."""
+        after = int(np.clip(np.searchsorted(self.times, time), 1, max(len(self.times) - 1, 1)))
+        if len(self.times) == 1:
+            return self._over(0)(points)
+        before = after - 1
+        span = self.times[after] - self.times[before]
+        share = float(np.clip((time - self.times[before]) / span, 0.0, 1.0))
+        return (1 - share) * self._over(before)(points) + share * self._over(after)(points)
+
+    def _over(self, number: int) -> Interpolation:
+        along = self._line
+        if along is None:
+            from scipy.interpolate import LinearNDInterpolator
+
+            found: Interpolation = LinearNDInterpolator(self._triangles, self.known[number])
+            return found
+        start, way = along
+        order = np.argsort(places := (self.places - start) @ way)
+        values, ends = self.known[number][order], places[order]
+
+        def between(points: Floats) -> Floats:
+            found = (points - start) @ way
+            inside = (found >= ends[0] - self._reach) & (found <= ends[-1] + self._reach)
+            sides = [np.interp(found, ends, values[:, i]) for i in (0, 1)]
+            return np.where(inside[:, None], np.stack(sides, axis=1), np.nan)
+
+        return between
+
+    @cached_property
+    def _line(self) -> tuple[Floats, Floats] | None:
+        """Start and direction of the line on which all places lie; None where they do not."""
+        centre = self.places.mean(axis=0)
+        _, sizes, axes = np.linalg.svd(self.places - centre)
+        if len(sizes) > 1 and sizes[1] > ON_LINE * sizes[0]:
+            return None
+        return centre, axes[0]
+
+    @cached_property
+    def _reach(self) -> float:
+        return OUTSIDE * float(np.hypot(*np.ptp(self.places, axis=0)))
+
+    @cached_property
+    def _triangles(self) -> "Delaunay":
+        from scipy.spatial import Delaunay
+
+        return Delaunay(self.places)

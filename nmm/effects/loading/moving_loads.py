@@ -1,0 +1,124 @@
+"""Forces that travel along edges."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Bools, Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.assembly.places import Place, at_point, on_segment
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.load_factor import load_factor
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.loads import LoadTable
+
+# Degree of polynomials that a spread force is integrated to, beyond that of the displacements.
+BEYOND = 4
+
+
+@dataclass(frozen=True)
+class MovingLoad:
+    """A force from the first to the second point of a segment (2, 2), spread over a length or not.
+
+    Attributes
+    ----------
+    force, factor
+        (2,) N, and its factor.
+    start, speed, spread
+        When its front sets out (s), how fast (m/s), and the length behind the front (m).
+    regions
+        (N,) input regions that it goes over; None is all.
+    """
+
+    segment: Floats
+    force: Floats
+    factor: Callable[[Instant], float]
+    start: float
+    speed: float
+    spread: float
+    regions: Bools | None
+
+    def acting(self, model: Model, end: Instant) -> tuple[Place, Floats] | None:
+        """Return where it acts and its forces (m, 2) there (N); None where it is not on the way."""
+        way = self.segment[1] - self.segment[0]
+        length = float(np.hypot(*way))
+        front = self.speed * (end.time - self.start)
+        force = self.factor(end) * self.force
+        if not self.spread:
+            if not 0 <= front <= length:
+                return None
+            place = at_point(model.manifold, self.segment[0] + front / length * way, self.regions)
+            return place, place.weight[:, None] * force
+        low, high = max(front - self.spread, 0.0), min(front, length)
+        if high <= low:
+            return None
+        part = self.segment[0] + np.array([[low], [high]]) / length * way
+        order = model.manifold.degree + BEYOND
+        place = on_segment(model.manifold, part, self.regions, order)
+        return place, place.weight[:, None] / self.spread * force
+
+
+class MovingLoads(Effect):
+    """All travelling forces of a scene; each point feels them as they come past."""
+
+    name = "moving loads"
+
+    def __init__(self, model: Model, loads: list[MovingLoad]) -> None:
+        self._model, self.loads = model, loads
+        self._known: list[tuple[Instant, list[tuple[Place, Floats]]]] = []
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[loads]]`` of kind "moving"."""
+        found = [_load(setup, one) for one in setup.scene.loads if one.kind == "moving"]
+        return cls(setup.model, found)
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`."""
+        return False
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the forces at the end of the step, in the bodies' axes."""
+        n = len(state.deformation)
+        total = np.zeros(n)
+        for place, forces in self._acting(end):
+            local = place.points.along(state.frames, forces)
+            total += np.bincount(place.points.rows.unknowns.ravel(), local.ravel(), minlength=n)
+        return total
+
+    def work(self, before: State, after: State) -> float:
+        """Half of the forces of each end times the motion of the points that feel them then."""
+        total = 0.0
+        for one in (before, after):
+            for place, forces in self._acting(Instant(one.time, one.load_factor)):
+                places = [place.points.place(s.frames, s.deformation) for s in (before, after)]
+                total += float(np.sum(forces * (places[1] - places[0]))) / 2
+        return total
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._known = []
+
+    def _acting(self, end: Instant) -> list[tuple[Place, Floats]]:
+        """Where the loads act; those at both ends of a step are kept."""
+        for known, found in self._known:
+            if known == end:
+                return found
+        all_of_them = (load.acting(self._model, end) for load in self.loads)
+        found = [one for one in all_of_them if one is not None]
+        self._known = [*self._known[-1:], (end, found)]
+        return found
+
+
+def _load(setup: Setup, load: "LoadTable") -> MovingLoad:
+    assert load.segment is not None
+    assert load.force is not None
+    assert load.speed is not None
+    segment, force = np.array(load.segment), np.array(load.force)
+    factor, regions = load_factor(setup, load), setup.regions(load.block)
+    return MovingLoad(segment, force, factor, load.start, load.speed, load.spread, regions)

@@ -1,0 +1,156 @@
+"""Tractions, forces on volume and displacements given as fields: exact solutions from scenes."""
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.errors import SceneError
+from nmm.testing import check_effect_of
+
+PLATE = """
+title = "plate"
+plane = "stress"
+[materials.steel]
+young_modulus = 1000.0
+poisson_ratio = {nu}
+[[blocks]]
+name = "plate"
+material = "steel"
+vertices = [[1, -1], [3, -1], [3, 1], [1, 1]]
+[[monitors]]
+name = "inside"
+point = [2.3, 0.4]
+[[monitors]]
+name = "corner"
+point = [3, 1]
+{more}
+[formulation.cover]
+type = "{cover}"
+size = 0.7
+degree = {degree}
+[formulation.supports]
+method = "{method}"
+"""
+# sxx = 6 y: u = 6 x y / E, v = -3 (x^2 + nu y^2) / E.
+BENDING = """
+[[supports]]
+name = "left"
+segment = [[1, -1], [1, 1]]
+fix = ["x", "y"]
+field = ["6*x*y/1000", "-3*(x**2 + 0.3*y**2)/1000"]
+[[loads]]
+name = "right"
+kind = "edge"
+segment = [[3, -1], [3, 1]]
+field = {field}
+"""
+# u = x^2 y / 1000, nu = 0: sxx = 2 x y, sxy = x^2 / 2; force on volume (-2 y, -x).
+VOLUME = """
+[[supports]]
+name = "edges"
+block = "plate"
+fix = ["x", "y"]
+field = ["x**2*y/1000", "0"]
+[[loads]]
+name = "inside"
+kind = "body"
+field = ["-2*y", "-x"]
+"""
+
+
+def plate(more, cover="quads", degree=1, method="nitsche", nu=0.3):
+    return PLATE.format(more=more, cover=cover, degree=degree, method=method, nu=nu)
+
+
+def ends(run, monitor):
+    return np.array([run.history[f"monitor:{monitor}:u{axis}"][-1] for axis in "xy"])
+
+
+def bent(x, y):
+    return np.array([6 * x * y, -3 * (x**2 + 0.3 * y**2)]) / 1000
+
+
+@pytest.mark.parametrize("method", ["nitsche", "lagrange"])
+@pytest.mark.parametrize("cover", ["quads", "triangles"])
+@pytest.mark.parametrize("table", [False, True], ids=["expressions", "table along the edge"])
+def test_pure_bending_from_a_scene_alone_is_exact_in_covers_that_hold_it(cover, method, table):
+    more = BENDING.format(field='"sides"' if table else '["6*y", "0"]')
+    if table:
+        more += "[fields.sides]\nrows = [[3, -1, -6, 0], [3, 0.3, 1.8, 0], [3, 1, 6, 0]]\n"
+    run = nmm.run(nmm.parse_scene(plate(more, cover, 2 if cover == "triangles" else 1, method)))
+    assert run.summary.status == "converged"
+    # Quads of degree 1 hold complete quadratics; rounding of the penalty terms.
+    assert ends(run, "inside") == pytest.approx(bent(2.3, 0.4), abs=1e-9)
+    assert ends(run, "corner") == pytest.approx(bent(3, 1), abs=1e-9)
+    assert abs(run.summary.energy_balance) < 1e-6
+
+
+def test_a_manufactured_solution_from_a_scene_alone_is_exact():
+    run = nmm.run(nmm.parse_scene(plate(VOLUME, "triangles", degree=2, nu=0.0)))
+    assert ends(run, "inside") == pytest.approx([2.3**2 * 0.4 / 1000, 0], abs=1e-9)
+
+
+def test_a_table_over_triangles_and_times_is_linear_between_them():
+    from nmm.effects.loading.fields import ValueTable
+    from nmm.scene.tables.fields import FieldTable
+
+    places = [(0, 0), (2, 0), (0, 2), (2, 2)]
+    rows = [(t, x, y, t * (x + 2 * y), -t) for t in (0, 1, 3) for x, y in places]
+    table = ValueTable.of(FieldTable(rows=rows, scale=10))
+    points = np.array([[0.5, 0.25], [1.9, 1.0]])
+    expected = 10 * 2 * np.stack([points @ [1, 2], [-1, -1]], axis=1)
+    assert table.values(points, 2.0) == pytest.approx(expected)
+    assert table.values(points, 9.0) == pytest.approx(1.5 * expected)
+    assert np.isnan(table.values(np.array([[3.0, 0.0]]), 1.0)).all()
+
+
+def test_a_field_of_constants_is_the_load_of_the_same_numbers():
+    hold = BENDING.split("[[loads]]")[0].replace(
+        '"6*x*y/1000", "-3*(x**2 + 0.3*y**2)/1000"', "0, 0"
+    )
+    load = '[[loads]]\nname = "right"\nkind = "edge"\nsegment = [[3, -1], [3, 1]]\n'
+    runs = [
+        nmm.run(nmm.parse_scene(plate(hold + load + key + " = [3.0, -1.0]\n")))
+        for key in ("field", "traction")
+    ]
+    assert runs[0].displacement == pytest.approx(runs[1].displacement, abs=1e-12)
+
+
+def test_a_file_of_columns_gives_the_field(tmp_path):
+    (tmp_path / "sides.csv").write_text("x, y, tx, ty\n3, -1, -6, 0\n3, 1, 6, 0\n")
+    more = BENDING.format(field='"sides"') + '[fields.sides]\nfile = "sides.csv"\n'
+    (tmp_path / "s.toml").write_text(plate(more))
+    run = nmm.run(nmm.read_scene(tmp_path / "s.toml"))
+    assert ends(run, "corner") == pytest.approx(bent(3, 1), abs=1e-9)
+
+
+@pytest.mark.parametrize("cover", ["quads", "triangles"])
+def test_field_loads_keep_what_every_effect_promises(cover):
+    more = BENDING.format(field='["6*y", "0"]') + VOLUME.split("[[supports]]")[0]
+    more += '[[loads]]\nname = "weight"\nkind = "body"\nfield = ["x*y", "-sin(x)"]\n'
+    check_effect_of(nmm.parse_scene(plate(more, cover)), "field loads")
+    check_effect_of(nmm.parse_scene(plate(more, cover)), "supports")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('["6*y", "0"]', '["6*z", "0"]', 'the name "z": expected an expression of x, y, t'),
+        ('["6*y", "0"]', '["6*y"]', "expected two expressions of x, y, t, or the name"),
+        ('["6*y", "0"]', '"side"', '"side": expected the name of one of [fields.NAME]'),
+        ('["6*y", "0"]', '["6*y", "0"]\ntraction = [1, 1]', "expected traction or field, as kind"),
+        ('fix = ["x", "y"]\nfield', 'fix = ["x", "y"]\ndisplacement = [1, 0]\nfield', "one of the"),
+    ],
+)
+def test_wrong_fields_are_told_by_line(old, new, said):
+    text = plate(BENDING.format(field='["6*y", "0"]'))
+    assert old in text
+    with pytest.raises(SceneError) as caught:
+        nmm.parse_scene(text.replace(old, new, 1), "s.toml")
+    assert said in str(caught.value)
+    assert str(caught.value).startswith("s.toml:")
+
+
+def test_a_field_that_is_infinite_somewhere_is_refused_with_the_place():
+    with pytest.raises(SceneError, match=r"\[\[loads\]\] right: field is \[inf, 0.0\] at \(3"):
+        nmm.run(nmm.parse_scene(plate(BENDING.format(field='["1/(x - 3)", "0"]'))))

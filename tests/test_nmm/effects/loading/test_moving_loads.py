@@ -1,0 +1,129 @@
+"""A force that travels over a beam: deflection in closed form, work in the books."""
+
+import math
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.errors import SceneError
+
+LENGTH, HEIGHT, YOUNG, DENSITY, FORCE = 10.0, 0.4, 30e9, 2500.0, 1e4
+AREA, SECOND = HEIGHT, HEIGHT**3 / 12
+FIRST = math.pi**2 / LENGTH**2 * math.sqrt(YOUNG * SECOND / (DENSITY * AREA))
+BEAM = """
+title = "beam under a moving force"
+plane = "stress"
+duration = {duration}
+[materials.concrete]
+young_modulus = 30e9
+poisson_ratio = 0.0
+density = 2500
+[[blocks]]
+name = "beam"
+material = "concrete"
+vertices = [[0, 0], [10, 0], [10, 0.4], [0, 0.4]]
+[[supports]]
+name = "pin"
+point = [0, 0.2]
+fix = ["x", "y"]
+[[supports]]
+name = "roller"
+point = [10, 0.2]
+fix = ["y"]
+[[loads]]
+name = "wheel"
+kind = "moving"
+segment = [[0, 0.4], [10, 0.4]]
+force = [0, -1e4]
+speed = {speed}
+{more}
+[[monitors]]
+name = "middle"
+point = [5, 0.2]
+[inertia]
+[formulation.cover]
+type = "quads"
+size = 1.25
+degree = 2
+[formulation.integrator]
+type = "newmark"
+step = {step}
+[formulation.rotation]
+update = "small"
+"""
+
+
+def beam(speed, more="", share=1.0, steps=150):
+    duration = share * LENGTH / speed
+    return BEAM.format(speed=speed, more=more, duration=duration, step=duration / steps)
+
+
+def deflection(times, speed, modes=9):
+    """Of the middle: a force over a simply supported beam of Euler and Bernoulli (Fryba 1972)."""
+    found = np.zeros_like(times)
+    for n in range(1, modes + 1, 2):
+        own, driven = n**2 * FIRST, n * math.pi * speed / LENGTH
+        swing = np.sin(driven * times) - driven / own * np.sin(own * times)
+        found += (
+            2
+            * FORCE
+            / (DENSITY * AREA * LENGTH)
+            * math.sin(n * math.pi / 2)
+            * swing
+            / (own**2 - driven**2)
+        )
+    return found
+
+
+def missing(run):
+    h = run.history
+    stored = h["kinetic_energy"] + h["strain_energy"] + h["support_energy"]
+    rest = h["external_work"] - stored - h["integration_loss"]
+    return np.abs(rest).max() / np.abs(h["external_work"]).max()
+
+
+@pytest.mark.parametrize("share", [0.25, 0.5])  # of the critical speed
+def test_the_middle_of_a_beam_swings_under_a_moving_force_as_in_closed_form(share):
+    speed = share * FIRST * LENGTH / math.pi
+    run = nmm.run(nmm.parse_scene(beam(speed)))
+    assert run.summary.status == "converged"
+    found = -run.history["monitor:middle:uy"]
+    expected = deflection(run.history["time"], speed)
+    # Shear adds pi^2 / 12 (h/L)^2 E / (5/6 G) = 0.3 % to the first mode; supports are springs.
+    assert np.abs(found - expected).max() < 0.02 * expected.max()
+    assert missing(run) < 1e-9
+
+
+def test_a_force_that_is_spread_comes_and_goes_whole():
+    speed = 0.5 * FIRST * LENGTH / math.pi
+    run = nmm.run(nmm.parse_scene(beam(speed, "spread = 1.0\n", steps=80)))
+    loads = run.stepper.plan.effects["moving loads"]
+    from nmm.effects.base import Instant
+
+    def total(front):
+        return sum(forces[:, 1].sum() for _, forces in loads._acting(Instant(front / speed, 1.0)))
+
+    assert total(5.3) == pytest.approx(-1e4, rel=1e-12)
+    assert total(0.25) == pytest.approx(-2.5e3, rel=1e-12)
+    assert total(11.0) == 0.0
+    assert missing(run) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("speed = 20", "", "no speed: expected a speed, as kind is moving"),
+        ('kind = "moving"', 'kind = "edge"', "loads.0: force: expected traction or field"),
+        ("force = [0, -1e4]\nspeed = 20", "pressure = 1", "loads.0: pressure: expected force"),
+        ("[inertia]", "", 'loads.0.kind: "moving", no [inertia]: expected a dynamic scene'),
+    ],
+)
+def test_wrong_moving_loads_are_told_by_line(old, new, said):
+    text = beam(20)
+    if old == "[inertia]":
+        text = text.replace("duration", "#", 1)
+    assert old in text
+    with pytest.raises(SceneError) as caught:
+        nmm.parse_scene(text.replace(old, new, 1), "s.toml")
+    assert said in str(caught.value)
