@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.diffusion.problem import DiffusionProblem
+from nmm.diffusion.problem import DiffusionProblem, step_between
 
 # Of a step, about what its length may exceed the longest by.
 ROUNDING = 1e-9
@@ -128,7 +128,7 @@ class Course:
             after = problem.stepped(unknowns, begin, end, theta)
             for share, field, at in ((1 - theta, unknowns, begin), (theta, after, end)):
                 for name, rate in problem.taken(field, at).items():  # a handful of edges
-                    taken[name] = taken.get(name, 0.0) + share * (end - begin) * rate
+                    taken[name] = taken.get(name, 0.0) + share * step_between(begin, end) * rate
             unknowns = after
         gained = problem.stored(unknowns) - problem.stored(last.unknowns)
         return FieldAt(time, unknowns, taken, last.stored + gained)

@@ -44,6 +44,7 @@ def across_blocks(
     if model.manifold.n_bodies < 2:
         return
     joints = shared_edges(model)
+    joints = joints.take(~_cracked(model)[joints.edge_a])
     region, element = model.manifold.element_region, model.manifold.boundary.element
     pairs = np.stack([region[element[joints.edge_a]], region[element[joints.edge_b]]], axis=1)
     found: list[Conductance] = [None] * len(pairs)
@@ -57,6 +58,14 @@ def across_blocks(
         interface = gauss_interface(model, joints.take(open_to), joining.order)
         values = [value for value in found if value is not None]
         yield from _joined(joining, interface.sides, interface.first.piece, values, name)
+
+
+def _cracked(model: Model) -> Bools:
+    """Which edges of the boundary are faces of cracks."""
+    boundary = model.cut.boundary
+    if not isinstance(boundary, CutBoundary):
+        return np.zeros(len(boundary), dtype=bool)
+    return np.asarray(boundary.crack >= 0)
 
 
 def across_cracks(

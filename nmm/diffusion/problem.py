@@ -28,6 +28,11 @@ from nmm.solvers.linear import LinearSolver, make_solver
 KEPT = 3
 
 
+def step_between(begin: float, end: float) -> float:
+    """Return the length of a step: one that differs by the rounding of times is the same."""
+    return float(f"{end - begin:.12g}")
+
+
 def field_solver(manifold: Manifold, asked: Solver) -> LinearSolver:
     """Return the linear solver that a formulation names, for functions that may be dependent."""
     made = make_solver(asked.type, asked.options)
@@ -117,7 +122,7 @@ class DiffusionProblem:
         ``before`` (n,) are those at its beginning.
         """
         assert self.capacity is not None
-        step = end - begin
+        step = step_between(begin, end)
         force = self.capacity @ before + step * theta * self.load(end)
         if theta < 1:
             force += step * (1 - theta) * (self.load(begin) - self.matrix @ before)

@@ -157,6 +157,8 @@ class Heat(Effect):
     def forget(self) -> None:
         """See `Effect.forget`."""
         self.course.problem.forget()
+        if self.strain is not None:
+            self.strain.forget()
 
     def follow(self, change: "Change") -> "Heat":
         """Return heat on the new model; blocks that are new have the initial temperature."""

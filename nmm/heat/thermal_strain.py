@@ -6,7 +6,7 @@ Held, it has the stress ``- D strain``, whose force on the unknowns is integrate
 temperature richer than the strains of the elements this is the force of its projection on them.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -35,6 +35,7 @@ class ThermalStrain:
     space: ScalarSpace
     model: Model
     expansion: Floats
+    _kept: dict[int, tuple[Floats, Ints, csr_array]] = field(default_factory=dict, repr=False)
 
     @cached_property
     def stress(self) -> Floats:
@@ -60,5 +61,16 @@ class ThermalStrain:
 
     def at(self, unknowns: Floats, elements: Ints, points: Floats) -> Floats:
         """Stress (m, 3) in body axes that it adds at reference points (Pa)."""
-        rise = self.space.values(elements, points) @ unknowns
+        rise = self._rows(elements, points) @ unknowns
         return np.asarray(-rise[:, None] * self.stress[elements])
+
+    def _rows(self, elements: Ints, points: Floats) -> csr_array:
+        """Rows (m, n) at points; those of edges, which are asked for step by step, are kept."""
+        kept = self._kept.get(id(points))
+        if kept is None or kept[0] is not points or kept[1] is not elements:
+            kept = self._kept[id(points)] = points, elements, self.space.values(elements, points)
+        return kept[2]
+
+    def forget(self) -> None:
+        """Drop what is kept for speed."""
+        self._kept.clear()

@@ -75,6 +75,9 @@ def draw_all(
             name = "failure_mode.png" if shown.frames[-1].stage == "failure" else "deformed.png"
             draw(name, failure_mode, shown, scene=scene, magnification=magnification)
         draw(f"stress_{component}.png", stress, shown, component, frame=calm)
+        for name, quantity in shown.frames[calm].fields.items():  # a handful, of effects
+            if ":" in name and quantity.on != "contacts" and quantity.values.ndim == 1:
+                draw(f"{name.replace(':', '_')}.png", stress, shown, name, frame=calm)
         if len(shown.frames[calm].contact_gap):
             draw("contact_forces.png", contact_forces, shown, frame=calm)
         if _has_covers(run, scene):

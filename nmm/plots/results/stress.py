@@ -12,7 +12,7 @@ from nmm.plots.canvas import BESIDE, PathLike, axes_grid, extent_of, finished, f
 from nmm.plots.results.deformed import magnified, moment
 from nmm.plots.shapes import draw_lines, fill, line_width
 from nmm.plots.units import label, prefixed
-from nmm.results.frame import Frame
+from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
 
 if TYPE_CHECKING:
@@ -29,6 +29,9 @@ NAMES = {
 
 SHARE, PEAK = 0.995, 1.5
 """Share of the area that the colours hold, and how far beyond stress may go without being cut."""
+
+FAR = 0.5
+"""Share of the end of the scale from which it does not begin at zero where no value is below."""
 
 SHORT = {"mises": "von Mises", "major": "major principal", "minor": "minor principal"}
 """Names that fit beside a colour bar."""
@@ -50,8 +53,8 @@ def stress(
     run
         A run in memory or a stored one.
     component
-        "mises", "xx", "yy", "xy", "major" or "minor", or a quantity of the frame on elements that
-        the scene asks for: "von_mises", "ground:pressure", "principal_stress:major".
+        "mises", "xx", "yy", "xy", "major" or "minor", or a quantity of the frame on elements or
+        points: "von_mises", "heat:temperature", "ground:pressure", "principal_stress:major".
     frame
         Number of the frame, counted from the end when negative.
     magnification
@@ -68,7 +71,7 @@ def stress(
     """
     shown = run.frames[frame]
     topology = run.topologies[shown.topology]
-    values, unit = _chosen(shown, component)
+    values, unit = _chosen(shown, topology, component)
     factor, unit = prefixed(values, unit)
     polygons = magnified(shown, topology, magnification)
     extent = extent_of(polygons.points)
@@ -82,7 +85,9 @@ def stress(
         axes, polygons, edgecolors="face", linewidths=0.1, cmap="RdBu_r" if signed else "viridis"
     )
     drawn.set_array(values)
-    drawn.set_clim(-limit if signed else 0.0, limit)
+    least = float(values.min(initial=np.inf))
+    bottom = least if least > FAR * limit else 0.0
+    drawn.set_clim(-limit if signed else bottom, limit)
     draw_lines(
         axes, topology, polygons, shown, colors="#00000066", linewidths=0.7 * line_width(topology)
     )
@@ -101,8 +106,12 @@ def stress(
     return finished(axes, path, fit=ax is None, beside=BESIDE + 0.9)
 
 
-def _chosen(frame: Frame, component: str) -> tuple[Floats, str]:
-    """Return the values (E,) that are drawn, and their unit."""
+def _chosen(frame: Frame, topology: Topology, component: str) -> tuple[Floats, str]:
+    """Return the values (E,) that are drawn, and their unit; of points their means."""
+    at_points = frame.on("points").get(component)
+    if at_points is not None and at_points.values.ndim == 1:
+        owner = topology.elements.polygon_of_point
+        return np.bincount(owner, at_points.values) / np.bincount(owner), at_points.unit
     scalars = {name: (q.values, q.unit) for name, q in frame.on("elements").items()}
     for name, one in frame.on("elements").items():
         if one.values.ndim == 2:

@@ -1,0 +1,215 @@
+"""Temperature of scenes: what it does to a run, and what it must leave alone."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.errors import SceneError
+from nmm.testing import check_effect_of
+
+WALL = """
+title = "wall"
+plane = "strain"
+[materials.m]
+young_modulus = "1 GPa"
+poisson_ratio = 0.2
+density = 2000.0
+conductivity = 2.0
+heat_capacity = 1000.0
+thermal_expansion = 1e-5
+[interfaces.j]
+friction_angle = 0.5
+bonded = true
+{joint}
+[[blocks]]
+name = "a"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 0.5], [0, 0.5]]
+[[blocks]]
+name = "b"
+material = "m"
+vertices = [[1, 0], [2, 0], [2, 0.5], [1, 0.5]]
+[[supports]]
+name = "foot"
+segment = [[0, 0], [0, 0.5]]
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[2, 0], [2, 0.5]]
+traction = ["1 MPa", 0]
+"""
+HOT = """
+[[temperatures]]
+name = "hot"
+segment = [[0, 0], [0, 0.5]]
+temperature = {hot}
+[[temperatures]]
+name = "cold"
+segment = [[2, 0], [2, 0.5]]
+temperature = 0.0
+"""
+MESH = "[formulation.cover]\ntype = 'triangles'\nsize = 0.37\ndegree = 1\n"
+TRANSIENT = """
+[heat]
+transient = true
+duration = "2 days"
+[formulation.loading]
+increment = 0.1
+[formulation.diffusion]
+theta = 0.5
+"""
+
+
+def wall(joint="", hot=40.0, heat="[heat]\n", more=""):
+    return WALL.format(joint=joint) + heat + HOT.format(hot=hot) + more
+
+
+def test_no_rise_changes_nothing():
+    plain = nmm.run(nmm.parse_scene(WALL.format(joint="") + MESH))
+    neutral = nmm.run(nmm.parse_scene(wall(joint="conductance = 3.0", hot=0.0, more=MESH)))
+    size = abs(plain.displacement).max()
+    # The claim of every neutral effect: less than 1e-12 of the answer.
+    assert abs(neutral.displacement - plain.displacement).max() < 1e-12 * size
+    assert "heat" in neutral.summary.effect_seconds
+
+
+def test_a_scene_without_heat_imports_none_of_it():
+    code = (
+        "import sys, nmm\n"
+        f"nmm.run(nmm.parse_scene('''{WALL.format(joint='')}'''))\n"
+        "print([m for m in sys.modules if m.startswith(('nmm.heat', 'nmm.diffusion'))])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize("cover", ["", MESH])
+def test_a_joint_lets_through_what_its_conductance_says(cover):
+    run = nmm.run(nmm.parse_scene(wall("conductance = 3.0", more=cover)))
+    # Resistances in series: 2 m / k + 1 / h, over a face of half a metre.
+    flow = 40 / (2 / 2 + 1 / 3) * 0.5
+    assert run.history["heat:taken:hot"][-1] == pytest.approx(flow, rel=1e-9)
+    assert run.history["heat:taken:cold"][-1] == pytest.approx(-flow, rel=1e-9)
+
+
+@pytest.mark.parametrize(("crack", "flow"), [("", 0.0), ("conductance = 3.0", 15.0)])
+def test_a_crack_through_the_wall_insulates_unless_it_conducts(crack, flow):
+    split = (
+        '[[cracks]]\nname = "c"\npoints = [[0.613, -0.1], [0.613, 0.6]]\n'
+        f"{crack}\n{MESH}[formulation.diffusion]\nstep = 1.0\n"
+    )
+    glued = wall('conductance = "perfect"', more=split)
+    run = nmm.run(nmm.parse_scene(glued))
+    # 40 K over 2 m / k + 1 / h, over half a metre; nothing where the crack insulates.
+    assert run.history["heat:taken:hot"][-1] == pytest.approx(flow, abs=1e-8)
+
+
+def test_the_temperature_jumps_across_a_crack_that_stands_in_its_way():
+    crack = '[[cracks]]\nname = "c"\npoints = [[0.503, 0.1], [0.503, 0.4]]\n'
+    fine = crack + MESH.replace("0.37", "0.05")
+    run = nmm.run(nmm.parse_scene(wall('conductance = "perfect"', more=fine)))
+    points = run.manifold.elements.points
+    heat = run.frames[-1].fields["heat:temperature"].values
+    near = (abs(points[:, 0] - 0.503) < 1e-9) & (abs(points[:, 1] - 0.25) < 0.1)
+    assert np.ptp(heat[near]) > 1.0
+    # A row of slits 2 a in every width W lengthens the way by 2 W / pi ln sec(pi a / W) (Carslaw
+    # and Jaeger); cells at the tips, which they do not cut in two, let heat through: 3 % here.
+    way = 2 + 2 * 0.5 / np.pi * np.log(1 / np.cos(np.pi * 0.15 / 0.5))
+    assert run.history["heat:taken:hot"][-1] == pytest.approx(40 / way, rel=0.035)
+
+
+def test_transient_heat_is_conserved_and_tends_to_the_steady_one():
+    text = wall('conductance = "perfect"', heat=TRANSIENT, more=MESH)
+    history = nmm.run(nmm.parse_scene(text)).history
+    taken = history["heat:taken:hot"] + history["heat:taken:cold"]
+    assert abs(history["heat:stored"] - taken).max() < 1e-10 * history["heat:stored"].max()
+    late = nmm.run(nmm.parse_scene(text.replace("2 days", "3000 days")))
+    steady = nmm.run(nmm.parse_scene(wall('conductance = "perfect"', more=MESH)))
+    # Steps of a hundred diffusion times: Crank and Nicolson's method rings on, damped.
+    assert late.displacement == pytest.approx(steady.displacement, abs=2e-2 * 8e-4)
+
+
+def test_heat_is_followed_over_a_change_of_covers():
+    stages = (
+        '[[stages]]\nname = "coarse"\n[[stages]]\nname = "fine"\n'
+        "cover = { degree = 2, size = 0.3 }\n"
+    )
+    heat = TRANSIENT.replace("[formulation.loading]\nincrement = 0.1\n", "")
+    text = wall('conductance = "perfect"', heat=heat, more=stages + MESH)
+    run = nmm.run(nmm.parse_scene(text))
+    assert run.summary.status == "converged"
+    taken = run.history["heat:taken:hot"] + run.history["heat:taken:cold"]
+    # What is carried over has the same heat: the constant field is one of the new functions.
+    assert abs(run.history["heat:stored"] - taken).max() < 1e-9 * taken.max()
+    assert (np.diff(run.history["heat:stored"]) > 0).all()
+
+
+@pytest.mark.parametrize("cover", ["", MESH])
+def test_heat_keeps_what_every_effect_promises(cover):
+    check_effect_of(nmm.parse_scene(wall("conductance = 3.0", more=cover)), "heat")
+
+
+FAULTS = [
+    (wall().replace("[heat]\n", ""), "temperatures.*add .heat."),
+    (wall(heat="[heat]\ntransient = true\n"), "heat.transient.*duration missing"),
+    (wall(heat='[heat]\nduration = "1 h"\n'), "duration of steady heat"),
+    (wall().replace("conductivity = 2.0\n", ""), "materials.m: conductivity missing"),
+    (wall(joint="conductance = -3.0"), "conductance: -3.0: expected a conductance"),
+    (wall(joint='conductance = "fine"'), "conductance"),
+    (wall().replace("segment = [[2, 0], [2, 0.5]]\ntemperature", "temperature"), "no place"),
+    (wall().replace("temperature = 40.0", 'temperature = "40 m"'), "converts to K"),
+    (wall().replace('name = "cold"', 'name = "hot"'), "a name of its own"),
+]
+
+
+@pytest.mark.parametrize(("text", "said"), FAULTS)
+def test_what_contradicts_itself_is_refused_by_line(text, said):
+    with pytest.raises(SceneError, match=said):
+        nmm.parse_scene(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (wall(), "block b: nothing holds its temperature"),
+        (
+            wall("conductance = 1.0").replace("[[2, 0], [2, 0.5]]\ntemp", "[[9, 0], [9, 1]]\ntemp"),
+            "segment: .*expected a part of the boundary",
+        ),
+        (
+            wall("conductance = 1.0").replace(
+                "[materials.m]", '[materials.m]\nlaw = "von_mises"\nyield_stress = "1 MPa"'
+            ),
+            "thermal_expansion.*linear",
+        ),
+    ],
+)
+def test_what_cannot_be_solved_is_refused_by_line_before_it_runs(text, said):
+    if "nothing" in said:
+        text = text.replace("[[2, 0], [2, 0.5]]\ntemperature", "[[0, 0.5], [1, 0.5]]\ntemperature")
+    with pytest.raises(SceneError, match=said):
+        nmm.run(nmm.parse_scene(text))
+
+
+def test_a_run_goes_on_from_a_checkpoint_to_the_same_bytes(tmp_path):
+    text = wall('conductance = "perfect"', heat=TRANSIENT, more=MESH)
+    # Which solver "auto" takes depends on what the process has imported before.
+    text += "[formulation.solver]\ntype = 'superlu'\n[output]\ncheckpoint = { every_steps = 4 }\n"
+    scene = nmm.parse_scene(text)
+    whole = nmm.run(scene, out=tmp_path / "whole")
+
+    def stop(share, said):
+        if share > 0.65:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        nmm.run(scene, out=tmp_path / "half", progress=stop)
+    resumed = nmm.resume(tmp_path / "half")
+    for name, column in whole.history.items():
+        assert np.array_equal(column, resumed.history[name], equal_nan=True), name
+    ends = [run.frames[-1].fields["heat:temperature"].values for run in (whole, resumed)]
+    assert np.array_equal(*ends)
