@@ -213,14 +213,15 @@ class Simulation:
         return end.state
 
     def _failure_bound(self) -> float | None:
-        """Return the load factor that no run until failure can pass; None of other runs."""
+        """Return the load factor that no run until failure can pass; None where there is none."""
         loading = self.scene.loading
         if self.scene.inertia is not None or loading is None or loading.until != "failure":
             return None
         begun = perf_counter()
         found = load_bound(self.stepper, self.start)
         self.stepper.seconds["bound"] = perf_counter() - begun
-        return None if found is None else found.factor
+        bounded = found is not None and found.factor is not None and np.isfinite(found.factor)
+        return found.factor if bounded else None
 
     def _advance(
         self,

@@ -15,7 +15,6 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.enforcement.rebalanced import solve_rebalanced
-from nmm.contact.iteration.memory import Memory
 from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import Dashpots, RigidMass
@@ -93,7 +92,7 @@ class ContactSolver:
         mass: RigidMass,
         unknown_body: Ints,
     ) -> None:
-        self.memory = Memory()
+        self.memory = enforcement.memory()
         self.last: tuple[StepProblem, StepAnswer] | None = None
         self._laws, self._softness, self._enforcement = laws, softness, enforcement
         self._mass, self._unknown_body = mass, unknown_body
