@@ -220,8 +220,8 @@ class Simulation:
         begun = perf_counter()
         found = load_bound(self.stepper, self.start)
         self.stepper.seconds["bound"] = perf_counter() - begun
-        bounded = found is not None and found.factor is not None and np.isfinite(found.factor)
-        return found.factor if bounded else None
+        factor = None if found is None else found.factor
+        return factor if factor is not None and np.isfinite(factor) else None
 
     def _advance(
         self,
