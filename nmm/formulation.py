@@ -90,6 +90,13 @@ class ContactMethod(PartTable):
         description="a multiple of E / (distance of the blocks' middles), > 0: stiffness of joints",
         examples=[0.5],
     )
+    bonds: Literal["auto", "spring", "nitsche"] = Field(
+        default="auto",
+        description='"auto", "spring" or "nitsche": what holds whole bonds whose interface names '
+        "no stiffness; auto is Nitsche's terms, and springs where functions have no strain, "
+        "volumes are projected or a material is not linear",
+        examples=["nitsche"],
+    )
     max_passes: Count = Field(
         default=20,
         gt=0,
@@ -102,9 +109,10 @@ class ContactMethod(PartTable):
         "corners alone, or spread over the faces that lie on each other; auto is faces for meshes",
         examples=["faces"],
     )
-    joint_points: Literal["corners", "gauss"] = Field(
-        default="corners",
-        description='"corners" or "gauss": where joints act and are judged along their edge',
+    joint_points: Literal["auto", "corners", "gauss"] = Field(
+        default="auto",
+        description='"auto", "corners" or "gauss": where joints act and are judged along their '
+        "edge; auto is gauss where Nitsche's terms hold whole bonds, else corners",
         examples=["gauss"],
     )
 
