@@ -151,6 +151,14 @@ class Rotation(Frozen):
     )
 
 
+class BarPieces(Frozen):
+    """How finely bars with a bond are divided."""
+
+    pieces: Count = Field(
+        default=40, gt=0, le=10_000, description="a number of pieces of each, > 0", examples=[40]
+    )
+
+
 class LoadSteps(Frozen):
     """Load increments of static scenes."""
 
@@ -218,6 +226,7 @@ class Formulation(Frozen):
     loading: LoadSteps = Field(default=LoadSteps(), description="a table [loading]")
     solver: Solver = Field(default=Solver(), description="a table [solver]")
     diffusion: Diffusion | None = Field(default=None, description="a table [diffusion]")
+    bars: BarPieces = Field(default=BarPieces(), description="a table [bars]")
 
     _source: Source = PrivateAttr(default_factory=lambda: Source("formulation"))
 
@@ -246,8 +255,12 @@ def parse_formulation(text: str, place: str = "formulation") -> Formulation:
 
 
 def canonical_text(formulation: Formulation) -> str:
-    """The formulation in one form, whatever its file's order, units and comments."""
-    content = formulation.model_dump(mode="json", exclude_none=True)
+    """The formulation in one form, whatever its file's order, units and comments.
+
+    The pieces of bars are left out where they are those of default, as in earlier versions.
+    """
+    usual = {"bars"} if formulation.bars == BarPieces() else set()
+    content = formulation.model_dump(mode="json", exclude_none=True, exclude=usual)
     return json.dumps(content, sort_keys=True, separators=(",", ":"))
 
 

@@ -16,6 +16,7 @@ from nmm.scene.lines import Path
 from nmm.scene.stage_rules import stage_contradictions
 from nmm.scene.tables.heat_rules import PARTS as HEAT
 from nmm.scene.tables.heat_rules import heat_contradictions
+from nmm.scene.tables.member_rules import member_contradictions
 from nmm.scene.tables.motion_rules import EDGES, motion_contradictions
 
 Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
@@ -34,7 +35,14 @@ def contradictions(data: object) -> list[Finding]:
     if not isinstance(plain, Mapping):
         return []
     own: tuple[Rule, ...] = (_solids, _names, _materials, _interfaces, _block_names, _densities)
-    rules = (*own, _effects, stage_contradictions, heat_contradictions, motion_contradictions)
+    rules = (
+        *own,
+        _effects,
+        stage_contradictions,
+        heat_contradictions,
+        motion_contradictions,
+        member_contradictions,
+    )
     return [finding for rule in rules for finding in rule(plain)]
 
 
