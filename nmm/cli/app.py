@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from nmm.cli import scene_verbs, study_verbs, verification_verbs
+from nmm.cli import motion_verbs, scene_verbs, study_verbs, verification_verbs
 from nmm.cli.scene_verbs import AllowCode, FormulationFile, allowed, read_formulation
 from nmm.cli.terminal import (
     console,
@@ -171,6 +171,7 @@ def _tell_missed(missed: list[str]) -> None:
 
 
 study_verbs.register(app)
+motion_verbs.register(app)
 verification_verbs.register(app)
 
 
