@@ -38,12 +38,8 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "free fields": "nmm.effects.motion.free_fields:FreeFields",
         "viscous damping": "nmm.effects.damping.viscous:ViscousDamping",
         "local damping": "nmm.effects.damping.local:LocalDamping",
-        "springs": "nmm.effects.members.springs:PointSprings",
-        "dashpots": "nmm.effects.members.dashpots:PointDashpots",
-        "bars": "nmm.effects.members.bars:BarMembers",
-        "foundations": "nmm.effects.members.foundations:Foundations",
-        "masses": "nmm.effects.members.masses:PointMasses",
         "contact": "nmm.effects.contact:Contact",
+        "fracture": "nmm.fracture.growth.crack_growth:CrackGrowth",
         "artificial joints": "nmm.constraints.artificial_joints:ArtificialJoints",
     },
 )
@@ -68,12 +64,8 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
     "free fields": lambda s: bool(s.free_fields),
     "viscous damping": lambda s: s.damping is not None and s.damping.coefficients is not None,
     "local damping": lambda s: s.damping is not None and s.damping.local is not None,
-    "springs": lambda s: bool(s.springs),
-    "dashpots": lambda s: bool(s.dashpots),
-    "bars": lambda s: bool(s.bars),
-    "foundations": lambda s: bool(s.foundations),
-    "masses": lambda s: bool(s.masses),
     "contact": lambda s: s.contact is not None,
+    "fracture": lambda s: s.fracture is not None,
 }
 """When a scene calls for a built-in effect, in the order in which they act."""
 

@@ -19,7 +19,7 @@ from nmm.geometry.checks.amounts import refuse_many_cells
 from nmm.geometry.regions import regions as build_regions
 from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.integrators.base import make_integrator
-from nmm.model.build import block_functions, geometry_of, reshaped, setup_of, small_motion
+from nmm.model.build import block_functions, geometry_of, reshaped, setup_of
 from nmm.model.consistency import check_together
 from nmm.model.discretisation import Discretisation
 from nmm.model.fault_places import placed
@@ -213,15 +213,14 @@ class Simulation:
         return end.state
 
     def _failure_bound(self) -> float | None:
-        """Return the load factor that no run until failure can pass; None where there is none."""
+        """Return the load factor that no run until failure can pass; None of other runs."""
         loading = self.scene.loading
         if self.scene.inertia is not None or loading is None or loading.until != "failure":
             return None
         begun = perf_counter()
         found = load_bound(self.stepper, self.start)
         self.stepper.seconds["bound"] = perf_counter() - begun
-        factor = None if found is None else found.factor
-        return factor if factor is not None and np.isfinite(factor) else None
+        return None if found is None else found.factor
 
     def _advance(
         self,
@@ -243,6 +242,10 @@ class Simulation:
         loads = self._load_schedule()
         under = at or checkpoints.begin(UnderLoad.at_start(self.start, loads))
         assert isinstance(under, UnderLoad)
+        if scene.fracture is not None and scene.fracture.control == "toughness":
+            from nmm.stepping.drive.growth import run_growth
+
+            return run_growth(stepper, recorder, under, loads, progress, checkpoints.keep)
         state, verdict = run_load(
             stepper, recorder, under, loads, progress, self.regions.name, checkpoints.keep
         )
@@ -398,7 +401,7 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
         discretisation,
         make_integrator(formulation.integrator),
         solver_for(model.manifold, formulation.solver),
-        small=small_motion(scene, formulation),
+        small=_small(scene, formulation),
         lay=_lay(formulation, model, plan),
     )
     limits = formulation.loading
@@ -418,7 +421,6 @@ def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) ->
     setup = setup_of(stage.scene, stage.formulation, geometry, origin)
     whole = replace(
         setup,
-        small=small_motion(scene, stage.formulation),
         region_name=tuple(regions.name),
         region_material=np.asarray(regions.material),
         acting=stage.acting,
@@ -444,6 +446,14 @@ def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
             'cover type "block" of degree 1: use update = "exact"'
         )
     return lambda polygons: block_manifold(polygons, model.manifold.element_region, functions)
+
+
+def _small(scene: "Scene", formulation: Formulation) -> bool:
+    """Whether bodies' axes stay: asked for, or statics of bodies that nothing touches."""
+    update = formulation.rotation.update
+    return update == "small" or (
+        update == "auto" and scene.inertia is None and scene.contact is None
+    )
 
 
 def _toml(model: "Scene | Formulation") -> str:

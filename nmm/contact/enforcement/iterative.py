@@ -29,14 +29,10 @@ class IterativeEnforcement(Enforcement):
     ----------
     iterations
         Tables ``[contact.options.iterations.alternation]``, ``springs``, ``interior``,
-        ``rounds``, ``barrier`` and ``memory`` (`nmm.contact.iteration.options`).
+        ``rounds`` and ``barrier`` (`nmm.contact.iteration.options`).
     """
 
     iterations: IterationOptions = field(default_factory=IterationOptions, kw_only=True)
-
-    def memory(self) -> Memory:
-        """See `Enforcement.memory`."""
-        return Memory(options=self.iterations.memory)
 
 
 @dataclass(frozen=True)
@@ -73,7 +69,7 @@ class ExactEnforcement(IterativeEnforcement):
     ) -> StepAnswer:
         """Find admissible forces that balance the step with complementary gaps."""
         problem.check()
-        memory = memory or self.memory()
+        memory = memory or Memory()
         goal = exact_goal(problem, self.tolerance, self.gap_tolerance)
         try:
             at, how = self.forces(problem, linear_solver, memory, goal)

@@ -57,8 +57,7 @@ class HistoryIteration:
     @property
     def softening(self) -> Bools:
         """Which contacts are bonds that lose their strength in the course of solutions."""
-        whole = self.start.tied
-        return self.start.bonded & ~whole & np.isfinite(self.before.limits.tension)
+        return self.start.bonded & np.isfinite(self.before.limits.tension)
 
     @property
     def asymmetric(self) -> AsymmetricSprings | None:

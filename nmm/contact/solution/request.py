@@ -33,8 +33,6 @@ class StepRequest:
     near
         Whether an increment (n,) moves no further than contacts were sought: no bond is judged by
         one that does. None: none does.
-    time
-        At its end (s); None where nothing hangs on it.
     """
 
     matrix: csc_array
@@ -45,4 +43,3 @@ class StepRequest:
     null_space: NullSpace | None = None
     breaking: Breaking = "all"
     near: Callable[[Floats], bool] | None = None
-    time: float | None = None

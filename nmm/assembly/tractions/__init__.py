@@ -1,1 +1,0 @@
-"""Tractions across the edges that bodies share: of either side, averaged, and how large."""

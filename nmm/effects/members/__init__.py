@@ -1,1 +1,0 @@
-"""What connects points: springs, dashpots, bars with bond, foundations; and masses at points."""

@@ -1,0 +1,1 @@
+"""Growth of cracks: fronts and their intensities, the rule of growth, where new pieces end."""

@@ -1,0 +1,75 @@
+"""New pieces of cracks, and where they end.
+
+A piece goes straight from its tip by the growth length. One that would meet the boundary, a hole or
+another crack, or end less than a quarter of that length short of it, ends on it: the front is
+gone, and what is cut off is a body of its own.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from covers.cutting.cut_cells import CutCells
+from integration.arrays import Floats, Ints
+from nmm.fracture.growth.fronts import CrackFronts
+
+# Part of the growth length up to which a ligament that would be left is cut through.
+LIGAMENT = 0.25
+# Segments that begin nearer to a tip than this part of the growth length are its own faces.
+OWN = 1e-6
+
+
+def advanced(
+    cut: CutCells,
+    cracks: Sequence[Floats],
+    fronts: CrackFronts,
+    growing: Ints,
+    tips: Ints,
+    angle: Floats,
+    length: float,
+) -> tuple[Floats, ...]:
+    """Return the polylines with new pieces at some fronts.
+
+    Parameters
+    ----------
+    growing, tips
+        (k,) fronts that grow, and their tips in the cut.
+    angle
+        (k,) of each new piece from the direction ahead (rad).
+    length
+        Of each (m).
+    """
+    grown, edges = list(cracks), cut.boundary
+    begins = fronts.points(cracks)
+    start, end, body = edges.start, edges.end, edges.body
+    for front, tip, turn in zip(growing, tips, angle, strict=True):  # a handful of fronts
+        begin, ahead = begins[front], cut.tips.direction[tip]
+        c, s = np.cos(turn), np.sin(turn)
+        way = np.array([c * ahead[0] - s * ahead[1], s * ahead[0] + c * ahead[1]])
+        mine = cut.element_body[cut.tips.element[tip]]
+        near = body == mine
+        reach = _clear(begin, way, start[near], end[near], length)
+        last = begin + reach * way
+        line, crack = grown[fronts.crack[front]], fronts.crack[front]
+        parts = [line, last[None]] if fronts.last[front] else [last[None], line]
+        grown[crack] = np.concatenate(parts)
+        # A piece that comes after this one may not cross it.
+        start, end = np.append(start, begin[None], axis=0), np.append(end, last[None], axis=0)
+        body = np.append(body, mine)
+    return tuple(grown)
+
+
+def _clear(begin: Floats, way: Floats, start: Floats, end: Floats, length: float) -> float:
+    """Length to the first segment (m, 2) on the way, or the whole where it is far beyond."""
+    one, two = start - begin, end - begin
+    own = np.minimum(np.hypot(*one.T), np.hypot(*two.T)) < OWN * length
+    one, two = one[~own], two[~own]
+    side_one = way[0] * one[:, 1] - way[1] * one[:, 0]
+    side_two = way[0] * two[:, 1] - way[1] * two[:, 0]
+    crossed = side_one * side_two <= 0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = side_one / (side_one - side_two)
+        along = (one + share[:, None] * (two - one)) @ way
+    hits = along[crossed & np.isfinite(along) & (along > OWN * length)]
+    first = float(hits.min(initial=np.inf))
+    return first if first <= (1 + LIGAMENT) * length else length

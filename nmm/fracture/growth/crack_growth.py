@@ -1,0 +1,214 @@
+"""The effect of ``[fracture]``: cracks that grow where their tips reach the toughness."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.effects.base import Effect, Setup
+from nmm.effects.event import Event
+from nmm.errors import Fault, FormulationError, SceneError
+from nmm.fracture.criteria.base import Kink
+from nmm.fracture.growth.advance import advanced
+from nmm.fracture.growth.fronts import CrackFronts
+from nmm.fracture.growth.rule import GrowthRule
+from nmm.fracture.stress_intensity import stress_intensity
+from nmm.fracture.surroundings import domain_radius
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+    from nmm.effects.view import View
+
+
+@dataclass(frozen=True)
+class Intensities:
+    """What the fronts with a tip have in a state.
+
+    Attributes
+    ----------
+    front, tip
+        (k,) the fronts, and their tips in the cut.
+    opening, sliding
+        (k,) K_I and K_II (Pa m^1/2).
+    stiff
+        (k,) E' of the material about each (Pa).
+    kink, share
+        How each would go on, and the share of its toughness that it has reached.
+    """
+
+    front: Ints
+    tip: Ints
+    opening: Floats
+    sliding: Floats
+    stiff: Floats
+    kink: Kink
+    share: Floats
+
+
+class CrackGrowth(Effect):
+    """Cracks of the scene that grow by a rule; their fracture energy is what the growth takes."""
+
+    name = "fracture"
+    external = False
+
+    def __init__(self, setup: Setup, fronts: CrackFronts, grown: Floats) -> None:
+        table = setup.scene.fracture
+        assert table is not None
+        self.rule = GrowthRule.of(table)
+        self._setup, self._fronts, self._grown, self._table = setup, fronts, grown, table
+        self._tips = fronts.tips(setup.model.cut, setup.geometry.cracks)
+        self._known: tuple[Floats, Intensities] | None = None
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from ``[fracture]`` and ``[[cracks]]``.
+
+        Raises
+        ------
+        SceneError
+            No crack that ends inside a block.
+        FormulationError
+            A cover whose tips carry no functions, or matter that is not linear.
+        """
+        names = [crack.name for crack in setup.scene.cracks]
+        made = cls(setup, CrackFronts.of(names), np.zeros(2 * len(names)))
+        _refuse(setup, made._tips)
+        return made
+
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        return f"{self._table.criterion}, pieces of {self.rule.increment:g} m"
+
+    def intensities(self, state: State) -> Intensities:
+        """Return what the tips have in a state; kept for the last one."""
+        if self._known is None or self._known[0] is not state.deformation:
+            self._known = state.deformation, self._found(state)
+        return self._known[1]
+
+    def _found(self, state: State) -> Intensities:
+        model, front = self._setup.model, np.flatnonzero(self._tips >= 0)
+        tip = self._tips[front]
+        element = model.cut.tips.element[tip]
+        kappa = np.array([_kolosov(model, int(one)) for one in element])
+        stiff = 8 * model.elasticity[element, 2, 2] / (kappa + 1)
+        weight = self._weight()
+        about = [
+            stress_intensity(
+                model,
+                state.deformation,
+                int(one),
+                domain_radius(model.cut, int(one), self._radius()),
+                kappa=float(k),
+                body_force=None if weight is None else _even(weight * model.density[at]),
+            )
+            for one, k, at in zip(tip, kappa, element, strict=True)  # a handful of tips
+        ]
+        opening = np.array([one.opening for one in about])
+        sliding = np.array([one.sliding for one in about])
+        kink = self.rule.criterion.kink(opening, sliding, kappa)
+        return Intensities(front, tip, opening, sliding, stiff, kink, self.rule.shares(kink, stiff))
+
+    def _radius(self) -> float:
+        """Radius of domains (m): that of the scene, or three cells."""
+        size = self._setup.formulation.cover.size
+        assert size is not None  # of meshes
+        return 3 * size if self._table.radius is None else self._table.radius
+
+    def _weight(self) -> Floats | None:
+        gravity = self._setup.scene.gravity
+        return None if gravity is None else np.array(gravity.acceleration)
+
+    def free(self, found: Intensities) -> Bools:
+        """Which fronts (k,) with a tip have not grown as far as they may."""
+        return np.asarray(self._grown[found.front] < self.rule.most * (1 - 1e-9))
+
+    def event(self, view: "View") -> Event | None:
+        """Ask for new pieces where tips have reached their toughness."""
+        found = self.intensities(view.state)
+        rows = np.flatnonzero(self.rule.growing(found.share, self._grown[found.front]))
+        if not len(rows):
+            return None
+        geometry, cut = self._setup.geometry, self._setup.model.cut
+        cracks = advanced(
+            cut,
+            geometry.cracks,
+            self._fronts,
+            found.front[rows],
+            found.tip[rows],
+            found.kink.angle[rows],
+            self.rule.increment,
+        )
+        names = ", ".join(self._fronts.name[one] for one in found.front[rows])
+        return Event(replace(geometry, cracks=cracks), f"cracks grew at {names}")
+
+    def follow(self, change: "Change") -> "CrackGrowth":
+        """Return the effect on the new geometry, with what its fronts have gained."""
+        gained = self._fronts.gained(self._setup.geometry.cracks, change.setup.geometry.cracks)
+        return CrackGrowth(change.setup, self._fronts, self._grown + gained)
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Place, growth and intensities of every front, and the energy that growth took (J)."""
+        found = self.intensities(state)
+        rate = (found.opening**2 + found.sliding**2) / found.stiff
+        places = self._fronts.points(self._setup.geometry.cracks) + self._setup.origin
+        row = {"growth": float(self._grown.sum()), "energy": self._taken()}
+        for name, (x, y), grown in zip(self._fronts.name, places, self._grown, strict=True):
+            row |= {f"{name}:x": x, f"{name}:y": y, f"{name}:growth": grown}
+        for number, front in enumerate(found.front):
+            name = self._fronts.name[front]
+            row[f"{name}:K_I"], row[f"{name}:K_II"] = found.opening[number], found.sliding[number]
+            row[f"{name}:G"], row[f"{name}:share"] = rate[number], found.share[number]
+        return {key: float(value) for key, value in row.items()}
+
+    def _taken(self) -> float:
+        model = self._setup.model
+        stiff = 8 * model.elasticity[0, 2, 2] / (_kolosov(model, 0) + 1)
+        energy = float(self.rule.toughness.energies(np.array([stiff]))[0])
+        return energy * float(self._grown.sum()) * model.thickness
+
+    def carried(self) -> Floats:
+        """How far each front has grown (m)."""
+        return self._grown
+
+    def carry(self, carried: Floats) -> None:
+        """See `Effect.carry`."""
+        self._grown = carried
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._known = None
+
+
+def _kolosov(model: Model, element: int) -> float:
+    """Kolosov's constant of the material of an element."""
+    number = 0 if model.law is None else int(model.law[element])
+    return model.laws[number].kolosov(model.plane)
+
+
+def _even(force: Floats) -> Callable[[Floats], Floats]:
+    """Return a force density that is the same everywhere."""
+    return lambda points: np.tile(force, (len(points), 1))
+
+
+def _refuse(setup: Setup, tips: Ints) -> None:
+    """Refuse scenes without anything to grow, and what cannot carry the growth."""
+    scene, model = setup.scene, setup.model
+    place = scene.source.place("fracture")
+    if not (tips >= 0).any():
+        remedy = "let one of [[cracks]] end inside a block, or remove [fracture]"
+        raise SceneError(Fault(place, "no crack tip", "a crack that can grow", remedy))
+    singular = model.manifold.singular
+    for point in model.cut.tips.point[tips[tips >= 0]]:  # a handful of tips
+        if not (singular == point).all(axis=1).any():
+            value = f"the tip at {point.tolist()} carries no tip functions"
+            expected = "a mesh of monomials, with cells of less than a third of the crack's length"
+            remedy = "correct functions or size of [cover], or tips of [cover.enrichment]"
+            raise FormulationError(Fault(place, value, expected, remedy))
+    if model.matter is not None:
+        remedy = "use elastic materials, or remove [fracture]"
+        raise FormulationError(Fault(place, "matter that is not linear", "elastic matter", remedy))

@@ -1,0 +1,62 @@
+"""CrackFronts: the ends of a scene's cracks, wherever their tips are now."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.cutting.cut_cells import CutCells
+from integration.arrays import Bools, Floats, Ints
+
+# A tip is the end of a polyline that lies within so many of the lengths by which a cut may move it.
+MOVED = 4.0
+
+
+@dataclass(frozen=True)
+class CrackFronts:
+    """Both ends of every crack of a scene; those that are no tips now have ended or never were.
+
+    Attributes
+    ----------
+    name
+        Of each front, "notch:start" and "notch:end".
+    crack
+        (n,) number of the crack among those of the geometry.
+    last
+        (n,) whether it is the last point of the polyline, else the first.
+    """
+
+    name: tuple[str, ...]
+    crack: Ints
+    last: Bools
+
+    @classmethod
+    def of(cls, names: Sequence[str]) -> "CrackFronts":
+        """Return the fronts of cracks."""
+        both = [f"{name}:{end}" for name in names for end in ("start", "end")]
+        n = len(names)
+        return cls(tuple(both), np.repeat(np.arange(n), 2), np.tile([False, True], n))
+
+    def __len__(self) -> int:
+        return len(self.crack)
+
+    def points(self, cracks: Sequence[Floats]) -> Floats:
+        """Ends (n, 2) of the polylines."""
+        pairs = zip(self.crack, self.last, strict=True)
+        return np.array([cracks[crack][-1 if last else 0] for crack, last in pairs]).reshape(-1, 2)
+
+    def tips(self, cut: CutCells, cracks: Sequence[Floats]) -> Ints:
+        """Number (n,) of the tip of each front among those of a cut; -1 where it has none."""
+        found = np.full(len(self), -1, dtype=np.int64)
+        if not len(cut.tips):
+            return found
+        away = np.hypot(*np.moveaxis(self.points(cracks)[:, None] - cut.tips.point, -1, 0))
+        away = np.where(cut.tips.crack == self.crack[:, None], away, np.inf)
+        nearest = np.argmin(away, axis=1)
+        there = away[np.arange(len(self)), nearest] <= MOVED * cut.crack_tolerance
+        found[there] = nearest[there]
+        return found
+
+    def gained(self, before: Sequence[Floats], after: Sequence[Floats]) -> Floats:
+        """Length (n,) by which each front has gone on from one set of polylines to another (m)."""
+        return np.asarray(np.hypot(*(self.points(after) - self.points(before)).T))

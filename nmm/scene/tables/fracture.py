@@ -1,0 +1,70 @@
+"""Growth of cracks: the criterion, the toughness, how far at once and under which loads."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from nmm.scene.fields import Frozen, Length, Number, PartName, SurfaceEnergy, fault, quantity
+
+Intensity = Annotated[float, quantity("Pa m^0.5", 1e-30)]
+
+
+class FractureTable(Frozen):
+    """Cracks of the scene grow where their tips reach the toughness of the material; in statics.
+
+    A new piece is straight, in the direction of the criterion. One that would meet the boundary, a
+    hole or another crack, or end less than a quarter of its length short of it, ends there.
+    """
+
+    criterion: PartName = Field(
+        default="hoop_stress",
+        description='"hoop_stress", "strain_energy_density", "energy_release", or "module:Name"',
+        examples=["energy_release"],
+    )
+    toughness: Intensity | None = Field(
+        default=None, gt=0, description="K_Ic in Pa m^0.5, > 0", examples=["1.2 MPa m^0.5"]
+    )
+    energy: SurfaceEnergy | None = Field(
+        default=None, gt=0, description="G_c in J/m2, > 0", examples=["100 J/m^2"]
+    )
+    increment: Length = Field(
+        gt=0, description="the length of a new piece in m, > 0", examples=["10 mm"]
+    )
+    max_growth: Length | None = Field(
+        default=None,
+        gt=0,
+        description="a growth in m, > 0, at which a front stops",
+        examples=["200 mm"],
+    )
+    control: Literal["loads", "toughness"] = Field(
+        default="loads",
+        description='"loads": these grow as [loading] says, and cracks under them; "toughness": '
+        "the load factor is that at which the most critical tip is at its toughness, piece by "
+        "piece",
+        examples=["toughness"],
+    )
+    together: Number = Field(
+        default=0.02,
+        ge=0,
+        lt=1,
+        description="a part of the toughness, from 0 to below 1: tips that fall short by less grow "
+        "with a critical one",
+        examples=[0.0],
+    )
+    radius: Length | None = Field(
+        default=None,
+        gt=0,
+        description="a radius in m, > 0, of the domain of the interaction integral; three cells "
+        "of the cover by default",
+        examples=["30 mm"],
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> FractureTable:
+        given = [name for name in ("toughness", "energy") if getattr(self, name) is not None]
+        if len(given) != 1:
+            remedy = "one follows from the other: give one of them"
+            raise fault(" and ".join(given) or "neither", "toughness or energy", remedy)
+        return self

@@ -1,0 +1,47 @@
+"""What growth of cracks lacks, and what it does not go with; works on unvalidated tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from nmm.scene.lines import Path
+
+Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
+Tables = Mapping[str, Any]
+
+# Tables whose stress the intensities do not know, and those in which growth is not defined yet.
+UNKNOWN = ("heat", "initial_stresses")
+# Tables beside which loads alone do not say where the next piece begins.
+NOT_SCALED = ("contact", "gravity", "stages")
+
+
+def fracture_contradictions(data: Tables) -> Iterator[Finding]:
+    """Yield what ``[fracture]`` lacks and what stands in its way."""
+    table = data.get("fracture")
+    if table is None:
+        return
+    if not data.get("cracks"):
+        remedy = "add the cracks that are there from the start"
+        yield ("fracture",), "no [[cracks]]", "a crack that can grow", remedy
+    if "inertia" in data:
+        yield ("fracture",), "[inertia]", "a static scene", "remove one of the two"
+    for key in UNKNOWN:
+        if data.get(key):
+            remedy = "stress intensities do not know it: remove one of the two"
+            yield ("fracture",), f"[{key}]", "loads, supports and weight alone", remedy
+    if isinstance(table, Mapping) and table.get("control") == "toughness":
+        yield from _control(data)
+
+
+def _control(data: Tables) -> Iterator[Finding]:
+    path: Path = ("fracture", "control")
+    for key in NOT_SCALED:
+        if data.get(key) not in (None, (), []):
+            remedy = f'use control = "loads", or remove [{key}]'
+            yield path, f'"toughness" with [{key}]', "loads that one factor scales", remedy
+    loading = data.get("loading")
+    scaled = loading.get("scaled", "all") if isinstance(loading, Mapping) else "all"
+    if scaled != "all":
+        remedy = 'use control = "loads", or scaled = "all"'
+        yield path, f'"toughness" with scaled = {scaled}', "loads that one factor scales", remedy

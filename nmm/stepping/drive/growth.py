@@ -1,0 +1,109 @@
+"""Cracks that grow in equilibrium, piece by piece: the load factor follows the toughness.
+
+Every step finds the factor at which the most critical tip is at its toughness, which with linear
+matter and loads of one factor is a matter of scale. The crack then grows by a piece, and the next
+step finds the next factor, be it larger or smaller: a path that growing loads could not follow.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from nmm.assembly.motion import State
+from nmm.errors import SolveError
+from nmm.stepping.drive.changes import Stands, with_events
+from nmm.stepping.drive.statics import LoadSchedule, UnderLoad
+from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
+from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.step.budget import BudgetSpentError
+from nmm.stepping.step.stepper import Stepper
+
+if TYPE_CHECKING:
+    from nmm.stepping.step.trial import Attempt
+
+
+def run_growth(
+    stepper: Stepper,
+    recorder: Recorder,
+    at: UnderLoad,
+    schedule: LoadSchedule,
+    progress: Callable[[float, str], None],
+    keep: Callable[[UnderLoad], UnderLoad] = lambda at: at,
+) -> tuple[State, RunVerdict]:
+    """Let cracks grow from where they stand until none can.
+
+    ``at.increment`` is the load factor that is tried next; ``keep`` is shown the end of each step.
+
+    Returns
+    -------
+    The last state and the verdict.
+    """
+    growing = _Growing(stepper, recorder, schedule, progress, stepper.model.manifold.n_bodies)
+    verdict = None
+    try:
+        while verdict is None:
+            found = growing.next(at)
+            if isinstance(found, RunVerdict):
+                verdict = found
+            else:
+                at = keep(found)
+    except BudgetSpentError as spent:
+        held = at.state.load_factor
+        verdict = RunVerdict(SPENT, f"stopped at load factor {held:.6g}: {spent}")
+    recorder.last(at.state, "load", at.contacts)
+    return at.state, verdict
+
+
+@dataclass(frozen=True)
+class _Growing:
+    """Goes from the toughness of one piece to that of the next; ``bodies`` are those at first."""
+
+    stepper: Stepper
+    recorder: Recorder
+    schedule: LoadSchedule
+    progress: Callable[[float, str], None]
+    bodies: int
+
+    def next(self, at: UnderLoad) -> UnderLoad | RunVerdict:
+        """Find the load of the present cracks, and let the critical ones grow; or end."""
+        stepper, fracture = self.stepper, self.stepper.plan.fracture
+        assert fracture is not None
+        if self.recorder.steps and not at.changed:
+            return self._ended("no crack grows further", at)
+        if stepper.model.manifold.n_bodies > self.bodies:
+            return self._ended("a piece came free", at)
+        trial = self._solved(at, at.increment)
+        if isinstance(trial, RunVerdict):
+            return trial
+        found = fracture.intensities(trial.state)
+        if not len(found.front):
+            return self._ended("every crack has come to an end", at)
+        free = fracture.free(found)
+        share = float(found.share[free if free.any() else ...].max())
+        if not share > 0:
+            return RunVerdict(FAILED, f"no load factor opens a crack: {at.changed or 'at first'}")
+        attempt = self._solved(at, at.increment / share)
+        return attempt if isinstance(attempt, RunVerdict) else self._grown(at, attempt)
+
+    def _solved(self, at: UnderLoad, factor: float) -> "Attempt | RunVerdict":
+        try:
+            attempt = self.stepper.attempt(at.state, self.schedule.instant(factor), None)
+        except SolveError as fault:
+            return RunVerdict(FAILED, str(fault))
+        return attempt if attempt.converged else RunVerdict(FAILED, attempt.sentence)
+
+    def _grown(self, at: UnderLoad, attempt: "Attempt") -> UnderLoad:
+        """Accept the load of the present cracks, and the pieces by which they grow under it."""
+        state, _ = self.stepper.accept(attempt)
+        self.recorder.step(at.state, attempt, None)
+        self.recorder.offer(state, "load", None)
+        factor = state.load_factor
+        self.progress(0.0, f"load factor {factor:.5g}")
+        stands = with_events(self.recorder, Stands(state, None), "load")
+        return UnderLoad(stands.state, None, factor, at.rest, stands.what)
+
+    def _ended(self, why: str, at: UnderLoad) -> RunVerdict:
+        grown = len(self.recorder.totals.changes)
+        factor = at.state.load_factor
+        sentence = f"cracks grew {grown} times, at load factor {factor:.6g} at last: {why}"
+        return RunVerdict(CONVERGED, sentence)

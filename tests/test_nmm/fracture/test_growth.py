@@ -1,0 +1,259 @@
+"""Cracks that grow: which way, when, where they end, and what is refused."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nmm
+from integration.arrays import Floats
+from nmm.errors import NmmError
+from nmm.formulation import Formulation, parse_formulation
+from nmm.fracture.growth.advance import advanced
+from nmm.fracture.growth.fronts import CrackFronts
+from nmm.materials.elastic import Elastic
+from nmm.model.from_polygons import solid
+from nmm.scene.model import Scene
+from nmm.scene.read import parse_scene
+from nmm.stepping.simulation import prepare
+from nmm.verification.continuum import polygon
+
+PLATE = """
+plane = "strain"
+[materials.m]
+young_modulus = 1.0
+poisson_ratio = 0.3
+[[blocks]]
+name = "plate"
+material = "m"
+vertices = [[0, -0.5], [1, -0.5], [1, 0.5], [0, 0.5]]
+[[cracks]]
+name = "notch"
+points = [[-0.1, 0.0], [{tip}, 0.0]]
+[[supports]]
+name = "floor"
+segment = [[0, -0.5], [1, -0.5]]
+fix = ["x", "y"]
+{pulled}
+[fracture]
+{fracture}
+"""
+LOADED = """
+[[loads]]
+name = "up"
+kind = "edge"
+segment = [[0, 0.5], [1, 0.5]]
+traction = [0, 1.0]
+"""
+DRIVEN = """
+[[supports]]
+name = "up"
+segment = [[0, 0.5], [1, 0.5]]
+fix = ["x", "y"]
+displacement = [0.0, 1.0]
+"""
+NET = """
+[cover]
+type = "triangles"
+size = 0.125
+angle = 0.3
+shift = [0.13, 0.27]
+degree = 1
+[supports]
+method = "nitsche"
+"""
+FOLLOW = 'toughness = 1.0\nincrement = 0.1\nmax_growth = 0.2\ncontrol = "toughness"'
+
+
+class StoppedError(Exception):
+    """Raised in the middle of a run."""
+
+
+def plate(fracture: str = FOLLOW, pulled: str = LOADED, tip: float = 0.3) -> Scene:
+    return parse_scene(PLATE.format(tip=tip, pulled=pulled, fracture=fracture))
+
+
+def net() -> Formulation:
+    return parse_formulation(NET)
+
+
+def test_every_step_of_a_followed_crack_is_at_its_toughness() -> None:
+    run = nmm.run(plate(), net())
+    history = run.history
+    assert run.summary.status == "converged"
+    assert np.array(history["fracture:notch:end:share"]) == pytest.approx(np.ones(3), abs=1e-9)
+    assert history["fracture:notch:end:growth"] == pytest.approx([0.0, 0.1, 0.2], abs=1e-12)
+    assert history["fracture:growth"] == pytest.approx([0.0, 0.1, 0.2], abs=1e-12)
+    # A longer edge crack needs less load.
+    assert (np.diff(history["load_factor"]) < 0).all()
+    rate = (np.array(history["fracture:notch:end:K_I"]) ** 2) * (1 - 0.3**2)
+    assert history["fracture:notch:end:G"] == pytest.approx(rate, rel=1e-2)
+
+
+def test_what_growth_takes_is_missing_in_the_stored_energy() -> None:
+    # Irwin: G = K^2 / E' for every unit of growth, whatever the net resolves of it.
+    run = nmm.run(plate(FOLLOW.replace("0.1", "0.05")), net())
+    work, stored = run.history["external_work"][-1], run.history["strain_energy"][-1]
+    held = run.history["support_energy"][-1]
+    taken = run.history["fracture:energy"][-1]
+    assert taken == pytest.approx(0.2 * (1 - 0.3**2), rel=1e-9)
+    # Measured 4 % of what is taken with eight cells across, 0.4 % of the energies at work.
+    assert work - stored - held == pytest.approx(taken, rel=0.08)
+    assert abs(run.summary.energy_balance or 0.0) < 1e-9
+
+
+def test_driven_edges_hold_a_crack_that_loads_would_not() -> None:
+    """Under growing loads: pieces come one after the other, each at its toughness."""
+    fracture = "toughness = 1.0\nincrement = 0.1\nmax_growth = 0.1"
+    scene = parse_scene(
+        PLATE.format(tip=0.3, pulled=DRIVEN, fracture=fracture) + "[loading]\nuntil = 6.0\n"
+    )
+    how = parse_formulation(NET + "[loading]\nincrement = 1.0\ntolerance = 1e-2\n")
+    run = nmm.run(scene, how)
+    share, grown = (
+        np.array(run.history[f"fracture:notch:end:{key}"]) for key in ("share", "growth")
+    )
+    began = int(np.flatnonzero(grown > 0)[0])
+    assert share[began - 1] == pytest.approx(1.0, abs=2e-2)
+    assert run.history["load_factor"][-1] == pytest.approx(6.0)
+    assert grown[-1] == pytest.approx(0.1)
+
+
+def test_growth_to_the_far_side_frees_a_piece_and_ends() -> None:
+    run = nmm.run(plate('toughness = 1.0\nincrement = 0.11\ncontrol = "toughness"', tip=0.7), net())
+    assert "a piece came free" in run.summary.sentence
+    assert len(run.summary.changes) == 3
+
+
+def test_a_run_that_is_stopped_goes_on_to_the_same_cracks(tmp_path: Path) -> None:
+    text = PLATE.format(tip=0.3, pulled=LOADED, fracture=FOLLOW)
+    scene = parse_scene(text + "[output]\ncheckpoint = { every_steps = 1 }\n")
+    whole, folder, left = nmm.run(scene, net(), out=tmp_path / "whole"), tmp_path / "half", [2]
+
+    def progress(share: float, said: str) -> None:
+        left[0] -= 1
+        if not left[0]:
+            raise StoppedError
+
+    with pytest.raises(StoppedError):
+        nmm.run(scene, net(), out=folder, progress=progress)
+    half = nmm.resume(folder)
+    assert half.summary.sentence == whole.summary.sentence
+    # Covers of degree 1 depend on each other: rounding moves what no strain feels by up to 1e-8.
+    for key in ("load_factor", "fracture:notch:end:x", "fracture:notch:end:K_I"):
+        assert half.history[key] == pytest.approx(whole.history[key], rel=1e-6)
+    assert half.summary.changes == whole.summary.changes
+
+
+def test_the_critical_one_of_two_cracks_grows_first() -> None:
+    text = PLATE.format(tip=0.3, pulled=LOADED, fracture=FOLLOW)
+    other = '[[cracks]]\nname = "short"\npoints = [[1.1, 0.2], [0.9, 0.2]]\n[[supports]]'
+    run = nmm.run(parse_scene(text.replace("[[supports]]", other, 1)), net())
+    # The other one follows where the first has come as far as it may.
+    assert run.history["fracture:notch:end:growth"][:3] == pytest.approx([0.0, 0.1, 0.2])
+    assert run.history["fracture:short:end:growth"] == pytest.approx([0.0, 0.0, 0.0, 0.1, 0.2])
+
+
+@pytest.mark.parametrize(
+    ("cut", "begin", "way", "expected"),
+    [
+        # Far from everything, short of the edge by a tenth of the length, and beyond it.
+        (0.5, 0.0, 0.0, 0.6),
+        (0.89, 0.0, 0.0, 1.0),
+        (0.95, 0.0, 0.0, 1.0),
+        # Short of it by half the length: a ligament stays.
+        (0.85, 0.0, 0.0, 0.95),
+    ],
+)
+def test_a_piece_ends_on_what_it_meets(
+    cut: float, begin: float, way: float, expected: float
+) -> None:
+    found = grown([np.array([[-0.1, begin], [cut, begin]])], [1], way)[0]
+    assert found[-1] == pytest.approx([expected, begin], abs=1e-9)
+
+
+def test_a_piece_ends_on_another_crack() -> None:
+    wall = np.array([[0.55, -0.2], [0.55, 0.3]])
+    found = grown([np.array([[-0.1, 0.0], [0.5, 0.0]]), wall], [1], 0.0)
+    assert found[0][-1] == pytest.approx([0.55, 0.0], abs=1e-12)
+    assert np.array_equal(found[1], wall)
+
+
+def test_both_ends_of_a_crack_grow_and_turn_as_asked() -> None:
+    line = np.array([[0.4, 0.0], [0.6, 0.0]])
+    found = grown([line], [0, 1], np.pi / 2)[0]
+    assert found[0] == pytest.approx([0.4, -0.1], abs=1e-12)
+    assert found[-1] == pytest.approx([0.6, 0.1], abs=1e-12)
+    assert np.array_equal(found[1:3], line)
+
+
+def grown(cracks: list[Floats], fronts: list[int], angle: float) -> tuple[Floats, ...]:
+    """Return cracks in the plate of the tests after pieces of 0.1 at some fronts."""
+    ring = [[0.0, -0.5], [1.0, -0.5], [1.0, 0.5], [0.0, 0.5]]
+    model = solid(polygon(ring), net().cover, [Elastic(1.0, 0.3)], "strain", cracks=cracks)
+    ends = CrackFronts.of([f"c{number}" for number in range(len(cracks))])
+    which = np.array(fronts)
+    tips = ends.tips(model.cut, cracks)[which]
+    assert (tips >= 0).all()
+    return advanced(model.cut, cracks, ends, which, tips, np.full(len(which), angle), 0.1)
+
+
+@pytest.mark.parametrize(
+    ("fracture", "said"),
+    [
+        ("toughness = -1.0\nincrement = 0.1", "toughness"),
+        ("energy = 0.0\nincrement = 0.1", "energy"),
+        ("toughness = 1.0\nenergy = 1.0\nincrement = 0.1", "toughness or energy"),
+        ("increment = 0.1", "toughness or energy"),
+        ("toughness = 1.0\nincrement = 0.0", "increment"),
+        ("toughness = 1.0", "increment"),
+    ],
+)
+def test_a_table_that_says_nothing_sound_is_refused(fracture: str, said: str) -> None:
+    with pytest.raises(NmmError, match=said):
+        plate(fracture)
+
+
+def test_growth_without_a_crack_is_refused() -> None:
+    text = PLATE.format(tip=0.3, pulled=LOADED, fracture=FOLLOW)
+    head, _, rest = text.partition("[[cracks]]")
+    with pytest.raises(NmmError, match="crack"):
+        parse_scene(head + rest[rest.index("[[supports]]") :])
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [("[gravity]\n", "gravity"), ("[contact]\n", "contact"), ("[inertia]\n", "inertia")],
+)
+def test_what_growth_does_not_go_with_is_refused(table: str, said: str) -> None:
+    text = PLATE.format(tip=0.3, pulled=LOADED, fracture=FOLLOW)
+    with pytest.raises(NmmError, match=said):
+        parse_scene(text + table)
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ("[[2.0, 0.0], [3.0, 0.0]]", "outside of all blocks"),
+        ("[[-0.1, 0.0], [1.1, 0.0]]", "no crack tip"),
+        ("[[0.5, 0.0], [0.51, 0.0]]", "no tip functions"),
+    ],
+)
+def test_cracks_that_cannot_grow_are_refused(points: str, said: str) -> None:
+    text = PLATE.format(tip=0.3, pulled=LOADED, fracture=FOLLOW)
+    scene = parse_scene(text.replace("[[-0.1, 0.0], [0.3, 0.0]]", points))
+    with pytest.raises(NmmError, match=said):
+        prepare(scene, net())
+
+
+def test_covers_that_cannot_carry_the_growth_are_refused() -> None:
+    how = net()
+    plain = replace_cover(how, enrichment=nmm.formulation.EnrichmentTable(tips=False))
+    with pytest.raises(NmmError, match="no tip functions"):
+        prepare(plate(), plain)
+    with pytest.raises(NmmError, match="cracks end inside blocks"):
+        prepare(plate(), parse_formulation('[cover]\ntype = "block"\nfunctions = "rigid_strain"\n'))
+
+
+def replace_cover(how: Formulation, **given: object) -> Formulation:
+    return how.model_copy(update={"cover": how.cover.model_copy(update=given)})
