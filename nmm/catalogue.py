@@ -16,6 +16,7 @@ from nmm.fracture.criteria.base import CRITERIA
 from nmm.geometry.tessellation.cover_types import COVER_TYPES
 from nmm.integrators.base import INTEGRATORS
 from nmm.interfaces.base import INTERFACE_LAWS
+from nmm.interfaces.bond_slip import BOND_LAWS
 from nmm.materials.base import MATERIAL_LAWS
 from nmm.model.effects_table import EFFECTS
 from nmm.outputs.base import OUTPUTS
@@ -27,6 +28,7 @@ REGISTRIES: tuple[Registry[Any], ...] = (
     COVER_TYPES,
     MATERIAL_LAWS,
     INTERFACE_LAWS,
+    BOND_LAWS,
     ENFORCEMENTS,
     INTEGRATORS,
     SOLVERS,

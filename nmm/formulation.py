@@ -90,6 +90,13 @@ class ContactMethod(PartTable):
         description="a multiple of E / (distance of the blocks' middles), > 0: stiffness of joints",
         examples=[0.5],
     )
+    bonds: Literal["auto", "spring", "nitsche"] = Field(
+        default="auto",
+        description='"auto", "spring" or "nitsche": what holds whole bonds whose interface names '
+        "no stiffness; auto is Nitsche's terms, and springs where functions have no strain, "
+        "volumes are projected or a material is not linear",
+        examples=["nitsche"],
+    )
     max_passes: Count = Field(
         default=20,
         gt=0,
@@ -102,9 +109,10 @@ class ContactMethod(PartTable):
         "corners alone, or spread over the faces that lie on each other; auto is faces for meshes",
         examples=["faces"],
     )
-    joint_points: Literal["corners", "gauss"] = Field(
-        default="corners",
-        description='"corners" or "gauss": where joints act and are judged along their edge',
+    joint_points: Literal["auto", "corners", "gauss"] = Field(
+        default="auto",
+        description='"auto", "corners" or "gauss": where joints act and are judged along their '
+        "edge; auto is gauss where Nitsche's terms hold whole bonds, else corners",
         examples=["gauss"],
     )
 
@@ -140,6 +148,14 @@ class Rotation(Frozen):
         default="auto",
         description='"auto", "exact", "linear" or "small"',
         examples=["exact"],
+    )
+
+
+class BarPieces(Frozen):
+    """How finely bars with a bond are divided."""
+
+    pieces: Count = Field(
+        default=40, gt=0, le=10_000, description="a number of pieces of each, > 0", examples=[40]
     )
 
 
@@ -210,6 +226,7 @@ class Formulation(Frozen):
     loading: LoadSteps = Field(default=LoadSteps(), description="a table [loading]")
     solver: Solver = Field(default=Solver(), description="a table [solver]")
     diffusion: Diffusion | None = Field(default=None, description="a table [diffusion]")
+    bars: BarPieces = Field(default=BarPieces(), description="a table [bars]")
 
     _source: Source = PrivateAttr(default_factory=lambda: Source("formulation"))
 
@@ -238,8 +255,12 @@ def parse_formulation(text: str, place: str = "formulation") -> Formulation:
 
 
 def canonical_text(formulation: Formulation) -> str:
-    """The formulation in one form, whatever its file's order, units and comments."""
-    content = formulation.model_dump(mode="json", exclude_none=True)
+    """The formulation in one form, whatever its file's order, units and comments.
+
+    The pieces of bars are left out where they are those of default, as in earlier versions.
+    """
+    usual = {"bars"} if formulation.bars == BarPieces() else set()
+    content = formulation.model_dump(mode="json", exclude_none=True, exclude=usual)
     return json.dumps(content, sort_keys=True, separators=(",", ":"))
 
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 
 Place = Literal["points", "elements", "bodies", "contacts"]
 PLACES: tuple[Place, ...] = ("points", "elements", "bodies", "contacts")
@@ -30,3 +30,26 @@ class Quantity:
     values: Floats
     unit: str = ""
     components: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class MemberSegments:
+    """Members between points as segments of a frame, with what they carry.
+
+    Attributes
+    ----------
+    place
+        (m, 2, 2) where their ends are (m).
+    member, names
+        The member (m,) that each is a part of, and what it is called.
+    force
+        (m,) axial, tension positive (N).
+    slip
+        (m,) along what it lies in (m).
+    """
+
+    place: Floats
+    member: Ints
+    names: tuple[str, ...]
+    force: Floats
+    slip: Floats

@@ -57,6 +57,8 @@ class Model:
     laws, law, plane
         Laws, the law (E,) of each element and "stress" or "strain", for laws that are not linear;
         without them all elements are linear.
+    point_mass
+        (n, n) of masses at points, which joins the mass; None without any.
     """
 
     manifold: Manifold
@@ -70,6 +72,7 @@ class Model:
     laws: tuple[Law, ...] = ()
     law: Ints | None = None
     plane: str = "strain"
+    point_mass: csc_array | None = None
 
     @cached_property
     def stiffness(self) -> csc_array:
@@ -198,6 +201,7 @@ class Model:
         if not self.lumped:
             return self.consistent_mass
         found = self._matrix(element_matrices.lumped_mass, self.thickness * self.density)
+        found = self._loaded(found)
         found.eliminate_zeros()
         check_positive(found, self.manifold.cover_offset)
         return found
@@ -205,7 +209,11 @@ class Model:
     @cached_property
     def consistent_mass(self) -> csc_array:
         """Mass of the displacement field, whatever the choice for `mass`."""
-        return self._matrix(element_matrices.mass, self.thickness * self.density)
+        return self._loaded(self._matrix(element_matrices.mass, self.thickness * self.density))
+
+    def _loaded(self, mass: csc_array) -> csc_array:
+        """Return a mass with that of points."""
+        return mass if self.point_mass is None else csc_array(mass + self.point_mass)
 
     @cached_property
     def measure(self) -> csc_array:

@@ -81,6 +81,8 @@ class State:
     history
         Internal variables (Q, h) of material points by name, as the last accepted step left them
         (`Model.history`); empty where all matter is linear.
+    memory
+        What effects remember by the names of their members, as the last accepted step left it.
     """
 
     time: float
@@ -90,6 +92,7 @@ class State:
     velocity: Floats
     acceleration: Floats
     history: Mapping[str, Floats] = field(default_factory=dict)
+    memory: Mapping[str, Floats] = field(default_factory=dict)
 
 
 def rotation_matrices(angle: Floats) -> Floats:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from nmm.cli import scene_verbs, study_verbs, verification_verbs
+from nmm.cli import motion_verbs, scene_verbs, study_verbs, verification_verbs
 from nmm.cli.scene_verbs import AllowCode, FormulationFile, allowed, read_formulation
 from nmm.cli.terminal import (
     console,
@@ -86,7 +86,9 @@ def run(
     ] = None,
     allow_code: AllowCode = None,
 ) -> None:
-    """Run a scene, or go on with a run; write its folder with pictures and ParaView files.
+    """Run a scene, or go on with a run; write its folder.
+
+    Pictures and ParaView files are among it where the scene's [output] asks for them.
 
     Exit code 2 when a step could not be solved, 3 when the budget was spent, 4 when the structure
     collapsed, 5 when an audit of energy, momentum or balance failed; what was written stays.
@@ -109,7 +111,7 @@ def demo(out: Out = None, quiet: Quiet = False) -> None:
     from nmm.shipped import example
 
     with faults_told():
-        _run(example(DEMO), None, out or RUNS / "demo", quiet)
+        _run(example(DEMO), None, out or RUNS / "demo", quiet, pictures=True)
 
 
 @app.command()
@@ -124,12 +126,9 @@ def plot(
     component: Annotated[
         str, typer.Option(help="Stress drawn: mises, xx, yy, xy, major, minor.")
     ] = "mises",
-    paraview: Annotated[
-        bool, typer.Option("--paraview", help="Write the ParaView files anew too.")
-    ] = False,
     allow_code: AllowCode = None,
 ) -> None:
-    """Draw a run again, whole or one frame of it; a run that was stopped can be drawn too.
+    """Draw a run, whole or one frame of it; a run that was stopped can be drawn too.
 
     Exit code 1 when the folder is damaged so that a picture or file could not be made.
     """
@@ -141,15 +140,38 @@ def plot(
         _frame_exists(frame, len(stored.frames))
         scene = _scene_of(stored, missed.append)
         drawn = _draw(stored, run, scene, frame, magnification, component, missed.append)
-        tell_files([*drawn, *(_paraview(stored, run, missed.append) if paraview else ())])
+        tell_files(drawn)
         if not drawn:
             missed.append(f"{run}: nothing to draw: expected frames or a history: run it again")
+    _tell_missed(missed)
+
+
+@app.command()
+def export(
+    run: Annotated[Path, typer.Argument(help="Folder of a run.", metavar="RUN")],
+    allow_code: AllowCode = None,
+) -> None:
+    """Write the ParaView files of a run; one that was stopped is written up to its last frame.
+
+    Exit code 1 when the folder is damaged so that a frame could not be written.
+    """
+    from nmm.results import read_run
+
+    missed: list[str] = []
+    with faults_told(), allowed(run / "scene.toml", allow_code):
+        tell_files(_paraview(read_run(run), run, missed.append))
+    _tell_missed(missed)
+
+
+def _tell_missed(missed: list[str]) -> None:
+    """Tell what could not be made of a damaged folder, and leave with exit code 1."""
     tell_faults(missed)
     if missed:
         raise typer.Exit(1)
 
 
 study_verbs.register(app)
+motion_verbs.register(app)
 verification_verbs.register(app)
 
 
@@ -160,6 +182,7 @@ def _run(
     quiet: bool,
     steps: bool = False,
     budget: float | None = None,
+    pictures: bool = False,
 ) -> None:
     import nmm
 
@@ -167,7 +190,7 @@ def _run(
     chosen = read_formulation(formulation)
     with _stopped_told(out), progress_bar(quiet, steps) as progress:
         done = nmm.run(scene, chosen, out=out, progress=progress, budget=budget)
-    _tell_done(scene, done, out, quiet)
+    _tell_done(scene, done, out, quiet, pictures)
 
 
 def _resume(folder: Path, quiet: bool, steps: bool, budget: float | None) -> None:
@@ -200,21 +223,32 @@ def _stopped_told(out: Path) -> Iterator[None]:
         raise typer.Exit(130) from None
 
 
-def _tell_done(scene: "Scene", done: "Run", out: Path, quiet: bool) -> None:
-    """Draw a run that has ended, tell of it, and leave with its exit code."""
-    import nmm
+def _tell_done(scene: "Scene", done: "Run", out: Path, quiet: bool, pictures: bool = False) -> None:
+    """Tell of a run that has ended, with the files that were asked for; leave with its code."""
     from nmm.results.summary import render
     from nmm.stepping.drive.verdict import EXIT_CODES
 
-    # Drawn from the folder, as `nmm plot` does, which knows the covers too.
-    files = [*_draw(nmm.read_run(out), out, scene), *_paraview(done, out)]
+    files = _shown(scene, done, out, pictures)
     tell_run(scene, done)
     if not quiet:
         console().print(render(done.summary))
         tell_files([out, *files])
-        tell_next(f"nmm plot {out} --frame 0", f"paraview {out / 'paraview' / 'blocks.pvd'}")
+        tell_next(f"nmm plot {out}", f"nmm export {out} for ParaView")
     if code := EXIT_CODES.get(done.summary.status, 2):
         raise typer.Exit(code)
+
+
+def _shown(scene: "Scene", done: "Run", out: Path, pictures: bool) -> list[Path]:
+    """Draw and export what was asked for: both cost more than a small run itself."""
+    import nmm
+
+    asked, files = scene.output, []
+    if pictures or (asked is not None and asked.pictures):
+        # Drawn from the folder, as `nmm plot` does, which knows the covers too.
+        files += _draw(nmm.read_run(out), out, scene)
+    if asked is not None and asked.paraview:
+        files += _paraview(done, out)
+    return files
 
 
 def _draw(

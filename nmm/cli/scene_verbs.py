@@ -41,6 +41,11 @@ CALLED_BY = {
     "initial stress": "[[initial_stresses]]",
     "viscous boundaries": "[[viscous_boundaries]]",
     "free fields": "[[free_fields]]",
+    "springs": "[[springs]]",
+    "dashpots": "[[dashpots]]",
+    "bars": "[[bars]]",
+    "foundations": "[[foundations]]",
+    "masses": "[[masses]]",
     "viscous damping": "[damping] with mass, stiffness or ratios",
     "local damping": "[damping] with local",
 }

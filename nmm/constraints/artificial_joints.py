@@ -46,7 +46,7 @@ class ArtificialJoints(TiedInterfaces):
         glue
             What they are.
         stations
-            Where springs between linear fields act: "corners" or "gauss". Between fields that bend
+            Where springs between linear fields act: "corners" (also "auto") or "gauss". Between fields that bend
             they act at as many Gauss points as their degree asks for.
         """
         region, edges = model.manifold.element_region, model.manifold.boundary
@@ -69,7 +69,7 @@ class ArtificialJoints(TiedInterfaces):
         if degree > 1 or stations == "gauss":
             interface = gauss_interface(model, joints, 2 * max(degree, 1))
         else:
-            interface = station_interface(model, joints, stations, start)
+            interface = station_interface(model, joints, "corners", start)
         return cls([Springs(interface, _spring(model, interface, glue.stiffness))], n)
 
 

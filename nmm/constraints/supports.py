@@ -98,7 +98,7 @@ class Supports(TiedInterfaces):
         return total
 
     def first_work(self, before: State, after: State) -> float:
-        """Work (J) that `work` lacks in the first step of statics; to be asked ahead of it.
+        """See `Effect.first_work`.
 
         What is driven at the start of statics is driven there from nothing in the first step, and
         the reaction grows with it.

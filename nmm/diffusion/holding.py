@@ -15,8 +15,8 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
-from nmm.constraints.nitsche_bounds import largest_ratio
-from nmm.constraints.traction_donors import donors
+from nmm.assembly.tractions.donors import donors
+from nmm.assembly.tractions.element_bounds import largest_ratio
 from nmm.diffusion.edges import Edge, Factor, steadily
 
 # Multiples of the least penalty with which the form is positive.

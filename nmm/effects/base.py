@@ -12,7 +12,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.geometry.geometry import Geometry
-from nmm.quantity import Quantity
+from nmm.quantity import MemberSegments, Quantity
 from nmm.scene.fields import Frozen
 
 if TYPE_CHECKING:
@@ -37,6 +37,45 @@ class Instant:
 
     time: float
     load_factor: float
+
+
+@dataclass(frozen=True)
+class Span:
+    """How a step weighs the forces at its ends.
+
+    Attributes
+    ----------
+    step
+        Its length (s); None in statics.
+    weight
+        Share of the end of the step.
+    half
+        Whether bodies move with the mean of the velocities at both ends, so that forces between
+        the mean places of two points keep angular momentum.
+    """
+
+    step: float | None
+    weight: float
+    half: bool
+
+
+@dataclass(frozen=True)
+class StepForce:
+    """What an effect does through a step.
+
+    Attributes
+    ----------
+    force
+        (n,) its weighed force on the unknowns.
+    stiffness
+        Makes the symmetric matrix (n, n) of about how it falls with the increment.
+    memory
+        What the effect remembers if the step is accepted.
+    """
+
+    force: Floats
+    stiffness: Callable[[], csc_array]
+    memory: Mapping[str, Floats] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -73,6 +112,8 @@ class Setup:
         (2,) where the axes of model and states lie in those of the scene (m).
     acting
         How loads act in a stage; None in scenes without stages.
+    small
+        Whether displacements are small: bodies' axes stay as they are.
     table
         What an effect's own ``[effects.NAME]`` says, an `Effect.Table` in the axes of the model;
         None for effects that have keys of the scene.
@@ -88,6 +129,7 @@ class Setup:
     origin: Floats = field(default_factory=lambda: np.zeros(2))
     table: Any = None
     acting: Acting | None = None
+    small: bool = False
 
     def regions(self, name: str | None) -> Bools | None:
         """Return which regions a name means: a block, all blocks of a tessellation, or "all"."""
@@ -120,7 +162,7 @@ class Effect(ABC):
     placed: ClassVar[bool] = True
     """Whether places in the reference configuration declare it, so that it cannot follow bodies
     that are laid anew elsewhere."""
-    external: ClassVar[bool] = True
+    external: bool = True
     """Whether its forces may change the momentum of all bodies together; false where they come in
     pairs, and for gravity, whose impulse audits know."""
     stays: ClassVar[bool] = False
@@ -168,6 +210,24 @@ class Effect(ABC):
         """
         raise NotImplementedError
 
+    @property
+    def bends(self) -> bool:
+        """Whether `through` gives more than the line of `force` and `matrix`."""
+        return True
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """Return the weighed force through a step from one state to a trial of its end.
+
+        It stands for `force` and `matrix`, which are its line at the start; ``after`` has the
+        memory of ``before``.
+
+        Raises
+        ------
+        SolveError
+            When there is none; the step is then cut.
+        """
+        raise NotImplementedError
+
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Conditions ``rows @ d = sides`` on the step's unknowns (k, n); None without any."""
         raise NotImplementedError
@@ -180,12 +240,27 @@ class Effect(ABC):
         """Work (J) that the effect did on the bodies in an accepted step."""
         raise NotImplementedError
 
+    def first_work(self, before: State, after: State) -> float:
+        """Work (J) that `work` lacks in the first step of statics; to be asked ahead of it.
+
+        Nothing acts before that step: what acts at its start grows from nothing in it.
+        """
+        raise NotImplementedError
+
     def energy(self, state: State) -> float:
         """Energy (J) the effect stores."""
         raise NotImplementedError
 
+    def loss(self, before: State, after: State) -> float:
+        """Energy (J) that the effect took for good in an accepted step."""
+        raise NotImplementedError
+
     def outputs(self, state: State) -> Mapping[str, Quantity]:
         """Quantities of a state by name, for frames, run folders, ParaView and plots."""
+        raise NotImplementedError
+
+    def segments(self, state: State) -> MemberSegments:
+        """Members as segments with what they carry, for frames, ParaView and plots."""
         raise NotImplementedError
 
     def history(self, state: State) -> Mapping[str, float]:

@@ -4,6 +4,8 @@ An adapter. `nmm.contact.candidates` finds the contact points of a step and `nmm
 their forces; here both are handed what the last accepted step left.
 """
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Self
 
 from scipy.sparse import csr_array
@@ -11,6 +13,8 @@ from scipy.sparse import csr_array
 from integration.arrays import Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.contact.bonds.consistent_bonds import ConsistentBonds
+from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.candidates.succession import succeeding
 from nmm.contact.detection.crossing import Motion
@@ -18,12 +22,13 @@ from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import follow_joints
 from nmm.contact.problem.step_problem import Limits
+from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.driver import ContactSolver
 from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.momentum import Momentum
 from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
 from nmm.contact.solution.request import StepRequest
-from nmm.effects.base import Effect, Setup
+from nmm.effects.base import Effect, Setup, StressAt
 from nmm.effects.contact_parts import ContactParts, contact_parts
 
 if TYPE_CHECKING:
@@ -61,6 +66,9 @@ class Contact(Effect):
             self.laws.initial,
             parts.stations,
         )
+        self._bonds = ConsistentBonds.of(model, book.points, self.laws)
+        if self._bonds is not None:
+            book = replace(book, points=self._bonds.tied(book.points, self.laws))
         self.record, self._unbonded = ContactRecord(book), book.broken
         self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.means)
         self.momentum = Momentum(model, sides, parts.held, self.geometry.curved)
@@ -68,6 +76,7 @@ class Contact(Effect):
         self.solver = ContactSolver.of(model, self.laws, parts.enforcement, compliance)
         self._candidates = Candidates(self.partners, self.laws, self.geometry)
         self._found: Contacts | None = None
+        self._stresses: Sequence[StressAt] = ()
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -107,9 +116,18 @@ class Contact(Effect):
     ) -> ContactSolution:
         """Solve one step; forces act at ``midpoint``, at the start of the step when None."""
         rows = self.geometry.rows(contacts, state, midpoint)
-        means = self.geometry.face_means(contacts, self.partners.surface(state))
-        more = [part for part in (means, request.null_space) if part is not None]
-        return self.solver.solve(contacts, rows, request, more)
+        surface = self.partners.surface(state)
+
+        def besides(present: ContactPoints) -> list[Transform]:
+            tied, free = None, present
+            if self._bonds is not None and present.tied.any():
+                more = self._stresses, request.time
+                tied = TiedBonds.of(self._bonds, present, state, rows, request.weight, *more)
+                free = present.take(~present.tied)
+            means = self.geometry.face_means(free, surface)
+            return [part for part in (tied, means, request.null_space) if part is not None]
+
+        return self.solver.solve(contacts, rows, request, besides)
 
     def overlooked(self, contacts: ContactPoints, motion: Motion) -> tuple[Ints, Ints] | None:
         """Return pairs that crossed and were no contacts; see `Candidates.overlooked`."""
@@ -163,4 +181,14 @@ class Contact(Effect):
         record = self.record
         known = [] if record.known is None else [record.known]
         points = concatenate([record.book.points, *known])
-        return self.laws.energy(points, own_only=self._exact) + record.stored
+        total = self.laws.energy(points, own_only=self._exact) + record.stored
+        if self._bonds is None:
+            return total
+        joints = self._candidates.joints(record.book, state)
+        rows = self.geometry.rows(joints, state)
+        more = self._stresses
+        return total + TiedBonds.of(self._bonds, joints, state, rows, stresses=more).energy
+
+    def feel(self, stresses: Sequence[StressAt]) -> None:
+        """See `Effect.feel`: the tractions of whole bonds are of the whole stress."""
+        self._stresses = stresses

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools
+from nmm.contact.bonds.consistent_bonds import consistent
 from nmm.contact.candidates.pairs import MISSING, Pairs
 from nmm.contact.candidates.partners import Partners
 from nmm.contact.enforcement.base import Enforcement, make_enforcement
@@ -13,6 +14,7 @@ from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.mortar.segments import face_points
 from nmm.effects.base import Setup
 from nmm.errors import SceneError
+from nmm.formulation import ContactMethod
 from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.interfaces.from_scene import interface_law
 
@@ -61,8 +63,14 @@ def contact_parts(setup: Setup) -> ContactParts:
         whole_faces=means,
     )
     return ContactParts(
-        laws, partners, enforcement, method.joint_points, _held(setup), points > 2, means
+        laws, partners, enforcement, _stations(method, laws), _held(setup), points > 2, means
     )
+
+
+def _stations(method: ContactMethod, laws: ContactLaws) -> str:
+    """Return where joints act along their edge."""
+    auto = "gauss" if laws.consistent else "corners"
+    return auto if method.joint_points == "auto" else method.joint_points
 
 
 def _laws(setup: Setup) -> ContactLaws:
@@ -70,13 +78,16 @@ def _laws(setup: Setup) -> ContactLaws:
     method, thickness = setup.formulation.contact, setup.model.thickness
     unit = float(setup.model.modulus.max()) * thickness
     penalty, bond = method.normal_penalty * unit, method.bond_stiffness * unit
+    laws = [interface_law(item) for item in setup.scene.interfaces.values()]
+    glued = any(law.bonded and law.normal_stiffness is None for law in laws)
     return ContactLaws(
-        laws=[interface_law(item) for item in setup.scene.interfaces.values()],
+        laws=laws,
         thickness=thickness,
         normal_penalty=penalty,
         shear_penalty=penalty * method.shear_ratio,
         normal_bond=bond,
         shear_bond=bond * method.shear_ratio,
+        consistent=glued and consistent(setup.model, method.bonds),
     )
 
 

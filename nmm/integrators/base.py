@@ -56,6 +56,11 @@ class Integrator(ABC):
         """Velocity and acceleration at the end of the step."""
 
     @property
+    def order(self) -> int:
+        """Power of the step with which the error of a smooth motion falls, its damping included."""
+        return 1
+
+    @property
     def end_weight(self) -> float:
         """Share ``s`` of the end of the step in elastic and applied forces."""
         return 1.0

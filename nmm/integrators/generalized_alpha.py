@@ -38,6 +38,11 @@ class GeneralizedAlpha(Newmark):
         return self.rho_inf / (self.rho_inf + 1)
 
     @property
+    def order(self) -> int:
+        """2 (Chung and Hulbert 1993)."""
+        return 2
+
+    @property
     def carries(self) -> bool:
         """See `Integrator.carries`."""
         return True

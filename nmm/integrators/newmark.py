@@ -28,6 +28,11 @@ class Newmark(Integrator):
             )
 
     @property
+    def order(self) -> int:
+        """2 with ``gamma = 1/2``, which damps nothing; else 1."""
+        return 2 if self.gamma == 0.5 else 1
+
+    @property
     def carries(self) -> bool:
         """See `Integrator.carries`."""
         return abs(self.gamma - 2 * self.beta) > 1e-12 or self.gamma > 1

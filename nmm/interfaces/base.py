@@ -98,6 +98,13 @@ class InterfaceLaw(ABC):
         """Return stress over strength (m,) of intact bonds (Pa); above 1 a bond breaks at once."""
         return np.zeros(len(pull))
 
+    def onset(self, pull: Floats, shear: Floats) -> Floats:
+        """Return stress over strength (m,) of whole bonds that no spring of the law's own holds.
+
+        Above 1 the law takes over: such a bond breaks at once, or begins to soften.
+        """
+        return self.overload(pull, shear)
+
     @final
     def update(
         self, history: History, gap: Floats, slip: Floats, stiffness: tuple[Floats, Floats]

@@ -62,6 +62,10 @@ class Softening(MohrCoulomb):
         """Return zeros: nothing breaks at once."""
         return np.zeros(len(pull))
 
+    def onset(self, pull: Floats, shear: Floats) -> Floats:
+        """See `InterfaceLaw.onset`: softening begins where a brittle bond would break."""
+        return super().overload(pull, shear)
+
     def evolved(
         self, history: History, gap: Floats, sliding: Floats, stiffness: Floats
     ) -> dict[str, Floats]:

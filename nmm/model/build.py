@@ -39,7 +39,21 @@ def setup_of(
     if scene.inertia is not None:
         start = replace(start, load_factor=1.0)
     names, material = tuple(geometry.regions.name), np.asarray(geometry.regions.material)
-    return Setup(scene, formulation, model, geometry, names, material, start, origin)
+    small = small_motion(scene, formulation)
+    setup = Setup(scene, formulation, model, geometry, names, material, start, origin, small=small)
+    if not scene.masses:
+        return setup
+    from nmm.effects.members.masses import loaded
+
+    return replace(setup, model=loaded(setup))
+
+
+def small_motion(scene: "Scene", formulation: "Formulation") -> bool:
+    """Whether bodies' axes stay: asked for, or statics of bodies that nothing touches."""
+    update = formulation.rotation.update
+    return update == "small" or (
+        update == "auto" and scene.inertia is None and scene.contact is None
+    )
 
 
 def reshaped(setup: Setup, geometry: Geometry) -> Setup:

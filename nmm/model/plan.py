@@ -14,7 +14,15 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
-from nmm.effects.base import Effect, Instant, Setup, StressAt, defines
+from nmm.effects.base import (
+    Effect,
+    Instant,
+    Setup,
+    Span,
+    StepForce,
+    StressAt,
+    defines,
+)
 from nmm.errors import SolveError
 from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own, with_table
@@ -33,6 +41,11 @@ if TYPE_CHECKING:
 
 
 T = TypeVar("T")
+
+SHARED = frozenset(
+    ("inertia", "initial stress", "contact", "supports", "bonded interfaces", "artificial joints")
+)
+"""Effects whose energy is counted with that of bodies, contacts or supports."""
 
 
 @dataclass(frozen=True)
@@ -192,13 +205,30 @@ class Plan:
         """Return the work of all applied forces (J)."""
         return sum(effect.work(before, after) for effect in self._with("work"))
 
+    @cached_property
+    def bent(self) -> dict[str, Effect]:
+        """Effects, by name, whose force is no line in the unknowns of a step."""
+        return {name: one for name, one in self._named("through") if one.bends}
+
+    def through(self, name: str, before: State, after: State, span: Span) -> StepForce:
+        """Return what a bent effect does through a step."""
+        return self._timed(name, partial(self.effects[name].through, before, after, span))
+
+    def losses(self, before: State, after: State) -> dict[str, float]:
+        """Return what each effect took for good in an accepted step (J)."""
+        return {name: one.loss(before, after) for name, one in self._named("loss")}
+
+    def first_work(self, before: State, after: State) -> float:
+        """Return the work (J) that `work` lacks in the first step of statics."""
+        return sum(effect.first_work(before, after) for effect in self._with("first_work"))
+
     def energy(self, name: str, state: State) -> float:
         """Return the energy of one effect (J), zero when the scene does not name it."""
         effect = self.effects.get(name)
         return 0.0 if effect is None else effect.energy(state)
 
     def own_energies(self, state: State) -> dict[str, float]:
-        """Return the energy (J) that each effect of one's own stores, by its column of history."""
+        """Return the energy (J) that each such effect stores, by its column of the history."""
         return {
             f"energy:{name.removeprefix(OWN)}": effect.energy(state)
             for name, effect in self._own_stores
@@ -206,8 +236,8 @@ class Plan:
 
     @cached_property
     def _own_stores(self) -> list[tuple[str, Effect]]:
-        """Effects of one's own that store energy."""
-        return [(name, one) for name, one in self._named("energy") if name.startswith(OWN)]
+        """Effects that store energy and have a column of it to themselves."""
+        return [(name, one) for name, one in self._named("energy") if name not in SHARED]
 
     @cached_property
     def tellers(self) -> list[tuple[str, Effect]]:

@@ -12,6 +12,7 @@ from nmm.effects.base import Acting
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.model.origin import shifted
 from nmm.scene.cover_tables import CoverTable
+from nmm.scene.tables.members import MEMBERS
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
@@ -72,13 +73,14 @@ def _resolved(
     scene: "Scene", formulation: "Formulation", regions: "Regions", origin: Floats
 ) -> Iterator[Stage]:
     present = np.ones(len(regions), dtype=bool)
-    loads, supports, before = None, None, frozenset[str]()
+    loads, supports, members, before = None, None, None, frozenset[str]()
     for number, table in enumerate(scene.stages):  # a handful of stages
         place = _Place(scene, number, origin)
         present = _present(table, present, regions, place)
         formulation = _formulation(table, formulation, place)
         loads = loads if table.loads is None else table.loads
         supports = supports if table.supports is None else table.supports
+        members = members if table.members is None else table.members
         there = {one for one in _names(scene, formulation) if present[regions.select(one)].any()}
         acting = [one for one in scene.loads if _acts(one, loads, there)]
         names = frozenset(one.name for one in acting)
@@ -88,6 +90,7 @@ def _resolved(
             "stages": (),
             "loads": (*acting, *leaving),
             "supports": tuple(one for one in scene.supports if _acts(one, supports, there)),
+            **_members(scene, members, dynamic=table.duration is not None),
             "monitors": tuple(one for one in scene.monitors if _acts(one, None, there)),
             "duration": table.duration,
             "inertia": scene.inertia if table.duration else None,
@@ -105,6 +108,20 @@ def _resolved(
             Acting(grows=names - before, leaves=frozenset(one.name for one in leaving)),
         )
         before = names
+
+
+def _members(
+    scene: "Scene", listed: tuple[str, ...] | None, dynamic: bool
+) -> dict[str, tuple[Any, ...]]:
+    """Return the members that are listed, or all, by table; dashpots act in time alone."""
+    return {
+        key: tuple(
+            one
+            for one in getattr(scene, key)
+            if (listed is None or one.name in listed) and (dynamic or key != "dashpots")
+        )
+        for key in MEMBERS
+    }
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ UNITS = {
 }
 """Units of history columns; columns not named here are pure numbers."""
 
-FAMILIES = {"monitor": "m", "reaction": "N", "energy": "J"}
+FAMILIES = {"monitor": "m", "reaction": "N", "energy": "J", "damping_loss": "J"}
 """Units of columns such as `monitor:tip:uy`, by what stands before the first colon."""
 
 

@@ -17,6 +17,7 @@ from nmm.scene.stage_rules import stage_contradictions
 from nmm.scene.tables.fracture_rules import fracture_contradictions
 from nmm.scene.tables.heat_rules import PARTS as HEAT
 from nmm.scene.tables.heat_rules import heat_contradictions
+from nmm.scene.tables.member_rules import member_contradictions
 from nmm.scene.tables.motion_rules import EDGES, motion_contradictions
 
 Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
@@ -35,13 +36,15 @@ def contradictions(data: object) -> list[Finding]:
     if not isinstance(plain, Mapping):
         return []
     own: tuple[Rule, ...] = (_solids, _names, _materials, _interfaces, _block_names, _densities)
-    others: tuple[Rule, ...] = (
+    rules = (
+        *own,
+        _effects,
         stage_contradictions,
         heat_contradictions,
         motion_contradictions,
+        member_contradictions,
         fracture_contradictions,
     )
-    rules = (*own, _effects, *others)
     return [finding for rule in rules for finding in rule(plain)]
 
 

@@ -45,6 +45,13 @@ from nmm.scene.tables.heat import (
     TemperatureTable,
 )
 from nmm.scene.tables.loads import LoadTable
+from nmm.scene.tables.members import (
+    BarTable,
+    DashpotTable,
+    FoundationTable,
+    MassTable,
+    SpringTable,
+)
 from nmm.scene.tables.records import RecordTable
 
 
@@ -96,6 +103,13 @@ class Scene(Frozen):
     )
     gravity: GravityTable | None = Field(default=None, description="a table [gravity]")
     inertia: InertiaTable | None = Field(default=None, description="a table [inertia]")
+    springs: tuple[SpringTable, ...] = Field(default=(), description="tables [[springs]]")
+    dashpots: tuple[DashpotTable, ...] = Field(default=(), description="tables [[dashpots]]")
+    bars: tuple[BarTable, ...] = Field(default=(), description="tables [[bars]]")
+    foundations: tuple[FoundationTable, ...] = Field(
+        default=(), description="tables [[foundations]]"
+    )
+    masses: tuple[MassTable, ...] = Field(default=(), description="tables [[masses]]")
     damping: DampingTable | None = Field(default=None, description="a table [damping]")
     contact: ContactTable | None = Field(default=None, description="a table [contact]")
     fracture: FractureTable | None = Field(default=None, description="a table [fracture]")

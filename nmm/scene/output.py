@@ -68,7 +68,16 @@ class OutputTable(Frozen):
         '"module:Class" of outputs of one\'s own: what frames hold beside displacement and stress',
         examples=[["von_mises", "crack_opening"]],
     )
-
+    pictures: bool = Field(
+        default=False,
+        description="whether `nmm run` draws pictures of the run into its folder; `nmm plot` draws "
+        "them of any run",
+    )
+    paraview: bool = Field(
+        default=False,
+        description="whether `nmm run` writes ParaView files of the run into its folder; "
+        "`nmm export` writes them of any run",
+    )
     checkpoint: CheckpointTable | None = Field(
         default=None,
         description="[output.checkpoint]: how often all is stored that a run goes on from",

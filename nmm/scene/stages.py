@@ -11,8 +11,8 @@ class StageTable(Frozen):
     """What is there from the stage's beginning to its end.
 
     A stage without duration is solved to rest. What is not given stays as in the stage before; at
-    first every block, load and support is there. Loads and supports that name a block are there
-    with it.
+    first every block, load, support and member is there. Loads and supports that name a block are
+    there with it; a member that is new is put in as all stands then.
     """
 
     name: Name = Field(description="a name of its own", examples=["excavation"])
@@ -32,6 +32,11 @@ class StageTable(Frozen):
     )
     supports: tuple[Name, ...] | None = Field(
         default=None, description="names of all supports that hold", examples=[["left"]]
+    )
+    members: tuple[Name, ...] | None = Field(
+        default=None,
+        description="names of all springs, dashpots, bars, foundations and masses that are there",
+        examples=[["bolt"]],
     )
     duration: Time | None = Field(
         default=None,

@@ -46,6 +46,10 @@ COMMON: dict[str, dict[str, str]] = {
     "W/m/K": {"W/m/K": "1"},
     "W/m^2/K": {"W/m^2/K": "1", "kW/m^2/K": "1e3"},
     "J/kg/K": {"J/kg/K": "1", "kJ/kg/K": "1e3"},
+    "N/m": {"N/m": "1", "kN/m": "1e3", "MN/m": "1e6", "N/mm": "1e3", "kN/mm": "1e6"},
+    "N s/m": {"N s/m": "1", "kN s/m": "1e3", "MN s/m": "1e6"},
+    "kg": {"kg": "1", "t": "1e3", "g": "1e-3"},
+    "m^2": {"m^2": "1", "mm^2": "1e-6", "cm^2": "1e-4"},
     "1": {},
 }
 EXAMPLES: dict[str, str] = {
@@ -56,6 +60,7 @@ EXAMPLES: dict[str, str] = {
     **{"K": "80 K", "K/m": "10 K/m", "1/K": "1e-5 1/K", "W/m/K": "2.5 W/m/K"},
     **{"W/m^2": "200 W/m^2", "W/m^3": "500 W/m^3", "W/m^2/K": "10 W/m^2/K"},
     **{"J/kg/K": "900 J/kg/K"},
+    **{"N/m": "10 MN/m", "N s/m": "5 kN s/m", "kg": "200 kg", "m^2": "490 mm^2"},
 }
 
 

@@ -19,7 +19,7 @@ from nmm.geometry.checks.amounts import refuse_many_cells
 from nmm.geometry.regions import regions as build_regions
 from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.integrators.base import make_integrator
-from nmm.model.build import block_functions, geometry_of, reshaped, setup_of
+from nmm.model.build import block_functions, geometry_of, reshaped, setup_of, small_motion
 from nmm.model.consistency import check_together
 from nmm.model.discretisation import Discretisation
 from nmm.model.fault_places import placed
@@ -213,14 +213,15 @@ class Simulation:
         return end.state
 
     def _failure_bound(self) -> float | None:
-        """Return the load factor that no run until failure can pass; None of other runs."""
+        """Return the load factor that no run until failure can pass; None where there is none."""
         loading = self.scene.loading
         if self.scene.inertia is not None or loading is None or loading.until != "failure":
             return None
         begun = perf_counter()
         found = load_bound(self.stepper, self.start)
         self.stepper.seconds["bound"] = perf_counter() - begun
-        return None if found is None else found.factor
+        factor = None if found is None else found.factor
+        return factor if factor is not None and np.isfinite(factor) else None
 
     def _advance(
         self,
@@ -401,7 +402,7 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
         discretisation,
         make_integrator(formulation.integrator),
         solver_for(model.manifold, formulation.solver),
-        small=_small(scene, formulation),
+        small=small_motion(scene, formulation),
         lay=_lay(formulation, model, plan),
     )
     limits = formulation.loading
@@ -421,6 +422,7 @@ def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) ->
     setup = setup_of(stage.scene, stage.formulation, geometry, origin)
     whole = replace(
         setup,
+        small=small_motion(scene, stage.formulation),
         region_name=tuple(regions.name),
         region_material=np.asarray(regions.material),
         acting=stage.acting,
@@ -446,14 +448,6 @@ def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
             'cover type "block" of degree 1: use update = "exact"'
         )
     return lambda polygons: block_manifold(polygons, model.manifold.element_region, functions)
-
-
-def _small(scene: "Scene", formulation: Formulation) -> bool:
-    """Whether bodies' axes stay: asked for, or statics of bodies that nothing touches."""
-    update = formulation.rotation.update
-    return update == "small" or (
-        update == "auto" and scene.inertia is None and scene.contact is None
-    )
 
 
 def _toml(model: "Scene | Formulation") -> str:

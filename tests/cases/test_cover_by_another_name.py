@@ -9,6 +9,7 @@ from covers.mathematical.quads import Quads
 from covers.mathematical.triangles import Triangles
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
+from nmm.testing.scenes import block_on_slab, edge_support
 
 
 class Hats(Triangles):
@@ -29,32 +30,7 @@ class Discs(MovingLeastSquares):
 
 # A block that slides and rests on a slab of two glued materials: mortar contact under the exact
 # enforcement, supports and volumes of patches all ask what cover there is.
-SCENE = """
-plane = "strain"
-[materials.m]
-density = 2000
-young_modulus = "10 MPa"
-poisson_ratio = 0.45
-[interfaces.i]
-friction_angle = "30 deg"
-[contact]
-[gravity]
-[[blocks]]
-name = "base"
-material = "m"
-vertices = [[0, 0], [2, 0], [2, 0.5], [0, 0.5]]
-[[blocks]]
-name = "top"
-material = "m"
-vertices = [[0.7, 0.5], [1.3, 0.5], [1.3, 1.1], [0.7, 1.1]]
-[[supports]]
-name = "below"
-segment = [[0, 0], [2, 0]]
-fix = ["x", "y"]
-[[monitors]]
-name = "top"
-point = [1, 1.1]
-"""
+SCENE = block_on_slab(0.45, [edge_support("below", (0, 0), (2, 0))])
 NAMES = {"triangles": Hats, "quads": Bilinear, "bspline": Smooth, "mls": Discs}
 
 

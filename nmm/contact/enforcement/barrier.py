@@ -59,7 +59,7 @@ class Barrier(IterativeEnforcement):
     ) -> StepAnswer:
         """Balance the step from roughly settled springs, or in the end from no motion."""
         problem.check()
-        memory, steer = memory or Memory(), self.iterations
+        memory, steer = memory or self.memory(), self.iterations
         springs = stiff_springs(problem, 1.0)
         try:
             rough = solve_springs(

@@ -33,6 +33,12 @@ class Enforcement(ABC):
     multipliers: ClassVar[bool] = False
     exact: ClassVar[bool] = True
 
+    def memory(self) -> "Memory":
+        """Return an empty memory for the steps of a run, which keeps as much as options say."""
+        from nmm.contact.iteration.memory import Memory
+
+        return Memory()
+
     @abstractmethod
     def solve(
         self, problem: StepProblem, linear_solver: "LinearSolver", memory: "Memory | None" = None

@@ -29,10 +29,14 @@ class IterativeEnforcement(Enforcement):
     ----------
     iterations
         Tables ``[contact.options.iterations.alternation]``, ``springs``, ``interior``,
-        ``rounds`` and ``barrier`` (`nmm.contact.iteration.options`).
+        ``rounds``, ``barrier`` and ``memory`` (`nmm.contact.iteration.options`).
     """
 
     iterations: IterationOptions = field(default_factory=IterationOptions, kw_only=True)
+
+    def memory(self) -> Memory:
+        """See `Enforcement.memory`."""
+        return Memory(options=self.iterations.memory)
 
 
 @dataclass(frozen=True)
@@ -69,7 +73,7 @@ class ExactEnforcement(IterativeEnforcement):
     ) -> StepAnswer:
         """Find admissible forces that balance the step with complementary gaps."""
         problem.check()
-        memory = memory or Memory()
+        memory = memory or self.memory()
         goal = exact_goal(problem, self.tolerance, self.gap_tolerance)
         try:
             at, how = self.forces(problem, linear_solver, memory, goal)

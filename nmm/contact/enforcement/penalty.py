@@ -70,7 +70,7 @@ class Penalty(IterativeEnforcement):
     ) -> StepAnswer:
         """Find the forces of the springs."""
         problem.check()
-        memory = memory or Memory()
+        memory = memory or self.memory()
         if self.iteration == "open_close":
             return _OpenClose(self, problem, linear_solver, memory.pattern_of(problem)).run()
         return spring_answer(

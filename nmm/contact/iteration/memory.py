@@ -6,21 +6,12 @@ from typing import Any
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.contact.iteration.options import MemoryOptions
 from nmm.contact.iteration.ways import Ways
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.step_problem import Limits, StepAnswer, StepProblem
 from nmm.solvers.linear import Factor, LinearSolver
-
-DRIFT = 1.25
-"""A kept factor serves while no diagonal entry of the matrix has changed by more than this."""
-FACTORS_KEPT = 4
-"""Factors kept."""
-TURN = 1e-3
-"""A kept factor is as good as new while the rows have changed by less than this part."""
-
-STEPS = 2
-"""Last steps from which the next one may start."""
 
 STEP = ("force", "gap", "slip")
 """What stays from solution to solution of one step."""
@@ -38,13 +29,14 @@ class KeptFactor:
     solver: LinearSolver
     springs: CutSprings
     diagonal: Floats
+    options: MemoryOptions
 
     def serves(self, springs: CutSprings, solver: LinearSolver) -> bool:
         """Whether it is near enough to the matrix of ``springs``."""
         if solver != self.solver or len(springs.weight) != len(self.diagonal):
             return False
-        now = springs.weight**-2
-        return bool(np.all(now <= DRIFT * self.diagonal) and np.all(self.diagonal <= DRIFT * now))
+        now, drift = springs.weight**-2, self.options.drift
+        return bool(np.all(now <= drift * self.diagonal) and np.all(self.diagonal <= drift * now))
 
     def as_new(self, problem: StepProblem) -> bool:
         """Whether a new factor would hardly differ."""
@@ -54,8 +46,9 @@ class KeptFactor:
             (old.normal_rows.data, problem.normal_rows.data),
             (old.tangent_rows.data, problem.tangent_rows.data),
         )
+        turn = self.options.turn
         return all(
-            a is b or (len(a) == len(b) and bool(np.linalg.norm(a - b) <= TURN * np.linalg.norm(b)))
+            a is b or (len(a) == len(b) and bool(np.linalg.norm(a - b) <= turn * np.linalg.norm(b)))
             for a, b in pairs
         )
 
@@ -85,6 +78,8 @@ class Memory:
         What the ways to the forces of springs cost in the last steps.
     barrier_width
         Width of the barrier chosen in the first step (m). It is no cache: answers depend on it.
+    options
+        How much is kept, and how long it serves.
     """
 
     pattern: SpringPattern | None = None
@@ -94,6 +89,7 @@ class Memory:
     answered: tuple[StepProblem, StepAnswer] | None = None
     ways: Ways = field(default_factory=Ways)
     barrier_width: float | None = None
+    options: MemoryOptions = field(default_factory=MemoryOptions)
     _load: Floats | None = None
 
     def known(self, problem: StepProblem) -> StepAnswer | None:
@@ -116,8 +112,8 @@ class Memory:
         pattern = self.pattern_of(springs.problem)
         normal, shear = springs.normal_stiffness, springs.shear_stiffness
         factor = solver.factorise(pattern.matrix(springs.problem, normal, shear))
-        kept = KeptFactor(factor, solver, springs, springs.weight**-2)
-        self.kept = [kept, *self.kept[: FACTORS_KEPT - 1]]
+        kept = KeptFactor(factor, solver, springs, springs.weight**-2, self.options)
+        self.kept = [kept, *self.kept[: self.options.factors - 1]]
         return kept, True
 
     def forget(self, kept: KeptFactor) -> None:
@@ -140,7 +136,7 @@ class Memory:
             return
         again = self._load is not None and _equal(self._load, load)
         before = [old for old in self.found[int(again) :] if len(old) == len(increment)]
-        self.found = [increment, *before[: STEPS - 1]]
+        self.found = [increment, *before[: self.options.steps - 1]]
         self._load = load
 
     def again(self, problem: StepProblem) -> tuple[StepProblem, StepAnswer] | None:

@@ -292,6 +292,28 @@ class BarrierOptions:
 
 
 @dataclass(frozen=True)
+class MemoryOptions:
+    """Of what is kept from step to step.
+
+    Attributes
+    ----------
+    drift
+        A kept factor serves while no diagonal entry of the matrix has changed by more (-).
+    turn
+        It is as good as new while the rows have changed by less than this part (-).
+    factors
+        Most factors kept.
+    steps
+        Last steps from which the next one may start.
+    """
+
+    drift: float = above_zero(1.25)
+    turn: float = above_zero(1e-3)
+    factors: int = above_zero(4)
+    steps: int = above_zero(2)
+
+
+@dataclass(frozen=True)
 class IterationOptions:
     """Of all iterations an enforcement may call."""
 
@@ -301,6 +323,7 @@ class IterationOptions:
     interior: InteriorOptions = field(default_factory=InteriorOptions)
     rounds: RoundOptions = field(default_factory=RoundOptions)
     barrier: BarrierOptions = field(default_factory=BarrierOptions)
+    memory: MemoryOptions = field(default_factory=MemoryOptions)
 
 
 DEFAULT = IterationOptions()

@@ -9,7 +9,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.surface import Surface
-from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.contact.problem.step_problem import BROKEN, Limits, StepAnswer
 from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import KEPT, History, HistoryColumn
@@ -36,6 +36,8 @@ class ContactLaws:
         Pa m of a joint whose law has no stiffness of its own: its spring is this times the joint's
         length over the distance of the blocks' middles, so that between Voronoi blocks a uniform
         strain gives a uniform stress on all joints (Kawai 1978).
+    consistent
+        Whether whole bonds whose law has no stiffness of its own are held by consistent terms.
     """
 
     laws: Sequence[InterfaceLaw]
@@ -44,6 +46,7 @@ class ContactLaws:
     shear_penalty: float
     normal_bond: float
     shear_bond: float
+    consistent: bool = False
 
     def initial(self, interface: Ints, bonded: Bools) -> History:
         """Return the history (m,) of contacts that a bond holds, or none."""
@@ -52,7 +55,7 @@ class ContactLaws:
             for name, column in law.initial(bonded).items():
                 kept = found.setdefault(name, np.zeros(len(bonded), dtype=column.dtype))
                 found[name] = np.where(interface == number, column, kept)
-        return found
+        return found | ({TIED: np.zeros(len(bonded))} if self.consistent else {})
 
     def response(self, contacts: ContactPoints, stiffness: Floats) -> InterfaceResponse:
         """Return limits (N), springs and lift of contacts while their history stands.
@@ -85,6 +88,9 @@ class ContactLaws:
             spring = _over(stiffness, area)[index]
             for name, column in law.evolved(history, gap[index], sliding[index], spring).items():
                 after[name][index] = column
+        tied = contacts.tied
+        for name, column in contacts.history.items() if tied.any() else ():
+            after[name] = np.where(tied, column, after[name])
         return after
 
     @cached_property
@@ -149,7 +155,7 @@ class ContactLaws:
         return any(law.normal_stiffness is not None for law in self.laws)
 
     def energy(self, contacts: ContactPoints, own_only: bool = False) -> float:
-        """Energy (J) that comes back when the contacts are unloaded.
+        """Energy (J) that comes back when the contacts are unloaded, but for bonds that are tied.
 
         With ``own_only`` of those alone whose stiffness is a law's: exact contacts are no springs,
         what they overlap by, within a tolerance, stores nothing.
@@ -160,7 +166,7 @@ class ContactLaws:
             away = bonded & (contacts.gap > 0)
             normal = normal * np.where(away, self.response(contacts, normal).open_share, 1.0)
         acts = (contacts.normal_force != 0) | (contacts.shear_force != 0)
-        acts &= own | (not own_only)
+        acts &= (own | (not own_only)) & ~contacts.tied
         stretch = np.where(bonded, contacts.gap, np.minimum(contacts.gap, 0.0))
         elastic = normal * stretch**2 + shear * contacts.slip**2
         return float(elastic[acts].sum() / 2)
@@ -188,7 +194,8 @@ class ContactLaws:
         """Return which intact bonds (m,) cannot hold the forces of an answer.
 
         With ``worst_only`` the most loaded ones alone, the others being judged again after the
-        forces have moved: the order of failure then does not depend on the load increment.
+        forces have moved: the order of failure then does not depend on the load increment. Whole
+        bonds that begin to soften do so together, since no force jumps.
         """
         load = np.zeros(len(contacts))
         bonds = np.flatnonzero(contacts.bonded)
@@ -197,11 +204,22 @@ class ContactLaws:
             mine = contacts.interface[bonds] == number
             index = bonds[mine]
             forces = (answer.normal_force[index], answer.shear_force[index])
-            load[index] = law.overload(*(force / area[mine] for force in forces))
-        over = load > 1
-        if worst_only and over.any():
-            over &= load >= load.max() * (1 - TIE)
+            stress = [force / area[mine] for force in forces]
+            whole = contacts.tied[index]
+            load[index] = np.where(whole, law.onset(*stress), law.overload(*stress))
+        over, brittle = load > 1, self.brittle[contacts.interface]
+        if worst_only and (over & brittle).any():
+            over &= ~brittle | (load >= load[brittle].max() * (1 - TIE))
         return over
+
+    @cached_property
+    def brittle(self) -> Bools:
+        """(n,) whether bonds of each law break at once."""
+        found = np.zeros(len(self.laws), dtype=bool)
+        for number, law in enumerate(self.laws):
+            whole = law.initial(np.ones(1, dtype=bool))
+            found[number] = np.isinf(law.response(whole, np.ones(1)).limits.tension[0])
+        return found
 
     def break_bonds(self, contacts: ContactPoints, broken: Bools) -> ContactPoints:
         """Return the contacts with some bonds broken for good, their forces gone."""

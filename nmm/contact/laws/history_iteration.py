@@ -57,7 +57,8 @@ class HistoryIteration:
     @property
     def softening(self) -> Bools:
         """Which contacts are bonds that lose their strength in the course of solutions."""
-        return self.start.bonded & np.isfinite(self.before.limits.tension)
+        whole = self.start.tied
+        return self.start.bonded & ~whole & np.isfinite(self.before.limits.tension)
 
     @property
     def asymmetric(self) -> AsymmetricSprings | None:

@@ -86,7 +86,16 @@ class ContactPoints:
         """Which contacts are bonds of joints that hold still."""
         return np.asarray(self.history["bonded"])
 
+    @property
+    def tied(self) -> Bools:
+        """Which of the bonds consistent terms hold (`nmm.contact.bonds`)."""
+        if TIED not in self.history:
+            return np.zeros(len(self), dtype=bool)
+        return np.asarray(self.bonded & (self.history[TIED] > 0))
 
+
+TIED = "tied"
+"""The column of contacts that says whether consistent terms hold a bond."""
 PARTS = tuple(part.name for part in fields(ContactPoints) if part.name != "history")
 
 

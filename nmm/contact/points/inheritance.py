@@ -133,10 +133,16 @@ def continued_joints(new: JointBook, old: JointBook, line: Heirs) -> tuple[Joint
     stay given up.
     """
     was, p = known_joints(old), new.points
+    history = line.histories(was, p)
+    # Bonds that consistent terms held and hold no longer keep the springs that followed.
+    released = p.tied & ~replace(p, history=history).tied
+    stiff = p.length * line.kept(was.spring_factor / was.length, p.spring_factor / p.length)
     points = replace(
         p,
+        spring_factor=np.where(released, stiff, p.spring_factor),
         state=line.kept(was.state, p.state).astype(p.state.dtype),
-        history=line.histories(was, p),
+        reference=line.kept(was.reference, p.reference),
+        history=history,
         normal_force=line.shared(was.normal_force, p.length),
         shear_force=line.shared(was.shear_force, p.length),
     )

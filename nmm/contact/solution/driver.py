@@ -4,7 +4,7 @@ What is posed stands: limits, springs, lifted faces. Between two solutions laws 
 (`nmm.contact.laws.history_iteration`) and which bonds break.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -13,9 +13,9 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
+from nmm.contact.bonds.release import released, tied_energy
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.enforcement.rebalanced import solve_rebalanced
-from nmm.contact.iteration.memory import Memory
 from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import Dashpots, RigidMass
@@ -93,7 +93,7 @@ class ContactSolver:
         mass: RigidMass,
         unknown_body: Ints,
     ) -> None:
-        self.memory = Memory()
+        self.memory = enforcement.memory()
         self.last: tuple[StepProblem, StepAnswer] | None = None
         self._laws, self._softness, self._enforcement = laws, softness, enforcement
         self._mass, self._unknown_body = mass, unknown_body
@@ -118,17 +118,18 @@ class ContactSolver:
         contacts: ContactPoints,
         rows: ContactRows,
         request: StepRequest,
-        more: Sequence[Transform] = (),
+        more: Callable[[ContactPoints], Sequence[Transform]] = lambda contacts: (),
     ) -> ContactSolution:
         """Solve a step; bonds that cannot hold break and it is solved again.
 
-        ``more`` are transforms besides those of laws: means over faces, conditions.
+        ``more`` are transforms besides those of laws: whole bonds, means over faces, conditions.
         """
         self.memory.moving = request.step is not None
         iteration, passes, loss = HistoryIteration(self._laws, contacts), 0, 0.0
         start: Floats | None = None
+        besides = more(contacts)
         while True:
-            posed = self._posed(iteration, rows, request, more, start)
+            posed = self._posed(iteration, rows, request, besides, start)
             enforced = partial(self._enforced, posed.transforms, request.solver)
             answer = solve_through(posed.transforms, posed.problem, enforced)
             passes += answer.passes
@@ -143,15 +144,21 @@ class ContactSolver:
                 start = answer.increment
                 continue
             broken = self._laws.breaking(iteration.contacts, answer, request.breaking == "worst")
+            brittle = broken & self._laws.brittle[contacts.interface]
             if not broken.any():
                 loss += iteration.loss(answer, sliding) + posed.loss(contacts, answer)
                 return replace(found, loss=loss, sliding=sliding, rows=rows)
             if request.near is not None and not request.near(answer.increment):
                 return found
-            if request.breaking == "stop":
+            if request.breaking == "stop" and brittle.any():
                 return replace(found, stopped=True)
-            loss += _stored(posed.problem, answer, broken)
-            contacts = self._laws.break_bonds(contacts, broken)
+            loss += _stored(posed.problem, answer, brittle, contacts.tied)
+            freed = broken & contacts.tied
+            contacts = self._laws.break_bonds(contacts, brittle)
+            if freed.any():
+                limits = iteration.response.limits
+                contacts, stored = released(contacts, freed, answer, iteration.springs, limits)
+                loss, besides = loss + stored, more(contacts)
             iteration, start = HistoryIteration(self._laws, contacts), None
 
     def acting(self) -> csc_array | None:
@@ -246,8 +253,10 @@ class ContactSolver:
         return answer
 
 
-def _stored(problem: StepProblem, answer: StepAnswer, broken: Bools) -> float:
-    """Energy (J) in the springs of bonds that break."""
-    normal = answer.normal_force**2 / problem.normal_stiffness
-    shear = answer.shear_force**2 / problem.shear_stiffness
-    return float((normal + shear)[broken].sum()) / 2
+def _stored(problem: StepProblem, answer: StepAnswer, broken: Bools, tied: Bools) -> float:
+    """Energy (J) of bonds that break: in their springs, or of the terms that held them."""
+    penalty = problem.normal_stiffness
+    springs = answer.normal_force**2 / penalty + answer.shear_force**2 / problem.shear_stiffness
+    terms = tied_energy(answer.normal_force, answer.gap, penalty)
+    terms += tied_energy(answer.shear_force, answer.slip, penalty)
+    return float(np.where(tied, terms, springs / 2)[broken].sum())

@@ -33,6 +33,8 @@ class StepRequest:
     near
         Whether an increment (n,) moves no further than contacts were sought: no bond is judged by
         one that does. None: none does.
+    time
+        At its end (s); None where nothing hangs on it.
     """
 
     matrix: csc_array
@@ -43,3 +45,4 @@ class StepRequest:
     null_space: NullSpace | None = None
     breaking: Breaking = "all"
     near: Callable[[Floats], bool] | None = None
+    time: float | None = None

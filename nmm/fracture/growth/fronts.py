@@ -1,4 +1,4 @@
-"""CrackFronts: the ends of a scene's cracks, wherever their tips are now."""
+"""Fronts: the ends of a scene's cracks, wherever their tips are now."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -29,7 +29,7 @@ class GrowthRule:
     most
         Growth of a front at which it stops (m); infinite without.
     together
-        CrackFronts that fall short of their toughness by up to this part of it grow with a critical one.
+        Fronts that fall short of their toughness by up to this part of it grow with a critical one.
     """
 
     criterion: Criterion

@@ -25,6 +25,7 @@ ENERGIES = (
     "integration_loss",
     "contact_loss",
 )
+DAMPING = "damping_loss"
 STATES = ("bonded", "stick", "slide", "open", "broken")
 
 
@@ -187,7 +188,7 @@ def overview(run: RunData, *, path: PathLike | None = None) -> "list[Axes]":
     """
     known, clock = run.history, _clock(run)
     groups: list[tuple[Sequence[str], bool]] = [
-        ([name for name in ENERGIES if _varies(known, name)], False),
+        ([name for name in (*ENERGIES, *_family(known, DAMPING)) if _varies(known, name)], False),
         ([name for name in ("load_factor",) if _changes(known, name) and name != clock], False),
         ([name for name in STATES if _varies(known, name)], False),
         ([name for name in ("residual",) if _varies(known, name)], True),
@@ -254,7 +255,7 @@ def _signed(words: str, factor: float) -> str:
 
 def _common(columns: Sequence[str]) -> str:
     for names, words in ((ENERGIES, "energy"), (STATES, "contact points")):
-        if set(columns) <= set(names):
+        if {name for name in columns if not name.startswith(DAMPING)} <= set(names):
             return words
     families = {name.partition(":")[0] for name in columns}
     return {"monitor": "displacement", "reaction": "reactions"}.get(families.pop(), "value")

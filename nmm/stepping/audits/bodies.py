@@ -41,8 +41,8 @@ def bodies(run: Ended) -> Findings:
 def _momentum(run: Ended) -> Findings:
     (first, spun), (last, spins) = (_of_bodies(run.stepper, one) for one in (run.start, run.state))
     gravity = run.scene.gravity
-    mass = float((run.stepper.model.density * run.stepper.model.element_area).sum())
-    mass *= run.stepper.model.thickness
+    along = run.stepper.model.manifold.rigid_modes[:, ::3].sum(axis=1)
+    mass = float(along @ (run.stepper.model.mass @ along))
     fall = np.zeros(2) if gravity is None else np.array(gravity.acceleration)
     impulse = mass * fall * (run.state.time - run.start.time)
     # A body that spins has no momentum to measure a change by, one that flies no spin.

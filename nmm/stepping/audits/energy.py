@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from nmm.integrators.base import make_integrator
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.audits.steps import impact_lasts
 from nmm.stepping.audits.table import THRESHOLDS
@@ -116,7 +117,8 @@ def _lost(run: Ended) -> Findings:
     lasts = impact_lasts(run)
     if lasts is not None and ledger.contact_loss > 0.5 * share * ledger.throughput:
         kept = min(kept, lasts / RESOLVED)
-    other = ', or type = "newmark", which damps nothing but impacts' if rule.type == "shi" else ""
+    damps = make_integrator(rule).order == 1
+    other = ', or type = "newmark", which damps nothing but impacts' if damps else ""
     yield AuditFinding(
         "energy_lost",
         share,

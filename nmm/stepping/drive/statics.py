@@ -344,8 +344,8 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
 
 
 def _remembering(moved: State, start: State) -> State:
-    """Return a state with what matter remembers of the start."""
-    return replace(moved, history=start.history) if start.history else moved
+    """Return a state with what matter and effects remember of the start."""
+    return replace(moved, history=start.history, memory=start.memory)
 
 
 def _rounding(stepper: Stepper) -> float:

@@ -47,6 +47,8 @@ class Ledger:
         and what material points did, which flow or suffer damage.
     damping_loss
         What dampers took, by effect.
+    effect_loss
+        What effects took for good, by name.
     integration_loss, contact_loss
         What time integration took, but for contact; and what springs of contact lost beyond
         friction: both are part of what is missing in the balance, and negative where energy came.
@@ -77,6 +79,7 @@ class Ledger:
     friction_loss: float = 0.0
     material_loss: float = 0.0
     damping_loss: Mapping[str, float] = field(default_factory=dict)
+    effect_loss: Mapping[str, float] = field(default_factory=dict)
     integration_loss: float = 0.0
     contact_loss: float = 0.0
     energies: Mapping[str, float] = field(default_factory=dict)
@@ -101,9 +104,9 @@ class Ledger:
         if first:
             stored_first = sum(earlier.values()) - earlier["contact_energy"]
         grows = first and plan.inertia is None
-        if grows and plan.supports is not None:
+        if grows:
             stored_first -= plan.energy("supports", before)
-            work += plan.supports.first_work(before, after)
+            work += plan.first_work(before, after)
         work += plan.work(before, after)
         if grows:
             work -= standing(plan, before, after)
@@ -113,6 +116,10 @@ class Ledger:
             work=work,
             friction_loss=self.friction_loss + loss,
             material_loss=self.material_loss + model.dissipated(before, after),
+            effect_loss={
+                name: self.effect_loss.get(name, 0.0) + lost
+                for name, lost in plan.losses(before, after).items()
+            },
             energies=stored(plan, model, stands),
             stored_first=stored_first,
             steps=self.steps + 1,
@@ -152,7 +159,8 @@ class Ledger:
     def row(self) -> Mapping[str, float]:
         """What the history says of a step."""
         damping = {f"damping_loss:{name}": loss for name, loss in self.damping_loss.items()}
-        return {**self.energies, "external_work": self.work, **damping}
+        lost = {f"loss:{name}": loss for name, loss in self.effect_loss.items()}
+        return {**self.energies, "external_work": self.work, **damping, **lost}
 
     @property
     def balance(self) -> float:
@@ -170,7 +178,8 @@ class Ledger:
     @property
     def dissipated(self) -> float:
         """Energy (J) that friction, damping, breaking and flowing material took."""
-        return self.friction_loss + self.material_loss + sum(self.damping_loss.values())
+        by_effects = (*self.damping_loss.values(), *self.effect_loss.values())
+        return self.friction_loss + self.material_loss + sum(by_effects)
 
     def weighed(self, time: float) -> "Ledger":
         """Return the totals with the size of the energies, and how much came from nowhere."""

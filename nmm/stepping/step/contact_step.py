@@ -172,6 +172,7 @@ class Touching:
             null_space=held,
             breaking=breaking,
             near=near,
+            time=equations.end.time,
         )
         with self._clock.phase("solve"):
             return self._contact.solve(contacts, equations.state, request, midpoint)

@@ -116,8 +116,9 @@ class LinearSystem:
         border: tuple[csr_array, Floats] | None,
     ) -> Apart | None:
         """Solution with rigid motions apart where rounding would spoil the stress; else None."""
-        model = self._solved.model
-        if not self._small or model.manifold.n_bodies == 1 or model.matter is not None:
+        model, bent = self._solved.model, bool(self._solved.plan.bent)
+        bent |= model.matter is not None
+        if not self._small or model.manifold.n_bodies == 1 or bent:
             return None
         bodies = rigid_bodies(model)
         if rounding(factor, bodies, increment, force) <= ROUNDED:

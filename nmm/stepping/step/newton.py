@@ -1,23 +1,23 @@
-"""Newton's method on matter that is not linear, about the solution of a step with its contacts.
+"""Newton's method on forces that are not linear, about the solution of a step with its contacts.
 
 Each iteration solves a whole linear step, contact, friction and supports included, with the tangent
 at the iterate; its unknown is the whole increment. What is out of balance afterwards is only what
-the tangent missed of the internal forces. History is read at the start of the step by all
-iterations and belongs to the state that is found: nothing is kept by an attempt that fails.
+the tangent missed of the internal forces, those of matter and of effects (`inner`). What they
+remember is read at the start of the step by all iterations and belongs to the state that is found:
+nothing is kept by an attempt that fails.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.matter import STRESS, Matter
 from nmm.assembly.motion import State
-from nmm.materials.base import Response
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations, Linearisation
+from nmm.stepping.step.inner import Inner, Iterate
 from nmm.stepping.step.trial import Attempt
 
 Solution = tuple[Equations, Attempt]
@@ -34,45 +34,26 @@ SLOPE, TRIALS, SHORTEST = 0.8, 6, 0.05
 FLOWS = 1e-2
 
 
-@dataclass(frozen=True)
-class _Iterate:
-    """An increment (n,) of the step with what matter answers, and its internal force (n,)."""
-
-    increment: Floats
-    response: Response
-    force: Floats
-
-
 def newton(
-    matter: Matter,
+    inner: Inner,
     state: State,
-    step: float | None,
     solve: Callable[[Linearisation | None], Solution],
     clock: Clock,
-    symmetric: bool,
 ) -> Solution:
-    """Solve a step from ``state`` of ``step`` seconds, None in statics.
-
-    ``solve`` solves the equations with matter linearised, by its ``symmetric`` part or as it is.
+    """Solve a step from ``state`` with its ``inner`` forces; ``solve`` does with these linearised.
 
     Returns
     -------
-    The last equations and their solution, with the history of matter at its end.
+    The last equations and their solution, with what is remembered at its end.
     """
-
-    def at(increment: Floats) -> _Iterate:
-        with clock.phase("material"):
-            whole = state.deformation + increment
-            answer = matter.update(whole, state.history, step or 0.0)
-            return _Iterate(increment, answer, matter.force(whole, answer.stress))
-
-    start = matter.force(state.deformation, state.history[STRESS])
-    elastic = matter.stiffness(matter.elastic)
-    scale = _scale(elastic)
-    now, way, passes = at(np.zeros_like(start)), np.zeros_like(start), 0
+    at = inner.at
+    elastic = inner.elastic if inner.flows else None
+    scale = _scale(inner.elastic)
+    way, passes = np.zeros_like(inner.start), 0
+    now = at(way)
     imbalances: list[float] = []
     while True:
-        line = _line(matter, now, start, clock, symmetric)
+        line = _line(inner, now, clock)
         equations, found = solve(line)
         passes += found.passes
         if not found.converged and not _goes_on(found):
@@ -81,20 +62,18 @@ def newton(
             found = replace(found, sentence=said, singular=found.singular or bool(flows))
             return equations, replace(found, passes=passes, imbalances=tuple(imbalances))
         then = at(found.increment)
-        missed = then.force - line.force - line.stiffness @ then.increment
-        size = max(np.linalg.norm(scale * one) for one in (then.force, start, equations.force))
-        imbalances.append(float(np.linalg.norm(scale * missed) / size) if size else 0.0)
+        imbalances.append(inner.imbalance(now, then, scale, equations.force))
         found = replace(found, passes=passes, imbalances=tuple(imbalances))
         if _balanced(imbalances):
-            after = replace(found.state, history=then.response.history)
+            after = replace(found.state, history=then.history, memory=then.memory)
             return equations, replace(
                 found, state=after, residual=max(found.residual, imbalances[-1])
             )
         way = then.increment - now.increment
-        if len(imbalances) == MOST or not np.isfinite(missed).all():
+        if len(imbalances) == MOST or not np.isfinite(imbalances[-1]):
             flows = _flow(elastic, line, way)
             said = (
-                f"matter is {imbalances[-1]:.1e} of the forces out of balance after "
+                f"internal forces are {imbalances[-1]:.1e} of all out of balance after "
                 f"{len(imbalances)} iterations"
             )
             return equations, replace(
@@ -112,13 +91,11 @@ def _goes_on(found: Attempt) -> bool:
     return found.solved is not None and found.solved.stopped
 
 
-def _line(
-    matter: Matter, at: _Iterate, start: Floats, clock: Clock, symmetric: bool
-) -> Linearisation:
+def _line(inner: Inner, at: Iterate, clock: Clock) -> Linearisation:
     with clock.phase("assembly"):
-        stiffness = matter.stiffness(at.response.tangent, symmetric)
+        stiffness = at.stiffness
     force = at.force - stiffness @ at.increment
-    return Linearisation(stiffness, force, start, symmetric)
+    return Linearisation(stiffness, force, inner.start, inner.symmetric)
 
 
 def _scale(elastic: csc_array) -> Floats:
@@ -138,10 +115,10 @@ def _balanced(imbalances: list[float]) -> bool:
 def _searched(
     equations: Equations,
     line: Linearisation,
-    now: _Iterate,
-    then: _Iterate,
-    at: Callable[[Floats], _Iterate],
-) -> _Iterate:
+    now: Iterate,
+    then: Iterate,
+    at: Callable[[Floats], Iterate],
+) -> Iterate:
     """Return the next iterate: the whole step, or less where the forces overshoot along it.
 
     Contact and support forces are held as the solution has them, so that the slope of the energy
@@ -152,7 +129,7 @@ def _searched(
     curved = float(way @ (equations.matrix @ way))
     bent = line.stiffness @ way
 
-    def slope(one: _Iterate, part: float) -> float:
+    def slope(one: Iterate, part: float) -> float:
         missed = one.force - now.force - part * bent
         return (part - 1) * curved + share * float(way @ missed)
 
@@ -177,8 +154,10 @@ def _share_of_matter(equations: Equations) -> float:
     return 1.0 if terms is None else terms.weight / terms.contact_factor
 
 
-def _flow(elastic: csc_array, line: Linearisation, way: Floats) -> str:
+def _flow(elastic: csc_array | None, line: Linearisation, way: Floats) -> str:
     """Say how little of its elastic stiffness matter has against a motion (n,); empty if enough."""
+    if elastic is None:
+        return ""
     whole = float(way @ (elastic @ way))
     left = float(way @ (line.stiffness @ way)) / whole if whole > 0 else 1.0
     return (

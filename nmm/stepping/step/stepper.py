@@ -1,5 +1,6 @@
 """One step: assemble what is constant in it, solve, judge. Nothing is kept unless accepted."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -22,6 +23,7 @@ from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Assembly, Equations, Linearisation
 from nmm.stepping.step.free_step import Alone
 from nmm.stepping.step.frozen import with_parts
+from nmm.stepping.step.inner import Inner
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.newton import Solution, newton
 from nmm.stepping.step.remap import Lay, remapped, with_stress, with_stress_so_far
@@ -174,16 +176,29 @@ class Stepper:
                 equations = self._assembly.of(state, end, step, rule, self.anchored, matter)
             return equations, self._solved(equations, breaking)
 
-        matter = self.model.matter
-        if matter is None:
+        if self.model.matter is None and not self.plan.bent:
             equations, found = solve(None)
         else:
-            # Methods of contact are for symmetric matrices.
-            symmetric = matter.symmetric or self.plan.contact is not None
-            equations, found = newton(matter, state, step, solve, self._clock, symmetric)
+            try:
+                equations, found = self._bent(state, step, solve)
+            except SolveError as fault:
+                return _failed(state, fault)
         if not found.converged or equations.inertia is None:
             return found
         return replace(found, booked=booked(equations, found.increment, found.solved))
+
+    def _bent(
+        self,
+        state: State,
+        step: float | None,
+        solve: Callable[[Linearisation | None], Solution],
+    ) -> Solution:
+        """Solve a step whose internal forces are not linear."""
+        current, still, clock = self._current, self._mover.still, self._clock
+        # Methods of contact are for symmetric matrices.
+        symmetric = self.plan.contact is not None
+        inner = Inner(current, state, step, self._rule, still, symmetric, clock)
+        return newton(inner, state, solve, clock)
 
     def _solved(self, equations: Equations, breaking: "Breaking") -> Attempt:
         """Solve equations, with contact where the scene has it."""
@@ -192,10 +207,7 @@ class Stepper:
                 return self._alone.attempt(equations)
             return self._touching.attempt(equations, breaking, self._carried.reach)
         except SolveError as fault:
-            rest, singular = np.zeros_like(equations.force), fault.singular
-            return Attempt(
-                False, str(fault), equations.state, rest, 0.0, np.nan, 1, singular=singular
-            )
+            return _failed(equations.state, fault)
 
     def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
         """Make an attempt the start of the next step; return it with its contacts as left."""
@@ -304,6 +316,12 @@ class Stepper:
     def _rule(self) -> Integrator:
         """The integrator of the step."""
         return rule_of(self._integrator, self._carried.knows_start)
+
+
+def _failed(state: State, fault: SolveError) -> Attempt:
+    """Return what came of a step from ``state`` that has no solution."""
+    rest, singular = np.zeros_like(state.deformation), fault.singular
+    return Attempt(False, str(fault), state, rest, 0.0, np.nan, 1, singular=singular)
 
 
 def scaled_load(stepper: Stepper, factor: float) -> float | None:

@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping
 
+from nmm.integrators.base import INTEGRATORS
+
 # Weights of these covers reproduce linear fields (s = 1), so that local functions of degree p span
 # degree 1 + p; elements of scikit-fem span their degree, a block or sub-block its own.
 HATS = ("triangles", "quads", "mls")
 # Quantities that are an energy, or the work of the loads: off by the square of the energy norm.
 ENERGIES = ("energy", "strain_energy", "external_work")
-INTEGRATORS = {"shi": 1, "newmark": 2, "generalized_alpha": 2}
 
 
 def spanned_degree(cover: str) -> int | None:
@@ -47,5 +48,7 @@ def order_in_size(
 
 def order_in_step(method: Mapping[str, str]) -> tuple[float, str] | None:
     """Order of an integrator in its step while contacts do not change."""
-    order = INTEGRATORS.get(method.get("integrator", ""))
-    return None if order is None else (float(order), f"order of {method['integrator']}")
+    name = method.get("integrator", "")
+    if name not in INTEGRATORS.table:
+        return None
+    return float(INTEGRATORS.make(name).order), f"order of {name}"

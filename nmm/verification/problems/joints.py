@@ -161,7 +161,7 @@ class PullOff(SceneCase):
         law = {"cohesion": 10 * self.strength, "tensile_strength": self.strength, "bonded": True}
         return text.scene(
             'title = "Pull-off"\nplane = "stress"\n[contact]\n[loading]\nuntil = "failure"\n'
-            f'[formulation.contact]\njoint_points = "{self.points}"\n'
+            f'[formulation.contact]\nbonds = "spring"\njoint_points = "{self.points}"\n'
             "[formulation.loading]\nincrement = 0.1\ntolerance = 1e-4\n",
             [
                 text.material("rock", modulus=1e11, poisson=0.0, density=None),
@@ -198,7 +198,7 @@ class BrittleDrop(SceneCase):
         law = {"cohesion": 10 * self.strength, "tensile_strength": self.strength, "bonded": True}
         return text.scene(
             'title = "Brittle drop"\nplane = "stress"\nduration = 0.01\n[contact]\n[inertia]\n'
-            "[formulation.integrator]\nstep = 2e-5\n",
+            '[formulation.integrator]\nstep = 2e-5\n[formulation.contact]\nbonds = "spring"\n',
             [
                 text.material("rock", modulus=1e9, poisson=0.0, density=1000.0),
                 text.interface("bond", 30.0, more=law),

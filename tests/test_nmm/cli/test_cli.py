@@ -1,5 +1,6 @@
 """The command line: each verb by what it prints, writes and returns."""
 
+import shutil
 import tomllib
 from pathlib import Path
 
@@ -50,11 +51,30 @@ def test_a_run_prints_its_verdict_first_and_its_files_last(finished):
     lines = result.stdout.splitlines()
     assert lines[0] == read_run(out).summary.sentence
     files = [line for line in lines if line.startswith(str(out))]
+    assert files == [str(out)]
+    assert not (out / "pictures").exists()
+    assert not (out / "paraview").exists()
+    assert lines[-1] == f"next: nmm plot {out}   or: nmm export {out} for ParaView"
+
+
+def test_pictures_and_paraview_files_are_made_as_a_run_ends_where_its_scene_asks(scene, tmp_path):
+    asking, out = tmp_path / "asking.toml", tmp_path / "run"
+    asking.write_text(scene.read_text() + "[output]\npictures = true\nparaview = true\n")
+    lines = call("run", asking, "--out", out).stdout.splitlines()
+    files = [line for line in lines if line.startswith(str(out))]
     assert len(files) >= 5
     assert all(Path(file).exists() for file in files)
     assert f"{out}/pictures/deformed.png" in files
     assert f"{out}/paraview/blocks.pvd" in files
-    assert lines[-1].startswith(f"next: nmm plot {out}")
+
+
+def test_a_run_is_exported_for_paraview_afterwards(finished, tmp_path):
+    out = Path(shutil.copytree(finished[1], tmp_path / "run"))
+    result = call("export", out)
+    assert result.exit_code == 0, result.output
+    opened = result.stdout.split()
+    assert opened[0] == f"{out}/paraview/blocks.pvd"
+    assert all(Path(file).exists() for file in opened)
 
 
 def test_a_run_is_compared_with_the_references_of_its_scene(finished):

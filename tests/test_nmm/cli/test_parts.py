@@ -46,8 +46,8 @@ def test_words_of_no_part_are_told():
 
 def test_parts_of_ones_own_are_listed_once_their_module_is_allowed(monkeypatch):
     monkeypatch.chdir(EXAMPLES / "own_effect")
-    assert "foundation" not in call("effect").stdout
-    (line,) = call("foundation", "--allow-code", "foundation").stdout.splitlines()
+    assert "foundation:" not in call("effect").stdout
+    (line,) = call("foundation:Winkler", "--allow-code", "foundation").stdout.splitlines()
     assert line.split()[:3] == ["effect", "foundation:Winkler", "own"]
 
 

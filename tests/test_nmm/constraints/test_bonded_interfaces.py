@@ -12,45 +12,21 @@ from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
 from nmm.stepping.run import Run, run
+from nmm.testing.scenes import pulled_bar
+from nmm.verification import text
 
-BARS = """
-plane = "stress"
-[materials.soft]
-young_modulus = 1
-poisson_ratio = 0.0
-[materials.hard]
-young_modulus = 1e4
-poisson_ratio = 0.0
-[interfaces.joint]
-between = ["soft", "hard"]
-friction_angle = 0
-bonded = true
-STIFFNESS
-[[blocks]]
-name = "one"
-material = "soft"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[blocks]]
-name = "two"
-material = "hard"
-vertices = [[1, 0], [2, 0], [2, 1], [1, 1]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 1]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[2, 0], [2, 1]]
-traction = [1, 0]
-[[monitors]]
-name = "end"
-point = [2, 0.5]
-[[monitors]]
-name = "near"
-point = [1, 0.5]
-block = "one"
-"""
+
+def bars(modulus: float = 1e4, joint: float = 1) -> str:
+    """A soft bar that holds a bar of a modulus (Pa), glued at a place (m)."""
+    between = ("soft", "hard")
+    scene = pulled_bar(
+        [text.material("soft", 1.0, 0.0, None), text.material("hard", modulus, 0.0, None)],
+        [("one", "soft"), ("two", "hard")],
+        text.interface("joint", 0.0, between, {"bonded": True}),
+        ends=(joint, 2),
+    )
+    return scene + text.monitor("near", (joint, 0.5), "one")
+
 
 MESH = '[cover]\ntype = "triangles"\nsize = 0.4\ndegree = 1\nangle = 0.3\n'
 
@@ -78,7 +54,7 @@ def test_glued_bars_carry_one_stress_whatever_their_stiffness(cover: str, method
     # Benchmark A9a: stress 1 in both to 1e-8. The displacement of the hard bar, 1, times its
     # stiffness, 1e9, has 1e-7 of the load in its roundings: rigid motions must be kept apart.
     for ratio in (1.0, 1e4, 1e9):
-        scene = BARS.replace("STIFFNESS", "").replace("= 1e4", f"= {ratio}")
+        scene = bars(ratio)
         found = simulate(scene, COVERS[cover] + f'[glue]\nmethod = "{method}"\n')
         np.testing.assert_allclose(
             found.stress, np.tile([1.0, 0, 0], (len(found.stress), 1)), atol=1e-8
@@ -92,7 +68,7 @@ def test_glued_bars_carry_one_stress_whatever_their_stiffness(cover: str, method
 
 
 def test_springs_of_glue_open_by_stress_over_their_stiffness() -> None:
-    scene = BARS.replace("STIFFNESS", "").replace("= 1e4", "= 1e9")
+    scene = bars(1e9)
     found = simulate(scene, MESH + '[glue]\nmethod = "spring"\nstiffness = 1e3\n')
     longest = max(np.hypot(*(joint.end - joint.start).T).max() for joint in [joints_of(found)])
     end = found.history["monitor:end:ux"][-1]
@@ -173,10 +149,7 @@ def test_glue_is_conditioned_alike_however_small_the_cuts(
     bounds = []
     for sliver in (0.3, 1e-3, 1e-6, 1e-9, 1e-12, -1e-6, -1e-12):
         # Quads of 0.25 shifted by 0.13 of a cell have a line at 0.7825.
-        x = repr(0.7825 + 0.25 * sliver)
-        scene = BARS.replace("STIFFNESS", "").replace("= 1e4", f"= {ratio}")
-        for old in ("[1, 0], [1, 1]", "[[1, 0]", "[1, 1]]", "[1, 0.5]"):
-            scene = scene.replace(old, old.replace("[1, ", f"[{x}, "))
+        scene = bars(ratio, 0.7825 + 0.25 * sliver)
         cover = f'[cover]\ntype = "quads"\nsize = 0.25\ndegree = {degree}\nshift = [0.13, 0.29]\n'
         found = simulate(scene, cover + f'[glue]\nmethod = "{method}"\n')
         # A sliver's stress is as good as its energy, which goes with the root of its area:
@@ -210,7 +183,7 @@ def test_explain_says_how_blocks_are_glued(method: str, said: str, tmp_path: Pat
     from nmm.cli.app import app
 
     scene, formulation = tmp_path / "bars.toml", tmp_path / "mesh.toml"
-    scene.write_text('title = "bars"\n' + BARS.replace("STIFFNESS", ""), encoding="utf-8")
+    scene.write_text('title = "bars"\n' + bars(), encoding="utf-8")
     formulation.write_text(MESH + f'[glue]\nmethod = "{method}"\n', encoding="utf-8")
     told = CliRunner().invoke(app, ["explain", str(scene), "-f", str(formulation)])
     assert told.exit_code == 0, told.output
@@ -221,16 +194,16 @@ def test_explain_says_how_blocks_are_glued(method: str, said: str, tmp_path: Pat
 def test_functions_without_strain_cannot_be_glued_by_nitsche() -> None:
     rigid = '[cover]\ntype = "block"\nfunctions = "rigid"\n'
     with pytest.raises(FormulationError, match="neither side has functions with strain"):
-        simulate(BARS.replace("STIFFNESS", ""), rigid + '[glue]\nmethod = "nitsche"\n')
-    found = simulate(BARS.replace("STIFFNESS", ""), rigid)
+        simulate(bars(), rigid + '[glue]\nmethod = "nitsche"\n')
+    found = simulate(bars(), rigid)
     # Springs of 1e4 E over the edge, and those of the support, 1e3 E.
     end = found.history["monitor:end:ux"][-1]
     assert end == pytest.approx(1e-4 + 1 / 3000, rel=1e-6)
 
 
 def test_a_hard_block_that_tilts_on_a_soft_one_keeps_its_digits() -> None:
-    def stress(young: str, method: str) -> tuple[np.ndarray, float]:
-        scene = BARS.replace("STIFFNESS", "").replace("= 1e4", f"= {young}")
+    def stress(young: float, method: str) -> tuple[np.ndarray, float]:
+        scene = bars(young)
         scene = scene.replace("segment = [[2, 0], [2, 1]]", "segment = [[1.5, 1], [2, 1]]")
         cover = MESH.replace("0.4", "0.3")
         found = simulate(scene, cover + f'[glue]\nmethod = "{method}"\n')
@@ -240,8 +213,8 @@ def test_a_hard_block_that_tilts_on_a_soft_one_keeps_its_digits() -> None:
         return area @ found.stress[hard] / area.sum(), found.summary.equilibrium_residual
 
     for method in ("nitsche", "lagrange"):
-        soft, _ = stress("1e6", method)
-        hard, residual = stress("1e9", method)
+        soft, _ = stress(1e6, method)
+        hard, residual = stress(1e9, method)
         # What the hard block's own strain does to the stress falls as 1 / E: 1e-6.
         np.testing.assert_allclose(hard, soft, atol=1e-6)
         assert residual < 1e-8
@@ -278,8 +251,8 @@ block = "two"
 velocity = [1, 1]
 angular_velocity = 2
 """
-    text = COVERS[cover] + f'[glue]\nmethod = "{method}"\n[integrator]\nstep = 0.002\n'
-    found = simulate(scene, text)
+    chosen = COVERS[cover] + f'[glue]\nmethod = "{method}"\n[integrator]\nstep = 0.002\n'
+    found = simulate(scene, chosen)
     np.testing.assert_allclose(found.state.frames.angle, 0.4, rtol=2e-3)
     # rho A v^2 / 2 + I omega^2 / 2 of a plate 2 x 1: 1000 + 0.5 * 833.3 * 4; the rest is
     # the integrator's, which is of first order.
@@ -291,7 +264,7 @@ angular_velocity = 2
 @pytest.mark.parametrize("method", ["nitsche", "lagrange"])
 def test_meshes_that_do_not_match_are_glued_alike(method: str) -> None:
     net = '[[cover.nets]]\nblock = "two"\nsize = 0.17\nangle = 1.0\n'
-    scene = BARS.replace("STIFFNESS", "").replace("= 1e4", "= 1e9")
+    scene = bars(1e9)
     found = simulate(scene, MESH + net + f'[glue]\nmethod = "{method}"\n')
     exact = np.tile([1.0, 0.0, 0.0], (len(found.stress), 1))
     np.testing.assert_allclose(found.stress, exact, atol=1e-8)

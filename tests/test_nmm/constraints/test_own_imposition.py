@@ -14,6 +14,8 @@ from nmm.constraints.interface import Interface, Triplets, product
 from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
+from nmm.testing.scenes import pulled_bar
+from nmm.verification import text
 
 STIFFNESS = 50.0
 
@@ -41,35 +43,11 @@ class Carpet(Imposition):
         return STIFFNESS / 2 * float(np.sum(self.interface.area[:, None] * jump**2))
 
 
-BAR = """
-plane = "stress"
-[materials.m]
-young_modulus = 100
-poisson_ratio = 0
-[interfaces.glue]
-friction_angle = 0
-bonded = true
-[[blocks]]
-name = "left"
-material = "m"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[blocks]]
-name = "right"
-material = "m"
-vertices = [[1, 0], [2, 0], [2, 1], [1, 1]]
-[[supports]]
-name = "wall"
-segment = [[0, 0], [0, 1]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[2, 0], [2, 1]]
-traction = [1, 0]
-[[monitors]]
-name = "end"
-point = [2, 0.5]
-"""
+BAR = pulled_bar(
+    [text.material("m", 100.0, 0.0, None)],
+    [("left", "m"), ("right", "m")],
+    text.interface("glue", 0.0, more={"bonded": True}),
+)
 COVERS = {
     "block": '[cover]\ntype = "block"\n',
     "mesh": '[cover]\ntype = "triangles"\nsize = 0.4\nangle = 0.3\n',
@@ -79,19 +57,19 @@ COVERS = {
 @pytest.mark.parametrize("cover", COVERS)
 def test_one_class_of_ones_own_holds_supports_and_glue_on_every_cover(cover: str) -> None:
     own = f'method = "{__name__}:Carpet"\n'
-    text = COVERS[cover] + "[supports]\n" + own + "[glue]\n" + own
-    done = nmm.run(parse_scene(BAR, "bar"), parse_formulation(text), allow_code=[__name__])
+    chosen = COVERS[cover] + "[supports]\n" + own + "[glue]\n" + own
+    done = nmm.run(parse_scene(BAR, "bar"), parse_formulation(chosen), allow_code=[__name__])
     assert done.summary.status == "converged", done.summary.sentence
     # Two bars of E = 100 under a stress of 1, and two carpets of 50 Pa/m.
     assert done.history["monitor:end:ux"][-1] == pytest.approx(2 / 100 + 2 / STIFFNESS, rel=1e-9)
-    assert done.history["reaction:wall:x"][-1] == pytest.approx(-1.0, rel=1e-9)
+    assert done.history["reaction:left:x"][-1] == pytest.approx(-1.0, rel=1e-9)
     assert done.history["support_energy"][-1] == pytest.approx(2 * 0.5 / STIFFNESS, rel=1e-9)
 
 
 def test_an_unknown_method_is_told_by_its_line() -> None:
-    text = COVERS["mesh"] + '[supports]\nmethod = "nitche"\n'
+    chosen = COVERS["mesh"] + '[supports]\nmethod = "nitche"\n'
     with pytest.raises(FormulationError, match=r'method.*"nitche".*did you mean "nitsche"'):
-        nmm.run(parse_scene(BAR, "bar"), parse_formulation(text))
+        nmm.run(parse_scene(BAR, "bar"), parse_formulation(chosen))
 
 
 @pytest.mark.parametrize("kind", ["penalty", "nitsche"])

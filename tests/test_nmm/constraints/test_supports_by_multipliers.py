@@ -22,6 +22,7 @@ from nmm.scene import parse_scene
 from nmm.solvers.linear import make_solver
 from nmm.stepping.drive.linear_statics import equilibrium, hold
 from nmm.stepping.run import Run, run
+from nmm.testing.scenes import block_on_slab, edge_support
 
 STRESS = np.array([1.032967033, 0.1098901099, 0.1923076923])
 
@@ -54,36 +55,11 @@ def test_polygons_held_by_multipliers_pass_the_patch_test(
     assert patch(corners, kind, degree) < 1e-9
 
 
-BASE = """
-plane = "strain"
-[materials.m]
-density = 2000
-young_modulus = "10 MPa"
-poisson_ratio = 0.2
-[interfaces.i]
-friction_angle = "30 deg"
-[contact]
-[gravity]
-[[blocks]]
-name = "base"
-material = "m"
-vertices = [[0, 0], [2, 0], [2, 0.5], [0, 0.5]]
-[[blocks]]
-name = "top"
-material = "m"
-vertices = [[0.7, 0.5], [1.3, 0.5], [1.3, 1.1], [0.7, 1.1]]
-[[supports]]
-name = "left half"
-segment = [[0, 0], [1, 0]]
-fix = ["x", "y"]
-[[supports]]
-name = "right half"
-segment = [[1, 0], [2, 0]]
-fix = ["x", "y"]
-[[monitors]]
-name = "top"
-point = [1, 1.1]
-"""
+HALVES = [
+    edge_support("left half", (0, 0), (1, 0)),
+    edge_support("right half", (1, 0), (2, 0)),
+]
+BASE = block_on_slab(0.2, HALVES)
 COVER = '[cover]\ntype = "triangles"\nsize = 0.3\ndegree = 1\nangle = 0.3\n'
 WEIGHT = 9.81 * 2000 * 1.36
 

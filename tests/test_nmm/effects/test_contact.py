@@ -436,7 +436,7 @@ def test_a_bond_between_two_materials_has_the_compliance_of_both_in_series():
         ],
         "contact": {},
     }
-    found = run(Scene.model_validate(scene), steps(1.0, bond_stiffness=0.25))
+    found = run(Scene.model_validate(scene), steps(1.0, bonds="spring", bond_stiffness=0.25))
     series = short / soft + long / stiff
     stretch = float(found.displacement[:, 0].max() - found.displacement[:, 0].min())
     # Residual 1e-8, and springs that hold the left end.

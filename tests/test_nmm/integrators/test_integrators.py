@@ -26,6 +26,7 @@ def test_every_integrator_is_held_to_the_suite():
 )
 def test_an_integrator_keeps_what_every_one_promises(rule, order):
     check_integrator(rule, order)
+    assert rule.order == order
 
 
 def test_newmark_keeps_the_energy_of_a_vibration():

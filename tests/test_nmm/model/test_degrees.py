@@ -18,6 +18,8 @@ from nmm.model.from_polygons import solid
 from nmm.scene import parse_scene
 from nmm.stepping.drive.linear_statics import equilibrium, hold
 from nmm.stepping.run import run
+from nmm.testing.scenes import pulled_bar
+from nmm.verification import text
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 COVER = '[cover]\ntype = "triangles"\nsize = 0.12\ndegree = {}\nangle = 0.3\nshift = [0.2, 0.4]\n'
@@ -86,28 +88,7 @@ def test_a_polygon_and_a_block_choose_their_covers() -> None:
     np.testing.assert_array_equal(linear, right.cover_body == 1)
 
 
-SCENE = """
-plane = "stress"
-[materials.m]
-young_modulus = 1
-poisson_ratio = 0.3
-[[blocks]]
-name = "b"
-material = "m"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 1]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[1, 0], [1, 1]]
-traction = [1, 0]
-[[monitors]]
-name = "end"
-point = [1, 0.5]
-"""
+SCENE = pulled_bar([text.material("m", 1.0, 0.3, None)], [("b", "m")])
 
 
 def test_a_scene_runs_with_the_regions_of_its_formulation() -> None:
@@ -116,45 +97,21 @@ def test_a_scene_runs_with_the_regions_of_its_formulation() -> None:
         f"[[cover.regions]]\ndegree = 2\npoint = [0, {y}]\nradius = 0.3\n" for y in (0, 1)
     )
     ends = []
-    for text in (COVER.format(1), COVER.format(1) + corners, COVER.format(2)):
-        found = run(scene, parse_formulation(text))
+    for given in (COVER.format(1), COVER.format(1) + corners, COVER.format(2)):
+        found = run(scene, parse_formulation(given))
         assert found.summary.status == "converged", found.summary.sentence
         ends.append(found.history["monitor:end:ux"][-1])
     # Two corners are all that a bar held at its end has: measured 0.983864, 0.984078, 0.984078.
     assert abs(ends[1] - ends[2]) < 0.02 * abs(ends[0] - ends[2])
 
 
-TWO = """
-plane = "strain"
-[materials.stiff]
-young_modulus = 1
-poisson_ratio = 0.45
-[materials.m]
-young_modulus = 1
-poisson_ratio = 0.3
-[interfaces.any]
-friction_angle = "0 deg"
-cohesion = 1e9
-tensile_strength = 1e9
-bonded = true
-[[blocks]]
-name = "a"
-material = "stiff"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[blocks]]
-name = "b"
-material = "m"
-vertices = [[1, 0], [2, 0], [2, 1], [1, 1]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 1]]
-fix = ["x", "y"]
-[[loads]]
-name = "pull"
-kind = "edge"
-segment = [[2, 0], [2, 1]]
-traction = [0.3, 0]
-"""
+TWO = pulled_bar(
+    [text.material("stiff", 1.0, 0.45, None), text.material("m", 1.0, 0.3, None)],
+    [("a", "stiff"), ("b", "m")],
+    text.interface("any", 0.0, more={"cohesion": 1e9, "tensile_strength": 1e9, "bonded": True}),
+    plane="strain",
+    stress=0.3,
+)
 
 
 def test_a_higher_degree_may_stand_where_no_material_needs_pressures() -> None:

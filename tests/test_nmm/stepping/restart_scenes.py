@@ -443,6 +443,114 @@ degree = 1
 step = 1e-3
 """
 
+SHAKEN = """
+title = "shaken"
+plane = "strain"
+duration = {duration}
+[materials.soil]
+density = 2000
+young_modulus = "450 MPa"
+poisson_ratio = 0.25
+[[blocks]]
+name = "soil"
+material = "soil"
+vertices = [[0, 0], [8, 0], [8, 6], [0, 6]]
+[records.wave]
+values = [0, 0.3, -0.2, 0.1, 0, 0]
+step = 0.01
+[[viscous_boundaries]]
+name = "base"
+segment = [[0, 0], [8, 0]]
+incoming = { x = "wave" }
+[[free_fields]]
+name = "left"
+segment = [[0, 0], [0, 6]]
+base = "base"
+[[loads]]
+name = "truck"
+kind = "moving"
+segment = [[1, 6], [8, 6]]
+force = [0, "-10 kN"]
+speed = "100 m/s"
+[[loads]]
+name = "water"
+kind = "pressure"
+segment = [[8, 0], [8, 6]]
+pressure = "10 kPa"
+[[loads]]
+name = "wind"
+kind = "edge"
+segment = [[0, 6], [8, 6]]
+field = ["1e3*sin(200*t)*x", "0"]
+[[monitors]]
+name = "top"
+point = [4, 6]
+[inertia]
+[damping]
+ratios = [0.05, 0.05]
+frequencies = [5, 50]
+local = 0.1
+[output]
+every_steps = 4
+{checkpoint}
+{stages}
+[formulation.cover]
+type = "triangles"
+size = 3
+degree = 1
+[formulation.integrator]
+type = "newmark"
+step = 2e-3
+[formulation.solver]
+type = "superlu"
+"""
+SHAKEN_STAGES = """
+[[stages]]
+name = "first"
+duration = 0.012
+[[stages]]
+name = "finer"
+duration = 0.012
+cover = { degree = 2 }
+"""
+SHAKEN_ON_ROCK = """
+duration = 0.03
+title = "shaken block"
+plane = "strain"
+[materials.rock]
+density = 2500
+young_modulus = "1 GPa"
+poisson_ratio = 0.2
+[[blocks]]
+name = "floor"
+material = "rock"
+vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
+[[blocks]]
+name = "stone"
+material = "rock"
+vertices = [[0, 0.001], [1, 0.001], [1, 0.5], [0, 0.6]]
+[records.shake]
+samples = [[0, 0], [0.01, 6], [0.02, -6], [0.03, 0]]
+[[supports]]
+name = "held"
+block = "floor"
+fix = ["x", "y"]
+motion = { x = "shake" }
+[inertia]
+[gravity]
+[contact]
+[damping]
+stiffness = 1e-4
+local = 0.2
+[interfaces.dry]
+friction_angle = "25 deg"
+[output]
+every_steps = 4
+{checkpoint}
+[formulation.integrator]
+step = 1e-3
+"""
+
 SHI = 'step = "2 ms"'
 NEWMARK = 'type = "newmark"\nstep = "2 ms"'
 OWN_NEWMARK = 'type = "newmark"\nstep = "2 ms"\n[formulation.integrator.options]\ngamma = 0.6'
@@ -468,6 +576,9 @@ SCENES = {
     "classical update": CLASSICAL,
     "glued": GLUED,
     "stages": STAGED,
+    "shaken": SHAKEN.replace("{duration}", "0.03").replace("{stages}", ""),
+    "shaken stages": SHAKEN.replace("duration = {duration}", "").replace("{stages}", SHAKEN_STAGES),
+    "shaken stone": SHAKEN_ON_ROCK,
 }
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.verification import text
 
 TOLERANCE = 1e-3
 
@@ -97,3 +98,22 @@ def test_a_failure_load_is_the_same_with_any_increment(structure, share, backwar
     # Springs give, and move arms and angles by some 1e-5.
     assert summary.failure_factor <= right * (1 + 1e-4)
     assert summary.failure_factor >= right * (1 - TOLERANCE - 1e-4)
+
+
+def test_a_load_that_contacts_carry_at_any_factor_has_no_bound_to_tell():
+    pressed = text.scene(
+        'plane = "strain"\n[contact]\n[gravity]\n[loading]\nuntil = "failure"\n'
+        "maximum_factor = 2\n",
+        [
+            text.material("rock", modulus=1e9, density=2500.0),
+            text.interface("any", 30.0),
+            text.box("base", (-1, -1), (3, 1)),
+            text.box("top", (0, 0), (1, 1)),
+            text.held("base"),
+            '[[loads]]\nname = "press"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\n'
+            "traction = [0, -1e4]\n",
+        ],
+    )
+    done = nmm.run(nmm.parse_scene(pressed, "pressed"))
+    assert done.summary.failure_bound is None
+    assert "inf" not in str(done.summary)

@@ -1,5 +1,6 @@
 """Numbers of the iterations are options: tables of ``[contact.options.iterations]``."""
 
+import numpy as np
 import pytest
 
 from nmm.contact.enforcement.base import make_enforcement
@@ -41,7 +42,7 @@ def test_tables_of_a_formulation_reach_the_iterations() -> None:
         ({"iterations": {"interior": {"boundary": "wide"}}}, "a number"),
         (
             {"iterations": {"inside": {}}},
-            "one of alternation, springs, ways, interior, rounds, barrier",
+            "one of alternation, springs, ways, interior, rounds, barrier, memory",
         ),
         ({"iterations": 3}, "a table of options"),
     ],
@@ -63,3 +64,12 @@ def test_options_change_what_a_step_costs_and_not_its_answer() -> None:
     # resultants are unique where forces are not: both answers are within 1e-8 of the load
     moved = abs(plain.increment).max()
     assert abs(slow.increment - plain.increment).max() < 1e-6 * moved
+
+
+def test_a_formulation_says_how_much_is_kept_from_step_to_step() -> None:
+    made = make_enforcement("cone", {"iterations": {"memory": {"steps": 3, "factors": 1}}})
+    memory = made.memory()
+    for number in range(5):
+        memory.keep(np.full(3, float(number)), np.array([number]))
+    assert [found[0] for found in memory.found] == [4.0, 3.0, 2.0]
+    assert make_enforcement("penalty").memory().options == DEFAULT.memory

@@ -1,0 +1,1 @@
+"""Tractions across the edges that bodies share: of either side, averaged, and how large."""

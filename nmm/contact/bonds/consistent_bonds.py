@@ -1,0 +1,146 @@
+"""Which bonds Nitsche's consistent terms can hold, and their tractions as rows of the unknowns.
+
+A bond that is whole is no spring: the traction on it is the average of both sides' plus a penalty
+on the jump, ``t = {t} - gamma [u]``, and the terms are symmetric (Nitsche 1971). Where the traction
+meets the criterion the bond passes to its cohesive or brittle law (Mergheim, Kuhl and Steinmann
+2004; Noels and Radovitzky 2008).
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import Frames
+from nmm.assembly.tractions.average import AverageTraction
+from nmm.assembly.tractions.donors import Flux
+from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.points.boundary_points import tangents
+from nmm.contact.points.contact_points import TIED, ContactPoints
+from nmm.errors import FormulationError
+
+StressAt = Callable[[Ints, Floats, float], Floats]
+"""Stress (m, 3) in Pa in body axes that an effect adds in elements, at points, at a time."""
+
+# Multiples of the least penalty with which the form is positive, as between bodies that are glued.
+SAFETY = 1.5
+
+
+@dataclass(frozen=True)
+class ConsistentBonds:
+    """Points of joints that are bonded at the start.
+
+    Attributes
+    ----------
+    number
+        (m,) row below of the joint point with the key ``-1 - k``; -1 of those without.
+    fluxes
+        Tractions on the sides a that either side gives, times its weight.
+    penalty
+        (k,) Pa/m; zero where neither side has strain.
+    area
+        (k,) that each point stands for (m2).
+    n_unknowns
+        Of the model.
+    """
+
+    number: Ints
+    fluxes: tuple[Flux, ...]
+    penalty: Floats
+    area: Floats
+    n_unknowns: int
+
+    @classmethod
+    def of(cls, model: Model, joints: ContactPoints, laws: ContactLaws) -> Self | None:
+        """Find the tractions on bonds where they lie at the start; None where springs hold all.
+
+        Laws with a stiffness of their own keep it.
+        """
+        named = np.array([law.normal_stiffness is not None for law in laws.laws], dtype=bool)
+        wanted = joints.bonded & ~named[joints.interface]
+        if not laws.consistent or not wanted.any():
+            return None
+        points, number = joints.take(wanted), np.where(wanted, np.cumsum(wanted) - 1, -1)
+        edges, area = model.manifold.boundary, points.length * model.thickness
+        both = (points.edge_a, points.parameter_a), (points.edge_b, points.parameter_b)
+        places = [
+            edges.start[edge] + share[:, None] * (edges.end[edge] - edges.start[edge])
+            for edge, share in both
+        ]
+        elements = [edges.element[edge] for edge, _ in both]
+        found = AverageTraction.of(model, elements, places, -points.normal, area)
+        count = model.manifold.n_unknowns
+        return cls(number, found.fluxes, SAFETY * found.least, area, count)
+
+    def tied(self, joints: ContactPoints, laws: ContactLaws) -> ContactPoints:
+        """Return the joint points with the bonds that these terms hold, as stiff as the penalty.
+
+        Where neither side has strain there is no traction: springs hold such a bond.
+        """
+        row = self.row(joints)
+        tied = (row >= 0) & (self.penalty[row] > 0)
+        factor = self.penalty[row] * self.area[row] / laws.normal_bond
+        return replace(
+            joints,
+            spring_factor=np.where(tied, factor, joints.spring_factor),
+            history={**joints.history, TIED: tied.astype(float)},
+        )
+
+    def row(self, joints: ContactPoints) -> Ints:
+        """Return the row of joint points, -1 of those without."""
+        return self.number[-1 - joints.key]
+
+    def stress_rows(self, contacts: ContactPoints, frames: Frames) -> tuple[csr_array, csr_array]:
+        """Rows (k, n) of the average pull and shear at joint points (Pa), as gaps and slips go."""
+        at = self.row(contacts)
+        unknowns = np.concatenate([one.unknowns[at] for one in self.fluxes], axis=1)
+        turned = [frames.rotation[one.body[at]] @ one.values[at] for one in self.fluxes]
+        values = np.concatenate(turned, axis=2)
+        pull, shear = (
+            _rows(unknowns, -np.einsum("kc,kcl->kl", axis, values), self.n_unknowns)
+            for axis in (contacts.normal, tangents(contacts.normal))
+        )
+        return pull, shear
+
+    def added(
+        self, contacts: ContactPoints, frames: Frames, stresses: Sequence[StressAt], time: float
+    ) -> tuple[Floats, Floats]:
+        """Return pull and shear (k,) in Pa of stresses that effects add to those of the strain."""
+        at = self.row(contacts)
+        total = np.zeros((len(at), 2))
+        for one in self.fluxes:  # two sides
+            for stress in stresses:  # a handful of effects
+                pull = one.of_stress(stress(one.elements, one.points, time))[at]
+                total -= frames.to_global(one.body[at], pull)
+        axes = contacts.normal, tangents(contacts.normal)
+        normal, shear = (np.einsum("kc,kc->k", axis, total) for axis in axes)
+        return normal, shear
+
+
+def consistent(model: Model, asked: str) -> bool:
+    """Say whether whole bonds are held by consistent terms, as asked for or where they can be.
+
+    Raises
+    ------
+    FormulationError
+        Where they are asked for beside a material whose traction they do not know.
+    """
+    known = model.matter is None and not model.projected
+    if asked == "nitsche" and not known:
+        raise FormulationError(
+            '[contact] bonds: "nitsche": with a material that is not linear, or projected volumes: '
+            'expected linear materials: use bonds = "spring"'
+        )
+    return known and asked != "spring"
+
+
+def _rows(unknowns: Ints, values: Floats, n: int) -> csr_array:
+    k, length = values.shape
+    offsets = np.arange(k + 1) * length
+    found = csr_array((values.ravel(), unknowns.flatten(), offsets), shape=(k, n))
+    found.sum_duplicates()
+    return found

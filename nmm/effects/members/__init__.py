@@ -1,0 +1,1 @@
+"""What connects points: springs, dashpots, bars with bond, foundations; and masses at points."""

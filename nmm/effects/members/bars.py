@@ -1,0 +1,181 @@
+"""Bars: rock bolts, cables, anchors and reinforcement, with a bond along them or held at ends."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.effects.base import Setup
+from nmm.effects.members.chains import Chains
+from nmm.effects.members.ends import Ends, elements_at, nowhere
+from nmm.effects.members.fibres import Fibres
+from nmm.effects.members.linked import Linked, Members
+from nmm.effects.members.links import Links
+from nmm.errors import SceneError
+from nmm.interfaces.bond_slip import BOND_LAWS, BondLaw
+from nmm.materials.uniaxial import Uniaxial
+from nmm.scene.tables.members import GROUND
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.members import BarTable
+
+# Plastic strain at which hardening ends: none gets there.
+FAR = 1e3
+
+
+@dataclass(frozen=True)
+class _Laid:
+    """A bar as nodes in a row: ``elements`` (k,) they lie in, -1 the ground, and ``position``.
+
+    Attributes
+    ----------
+    place
+        (k,) number of each among all that the bar could have: its memory.
+    share
+        (k,) length of bar whose bond acts at each (m); 0 where the bar cannot slip.
+    """
+
+    elements: Ints
+    position: Floats
+    place: Ints
+    share: Floats
+
+
+class BarMembers(Linked):
+    """All ``[[bars]]`` of a scene.
+
+    A bar with bond is divided into pieces, whose middles move with what they lie in but for a slip
+    along the bar; where nothing is there is no bond, and the bar goes on to where there is.
+    """
+
+    name = "bars"
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[bars]]``."""
+        bars = setup.scene.bars
+        laid = [_laid(setup, one) for one in bars]
+        nodes = np.array([len(one.place) for one in laid])
+        first = np.delete(np.arange(nodes.sum()), np.cumsum(nodes) - 1)  # of each link
+        position, elements, share = (
+            np.concatenate([getattr(one, name) for one in laid])
+            for name in ("position", "elements", "share")
+        )
+        ends = [Ends.at(setup, position[at], elements[at]) for at in (first, first + 1)]
+        links = Links.of(ends[0], ends[1], setup.small)
+        of_node = np.repeat(np.arange(len(bars)), nodes)
+        slips = np.flatnonzero(share > 0)
+        number = np.full(len(share), -1)
+        number[slips] = np.arange(len(slips))
+        chains = Chains(
+            _axial(bars, of_node[first], links.length),
+            _bond(bars, of_node[slips], share[slips]),
+            number[first],
+            number[first + 1],
+        )
+        places = np.array([setup.formulation.bars.pieces + 2] * len(bars))
+        begin = np.concatenate([[0], np.cumsum(places)[:-1]])
+        place = np.concatenate([one.place for one in laid]) + begin[of_node]
+        members = Members(
+            tuple(one.name for one in bars),
+            tuple(places.tolist()),
+            links,
+            chains,
+            of_node[first],
+            place[first],
+            place[slips],
+        )
+        return cls(setup.model, members)
+
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        chains = self.members.chains
+        return f"{len(chains.axial)} links, {len(chains.bond)} points of bond"
+
+
+def _laid(setup: Setup, bar: "BarTable") -> _Laid:
+    """Lay a bar: its ends where they are held, and the middles of its pieces where they bond.
+
+    Raises
+    ------
+    SceneError
+        When an end is held at a block that is not there, or a bond is nowhere in a block.
+    """
+    first, last = np.array(bar.points)
+    pieces = setup.formulation.bars.pieces
+    middle = (np.arange(pieces) + 0.5) / pieces
+    share = np.concatenate([[0.0], middle, [1.0]])
+    position = first + share[:, None] * (last - first)
+    elements, inside = np.full(pieces + 2, -1), np.zeros(pieces + 2, dtype=bool)
+    if bar.bond is not None:
+        elements[1:-1] = elements_at(setup, position[1:-1])
+        inside = elements >= 0
+    blocks = bar.blocks or (None, None)
+    for at, end, block in zip((0, -1), bar.held, blocks, strict=True):
+        if end == "fixed" and block != GROUND:
+            elements[at] = elements_at(setup, position[[at]], setup.regions(block))[0]
+            if elements[at] < 0:
+                raise SceneError(nowhere(setup, "bars", bar.name, bar.points[at], block))
+        inside[at] = end != "free"
+    if inside.sum() < 2 or (elements[inside] < 0).all():
+        raise SceneError(nowhere(setup, "bars", bar.name, bar.points[0], None))
+    place = np.flatnonzero(inside)
+    length = float(np.hypot(*(last - first))) / pieces
+    bonded = (place > 0) & (place <= pieces)
+    return _Laid(elements[place], position[place], place, np.where(bonded, length, 0.0))
+
+
+def _axial(bars: "tuple[BarTable, ...]", owner: Ints, length: Floats) -> Fibres:
+    """Axial laws of links (m,) of bars, in stress and strain."""
+    area = np.array([_area(bar) * bar.number for bar in bars])
+    start = np.array([bar.pretension / _area(bar) for bar in bars])
+    laws = [_steel(bar) for bar in bars]
+    return Fibres.of([laws[one] for one in owner], length, area[owner], start[owner])
+
+
+def _bond(bars: "tuple[BarTable, ...]", owner: Ints, share: Floats) -> Fibres:
+    """Laws of the bond at points (p,) that stand for lengths ``share`` of bars (m)."""
+    around = np.array([_perimeter(bar) * bar.number for bar in bars])
+    laws = [None if bar.bond is None else bond_law(bar).uniaxial for bar in bars]
+    own = [law for law in (laws[one] for one in owner) if law is not None]
+    return Fibres.of(own, np.ones(len(owner)), around[owner] * share)
+
+
+def bond_law(bar: "BarTable") -> BondLaw:
+    """Return the law of a bar's bond.
+
+    Raises
+    ------
+    NmmError
+        When its name is not known, or constants do not fit it.
+    """
+    table = bar.bond
+    assert table is not None
+    names = ("stiffness", "strength", "slips", "residual_strength", "exponent")
+    given: dict[str, Any] = {name: getattr(table, name) for name in names}
+    known = {name: one for name, one in given.items() if one is not None}
+    law: BondLaw = BOND_LAWS.make(table.law, {}, **known)
+    return law
+
+
+def _steel(bar: "BarTable") -> Uniaxial:
+    pushes = bar.carries == "both"
+    if bar.yield_stress is None:
+        return Uniaxial(bar.young_modulus, pushes=pushes)
+    hard = bar.yield_stress + FAR * bar.hardening_modulus
+    return Uniaxial(bar.young_modulus, (0.0, FAR), (bar.yield_stress, hard), pushes=pushes)
+
+
+def _area(bar: "BarTable") -> float:
+    if bar.area is not None:
+        return bar.area
+    assert bar.diameter is not None
+    return float(np.pi * bar.diameter**2 / 4)
+
+
+def _perimeter(bar: "BarTable") -> float:
+    if bar.perimeter is not None or bar.diameter is None:
+        return bar.perimeter or 0.0
+    return float(np.pi * bar.diameter)

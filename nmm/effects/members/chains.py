@@ -1,0 +1,203 @@
+"""Chains of links whose inner points slip along what they lie in: bars with bond.
+
+A bar stretches as its surroundings do between its points, and by the difference of its slips there.
+Slips follow from the balance of the bar, whose axial force changes from link to link by the bond's.
+They are found by Newton's method on one tridiagonal system a bar, and condensed: what is around
+knows the axial forces and their tangent alone. Links without slips, springs, are chains of one.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
+from scipy.sparse import coo_array, csr_array, diags_array
+
+from integration.arrays import Floats, Ints
+from nmm.effects.members.fibres import FibreAnswer, Fibres
+
+# Out-of-balance force of a bar, as a share of its forces, at which slips are found; and iterations.
+BALANCED, MOST = 1e-13, 60
+# What falls no more for rounding is taken up to this share.
+ROUNDED = 1e-9
+ROUNDING = 10 * float(np.finfo(float).eps)
+# Halvings of a step of slips that leaves more out of balance than there was.
+HALVINGS = 8
+# Share of its elastic stiffness that a bond never lacks while slips are sought: a bar whose bond is
+# gone stays where it is.
+LEFT = 1e-10
+
+
+@dataclass(frozen=True)
+class ChainAnswer:
+    """What chains answer to stretches.
+
+    Attributes
+    ----------
+    axial, bond
+        Of m links and of p slips.
+    slip
+        (p,) m.
+    broken
+        Slips of bars that are in no stable balance, a number each; empty where all are.
+    """
+
+    axial: FibreAnswer
+    bond: FibreAnswer
+    slip: Floats
+    broken: Ints
+
+
+@dataclass(frozen=True)
+class Chains:
+    """Links in chains; slips of a chain follow one another.
+
+    Attributes
+    ----------
+    axial
+        Of m links.
+    bond
+        Of p slips.
+    left, right
+        (m,) the slip at either end of a link; -1 where it is fixed.
+    """
+
+    axial: Fibres
+    bond: Fibres
+    left: Ints
+    right: Ints
+
+    @cached_property
+    def opening(self) -> csr_array:
+        """(m, p) from slips to what they lengthen links by."""
+        rows, columns, values = [], [], []
+        for end, sign in ((self.right, 1.0), (self.left, -1.0)):
+            at = np.flatnonzero(end >= 0)
+            rows.append(at)
+            columns.append(end[at])
+            values.append(np.full(len(at), sign))
+        parts = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))
+        return csr_array(parts, shape=(len(self.left), len(self.bond)))
+
+    @property
+    def linear(self) -> bool:
+        """Whether axial forces are lines in the stretches."""
+        return self.axial.linear and self.bond.linear
+
+    def answer(self, stretch: Floats, slip: Floats, memory: tuple[Floats, Floats]) -> ChainAnswer:
+        """Return the answer to stretches (m,); slips (p,) are sought from those given.
+
+        ``memory`` is that of links (m, 2) and of bonds (p, 2) at the start of the step.
+        """
+        now = self._at(stretch, slip, memory)
+        if not len(slip):
+            return now
+        size, before = self._out(now)[1], np.inf
+        for _ in range(MOST):
+            out, scale = self._out(now)
+            size = float(np.abs(out).max()) / scale if scale else 0.0
+            if size <= BALANCED or (size <= ROUNDED and size > before / 2):
+                break
+            before = size
+            now = self._nearer(now, out, stretch, memory)
+        _, unstable = self._factors(now)
+        lost = np.arange(len(slip)) if size > ROUNDED else unstable
+        return ChainAnswer(now.axial, now.bond, now.slip, lost)
+
+    def tangent(self, found: ChainAnswer) -> csr_array:
+        """Matrix (m, m) of the axial forces over the stretches, slips condensed (N/m)."""
+        own = found.axial.tangent
+        if not len(found.slip):
+            return csr_array(diags_array(own))
+        rows, columns, values = [], [], []
+        for links, slips in self._bars:  # each bar has its own small system
+            block = np.diag(own[links])
+            if len(slips):
+                stiff = own[links, None] * self.opening[links][:, slips].toarray()
+                factor = cholesky_banded(self._band(found)[:, slips])
+                block = block - stiff @ cho_solve_banded((factor, False), stiff.T)
+            rows.append(np.repeat(links, len(links)))
+            columns.append(np.tile(links, len(links)))
+            values.append(block.ravel())
+        place = np.concatenate(rows), np.concatenate(columns)
+        return csr_array(coo_array((np.concatenate(values), place), shape=(len(own), len(own))))
+
+    def _at(self, stretch: Floats, slip: Floats, memory: tuple[Floats, Floats]) -> ChainAnswer:
+        axial = self.axial.answer(stretch + self.opening @ slip, memory[0])
+        return ChainAnswer(axial, self.bond.answer(slip, memory[1]), slip, NONE)
+
+    def _out(self, at: ChainAnswer) -> tuple[Floats, float]:
+        """Out-of-balance forces (p,) and the size of forces, or of their rounding (N)."""
+        out = at.bond.force + self.opening.T @ at.axial.force
+        rounded = self._stiffest * float(np.abs(at.slip).max(initial=0.0)) * ROUNDING / BALANCED
+        forces = (at.axial.force, at.bond.force)
+        return out, max(rounded, *(float(np.abs(one).max(initial=0.0)) for one in forces))
+
+    @cached_property
+    def _stiffest(self) -> float:
+        return float(self.axial.stiffness.max(initial=0.0))
+
+    def _nearer(
+        self, now: ChainAnswer, out: Floats, stretch: Floats, memory: tuple[Floats, Floats]
+    ) -> ChainAnswer:
+        """Return the next iterate: Newton's, or less where more would be out of balance."""
+        factors, unstable = self._factors(now)
+        if len(unstable):
+            factors = cholesky_banded(self._elastic)
+        way = -cho_solve_banded((factors, False), out)
+        was, found = float(np.linalg.norm(out)), now
+        for part in range(HALVINGS):
+            found = self._at(stretch, now.slip + 0.5**part * way, memory)
+            if np.linalg.norm(self._out(found)[0]) < was:
+                break
+        return found
+
+    def _factors(self, at: ChainAnswer) -> tuple[Floats, Ints]:
+        """Factor of the tridiagonal matrix, and the slips before which it is not positive."""
+        band = self._band(at)
+        try:
+            return cholesky_banded(band), NONE
+        except LinAlgError:
+            return band, np.concatenate([s for _, s in self._bars if not _positive(band[:, s])])
+
+    def _band(self, at: ChainAnswer) -> Floats:
+        return self._matrix(at.axial.tangent, at.bond.tangent + LEFT * self.bond.stiffness)
+
+    @cached_property
+    def _elastic(self) -> Floats:
+        return self._matrix(self.axial.stiffness, self.bond.stiffness)
+
+    def _matrix(self, axial: Floats, bond: Floats) -> Floats:
+        """Upper band (2, p) of the stiffness of slips."""
+        band = np.zeros((2, len(bond)))
+        band[1] = bond
+        for end in (self.left, self.right):
+            at = end >= 0
+            band[1] += np.bincount(end[at], axial[at], minlength=len(bond))
+        both = (self.left >= 0) & (self.right >= 0)
+        band[0, self.right[both]] = -axial[both]
+        return band
+
+    @cached_property
+    def _bars(self) -> list[tuple[Ints, Ints]]:
+        """Links and slips of each chain; a chain that is cut is as many as its parts."""
+        from scipy.sparse.csgraph import connected_components
+
+        joined = csr_array(abs(self.opening.T) @ abs(self.opening))
+        count, label = connected_components(joined, directed=False)
+        end = np.maximum(self.left, self.right)
+        of_link = np.where(end >= 0, label[np.maximum(end, 0)], -1)
+        bars = [(np.flatnonzero(of_link == n), np.flatnonzero(label == n)) for n in range(count)]
+        alone = [(np.array([link]), NONE) for link in np.flatnonzero(of_link < 0)]
+        return [*bars, *alone]
+
+
+NONE = np.zeros(0, dtype=np.int64)
+
+
+def _positive(band: Floats) -> bool:
+    try:
+        cholesky_banded(band)
+    except LinAlgError:
+        return False
+    return True

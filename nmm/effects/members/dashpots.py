@@ -1,0 +1,87 @@
+"""Dashpots between points of blocks, or a point and the ground."""
+
+from typing import Self
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+
+from integration.arrays import Floats
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.effects.base import Effect, Setup, Span, StepForce
+from nmm.effects.members.ends import ends_of
+from nmm.effects.members.links import Links
+from nmm.quantity import MemberSegments
+
+NOTHING = np.zeros(1)
+
+
+class PointDashpots(Effect):
+    """All ``[[dashpots]]`` of a scene: ``N = c`` times the elongation of the step over its length.
+
+    That is the force at the middle of the step. In statics there is none.
+    """
+
+    name = "dashpots"
+
+    def __init__(
+        self, model: Model, names: tuple[str, ...], links: Links, viscosity: Floats
+    ) -> None:
+        self.names, self.links, self.viscosity = names, links, viscosity
+        self.external = links.grounded
+        self._model = model
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[dashpots]]``."""
+        dashpots = setup.scene.dashpots
+        links = Links.of(*ends_of(setup, "dashpots", dashpots), setup.small)
+        viscosity = np.array([one.viscosity for one in dashpots])
+        return cls(setup.model, tuple(one.name for one in dashpots), links, viscosity)
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`."""
+        n = len(before.deformation)
+        if span.step is None:
+            none = np.zeros(len(self.links))
+            return StepForce(np.zeros(n), lambda: csc_array((n, n)), self._remembered(none))
+        force = self._mean(before, after)
+        lines = self.links.mean_lines(before, after)
+        pull = self.links.pull(before, lines, force)
+        pull += self.links.owed(self._model, before, after, lines, force)
+        tangent = csr_array(diags_array(self.viscosity / span.step))
+
+        def stiffness() -> csc_array:
+            return self.links.stiffness(before, lines, tangent, force)
+
+        return StepForce(pull, stiffness, self._remembered(force))
+
+    def loss(self, before: State, after: State) -> float:
+        """See `Effect.loss`."""
+        return float(self._mean(before, after) @ self._elongation(before, after))
+
+    def history(self, state: State) -> dict[str, float]:
+        """Return the force (N) of each in the last step."""
+        pairs = zip(self.names, self._last(state), strict=True)
+        return {f"{name}:force": float(force) for name, force in pairs}
+
+    def segments(self, state: State) -> MemberSegments:
+        """See `Effect.segments`."""
+        owner, slip = np.arange(len(self.names)), np.zeros(len(self.names))
+        return MemberSegments(self.links.place(state), owner, self.names, self._last(state), slip)
+
+    def _last(self, state: State) -> Floats:
+        """Force (m,) in the step that ended at a state (N)."""
+        return np.array([float(state.memory.get(name, NOTHING)[0]) for name in self.names])
+
+    def _remembered(self, force: Floats) -> dict[str, Floats]:
+        return {name: force[at : at + 1] for at, name in enumerate(self.names)}
+
+    def _elongation(self, before: State, after: State) -> Floats:
+        return self.links.stretch(after) - self.links.stretch(before)
+
+    def _mean(self, before: State, after: State) -> Floats:
+        """Force (m,) in a step (N); none without time."""
+        step = after.time - before.time
+        rate = self._elongation(before, after) / step if step > 0 else np.zeros(len(self.links))
+        return np.asarray(self.viscosity * rate)

@@ -1,0 +1,130 @@
+"""Ends of what connects points: on bodies, with which they move, or on the ground."""
+
+import tomllib
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+import shapely
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.motion import Frames, MaterialPoints, State, material_points
+from nmm.assembly.places import NEAR
+from nmm.effects.base import Setup
+from nmm.errors import Fault, SceneError
+from nmm.scene.tables.members import GROUND
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.members import Between
+
+
+@dataclass(frozen=True)
+class Ends:
+    """Points on bodies, or on the ground.
+
+    Attributes
+    ----------
+    points
+        m points that move with the material; of those on the ground nothing is used.
+    held
+        (m,) 1 on a body, 0 on the ground.
+    position
+        (m, 2) where they are drawn.
+    """
+
+    points: MaterialPoints
+    held: Floats
+    position: Floats
+
+    @classmethod
+    def at(cls, setup: Setup, position: Floats, elements: Ints) -> Self:
+        """Return ends at positions (m, 2) in elements (m,); -1 is the ground."""
+        points = material_points(setup.model.manifold, np.maximum(elements, 0), position)
+        return cls(points, (elements >= 0).astype(float), position)
+
+    def __len__(self) -> int:
+        return len(self.held)
+
+    def way(self, state: State) -> Floats:
+        """Return how far they have come from where they are drawn (m, 2)."""
+        return self.held[:, None] * self.points.moved(state.frames, state.deformation)
+
+    def along(self, frames: Frames, directions: Floats) -> Floats:
+        """Rows (m, L) of the motion along global directions (m, 2), in the bodies' axes."""
+        return self.held[:, None] * self.points.along(frames, directions)
+
+    def arm(self, before: State, after: State) -> Floats:
+        """Arms (m, 2) half way through a step, less those that rows at its start have (m)."""
+        points, frames = self.points, before.frames
+        arms = [
+            points.place(one.frames, one.deformation) - one.frames.centre[points.body]
+            for one in (before, after)
+        ]
+        first = frames.to_global(points.body, points.arm)
+        return np.asarray(self.held[:, None] * ((arms[0] + arms[1]) / 2 - first))
+
+
+def ends_of(setup: Setup, key: str, members: "Sequence[Between]") -> tuple[Ends, Ends]:
+    """Return the first and the second ends of members of a table ``[[key]]``.
+
+    Raises
+    ------
+    SceneError
+        Those that lie on no material, one line each.
+    """
+    faults, found = [], []
+    for side in (0, 1):
+        position = np.array([one.points[side] for one in members])
+        named = [one.blocks and one.blocks[side] for one in members]
+        elements = _elements(setup, position, named)
+        for member, block, element in zip(members, named, elements, strict=True):
+            if element < 0 and block != GROUND:
+                faults.append(nowhere(setup, key, member.name, member.points[side], block))
+        found.append(Ends.at(setup, position, elements))
+    if faults:
+        raise SceneError(*faults)
+    return found[0], found[1]
+
+
+def nowhere(
+    setup: Setup, key: str, name: str, point: tuple[float, float], block: str | None
+) -> Fault:
+    """Return the fault of a member of ``[[key]]`` with an end that no block is at."""
+    text, rows = setup.scene.source.text, []
+    with suppress(tomllib.TOMLDecodeError):
+        rows = tomllib.loads(text).get(key, [])
+    number = [n for n, row in enumerate(rows) if row.get("name") == name]
+    place = setup.scene.source.place(key, *number[:1])
+    x, y = np.array(point) + setup.origin
+    there = "no block" if block is None else f'no block "{block}"'
+    remedy = 'move it, name "ground" for it, or leave the member out of the stage'
+    return Fault(place, f'"{name}": {there} at [{x:g}, {y:g}]', "an end on a block", remedy)
+
+
+def _elements(setup: Setup, position: Floats, named: Sequence[str | None]) -> Ints:
+    """Elements (m,) at positions (m, 2), on the blocks that are named; -1 on the ground."""
+    found = np.full(len(position), -1)
+    for name in dict.fromkeys(named):  # blocks that are named
+        if name != GROUND:
+            at = np.flatnonzero([one == name for one in named])
+            found[at] = elements_at(setup, position[at], setup.regions(name))
+    return found
+
+
+def elements_at(setup: Setup, position: Floats, regions: Bools | None = None) -> Ints:
+    """Return an element (m,) at each position (m, 2); -1 where there is none.
+
+    ``regions`` (N,) says which input regions count; None is all.
+    """
+    manifold = setup.model.manifold
+    reach = NEAR * float(np.hypot(*np.ptp(manifold.elements.points, axis=0)))
+    tree = shapely.STRtree(manifold.elements.to_shapely())
+    place, element = tree.query(shapely.points(position), predicate="dwithin", distance=reach)
+    if regions is not None:
+        kept = regions[manifold.element_region[element]]
+        place, element = place[kept], element[kept]
+    found = np.full(len(position), np.iinfo(np.int64).max)
+    np.minimum.at(found, place, element)
+    return np.where(found == np.iinfo(np.int64).max, -1, found)

@@ -1,0 +1,99 @@
+"""Points of members that a uniaxial law answers for: axial forces of links, bond of bars."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.materials.uniaxial import Uniaxial
+
+
+@dataclass(frozen=True)
+class FibreAnswer:
+    """Force (m,) in N, tangent (m,) in N/m, plastic way and its length (m, 2) as of the law."""
+
+    force: Floats
+    tangent: Floats
+    memory: Floats
+
+
+@dataclass(frozen=True)
+class Fibres:
+    """Points with laws.
+
+    Attributes
+    ----------
+    laws, law
+        Laws, and which one (m,) each point has.
+    length
+        (m,) way in m over that of the law.
+    area
+        (m,) force in N over that of the law.
+    start
+        (m,) force of the law where nothing has moved.
+    """
+
+    laws: tuple[Uniaxial, ...]
+    law: Ints
+    length: Floats
+    area: Floats
+    start: Floats
+
+    @classmethod
+    def of(
+        cls, laws: Sequence[Uniaxial], length: Floats, area: Floats, start: Floats | float = 0.0
+    ) -> Self:
+        """Return points with a law each; equal laws are one."""
+        known = tuple(dict.fromkeys(laws))
+        number = {law: index for index, law in enumerate(known)}
+        law = np.array([number[one] for one in laws], dtype=np.int64)
+        return cls(known, law, length, area, np.broadcast_to(start, length.shape).astype(float))
+
+    def __len__(self) -> int:
+        return len(self.law)
+
+    @cached_property
+    def elastic(self) -> Bools:
+        """(m,) which have no yield value."""
+        return np.array([law.elastic for law in self.laws], dtype=bool)[self.law]
+
+    @property
+    def linear(self) -> bool:
+        """Whether all forces are lines in the ways."""
+        return all(law.linear for law in self.laws)
+
+    @cached_property
+    def _modulus(self) -> Floats:
+        return np.array([law.stiffness for law in self.laws])[self.law]
+
+    @property
+    def stiffness(self) -> Floats:
+        """(m,) elastic (N/m)."""
+        return np.asarray(self.area * self._modulus / self.length)
+
+    def answer(self, way: Floats, memory: Floats) -> FibreAnswer:
+        """Return the answer to ways (m,) in m, with memory (m, 2) of the start of the step."""
+        trial = self.start + self._modulus * (way / self.length - memory[:, 0])
+        force, tangent, after = np.empty_like(way), np.empty_like(way), np.empty_like(memory)
+        for number, law in enumerate(self.laws):  # a handful of laws
+            at = np.flatnonzero(self.law == number)
+            found = law.update(trial[at], memory[at, 0], memory[at, 1])
+            force[at], tangent[at] = found.force, found.tangent
+            after[at, 0], after[at, 1] = found.plastic, found.flowed
+        return FibreAnswer(self.area * force, self.area / self.length * tangent, after)
+
+    def energy(self, force: Floats) -> float:
+        """Stored (J) at forces (m,) in N."""
+        stress, density = force / self.area, np.empty_like(force)
+        for number, law in enumerate(self.laws):  # a handful of laws
+            at = np.flatnonzero(self.law == number)
+            density[at] = law.energy(stress[at])
+        return float(density @ (self.area * self.length))
+
+    def loss(self, forces: tuple[Floats, Floats], memories: tuple[Floats, Floats]) -> float:
+        """Taken (J) by plastic ways between forces (m,) and memories (m, 2) of two states."""
+        mean = (forces[0] + forces[1]) / 2
+        return float((mean * self.length) @ (memories[1][:, 0] - memories[0][:, 0]))

@@ -1,0 +1,78 @@
+"""Foundations: springs spread along edges between blocks and the ground (Winkler 1867)."""
+
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.places import Place, on_segment
+from nmm.effects.base import Setup
+from nmm.effects.members.ends import Ends, nowhere
+from nmm.effects.members.fibres import Fibres
+from nmm.effects.members.linked import Linked
+from nmm.effects.members.links import Links
+from nmm.effects.members.springs import alone
+from nmm.errors import SceneError
+from nmm.materials.uniaxial import Uniaxial
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.members import FoundationTable
+
+# Least degree that pressures along an edge are integrated to; and where they may end on the way
+# along one, whose end is then known to a twentieth of it.
+LEAST_ORDER, LIFTING_ORDER = 4, 40
+
+
+class Foundations(Linked):
+    """All ``[[foundations]]`` of a scene: at points along their edges, across and along these.
+
+    The ground stays, and so do the directions in which it pushes. A foundation is stretched where
+    the block leaves it.
+    """
+
+    name = "foundations"
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[foundations]]``."""
+        parts = [(one, _place(setup, one)) for one in setup.scene.foundations]
+        sides = [side for one, place in parts for side in _sides(one, place, setup)]
+        places = tuple(2 * len(place) for _, place in parts)
+        position = np.concatenate([place.position for place, *_ in sides])
+        elements = np.concatenate([place.elements for place, *_ in sides])
+        direction = np.concatenate([axis for _, axis, _, _ in sides])
+        links = Links(
+            Ends.at(setup, position, np.full(len(position), -1)),
+            Ends.at(setup, position, elements),
+            direction,
+            small=True,
+        )
+        laws = [law for place, _, law, _ in sides for _ in range(len(place))]
+        area = np.concatenate([area for *_, area in sides])
+        names = tuple(one.name for one, _ in parts)
+        axial = Fibres.of(laws, np.ones(len(area)), area)
+        return cls(setup.model, alone(names, places, links, axial))
+
+
+def _place(setup: Setup, table: "FoundationTable") -> Place:
+    manifold = setup.model.manifold
+    least = LEAST_ORDER if table.carries == "both" else LIFTING_ORDER
+    order = max(least, 2 * manifold.degree)
+    regions = setup.regions(table.block)
+    place = on_segment(manifold, np.array(table.segment), regions, order)
+    if not len(place):
+        raise SceneError(nowhere(setup, "foundations", table.name, table.segment[0], table.block))
+    return place
+
+
+def _sides(
+    table: "FoundationTable", place: Place, setup: Setup
+) -> list[tuple[Place, Floats, Uniaxial, Floats]]:
+    """Place, directions (m, 2), law and area (m,) across and along the edge."""
+    assert place.normal is not None
+    across = -place.normal
+    along = np.stack([-across[:, 1], across[:, 0]], axis=1)
+    area = place.weight * setup.model.thickness
+    normal = Uniaxial(table.normal_stiffness, pulls=table.carries == "both")
+    shear = Uniaxial(table.shear_stiffness)
+    return [(place, across, normal, area), (place, along, shear, area)]

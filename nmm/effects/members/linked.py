@@ -1,0 +1,222 @@
+"""The base of effects that pull along links between points, with what they remember by member."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.kept import KeptOfStates
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.effects.base import Effect, Instant, Span, StepForce
+from nmm.effects.members.chains import ChainAnswer, Chains
+from nmm.effects.members.links import Links
+from nmm.errors import SolveError
+from nmm.quantity import MemberSegments
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+
+# Of a place of memory: slip, plastic slip and its length, plastic stretch and its length.
+SLIP, BOND, AXIAL, WIDTH = 0, slice(1, 3), slice(3, 5), 5
+
+
+@dataclass(frozen=True)
+class Members:
+    """Members of one effect as links.
+
+    Attributes
+    ----------
+    names, places
+        Of each member, and how many places of memory it has.
+    links, chains
+        All of their m links, and how they answer.
+    owner
+        (m,) the member of each link.
+    of_link, of_slip
+        (m,) and (p,) places of memory, of all members one after the other.
+    """
+
+    names: tuple[str, ...]
+    places: tuple[int, ...]
+    links: Links
+    chains: Chains
+    owner: Ints
+    of_link: Ints
+    of_slip: Ints
+
+    @property
+    def slip_owner(self) -> Ints:
+        """(p,) the member of each slip."""
+        ends = np.cumsum(self.places)
+        return np.asarray(np.searchsorted(ends, self.of_slip, side="right"))
+
+    def memory(self, known: Mapping[str, Floats], fresh: float = 0.0) -> Floats:
+        """Return what all remember, (places, 5); ``fresh`` numbers of those that are not known."""
+        parts = [
+            known.get(name, np.full((places, WIDTH), fresh))
+            for name, places in zip(self.names, self.places, strict=True)
+        ]
+        return np.concatenate([np.zeros((0, WIDTH)), *parts])
+
+    def remembered(self, whole: Floats) -> dict[str, Floats]:
+        """Return what each remembers by its name."""
+        parts = np.split(whole, np.cumsum(self.places)[:-1])
+        return dict(zip(self.names, parts, strict=True))
+
+
+class Linked(Effect):
+    """Members that pull their ends together by laws of the stretch between them."""
+
+    def __init__(self, model: Model, members: Members) -> None:
+        self.members = members
+        self.external = members.links.grounded
+        self._model = model
+        self._offset = np.zeros(len(members.links))
+        self._answers = KeptOfStates(self._answered)
+        self._matrices = KeptOfStates(self._stiffness)
+
+    @property
+    def bends(self) -> bool:
+        """Whether forces are no lines in the unknowns of a step."""
+        return not (self.members.links.small and self.members.chains.linear)
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """See `Effect.force`."""
+        links = self.members.links
+        return links.pull(state, links.lines(state), self._answers.of(state).axial.force)
+
+    def matrix(self, state: State) -> csc_array:
+        """See `Effect.matrix`."""
+        return self._matrices.of(state)
+
+    def _stiffness(self, state: State) -> csc_array:
+        members, found = self.members, self._answers.of(state)
+        tangent = members.chains.tangent(found)
+        lines = members.links.lines(state)
+        return members.links.stiffness(state, lines, tangent, found.axial.force)
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`."""
+        members, links, weight = self.members, self.members.links, span.weight
+        start, end = self._answers.of(before), self._answered(after)
+        if len(end.broken):
+            raise SolveError(self._lost(end))
+        force = weight * end.axial.force
+        if span.half:
+            lines = links.mean_lines(before, after)
+            force = force + (1 - weight) * start.axial.force
+            pull = links.pull(before, lines, force)
+            pull += links.owed(self._model, before, after, lines, force)
+        else:
+            lines = links.lines(after)
+            pull = links.pull(before, lines, force)
+            if weight < 1:
+                earlier = (1 - weight) * start.axial.force
+                pull += links.pull(before, links.lines(before), earlier)
+
+        def stiffness() -> csc_array:
+            tangent = weight * members.chains.tangent(end)
+            return links.stiffness(before, lines, tangent, force)
+
+        return StepForce(pull, stiffness, self._remembered(before, end))
+
+    def energy(self, state: State) -> float:
+        """See `Effect.energy`."""
+        chains, found = self.members.chains, self._answers.of(state)
+        return chains.axial.energy(found.axial.force) + chains.bond.energy(found.bond.force)
+
+    def loss(self, before: State, after: State) -> float:
+        """See `Effect.loss`: by yielding and sliding."""
+        chains = self.members.chains
+        ends = [self._answers.of(one) for one in (before, after)]
+        pairs = ((chains.axial, [e.axial for e in ends]), (chains.bond, [e.bond for e in ends]))
+        return sum(
+            fibres.loss((one.force, two.force), (one.memory, two.memory))
+            for fibres, (one, two) in pairs
+        )
+
+    def first_work(self, before: State, after: State) -> float:
+        """See `Effect.first_work`: half of what forces at the start take, which nothing held."""
+        links, force = self.members.links, self._answers.of(before).axial.force
+        way = links.stretch(after) - links.stretch(before)
+        return float(force @ way) / 2
+
+    def history(self, state: State) -> dict[str, float]:
+        """Return the axial force of the largest size in each member (N), and such slips (m)."""
+        members, found = self.members, self._answers.of(state)
+        row = _largest(members.names, members.owner, found.axial.force, "force")
+        if len(found.slip):
+            row |= _largest(members.names, members.slip_owner, found.slip, "slip")
+        return row
+
+    def segments(self, state: State) -> MemberSegments:
+        """See `Effect.segments`."""
+        members, found = self.members, self._answers.of(state)
+        slip = np.append(found.slip, 0.0)  # -1, a fixed end, has none
+        mean = (slip[members.chains.left] + slip[members.chains.right]) / 2
+        place = members.links.place(state)
+        return MemberSegments(place, members.owner, members.names, found.axial.force, mean)
+
+    def carried(self) -> tuple[Floats]:
+        """See `Effect.carried`: stretches at which links were put in."""
+        return (self._offset,)
+
+    def carry(self, carried: tuple[Floats]) -> None:
+        """See `Effect.carry`."""
+        self._offset = np.array(carried[0])
+        self.forget()
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._answers.forget()
+        self._matrices.forget()
+
+    def follow(self, change: "Change") -> Self:
+        """Return the members on the new model; those that are new are put in as all stands."""
+        new = type(self).from_setup(change.setup)
+        now, places = new.members.links.stretch(change.state), new.members.of_link
+        known = new.members.memory(self._offsets(), np.nan)[:, 0]
+        new._offset = np.where(np.isnan(known[places]), now, known[places])
+        return new
+
+    def _offsets(self) -> dict[str, Floats]:
+        """Return the offset at each place of memory by member; new members have none."""
+        whole = np.zeros((sum(self.members.places), WIDTH))
+        whole[self.members.of_link, 0] = self._offset
+        return self.members.remembered(whole)
+
+    def _answered(self, state: State) -> ChainAnswer:
+        members = self.members
+        memory = members.memory(state.memory)
+        stretch = members.links.stretch(state) - self._offset
+        known = memory[members.of_link, AXIAL], memory[members.of_slip, BOND]
+        return members.chains.answer(stretch, memory[members.of_slip, SLIP], known)
+
+    def _remembered(self, before: State, end: ChainAnswer) -> dict[str, Floats]:
+        members = self.members
+        if members.chains.linear and not len(end.slip):
+            return {}
+        whole = members.memory(before.memory)
+        whole[members.of_link, AXIAL] = end.axial.memory
+        whole[members.of_slip, SLIP] = end.slip
+        whole[members.of_slip, BOND] = end.bond.memory
+        return members.remembered(whole)
+
+    def _lost(self, end: ChainAnswer) -> str:
+        names = dict.fromkeys(self.members.names[at] for at in self.members.slip_owner[end.broken])
+        return (
+            f"{self.name} {', '.join(names)}: the bond loses force faster than the bar unloads "
+            "(snap-back): no stable slips under this motion of its ends"
+        )
+
+
+def _largest(names: Sequence[str], owner: Ints, values: Floats, what: str) -> dict[str, float]:
+    """Return the value (m,) of the largest size of each member by its column."""
+    order = np.argsort(np.abs(values), kind="stable")
+    largest = np.zeros(len(names))
+    largest[owner[order]] = values[order]
+    return {f"{name}:{what}": float(one) for name, one in zip(names, largest, strict=True)}

@@ -1,0 +1,160 @@
+"""Response spectra: the largest answers of masses on springs that stand on a monitored point."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.errors import NmmError
+from nmm.results.sink import RunData
+
+PERIODS = np.geomspace(0.02, 5.0, 100)
+"""Periods (s) of a spectrum for which none are given."""
+
+
+@dataclass(frozen=True)
+class ResponseSpectrum:
+    """Largest answers of one-mass oscillators of a ratio of critical damping.
+
+    Attributes
+    ----------
+    period
+        (k,) of the undamped oscillators (s).
+    ratio
+        Of critical damping.
+    displacement
+        (k,) largest displacement against the ground (m).
+    absolute_acceleration
+        (k,) largest acceleration of the mass, against axes at rest (m/s2).
+    """
+
+    period: Floats
+    ratio: float
+    displacement: Floats
+    absolute_acceleration: Floats
+
+    @property
+    def pseudo_acceleration(self) -> Floats:
+        """``w^2`` times the displacement (k,): the force of the spring over the mass (m/s2).
+
+        Without damping it is the absolute acceleration; with it, below.
+        """
+        return np.asarray((2 * np.pi / self.period) ** 2 * self.displacement)
+
+    @property
+    def pseudo_velocity(self) -> Floats:
+        """``w`` times the displacement (k,) (m/s)."""
+        return np.asarray(2 * np.pi / self.period * self.displacement)
+
+
+def response_spectrum(
+    times: Floats, acceleration: Floats, periods: Floats = PERIODS, ratio: float = 0.05
+) -> ResponseSpectrum:
+    """Answer of oscillators to an acceleration of the ground that is linear between samples.
+
+    The answer is exact at the samples (Nigam and Jennings 1969), and followed on for a period
+    after the last one.
+
+    Parameters
+    ----------
+    times, acceleration
+        (n,) increasing, s and m/s2.
+    periods
+        (k,) s, > 0.
+    ratio
+        Of critical damping, from 0 to below 1.
+
+    Raises
+    ------
+    NmmError
+        Periods or a ratio out of range.
+    """
+    periods = np.asarray(periods, dtype=float)
+    sampled = len(times) > 1 and bool((np.diff(times) > 0).all())
+    if not (0 <= ratio < 1 and len(periods) and periods.min() > 0 and sampled):
+        raise NmmError(
+            f"response spectrum: ratio {ratio:g}, {len(periods)} periods, {len(times)} samples: "
+            "expected a ratio from 0 to below 1, periods > 0, and times that increase: correct them"
+        )
+    # After the shaking oscillators swing on: a period in forty parts.
+    rest = np.zeros(40)
+    steps = np.concatenate([np.diff(times), rest + float(periods.max()) / 40]).round(15)
+    starts = np.concatenate([acceleration[:-1], rest])
+    ends = np.concatenate([acceleration[1:], rest])
+    omega = 2 * np.pi / periods
+    state = np.zeros((2, len(periods)))
+    moved, felt = np.zeros(len(periods)), np.zeros(len(periods))
+    known: dict[float, tuple[Floats, Floats]] = {}
+    # Each step follows from the last one.
+    for step, start, end in zip(steps.tolist(), starts, ends, strict=True):
+        if step not in known:
+            known[step] = _recurrence(omega, ratio, step)
+        own, driven = known[step]
+        state = np.einsum("ijk,jk->ik", own, state) + driven[:, 0] * start + driven[:, 1] * end
+        moved = np.maximum(moved, np.abs(state[0]))
+        felt = np.maximum(felt, np.abs(2 * ratio * omega * state[1] + omega**2 * state[0]))
+    return ResponseSpectrum(periods, ratio, moved, felt)
+
+
+def _recurrence(omega: Floats, ratio: float, step: float) -> tuple[Floats, Floats]:
+    """Matrices (2, 2, k) of displacement and velocity, and of both ends of the ground's shaking.
+
+    Of ``u'' + 2 z w u' + w^2 u = -a`` with ``a`` linear over the step, from the solution without
+    shaking and a particular one, ``-a / w^2 + 2 z a' / w^3``.
+    """
+    damped = omega * np.sqrt(1 - ratio**2)
+    fade, s, c = np.exp(-ratio * omega * step), np.sin(damped * step), np.cos(damped * step)
+    share = ratio * omega / damped
+    own = np.array(
+        [
+            [fade * (c + share * s), fade * s / damped],
+            [-fade * s * omega**2 / damped, fade * (c - share * s)],
+        ]
+    )
+    # Particular solution at the start and at the end, for unit values of a at both ends.
+    slope = np.array([-1.0, 1.0])[:, None] / step
+    bent = 2 * ratio * slope / omega**3
+    at_start = np.stack([np.array([-1.0, 0.0])[:, None] / omega**2 + bent, -slope / omega**2])
+    at_end = np.stack([np.array([0.0, -1.0])[:, None] / omega**2 + bent, -slope / omega**2])
+    return own, at_end - np.einsum("ijk,jlk->ilk", own, at_start)
+
+
+def monitor_spectrum(
+    run: RunData,
+    monitor: str,
+    axis: str = "x",
+    periods: Floats = PERIODS,
+    ratio: float = 0.05,
+) -> ResponseSpectrum:
+    """Return the spectrum of a monitor's motion along "x" or "y", from a run's history.
+
+    The acceleration is that of the parabola through the displacements of three steps that follow
+    one another; its error is of order two in the step.
+
+    Raises
+    ------
+    NmmError
+        When the run has no such monitor, or no steps in time.
+    """
+    column, history = f"monitor:{monitor}:u{axis}", run.history
+    if column not in history:
+        known = sorted({name.split(":")[1] for name in history if name.startswith("monitor:")})
+        raise NmmError(
+            f"monitor {monitor}, axis {axis}: no column {column}: expected one of "
+            f"{', '.join(known) or 'no monitors'} with axis x or y: correct the name"
+        )
+    times = np.concatenate([[0.0], history["time"]])
+    way = np.concatenate([[0.0], history[column]])
+    if len(times) < 4 or (np.diff(times) <= 0).any():
+        raise NmmError(
+            f"monitor {monitor}: {len(times) - 1} steps: expected a run in time of three or more"
+        )
+    return response_spectrum(times[:-1], _accelerations(times, way), periods, ratio)
+
+
+def _accelerations(times: Floats, way: Floats) -> Floats:
+    """Accelerations (n - 1,) at all times but the last of displacements (n,) that begin at rest."""
+    steps = np.diff(times)
+    speed = np.diff(way) / steps
+    inside = 2 * np.diff(speed) / (steps[1:] + steps[:-1])
+    return np.concatenate([[2 * speed[0] / steps[0]], inside])

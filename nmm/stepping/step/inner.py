@@ -1,0 +1,209 @@
+"""Forces that bend within a step: of matter that is not linear, and of effects that are not.
+
+Effects stand in the equations of a step with their line at its start (`Effect.force`, `matrix`).
+What their force through the step has beyond it joins the internal forces, over the weight that the
+integrator gives to the end of the step, so that it enters the step as it is.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.assembly.matter import STRESS
+from nmm.assembly.motion import State, move, strain_only
+from nmm.effects.base import Instant, Span, StepForce, defines
+from nmm.integrators.base import Integrator
+from nmm.model.discretisation import Current
+from nmm.stepping.step.clock import Clock
+
+# Forces of effects below this share of those of a step count as so large.
+HARDLY = 1e-6
+# What effects miss is rounding up to so many times that of their stiffness times the motion.
+ROUNDING = 1e3 * float(np.finfo(float).eps)
+
+
+@dataclass(frozen=True)
+class InnerPart:
+    """Internal force (n,) of one kind at an iterate, and what makes its tangent (n, n)."""
+
+    force: Floats
+    make: Callable[[], csc_array]
+
+    @cached_property
+    def stiffness(self) -> csc_array:
+        """Tangent (n, n)."""
+        return self.make()
+
+    def missed(self, now: "InnerPart", way: Floats) -> Floats:
+        """What the tangent of another iterate, ``way`` (n,) from here, missed of the force (n,)."""
+        return np.asarray(self.force - now.force - now.stiffness @ way)
+
+
+@dataclass(frozen=True)
+class Iterate:
+    """An increment (n,) of the step with its internal forces.
+
+    Attributes
+    ----------
+    matter, effects
+        Their parts; of effects beyond their line at the start of the step.
+    pull
+        (n,) force of effects through the step.
+    history, memory
+        What matter and effects remember at the end of the step.
+    """
+
+    increment: Floats
+    matter: InnerPart
+    effects: InnerPart
+    pull: Floats
+    history: Mapping[str, Floats]
+    memory: Mapping[str, Floats]
+
+    @property
+    def force(self) -> Floats:
+        """(n,) of both."""
+        return self.matter.force + self.effects.force
+
+    @property
+    def stiffness(self) -> csc_array:
+        """(n, n) of both."""
+        return csc_array(self.matter.stiffness + self.effects.stiffness)
+
+
+class Inner:
+    """Internal forces of one step that starts at a state.
+
+    Parameters
+    ----------
+    still
+        Whether the bodies' axes stay as they are.
+    symmetric
+        Whether tangents are to be.
+
+    Attributes
+    ----------
+    start
+        (n,) internal force of matter at the start of the step.
+    elastic
+        (n, n) elastic stiffness of matter.
+    symmetric
+        Whether tangents are.
+    flows
+        Whether matter may flow.
+    """
+
+    def __init__(
+        self,
+        current: Current,
+        state: State,
+        step: float | None,
+        rule: Integrator,
+        still: bool,
+        symmetric: bool,
+        clock: Clock,
+    ) -> None:
+        self._model, self._plan, self._clock = current.model, current.plan, clock
+        self._state, self._step, self._still = state, step, still
+        weight = 1.0 if step is None else rule.end_weight
+        self._span = Span(step, weight, half=step is not None and not rule.carries)
+        matter = self._model.matter
+        self.flows = matter is not None
+        self.symmetric = symmetric or matter is None or matter.symmetric
+        if matter is None:
+            self.elastic = self._model.stiffness
+            self.start = self.elastic @ state.deformation
+        else:
+            self.elastic = matter.stiffness(matter.elastic)
+            self.start = matter.force(state.deformation, state.history[STRESS])
+        self._lines = {name: self._line(name) for name in self._plan.bent}
+
+    def _line(self, name: str) -> tuple[Floats, csc_array]:
+        """Force (n,) and matrix (n, n) of an effect in the equations of the step."""
+        effect, n = self._plan.bent[name], len(self.start)
+        here = Instant(self._state.time, self._state.load_factor)
+        force = effect.force(self._state, here) if defines(effect, "force") else np.zeros(n)
+        matrix = effect.matrix(self._state) if defines(effect, "matrix") else csc_array((n, n))
+        return force, matrix
+
+    def at(self, increment: Floats) -> Iterate:
+        """Return the internal forces at an increment (n,) of the step.
+
+        Raises
+        ------
+        SolveError
+            Where an effect has none.
+        """
+        with self._clock.phase("material"):
+            matter, history = self._of_matter(increment)
+        pulls = self._pulls(increment)
+        memory = dict(self._state.memory)
+        total, beyond = np.zeros_like(increment), np.zeros_like(increment)
+        for name, one in pulls.items():
+            start, matrix = self._lines[name]
+            total = total + one.force
+            beyond = beyond + (start - one.force) / self._span.weight - matrix @ increment
+            memory |= one.memory
+        effects = InnerPart(beyond, lambda: self._beyond(pulls))
+        return Iterate(increment, matter, effects, total, history, memory)
+
+    def imbalance(self, now: Iterate, then: Iterate, scale: Floats, applied: Floats) -> float:
+        """Return what the tangents at ``now`` missed at ``then``, as a share of the forces.
+
+        Effects are held to their own forces: those that hold supports may be far larger.
+        ``scale`` (n,) are factors by which forces compare, ``applied`` (n,) those of the step.
+        """
+        way, shares = then.increment - now.increment, [0.0]
+        if self.flows:
+            missed = then.matter.missed(now.matter, way)
+            size = max(_size(scale * one) for one in (then.matter.force, self.start, applied))
+            shares.append(_size(scale * missed) / size if size else 0.0)
+        if self._lines:
+            missed = then.effects.missed(now.effects, way)
+            known = now.pull, then.pull, HARDLY * applied
+            size = max(_size(scale * one) for one in known)
+            left = _size(scale * missed)
+            if left > ROUNDING * _size(scale * self._gross(then.increment)):
+                shares.append(left / size if size else np.inf)
+        return max(shares)
+
+    def _gross(self, increment: Floats) -> Floats:
+        """(n,) what stiffnesses of effects times the motion are made of."""
+        total = np.zeros_like(increment)
+        for _, matrix in self._lines.values():
+            total = total + abs(matrix) @ np.abs(increment)
+        return total
+
+    def _of_matter(self, increment: Floats) -> tuple[InnerPart, Mapping[str, Floats]]:
+        state, matter = self._state, self._model.matter
+        whole = state.deformation + increment
+        if matter is None:
+            stiffness = self._model.stiffness
+            return InnerPart(stiffness @ whole, lambda: stiffness), state.history
+        answer = matter.update(whole, state.history, self._step or 0.0)
+        force, tangent = matter.force(whole, answer.stress), answer.tangent
+        return InnerPart(force, lambda: matter.stiffness(tangent, self.symmetric)), answer.history
+
+    def _pulls(self, increment: Floats) -> dict[str, StepForce]:
+        if not self._lines:
+            return {}
+        state = self._state
+        after = (strain_only if self._still else move)(self._model, state, increment)
+        if self._step is not None:
+            after = replace(after, time=state.time + self._step)
+        return {name: self._plan.through(name, state, after, self._span) for name in self._lines}
+
+    def _beyond(self, pulls: Mapping[str, StepForce]) -> csc_array:
+        """Stiffness of effects beyond their matrices in the equations."""
+        total = csc_array(self.elastic.shape)
+        for name, one in pulls.items():
+            total = total + one.stiffness() / self._span.weight - self._lines[name][1]
+        return csc_array(total)
+
+
+def _size(force: Floats) -> float:
+    return float(np.linalg.norm(force))

@@ -1,0 +1,74 @@
+"""Texts of small scenes whose answers are known: bars that are pulled, a block on a slab."""
+
+from collections.abc import Sequence
+
+from nmm.verification import text
+
+
+def pulled_bar(
+    materials: Sequence[str],
+    blocks: Sequence[tuple[str, str]],
+    interface: str = "",
+    plane: str = "stress",
+    stress: float = 1.0,
+    ends: Sequence[float] | None = None,
+) -> str:
+    """Return blocks 1 m high in a row from the origin, held at the left and pulled at the right.
+
+    Without Poisson's ratios each grows by ``stress / E`` times its length; "end" is the monitor of
+    the right end.
+
+    Parameters
+    ----------
+    materials, interface
+        Tables.
+    blocks
+        Name and material of each, from the left.
+    stress
+        Traction (Pa) at the right end.
+    ends
+        Where each block ends (m); after 1 m each where not given.
+    """
+    places = [0, *(ends or range(1, len(blocks) + 1))]
+    row = zip(blocks, places[:-1], places[1:], strict=True)
+    n = places[-1]
+    return text.scene(
+        f'plane = "{plane}"',
+        [
+            *materials,
+            interface,
+            *(text.block(name, made, text.rectangle((a, 0), (b, 1))) for (name, made), a, b in row),
+            edge_support("left", (0, 0), (0, 1)),
+            f'[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[{n}, 0], [{n}, 1]]\n'
+            f"traction = [{stress}, 0]\n",
+            text.monitor("end", (n, 0.5), blocks[-1][0]),
+        ],
+    )
+
+
+def block_on_slab(poisson: float, supports: Sequence[str], inertia: str = "") -> str:
+    """Return a block of .6 m on a slab of 2 m by .5 m, which ``supports`` hold from below.
+
+    The two weigh 9.81 * 2000 * 1.36 N; "top" is the monitor of the block's upper side. ``inertia``
+    are keys of scenes in time, ahead of all tables.
+    """
+    return text.scene(
+        f'{inertia}plane = "strain"\n[contact]\n[gravity]\n',
+        [
+            text.material("m", 1e7, poisson, 2000.0),
+            text.interface("i", 30.0),
+            text.box("base", (0, 0), (2, 0.5), "m"),
+            text.block("top", "m", text.rectangle((0.7, 0.5), (1.3, 1.1))),
+            *supports,
+            text.monitor("top", (1, 1.1), "top"),
+        ],
+    )
+
+
+def edge_support(
+    name: str, start: text.Corner, end: text.Corner, fix: Sequence[str] = ("x", "y")
+) -> str:
+    """Return the table of a support of a straight edge."""
+    return (
+        f'[[supports]]\nname = "{name}"\nsegment = {[list(start), list(end)]}\nfix = {list(fix)}\n'
+    )
