@@ -141,9 +141,10 @@ def enter_again(
     integrator: "Integrator",
 ) -> None:
     """Enter the stages of a run that was stopped, of which all is known that was recorded."""
-    for state, staged in zip(so_far.entered, stages[1:], strict=False):  # a handful of stages
-        change = _entered(stepper, state, staged, integrator)
-        recorder.monitors = monitors(change.setup, all_there=False)
+    pairs = zip(so_far.entered, stages[1:], strict=False)
+    changes = [_entered(stepper, state, staged, integrator) for state, staged in pairs]
+    if changes:  # monitors are those of the stage that it stands in
+        recorder.monitors = monitors(changes[-1].setup, all_there=False)
 
 
 def _entered(stepper: Stepper, state: State, staged: Staged, integrator: "Integrator") -> "Change":
