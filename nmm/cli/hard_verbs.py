@@ -9,7 +9,7 @@ import typer
 from nmm.cli.terminal import console
 
 if TYPE_CHECKING:
-    from nmm.verification.hard.running import Finding
+    from nmm.verification.hard.running.running import Finding
 
 REDUCED_BELOW = 5.0
 """Seconds of a case above which it is not made smaller."""
@@ -33,9 +33,9 @@ def verify_hard(
     typer.Exit
         With code 1 when a case misses.
     """
-    from nmm.verification.hard.page import write_page
-    from nmm.verification.hard.records import SUFFIX, append_record
-    from nmm.verification.hard.running import chosen_cases, judged
+    from nmm.verification.hard.running.page import write_page
+    from nmm.verification.hard.running.records import SUFFIX, append_record
+    from nmm.verification.hard.running.running import chosen_cases, judged
 
     if listed:
         _list()
@@ -73,8 +73,8 @@ def _sum_up(found: "list[Finding]") -> None:
 
 def _tell_records(paths: list[Path], out: Path | None) -> None:
     """Sum up records, or make the page of them: nothing is run."""
-    from nmm.verification.hard.page import write_page
-    from nmm.verification.hard.records import read_records
+    from nmm.verification.hard.running.page import write_page
+    from nmm.verification.hard.running.records import read_records
 
     found = read_records(paths)
     if out is None:
@@ -84,7 +84,7 @@ def _tell_records(paths: list[Path], out: Path | None) -> None:
 
 
 def _list() -> None:
-    from nmm.verification.hard.registry import HARD
+    from nmm.verification.hard.running.registry import HARD
 
     for name in HARD.table:
         kind = HARD.load(name)
@@ -106,8 +106,8 @@ def _tell(finding: "Finding") -> None:
 
 def _keep(finding: "Finding", out: Path) -> None:
     """Write the scene of a case that misses, and the smallest one found that does so too."""
-    from nmm.verification.hard.files import write_scene
-    from nmm.verification.hard.running import smallest
+    from nmm.verification.hard.running.files import write_scene
+    from nmm.verification.hard.running.running import smallest
 
     label = f"{finding.group} {finding.case.label}"
     path = write_scene(out, label, finding.case.scene, finding.words)

@@ -9,16 +9,16 @@ from nmm.contact.enforcement.base import ENFORCEMENTS
 from nmm.contact.enforcement.penalty import Penalty
 from nmm.errors import NmmError
 from nmm.verification.base import limit
-from nmm.verification.hard.base import HardCase
-from nmm.verification.hard.motion import overlap, prepared, ran
-from nmm.verification.hard.page import write_page
-from nmm.verification.hard.parts import enforcements, with_parts
-from nmm.verification.hard.records import append_record, read_records
-from nmm.verification.hard.reducing import reduced
-from nmm.verification.hard.registry import HARD
-from nmm.verification.hard.running import chosen_cases, judged
-from nmm.verification.hard.transforms import in_units, listed_anew, mirrored, shifted, turned
-from nmm.verification.hard.writing import block, in_time, rock
+from nmm.verification.hard.cases.base import HardCase
+from nmm.verification.hard.cases.parts import enforcements, with_parts
+from nmm.verification.hard.cases.transforms import in_units, listed_anew, mirrored, shifted, turned
+from nmm.verification.hard.cases.writing import block, in_time, rock
+from nmm.verification.hard.oracles.motion import overlap, prepared, ran
+from nmm.verification.hard.running.page import write_page
+from nmm.verification.hard.running.records import append_record, read_records
+from nmm.verification.hard.running.reducing import reduced
+from nmm.verification.hard.running.registry import HARD
+from nmm.verification.hard.running.running import chosen_cases, judged
 
 # Classes with what cannot pass yet run whole under the slow marker; docs/hard_cases.md lists it.
 SHARE = {

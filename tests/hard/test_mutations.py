@@ -5,9 +5,9 @@ import pytest
 import nmm
 from nmm.formulation import parse_formulation
 from nmm.scene import Scene, parse_scene
-from nmm.verification.hard.echoes import lost
-from nmm.verification.hard.mutations import bases, shrunk, spoilt, verdict
-from nmm.verification.hard.sound_texts import DYNAMIC, STATIC
+from nmm.verification.hard.oracles.echoes import lost
+from nmm.verification.hard.spoilt.mutations import bases, shrunk, spoilt, verdict
+from nmm.verification.hard.spoilt.sound_texts import DYNAMIC, STATIC
 
 FEW, MANY = 30, 50_000
 
@@ -37,7 +37,7 @@ def test_fifty_thousand_spoilt_files_hold_no_silent_fault(base):
 
 def test_the_sound_files_are_sound():
     small = [name for name in bases() if name != "formulation method"]
-    from nmm.verification.hard.sound_texts import METHOD, minimal
+    from nmm.verification.hard.spoilt.sound_texts import METHOD, minimal
 
     assert [verdict(minimal()[name]).outcome for name in small] == ["sound"] * len(small)
     assert verdict(METHOD, "formulation").outcome == "sound"

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from nmm.verification.base import Check, Checks, holds
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.motion import ended, ran
-from nmm.verification.hard.parts import enforcements, with_parts
-from nmm.verification.hard.transforms import listed_anew
-from nmm.verification.hard.writing import block, held, rock
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import enforcements, with_parts
+from nmm.verification.hard.cases.transforms import listed_anew
+from nmm.verification.hard.cases.writing import block, held, rock
+from nmm.verification.hard.oracles.motion import ended, ran
 from nmm.verification.text import rectangle
 
 STRENGTH = 2e6

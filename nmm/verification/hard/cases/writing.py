@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from nmm.verification.hard.base import Document
+from nmm.verification.hard.cases.base import Document
 
 
 def rock(

@@ -4,8 +4,8 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
-from nmm.verification.hard.registry import HARD
-from nmm.verification.hard.running import Finding
+from nmm.verification.hard.running.registry import HARD
+from nmm.verification.hard.running.running import Finding
 
 HEAD = """# Hard cases
 
@@ -20,7 +20,7 @@ nothing is left out: what misses here is not to be relied on.
   does; `--out NAME.md` takes this page; `--out NAME.jsonl` adds a record of each case, and
   `nmm verify --hard *.jsonl --out NAME.md` makes this page of records that were made in pieces.
 - A part that joins a registry joins the matrix. A class is one module and one line in
-  `nmm.verification.hard.registry`.
+  `nmm.verification.hard.running.registry`.
 
 A case passes when every quantity is within its tolerance. *Refused* ones end in an error in words
 before they run, which is right where a part cannot do what is asked; *crashed* ones end in a

@@ -9,10 +9,10 @@ from covers.mathematical.base import Cover
 from covers.mathematical.registry import cover_class
 from integration.arrays import Floats
 from nmm.verification.base import Check, Checks
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.motion import ended, ran
-from nmm.verification.hard.parts import glue_methods, meshes, support_methods, with_parts
-from nmm.verification.hard.writing import block
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import glue_methods, meshes, support_methods, with_parts
+from nmm.verification.hard.cases.writing import block
+from nmm.verification.hard.oracles.motion import ended, ran
 from nmm.verification.text import rectangle
 
 AWAY = (0.0, 1e-14, -1e-12, 1e-10, -1e-9, 1e-6, -1e-4, 1e-2)

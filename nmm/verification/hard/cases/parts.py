@@ -9,7 +9,7 @@ from nmm.constraints.imposition import IMPOSITIONS
 from nmm.contact.enforcement.base import ENFORCEMENTS
 from nmm.integrators.base import INTEGRATORS
 from nmm.solvers.linear import SOLVERS
-from nmm.verification.hard.base import Document, HardCase, Judge
+from nmm.verification.hard.cases.base import Document, HardCase, Judge
 
 BLOCKS: dict[str, Document] = {
     "block": {"type": "block"},

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from nmm.verification.hard.base import Document
+from nmm.verification.hard.cases.base import Document
 
 
 def toml(scene: Document) -> str:

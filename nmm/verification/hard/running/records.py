@@ -7,9 +7,9 @@ from typing import Any
 
 from nmm.errors import NmmError
 from nmm.verification.base import Check, Checks
-from nmm.verification.hard.base import Document, HardCase
-from nmm.verification.hard.registry import HARD
-from nmm.verification.hard.running import Finding
+from nmm.verification.hard.cases.base import Document, HardCase
+from nmm.verification.hard.running.registry import HARD
+from nmm.verification.hard.running.running import Finding
 
 SUFFIX = ".jsonl"
 """Of files of records: one JSON object a line."""

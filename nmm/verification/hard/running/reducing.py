@@ -5,7 +5,7 @@ from copy import deepcopy
 from time import process_time
 from typing import Any
 
-from nmm.verification.hard.base import Document
+from nmm.verification.hard.cases.base import Document
 
 Path = tuple[str | int, ...]
 

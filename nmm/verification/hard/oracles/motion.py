@@ -9,7 +9,7 @@ import shapely
 from integration.arrays import Floats
 from integration.polygons import diameters
 from nmm.verification.base import Check, Checks, holds, limit
-from nmm.verification.hard.base import Document
+from nmm.verification.hard.cases.base import Document
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -49,7 +49,7 @@ def ran(scene: Document) -> Ran:
     """Run a scene of tables."""
     from nmm.scene import parse_scene
     from nmm.stepping.run import run
-    from nmm.verification.hard.files import toml
+    from nmm.verification.hard.running.files import toml
 
     read = parse_scene(toml(scene), "hard case")
     begun = begun_energy(scene)
@@ -61,7 +61,7 @@ def prepared(scene: Document) -> "Simulation":
     from nmm.formulation import Formulation
     from nmm.scene import parse_scene
     from nmm.stepping.simulation import prepare
-    from nmm.verification.hard.files import toml
+    from nmm.verification.hard.running.files import toml
 
     read = parse_scene(toml(scene), "hard case")
     return prepare(read, read.formulation or Formulation())

@@ -7,10 +7,16 @@ import numpy as np
 import shapely
 
 from integration.arrays import Floats
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.linear import judge_linear
-from nmm.verification.hard.parts import BLOCKS, glue_methods, meshes, support_methods, with_parts
-from nmm.verification.hard.writing import block
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import (
+    BLOCKS,
+    glue_methods,
+    meshes,
+    support_methods,
+    with_parts,
+)
+from nmm.verification.hard.cases.writing import block
+from nmm.verification.hard.oracles.linear import judge_linear
 
 MODULI = (1.0, 1e6, 3e10)
 RATIOS = (1.0, 1.0, 10.0, 1e3)

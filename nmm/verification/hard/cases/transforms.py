@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.verification.hard.base import Document
+from nmm.verification.hard.cases.base import Document
 
 POINTS = ("vertices", "region", "keep", "points", "segment", "polygon")
 POINT = ("point", "origin")

@@ -7,10 +7,10 @@ import numpy as np
 import shapely
 
 from integration.arrays import Floats
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.motion import flying, moving
-from nmm.verification.hard.parts import over_parts
-from nmm.verification.hard.writing import block, held, in_time, rock
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import over_parts
+from nmm.verification.hard.cases.writing import block, held, in_time, rock
+from nmm.verification.hard.oracles.motion import flying, moving
 
 COUNTS = (3, 4, 5, 8)
 STEPS = (5e-3, 1e-3, 2e-4, 1e-4)

@@ -1,7 +1,7 @@
 """Classes of hard cases by name."""
 
 from nmm.registry import Registry
-from nmm.verification.hard.base import HardClass
+from nmm.verification.hard.cases.base import HardClass
 
 _HOME = "nmm.verification.hard"
 

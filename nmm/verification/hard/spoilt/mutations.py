@@ -18,10 +18,10 @@ from nmm.errors import NmmError
 from nmm.formulation import Formulation, parse_formulation
 from nmm.scene import Scene, parse_scene
 from nmm.verification.base import Check, Checks, limit
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.echoes import lost
-from nmm.verification.hard.mutators import keys_of, mutated
-from nmm.verification.hard.sound_texts import DYNAMIC, examples, formulations, minimal
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.oracles.echoes import lost
+from nmm.verification.hard.spoilt.mutators import keys_of, mutated
+from nmm.verification.hard.spoilt.sound_texts import DYNAMIC, examples, formulations, minimal
 
 PLACE = "file.toml"
 # Processor seconds that a file may take to be refused or prepared, and bytes that it may ask for.

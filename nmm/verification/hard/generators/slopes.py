@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.motion import moving
-from nmm.verification.hard.parts import over_parts
-from nmm.verification.hard.writing import block, in_time, rock
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import over_parts
+from nmm.verification.hard.cases.writing import block, in_time, rock
+from nmm.verification.hard.oracles.motion import moving
 
 FRICTIONS = (15.0, 0.0, 30.0, 5.0, 45.0)
 STEPS = (5e-4, 5e-3, 2e-4, 1e-3, 1e-4)

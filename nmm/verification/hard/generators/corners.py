@@ -5,11 +5,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.verification.hard.base import HardCase, HardClass
-from nmm.verification.hard.crossings import GAPS, STEPS, steps_of
-from nmm.verification.hard.motion import flying, moving
-from nmm.verification.hard.parts import over_parts
-from nmm.verification.hard.writing import block, held, in_time, rock
+from nmm.verification.hard.cases.base import HardCase, HardClass
+from nmm.verification.hard.cases.parts import over_parts
+from nmm.verification.hard.cases.writing import block, held, in_time, rock
+from nmm.verification.hard.generators.crossings import GAPS, STEPS, steps_of
+from nmm.verification.hard.oracles.motion import flying, moving
 from nmm.verification.text import turned
 
 ASIDE = (0.0, 1e-12, -1e-9, 1e-6, -1e-4, 5e-5, 1e-3)

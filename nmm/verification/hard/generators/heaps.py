@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.motion import moving
-from nmm.verification.hard.parts import over_parts
-from nmm.verification.hard.writing import block, held, in_time, rock
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import over_parts
+from nmm.verification.hard.cases.writing import block, held, in_time, rock
+from nmm.verification.hard.oracles.motion import moving
 from nmm.verification.text import rectangle
 
 FRICTIONS = (30.0, 0.0, 15.0, 45.0)

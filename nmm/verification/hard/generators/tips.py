@@ -5,11 +5,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from nmm.verification.base import Check, Checks, limit
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.cuts import net_point
-from nmm.verification.hard.motion import Ran, ended, ran
-from nmm.verification.hard.parts import meshes, with_parts
-from nmm.verification.hard.writing import block
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import meshes, with_parts
+from nmm.verification.hard.cases.writing import block
+from nmm.verification.hard.generators.cuts import net_point
+from nmm.verification.hard.oracles.motion import Ran, ended, ran
 
 AWAY = (0.0, 1e-14, 1e-12, -1e-10, 1e-8, -1e-6, 1e-4, 1e-2, 0.1)
 ANGLES = (0.0, 0.3, np.pi / 4)

@@ -8,12 +8,12 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.verification.base import Check, Checks, limit
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.linear import monitored
-from nmm.verification.hard.motion import ended, ran
-from nmm.verification.hard.parts import integrators, meshes, solvers, with_parts
-from nmm.verification.hard.random_solids import solid
-from nmm.verification.hard.writing import block
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import integrators, meshes, solvers, with_parts
+from nmm.verification.hard.cases.writing import block
+from nmm.verification.hard.generators.random_solids import solid
+from nmm.verification.hard.oracles.linear import monitored
+from nmm.verification.hard.oracles.motion import ended, ran
 
 
 class Steps(HardClass):

@@ -5,10 +5,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from nmm.verification.base import Check, Checks, holds
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.motion import body_checks, ended, energy_checks, ran
-from nmm.verification.hard.parts import enforcements, over_parts, with_parts
-from nmm.verification.hard.writing import block, held, in_time, rock
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import enforcements, over_parts, with_parts
+from nmm.verification.hard.cases.writing import block, held, in_time, rock
+from nmm.verification.hard.oracles.motion import body_checks, ended, energy_checks, ran
 
 HALF_ANGLES = (1e-3, 5e-3, 0.0175, 0.05, 0.1, 0.3)
 FRICTIONS = (0.0, 10.0, 30.0)

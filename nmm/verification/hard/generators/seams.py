@@ -6,11 +6,11 @@ from itertools import pairwise
 import numpy as np
 
 from nmm.verification.base import Check, Checks
-from nmm.verification.hard.base import Document, HardCase, HardClass, Judge
-from nmm.verification.hard.crossings import STEPS
-from nmm.verification.hard.motion import Ran, body_checks, ended, energy_checks, ran
-from nmm.verification.hard.parts import over_parts
-from nmm.verification.hard.writing import block, in_time, rock
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass, Judge
+from nmm.verification.hard.cases.parts import over_parts
+from nmm.verification.hard.cases.writing import block, in_time, rock
+from nmm.verification.hard.generators.crossings import STEPS
+from nmm.verification.hard.oracles.motion import Ran, body_checks, ended, energy_checks, ran
 from nmm.verification.text import rectangle, turned
 
 SPEED, WEIGHT = 2.0, 9.81

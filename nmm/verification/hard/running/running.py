@@ -9,9 +9,9 @@ from time import process_time
 
 from nmm.errors import NmmError
 from nmm.verification.base import Checks
-from nmm.verification.hard.base import Document, HardCase
-from nmm.verification.hard.reducing import reduced
-from nmm.verification.hard.registry import HARD
+from nmm.verification.hard.cases.base import Document, HardCase
+from nmm.verification.hard.running.reducing import reduced
+from nmm.verification.hard.running.registry import HARD
 
 
 @dataclass(frozen=True)

@@ -6,17 +6,8 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.verification.base import Check, Checks
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.linear import monitored
-from nmm.verification.hard.motion import (
-    Ran,
-    body_checks,
-    ended,
-    energy_checks,
-    momentum_checks,
-    ran,
-)
-from nmm.verification.hard.parts import (
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import (
     BLOCKS,
     enforcements,
     integrators,
@@ -24,14 +15,23 @@ from nmm.verification.hard.parts import (
     solvers,
     with_parts,
 )
-from nmm.verification.hard.transforms import (
+from nmm.verification.hard.cases.transforms import (
     in_units,
     listed_anew,
     mirrored,
     shifted,
     turned,
 )
-from nmm.verification.hard.writing import block, rock
+from nmm.verification.hard.cases.writing import block, rock
+from nmm.verification.hard.oracles.linear import monitored
+from nmm.verification.hard.oracles.motion import (
+    Ran,
+    body_checks,
+    ended,
+    energy_checks,
+    momentum_checks,
+    ran,
+)
 
 STEPS = 25
 

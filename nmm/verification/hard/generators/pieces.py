@@ -7,10 +7,10 @@ import shapely
 
 from integration.arrays import Floats
 from nmm.verification.base import Check, Checks
-from nmm.verification.hard.base import Document, HardCase, HardClass
-from nmm.verification.hard.motion import prepared
-from nmm.verification.hard.parts import meshes, with_parts
-from nmm.verification.hard.writing import block
+from nmm.verification.hard.cases.base import Document, HardCase, HardClass
+from nmm.verification.hard.cases.parts import meshes, with_parts
+from nmm.verification.hard.cases.writing import block
+from nmm.verification.hard.oracles.motion import prepared
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 FIVE = (

@@ -7,15 +7,15 @@ import shapely
 
 from integration.arrays import Floats
 from nmm.verification.base import Check, Checks
-from nmm.verification.hard.base import Document
-from nmm.verification.hard.motion import ended, ran
-from nmm.verification.hard.transforms import (
+from nmm.verification.hard.cases.base import Document
+from nmm.verification.hard.cases.transforms import (
     in_units,
     listed_anew,
     shifted,
     turned,
     with_loads_times,
 )
+from nmm.verification.hard.oracles.motion import ended, ran
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run

@@ -1,0 +1,1 @@
+"""Classes of hard cases, one subject a file: each yields scenes with their oracles."""

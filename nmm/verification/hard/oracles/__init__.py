@@ -1,0 +1,1 @@
+"""What must hold whatever the scene: no answer is known, and none is needed."""

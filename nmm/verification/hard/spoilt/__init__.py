@@ -1,0 +1,1 @@
+"""Files with one small fault, and the sound ones that they are made from."""
