@@ -3,7 +3,7 @@
 from nmm.registry import Registry
 from nmm.verification.hard.cases.base import HardClass
 
-_HOME = "nmm.verification.hard"
+_HOME = "nmm.verification.hard.generators"
 
 HARD = Registry[type[HardClass]](
     "hard class",
@@ -15,7 +15,7 @@ HARD = Registry[type[HardClass]](
         "seams": f"{_HOME}.seams:SeamCases",
         "wedges": f"{_HOME}.wedges:Wedges",
         "slopes": f"{_HOME}.slopes:Slopes",
-        "mutations": f"{_HOME}.mutations:Mutations",
+        "mutations": "nmm.verification.hard.spoilt.mutations:Mutations",
         "heaps": f"{_HOME}.heaps:Heaps",
         "cuts": f"{_HOME}.cuts:Cuts",
         "tips": f"{_HOME}.tips:Tips",
