@@ -1,12 +1,15 @@
 """A named quantity of a frame: its values, what they belong to, and their unit."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
+
+import numpy as np
 
 from integration.arrays import Floats, Ints
 
-Place = Literal["points", "elements", "bodies", "contacts"]
-PLACES: tuple[Place, ...] = ("points", "elements", "bodies", "contacts")
+Place = Literal["points", "elements", "bodies", "contacts", "members"]
+PLACES: tuple[Place, ...] = ("points", "elements", "bodies", "contacts", "members")
 
 
 @dataclass(frozen=True)
@@ -17,7 +20,8 @@ class Quantity:
     ----------
     on
         What the rows of the values belong to: the "points" of elements (vertices), "elements",
-        "bodies" (stored with each of their elements), or "contacts".
+        "bodies" (stored with each of their elements), "contacts", or "members": segments of what
+        connects points (`MemberSegments`).
     values
         (n,) numbers or (n, k) of k components; nan where there is none.
     unit
@@ -48,8 +52,34 @@ class MemberSegments:
         (m,) along what it lies in (m).
     """
 
+    ENDS: ClassVar[str] = "members:ends"
+    """Name of the quantity that says where segments are: x and y of both ends."""
+
     place: Floats
     member: Ints
     names: tuple[str, ...]
     force: Floats
     slip: Floats
+
+    @classmethod
+    def joined(cls, parts: Sequence["MemberSegments"]) -> "MemberSegments":
+        """Return the segments of several effects, whose members are numbered on."""
+        first = np.cumsum([0, *(len(part.names) for part in parts)])
+        return cls(
+            np.concatenate([part.place for part in parts]),
+            np.concatenate([part.member + at for part, at in zip(parts, first, strict=False)]),
+            tuple(name for part in parts for name in part.names),
+            np.concatenate([part.force for part in parts]),
+            np.concatenate([part.slip for part in parts]),
+        )
+
+    @property
+    def quantities(self) -> dict[str, Quantity]:
+        """What a frame holds of them."""
+        ends = ("x1", "y1", "x2", "y2")
+        return {
+            self.ENDS: Quantity("members", self.place.reshape(-1, 4), "m", ends),
+            "members:number": Quantity("members", self.member.astype(float)),
+            "members:force": Quantity("members", self.force, "N"),
+            "members:slip": Quantity("members", self.slip, "m"),
+        }

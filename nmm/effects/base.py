@@ -304,6 +304,10 @@ class Effect(ABC):
         """Return the state at the start of the run as the effect changes it."""
         raise NotImplementedError
 
+    def put_in(self, state: State) -> None:
+        """Take the state in which the effect joins a run that has begun without it."""
+        raise NotImplementedError
+
     def carried(self) -> Any:
         """What the effect carries from accepted step to accepted step besides the bodies' state.
 

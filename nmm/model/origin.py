@@ -15,6 +15,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.geometry.blocks import Regions
 from nmm.geometry.tessellation.cover_types import COVER_TYPES
+from nmm.quantity import MemberSegments
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import Sink
 from nmm.results.tee import Tee
@@ -131,9 +132,13 @@ class MovedBack(Tee):
 
     def frame(self, frame: Frame) -> None:
         """See `Sink.frame`."""
+        fields = dict(frame.fields)
+        if (ends := fields.get(MemberSegments.ENDS)) is not None:
+            fields[MemberSegments.ENDS] = replace(ends, values=ends.values + np.tile(self._by, 2))
         moved = replace(
             frame,
             points=frame.points + self._by,
             contact_position=frame.contact_position + self._by,
+            fields=fields,
         )
         super().frame(moved)

@@ -26,6 +26,7 @@ from nmm.effects.base import (
 from nmm.errors import SolveError
 from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own, with_table
+from nmm.quantity import MemberSegments
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
@@ -205,6 +206,11 @@ class Plan:
         """Return the work of all applied forces (J)."""
         return sum(effect.work(before, after) for effect in self._with("work"))
 
+    def segments(self, state: State) -> MemberSegments | None:
+        """Return the members of all effects; None without any."""
+        parts = [effect.segments(state) for effect in self._with("segments")]
+        return MemberSegments.joined(parts) if parts else None
+
     @cached_property
     def bent(self) -> dict[str, Effect]:
         """Effects, by name, whose force is no line in the unknowns of a step."""
@@ -321,7 +327,9 @@ def plan_after(plan: Plan, change: "Change") -> Plan:
             makers[name] = partial(effect.follow, own)
     new = Plan({}, plan.seconds)
     for name, make in makers.items():
-        new.effects[name] = new._timed(name, make)
+        new.effects[name] = effect = new._timed(name, make)
+        if name not in plan.effects and defines(effect, "put_in"):
+            effect.put_in(change.state)
     return new.connected()
 
 

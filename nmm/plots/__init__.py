@@ -10,6 +10,7 @@ from nmm.plots.results.contact_forces import contact_forces
 from nmm.plots.results.covers import covers
 from nmm.plots.results.curves import curve, history, load_displacement, overview
 from nmm.plots.results.deformed import deformed, failure_mode
+from nmm.plots.results.members import members
 from nmm.plots.results.stress import stress
 
 __all__ = [
@@ -22,6 +23,7 @@ __all__ = [
     "failure_mode",
     "history",
     "load_displacement",
+    "members",
     "overview",
     "stress",
 ]

@@ -14,6 +14,7 @@ from nmm.plots.results.contact_forces import contact_forces
 from nmm.plots.results.covers import covers
 from nmm.plots.results.curves import load_displacement, overview
 from nmm.plots.results.deformed import deformed, failure_mode
+from nmm.plots.results.members import members
 from nmm.plots.results.stress import stress
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
@@ -76,10 +77,13 @@ def draw_all(
             draw(name, failure_mode, shown, scene=scene, magnification=magnification)
         draw(f"stress_{component}.png", stress, shown, component, frame=calm)
         for name, quantity in shown.frames[calm].fields.items():  # a handful, of effects
-            if ":" in name and quantity.on != "contacts" and quantity.values.ndim == 1:
+            apart = quantity.on in ("contacts", "members")
+            if ":" in name and not apart and quantity.values.ndim == 1:
                 draw(f"{name.replace(':', '_')}.png", stress, shown, name, frame=calm)
         if len(shown.frames[calm].contact_gap):
             draw("contact_forces.png", contact_forces, shown, frame=calm)
+        if shown.frames[calm].on("members"):
+            draw("members.png", members, shown, frame=calm)
         if _has_covers(run, scene):
             draw("covers.png", _covers, run, scene)
     if _steps(run) > 1:  # one step is no curve

@@ -197,6 +197,9 @@ def _declared(effect: Effect, name: str, model: Model, state: State) -> None:
     if defines(effect, "history"):
         for key, value in effect.history(state).items():
             finite(f"{name}: history {key}", value)
+    if defines(effect, "segments"):
+        for key, one in effect.segments(state).quantities.items():
+            finite(f"{name}: {key}", one.values)
     if defines(effect, "outputs"):
         for key, one in effect.outputs(state).items():
             check_quantity(f"{name}: quantity {key}", one, model)
@@ -211,7 +214,8 @@ def check_quantity(what: str, one: Quantity, model: Model, contacts: int = 0) ->
         Naming what does not fit.
     """
     manifold = model.manifold
-    counts = (len(manifold.elements.points), len(manifold.elements), manifold.n_bodies, contacts)
+    sizes = (len(manifold.elements.points), len(manifold.elements), manifold.n_bodies)
+    counts = (*sizes, contacts, 0)  # members are those of `Effect.segments`
     claim(one.on in PLACES, f"{what}: on {one.on!r}, expected one of {', '.join(PLACES)}")
     expected = dict(zip(PLACES, counts, strict=True))[one.on]
     values = np.asarray(one.values)

@@ -170,6 +170,10 @@ class Linked(Effect):
         self._offset = np.array(carried[0])
         self.forget()
 
+    def put_in(self, state: State) -> None:
+        """See `Effect.put_in`: members are unstretched, but for their own forces, as all stands."""
+        self._offset = self.members.links.stretch(state)
+
     def forget(self) -> None:
         """See `Effect.forget`."""
         self._answers.forget()

@@ -14,7 +14,7 @@ from nmm.results.storage.writing import told
 from nmm.results.summary import Summary
 
 _PICTURES = (
-    "deformed|failure_mode|contact_forces|covers|load_displacement|history"
+    "deformed|failure_mode|contact_forces|members|covers|load_displacement|history"
     "|stress_(mises|xx|yy|xy|major|minor)"
 )
 _WRITTEN = {
@@ -22,7 +22,7 @@ _WRITTEN = {
     r"|checkpoint\.npz",
     files.FRAMES: files.FRAME_NAME.pattern,
     files.PICTURES: rf"({_PICTURES})\.png",
-    files.PARAVIEW: r"(blocks|contacts)(_[0-9]{6,}\.vtu|\.pvd)",
+    files.PARAVIEW: r"(blocks|contacts|members)(_[0-9]{6,}\.vtu|\.pvd)",
 }
 """Names of all files that a run and its pictures write, by folder; the summary is written over."""
 

@@ -56,7 +56,8 @@ def frame_misfit(arrays: Arrays) -> str | None:
         values = arrays.get(f"field_{number}")
         if values is None or values.dtype.kind != "f" or values.ndim not in (1, 2):
             return f"its field_{number} is no array of numbers"
-        if lengths.get(places[number]) != len(values):
+        known = lengths.setdefault("members", len(values)) if places[number] == "members" else None
+        if (known or lengths.get(places[number])) != len(values):
             return f"its field_{number} does not fit its {places[number]}"
     return None
 

@@ -2,7 +2,8 @@
 
 `blocks.pvd` holds the elements at their place before the run, so that *Warp By Vector* with
 `displacement` and factor 1 shows them where they are; points are not shared between elements, so
-openings show. `contacts.pvd` holds the contact points where they are, with their forces.
+openings show. `contacts.pvd` holds the contact points where they are, with their forces, and
+`members.pvd` springs and bars where they are, with theirs.
 """
 
 import os
@@ -14,11 +15,13 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import DamageError
+from nmm.quantity import MemberSegments
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
 from nmm.results.storage.writing import told, write_text
 from nmm.results.viewing.cells import PolygonCells, cells
 from nmm.results.viewing.vtu import (
+    LINE,
     POLYGON,
     TRIANGLE,
     VERTEX,
@@ -50,7 +53,8 @@ def write_paraview(
     Returns
     -------
     list of Path
-        The files to open: `blocks.pvd` and, when the run has contact points, `contacts.pvd`.
+        The files to open: `blocks.pvd` and, when the run has contact points or members,
+        `contacts.pvd` and `members.pvd`.
 
     Raises
     ------
@@ -64,8 +68,9 @@ def write_paraview(
         target.mkdir(parents=True, exist_ok=True)
     cut: dict[int, PolygonCells] = {}
     times: list[float] = []
-    bare = ""  # the text of contacts where there are none; written once there are some
-    touching = False
+    # Texts of contacts and members where there are none; written once there are some.
+    bare: dict[str, str] = {}
+    some = set[str]()
     for frame, topology in _readable(run, tell):
         if frame.topology not in cut:
             cut[frame.topology] = cells(topology.elements)
@@ -74,15 +79,16 @@ def write_paraview(
             _file(target, "blocks", number), blocks_grid(frame, topology, cut[frame.topology])
         )
         times.append(frame.time)
-        contacts = contacts_grid(frame)
-        if not touching and len(frame.contact_gap):
-            touching = True
-            for earlier in range(number):
-                write_text(_file(target, "contacts", earlier), bare)
-        if touching:
-            write_text(_file(target, "contacts", number), contacts)
-        bare = bare or contacts
-    names = ("blocks", "contacts") if touching else ("blocks",)
+        for name, (count, grid) in BESIDE.items():
+            text = grid(frame)
+            if name not in some and count(frame):
+                some.add(name)
+                for earlier in range(number):
+                    write_text(_file(target, name, earlier), bare[name])
+            if name in some:
+                write_text(_file(target, name, number), text)
+            bare.setdefault(name, text)
+    names = ("blocks", *(name for name in BESIDE if name in some))
     return [_write_collection(target, name, output_times(times)) for name in names]
 
 
@@ -169,6 +175,38 @@ def contacts_grid(frame: Frame) -> str:
         cell_data={},
         components=_components(frame),
     )
+
+
+def members_grid(frame: Frame) -> str:
+    """Return the .vtu text of the members of a frame, a line for each segment."""
+    known = frame.on("members")
+    ends = known[MemberSegments.ENDS].values if known else np.zeros((0, 4))
+    number = np.arange(len(ends))
+    return unstructured_grid(
+        points=ends.reshape(-1, 2),
+        connectivity=np.arange(2 * len(ends)),
+        offsets=2 * (number + 1),
+        types=np.full(len(ends), LINE, dtype=np.uint8),
+        point_data={},
+        cell_data={
+            name.partition(":")[2]: one.values
+            for name, one in known.items()
+            if name != MemberSegments.ENDS
+        },
+        components={},
+    )
+
+
+def _members(frame: Frame) -> int:
+    known = frame.on("members")
+    return len(known[MemberSegments.ENDS].values) if known else 0
+
+
+BESIDE: dict[str, tuple[Callable[[Frame], int], Callable[[Frame], str]]] = {
+    "contacts": (lambda frame: len(frame.contact_gap), contacts_grid),
+    "members": (_members, members_grid),
+}
+"""What lies beside the blocks in files of its own: how many of it a frame has, and its text."""
 
 
 def _shown(values: Floats) -> Floats:

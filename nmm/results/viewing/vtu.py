@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
 
-VERTEX, TRIANGLE, POLYGON = 1, 5, 7
+VERTEX, LINE, TRIANGLE, POLYGON = 1, 3, 5, 7
 
 _TYPES = {"f8": "Float64", "i8": "Int64", "u1": "UInt8"}
 

@@ -43,7 +43,8 @@ class Declared:
                     "rename it"
                 )
             found[name] = _on_elements(view.model, _checked(who, name, one, view))
-        return found
+        members = plan.segments(view.state)
+        return found if members is None else found | members.quantities
 
     def _fields(self, plan: Plan, view: View) -> Iterator[tuple[str, str, Quantity]]:
         for name, effect in plan.effects.items():
@@ -73,6 +74,7 @@ def _checked(who: str, name: str, one: Quantity, view: View) -> Quantity:
         "elements": len(manifold.elements),
         "bodies": manifold.n_bodies,
         "contacts": 0 if contacts is None else len(contacts),
+        "members": 0,  # those of effects alone
     }
     if one.on not in counts:
         raise NmmError(

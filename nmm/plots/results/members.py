@@ -1,0 +1,65 @@
+"""Springs, dashpots and bars as lines, coloured by their axial force."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nmm.plots.canvas import BESIDE, PathLike, axes_grid, extent_of, finished, frame_plane
+from nmm.plots.results.deformed import magnified, moment
+from nmm.plots.shapes import draw_blocks
+from nmm.plots.units import label, prefixed
+from nmm.quantity import MemberSegments
+from nmm.results.sink import RunData
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+WIDTH = 2.5  # points
+
+
+def members(
+    run: RunData,
+    *,
+    frame: int = -1,
+    ax: "Axes | None" = None,
+    path: PathLike | None = None,
+) -> "Axes":
+    """Draw the members of one frame over faint blocks, tension positive.
+
+    Parameters
+    ----------
+    run
+        A run in memory or a stored one.
+    frame
+        Number of the frame, counted from the end when negative.
+    ax
+        Axes to draw into; a new figure when None.
+    path
+        File to save the figure in.
+    """
+    from matplotlib.collections import LineCollection
+
+    shown = run.frames[frame]
+    topology, known = run.topologies[shown.topology], shown.on("members")
+    polygons = magnified(shown, topology, 1.0)
+    ends = known[MemberSegments.ENDS].values.reshape(-1, 2, 2) if known else np.zeros((0, 2, 2))
+    force = known["members:force"].values if known else np.zeros(0)
+    factor, unit = prefixed(force, "N")
+    axes = ax or axes_grid(1, 1, 4.0)[0]
+    draw_blocks(axes, topology, polygons, facecolors="#f4f2ed", edgecolors="#c9c5ba")
+    pulled = bool((force >= 0).all())
+    drawn = LineCollection(
+        list(ends), linewidths=WIDTH, capstyle="butt", cmap="viridis_r" if pulled else "RdBu_r"
+    )
+    drawn.set_array(factor * force)
+    most = factor * float(np.abs(force).max(initial=0.0)) or 1.0
+    drawn.set_clim(0.0 if pulled else -most, most)
+    axes.add_collection(drawn)
+    frame_plane(
+        axes, extent_of(polygons.points, ends.reshape(-1, 2)), f"axial forces, {moment(shown)}"
+    )
+    bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02, fraction=0.05, aspect=15)
+    bar.set_label(label("axial force", unit), fontsize=9.0)
+    bar.ax.tick_params(labelsize=9.0, width=0.6)
+    bar.outline.set_visible(False)
+    return finished(axes, path, fit=ax is None, beside=BESIDE + 0.9)
