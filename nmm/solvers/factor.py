@@ -20,7 +20,10 @@ if TYPE_CHECKING:
     from nmm.solvers.linear import LinearSolver
 
 ACCEPTED = 1e-8
-"""Largest relative residual of a solution; above it the load works on a free motion."""
+"""Largest relative residual of a solution; above it a shifted matrix is tried."""
+ROUNDED = 1e-6
+"""The same of a shifted matrix; above it the load works on a free motion. Slivers among dependent
+functions leave up to 1e-7, which audits tell."""
 PIVOT = 1e-15
 """Part of the diagonal added to every matrix: what rounding changes anyway. It keeps a pivot of a
 rank-deficient matrix from being exactly zero, over which decompositions trip."""
@@ -118,7 +121,7 @@ class Factor:
             if self._fallback is None:
                 self._fallback = self._shifted()
             return self._fallback.solve(rhs)
-        if residual <= _limit(growth):
+        if residual <= max(_limit(growth), ROUNDED):
             return x
         at = self.weakest_unknown(x)
         raise SolveError(
