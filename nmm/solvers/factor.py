@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 ACCEPTED = 1e-8
 """Largest relative residual of a solution; above it a shifted matrix is tried."""
-ROUNDED = 1e-6
+TOLD = 1e-6
 """The same of a shifted matrix; above it the load works on a free motion. Slivers among dependent
 functions leave up to 1e-7, which audits tell."""
 PIVOT = 1e-15
@@ -121,7 +121,7 @@ class Factor:
             if self._fallback is None:
                 self._fallback = self._shifted()
             return self._fallback.solve(rhs)
-        if residual <= max(_limit(growth), ROUNDED):
+        if residual <= max(_limit(growth), TOLD):
             return x
         at = self.weakest_unknown(x)
         raise SolveError(
