@@ -1,0 +1,340 @@
+"""Shaken ground: oscillators, a block on a shaken slope, shear columns, level ground."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.verification import text
+from nmm.verification.base import Check, Checks, SceneCase, limit
+from nmm.verification.problems.incline import on_slope
+from nmm.verification.reading import way
+
+if TYPE_CHECKING:
+    from nmm.formulation import Formulation
+    from nmm.scene import Scene
+    from nmm.stepping.run import Run
+
+R1 = (0, 0.6, 1.8, -1.2, -3.0, 0.9, 3.4, 2.1, -0.8, -3.6, -1.5, 2.4, 1.1, -2.2, 0.4, 1.6, -0.9)
+RECORD = (*R1, -0.5, 0.3, -0.1, 0)
+"""A record of acceleration (m/s2), every 0.1 s, linear between."""
+
+NEWMARK = '[formulation.integrator]\ntype = "newmark"\nstep = {step!r}\n'
+SMALL = '[formulation.rotation]\nupdate = "small"\n'
+
+
+def record(name: str, values: Sequence[float], step: float, more: str = "") -> str:
+    """Table of a record of values at equal steps (s)."""
+    return f"[records.{name}]\nvalues = {list(values)}\nstep = {step!r}\n{more}"
+
+
+def support(name: str, place: str, fix: str, motion: str = "") -> str:
+    """Table of a support of a block or a segment that holds "x" or "y", or follows a record."""
+    moves = f'motion = {{ x = "{motion}" }}\n' if motion else ""
+    return f'[[supports]]\nname = "{name}"\n{place}\nfix = {list(fix)}\n{moves}'
+
+
+@dataclass(frozen=True)
+class Swing(SceneCase):
+    """A square of constant strain that can only shear: one mass on a spring, pulled suddenly.
+
+    Its frequency is ``w^2 = 3 G / (rho h^2)``.
+    """
+
+    name: ClassVar[str] = "VI4"
+    title: ClassVar[str] = "Free vibration under Rayleigh's and local damping"
+    source: ClassVar[str] = (
+        "logarithmic decrement of 5 %; local damping: sqrt((1 - a) / (1 + a)) a half cycle"
+    )
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "bilinear quads")
+    damping: str = "rayleigh"
+    shear: ClassVar[float] = 3e6
+    omega: ClassVar[float] = float(np.sqrt(3 * 3e6 / 1000.0))
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return both kinds of damping, local damping twice."""
+        return [cls("rayleigh"), cls("local 0.1"), cls("local 0.7")]
+
+    @property
+    def variant(self) -> str:
+        """The kind of damping."""
+        return self.damping
+
+    @property
+    def period(self) -> float:
+        """Of free vibration (s)."""
+        return float(2 * np.pi / self.omega)
+
+    def scene(self) -> str:
+        """Return a square on rollers all round, its base held along x."""
+        frequencies = [1 / self.period, 5 / self.period]
+        damping = (
+            f"ratios = [0.05, 0.05]\nfrequencies = {frequencies}\n"
+            if self.damping == "rayleigh"
+            else f"local = {self.damping.split()[1]}\n"
+        )
+        return text.scene(
+            f'title = "Swing"\nplane = "strain"\nduration = {2.2 * self.period!r}\n[inertia]\n'
+            f"[damping]\n{damping}{NEWMARK.format(step=self.period / 200)}{SMALL}",
+            [
+                text.material("soil", 2.5 * self.shear, 0.25, 1000.0),
+                text.block("square", "soil", text.rectangle((0, 0), (1, 1))),
+                support("base", "segment = [[0, 0], [1, 0]]", "x"),
+                support("level", 'block = "square"', "y"),
+                '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\n'
+                "traction = [1e3, 0]\n",
+                text.monitor("top", (0.5, 1.0), "square"),
+            ],
+        )
+
+    def formulation(self, scene: "Scene", name: str) -> "Formulation":
+        """Return one cell where there are cells, and edges held exactly."""
+        return _one_cell(super().formulation(scene, name))
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the amplitudes of two extremes that follow each other."""
+        swing = way(run, "top")[:, 0] * self.shear / 1e3 - 1
+        turning = (swing[1:-1] - swing[:-2]) * (swing[2:] - swing[1:-1]) < 0
+        peaks = np.abs(swing[1:-1][turning])
+        share = 0.0 if self.damping == "rayleigh" else float(self.damping.split()[1])
+        expected = float(np.sqrt((1 - share) / (1 + share)))
+        if not share:
+            expected = float(np.exp(-np.pi * 0.05 / np.sqrt(1 - 0.05**2)))
+        reason = "extremes between steps; signs of local damping are those of the start of a step"
+        return {
+            "ratio of amplitudes a half cycle": Check(peaks[1] / peaks[0], expected, 1e-2, reason),
+            "energy that is missing": limit(
+                abs(run.summary.energy_balance or 0.0), 1e-3, "its books"
+            ),
+        }
+
+
+@dataclass(frozen=True)
+class ShakenMass(SceneCase):
+    """The same square on a base that follows a record: its top is 1.5 times the oscillator."""
+
+    name: ClassVar[str] = "BM1"
+    title: ClassVar[str] = "One mass on a spring under a record"
+    source: ClassVar[str] = "exact for piecewise linear records (Nigam and Jennings 1969)"
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "bilinear quads")
+    period: float = 0.5
+    ratio: float = 0.05
+    exact: ClassVar[dict[float, tuple[float, float, float]]] = {
+        0.5: (0.08199225, 0.0756450992, 0.0482207489),
+        0.3: (0.02778873, 0.0113379287, 0.0186646556),
+    }
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return a damped and an undamped oscillator."""
+        return [cls(0.5, 0.05), cls(0.3, 0.0)]
+
+    @property
+    def variant(self) -> str:
+        """Period and ratio of damping."""
+        return f"T {self.period}, {self.ratio}"
+
+    def scene(self) -> str:
+        """Return the square with its base shaken."""
+        omega = 2 * np.pi / self.period
+        return text.scene(
+            f'title = "Shaken mass"\nplane = "strain"\nduration = 2.0\n[inertia]\n[damping]\n'
+            f"stiffness = {2 * self.ratio / omega!r}\n"
+            f"{NEWMARK.format(step=self.period / 100)}{SMALL}",
+            [
+                text.material("soil", 2.5 * 1000 * omega**2 / 3, 0.25, 1000.0),
+                text.block("square", "soil", text.rectangle((0, 0), (1, 1))),
+                record("R1", RECORD, 0.1),
+                support("base", "segment = [[0, 0], [1, 0]]", "x", "R1"),
+                support("level", 'block = "square"', "y"),
+                text.monitor("top", (0.5, 1.0), "square"),
+                text.monitor("base", (0.5, 0.0), "square"),
+            ],
+        )
+
+    def formulation(self, scene: "Scene", name: str) -> "Formulation":
+        """Return one cell where there are cells, and edges held exactly."""
+        return _one_cell(super().formulation(scene, name))
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the motion against the base."""
+        moved = (way(run, "top") - way(run, "base"))[:, 0] / 1.5
+        time, (largest, first, last) = run.history["time"], self.exact[self.period]
+        # The trapezoidal rule makes the period longer by (w dt)^2 / 12, springs hold the base.
+        late = (2 * np.pi / 100) ** 2 / 12 * 2 * np.pi / self.period
+        reason = "second order at a hundred steps a period; swings are late by its period error"
+        ends = {"u(1.0)": (1.0, first), "u(2.0)": (2.0, last)}
+        return {
+            "largest displacement (m)": Check(np.abs(moved).max(), largest, 4e-3, reason),
+            **{
+                f"{name} (m)": Check(
+                    float(np.interp(at, time, moved)), value, 3e-3 + at * late, reason, largest
+                )
+                for name, (at, value) in ends.items()
+            },
+        }
+
+
+@dataclass(frozen=True)
+class ShakenSlope(SceneCase):
+    """A block that a record makes slide down a slope, one way."""
+
+    name: ClassVar[str] = "BM5"
+    title: ClassVar[str] = "Block on a slope under a record"
+    source: ClassVar[str] = "equation of motion, events and steps of 2e-6 s (Newmark 1965)"
+    formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    slope: float = 20.0
+    friction: float = 30.0
+    scale: float = 2.0
+    slides: float = 0.2291134009
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return a strong shaking on a rough slope, and a weaker one on a smoother."""
+        return [cls(), cls(15.0, 18.0, 1.0, 0.1633430180)]
+
+    @property
+    def variant(self) -> str:
+        """Slope, friction and scale of the record."""
+        return f"{self.slope:g}, {self.friction:g}, {self.scale:g}"
+
+    @property
+    def slow(self) -> bool:
+        """Whether it is the second one: 1100 steps with contact."""
+        return self.scale == 1.0
+
+    def scene(self) -> str:
+        """Return a slope that follows the record, and a flat block on it."""
+        return text.scene(
+            'title = "Shaken slope"\nplane = "strain"\nduration = 2.2\n[inertia]\n[gravity]\n'
+            "[contact]\n[formulation.integrator]\nstep = 0.002\n",
+            [
+                text.material("rock", 1e9),
+                text.interface("slope", self.friction),
+                text.block("slope", "rock", on_slope(self.slope, (0, -1), (4, 0))),
+                text.block("stone", "rock", on_slope(self.slope, (2, 0), (3, 0.4))),
+                record("R1", RECORD, 0.1, f"scale = {self.scale!r}\n"),
+                '[[supports]]\nname = "ground"\nblock = "slope"\nfix = ["x", "y"]\n'
+                'motion = { x = "R1" }\n',
+                text.monitor("stone", on_slope(self.slope, (2.5, 0.2), (3, 0.4))[0], "stone"),
+                text.monitor("slope", on_slope(self.slope, (2.5, -0.5), (3, 0))[0], "slope"),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the way of the block down the slope."""
+        along = np.array([-np.cos(np.radians(self.slope)), -np.sin(np.radians(self.slope))])
+        slid = (way(run, "stone") - way(run, "slope"))[-1] @ along
+        reason = "contact springs give way by their slip before friction is reached"
+        return {"way down the slope (m)": Check(float(slid), self.slides, 0.005, reason)}
+
+
+PULSE = 0.1 * np.sin(np.pi * np.arange(41) / 40) ** 2
+"""Velocity (m/s) of a wave going up, every 5 ms."""
+
+
+class LayerOnRock(SceneCase):
+    """A column of soil on rock: a shear wave comes in through a viscous boundary and rings."""
+
+    name, title = "BM2", "Soil on rock under a pulse that comes from below"
+    source = "d'Alembert: 2 T R^n v(t - (2 n + 1) H / Vs), T = 1.65517241, R = -0.65517241"
+    formulations: ClassVar[tuple[str, ...]] = (
+        "finite elements",
+        "bilinear quads",
+        "manifold",
+        "quads",
+        "splines",
+    )
+    width: ClassVar[float] = 3.0
+    sides: ClassVar[tuple[str, ...]] = (
+        '[[supports]]\nname = "level"\nblock = "soil"\nfix = ["y"]\n',
+    )
+
+    def scene(self) -> str:
+        """Return the ground, 30 m of soil."""
+        wide = self.width
+        return text.scene(
+            'title = "Layer on rock"\nplane = "strain"\nduration = 0.5\n[inertia]\n'
+            + NEWMARK.format(step=0.0025)
+            + SMALL,
+            [
+                text.material("soil", 450e6, 0.25, 2000.0),
+                text.block("soil", "soil", text.rectangle((0, 0), (wide, 30))),
+                record("wave", PULSE.round(12).tolist(), 0.005, 'quantity = "velocity"\n'),
+                '[[viscous_boundaries]]\nname = "base"\nincoming = { x = "wave" }\n'
+                f"segment = [[0, 0], [{wide}, 0]]\n"
+                "density = 2400.0\np_velocity = 2400.0\ns_velocity = 1200.0\n",
+                *self.sides,
+                text.monitor("left", (0.0, 30.0), "soil"),
+                text.monitor("middle", (wide / 2, 30.0), "soil"),
+            ],
+        )
+
+    def formulation(self, scene: "Scene", name: str) -> "Formulation":
+        """Return twenty cells a wave, or thirty where functions are linear or constant."""
+        degree = super().formulation(scene, name).cover.highest_degree
+        return _of_size(super().formulation(scene, name), 3.0 if degree else 1.5)
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the velocity of the surface with the first two peaks."""
+        speed, time = surface(run, "left")
+        reason = "dispersion of the mesh: 2 % of peaks at twenty cells a wave"
+        first = time[np.argmax(speed)]
+        return {
+            "first peak (m/s)": Check(speed.max(), 0.33103448, 0.02, reason),
+            "second peak (m/s)": Check(speed.min(), -0.21688466, 0.02, reason),
+            "time of the first peak (s)": Check(float(first), 0.2, 0.01, reason),
+        }
+
+
+class LevelGround(LayerOnRock):
+    """The same ground 60 m wide between free fields: every line moves as the column."""
+
+    name, title = "BM4", "Level ground between free fields"
+    formulations: ClassVar[tuple[str, ...]] = ("bilinear quads", "quads")
+    width: ClassVar[float] = 60.0
+    sides: ClassVar[tuple[str, ...]] = tuple(
+        f'[[free_fields]]\nname = "{name}"\nbase = "base"\nsegment = [[{x}, 0], [{x}, 30]]\n'
+        for name, x in (("left", 0.0), ("right", 60.0))
+    )
+
+    def formulation(self, scene: "Scene", name: str) -> "Formulation":
+        """Return cells of 2.5 m, or of 6 m with functions of degree 1."""
+        degree = super().formulation(scene, name).cover.highest_degree
+        return _of_size(super().formulation(scene, name), 6.0 if degree else 2.5)
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the side and the middle, and how little the ground rises."""
+        found = super().measure(run)
+        middle, _ = surface(run, "middle")
+        side, _ = surface(run, "left")
+        rise = np.abs(way(run, "left")[:, 1]).max() / np.abs(way(run, "left")[:, 0]).max()
+        unlike = float(np.abs(middle - side).max() / np.abs(middle).max())
+        return {
+            **found,
+            "difference of side and middle": limit(unlike, 0.02, "the free field is level ground"),
+            "rise over sway": limit(float(rise), 1e-3, "a wave straight up moves along x alone"),
+        }
+
+
+def surface(run: "Run", monitor: str) -> tuple[Floats, Floats]:
+    """Velocity along x (m/s) of a monitor at the middles of steps, and their times (s)."""
+    moved, time = way(run, monitor)[:, 0], run.history["time"]
+    return np.diff(moved) / np.diff(time), (time[1:] + time[:-1]) / 2
+
+
+def _of_size(formulation: "Formulation", size: float) -> "Formulation":
+    """Return a formulation with cells of a size (m)."""
+    cover = formulation.cover.model_copy(update={"size": size})
+    return formulation.model_copy(update={"cover": cover})
+
+
+def _one_cell(formulation: "Formulation") -> "Formulation":
+    """Return a formulation of one cell over the square, its edges held by multipliers."""
+    if formulation.cover.size is None:
+        return formulation
+    supports = formulation.supports.model_copy(update={"method": "lagrange"})
+    return _of_size(formulation, 1.0).model_copy(update={"supports": supports})
