@@ -46,8 +46,8 @@ class ArtificialJoints(TiedInterfaces):
         glue
             What they are.
         stations
-            Where springs between linear fields act: "corners" (also "auto") or "gauss". Between fields that bend
-            they act at as many Gauss points as their degree asks for.
+            Where springs between linear fields act: "corners" (also "auto") or "gauss". Between
+            fields that bend they act at as many Gauss points as their degree asks for.
         """
         region, edges = model.manifold.element_region, model.manifold.boundary
         joints = shared_edges(model)

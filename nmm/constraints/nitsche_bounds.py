@@ -1,4 +1,4 @@
-"""How large the penalty of a support must be: the largest ratio of traction to energy on an edge."""
+"""How large a support's penalty must be: the largest ratio of traction to energy on an edge."""
 
 from typing import Any
 

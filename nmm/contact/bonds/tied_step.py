@@ -25,7 +25,6 @@ from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.problem.step_problem import BONDED, Limits, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
 
-
 # What a problem has of each contact beside its rows and limits.
 COLUMNS = (
     "gap",
