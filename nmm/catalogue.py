@@ -22,6 +22,7 @@ from nmm.model.effects_table import EFFECTS
 from nmm.outputs.base import OUTPUTS
 from nmm.registry import Registry
 from nmm.solvers.linear import SOLVERS
+from nmm.splitting.strength import STRENGTHS
 from nmm.trust import import_allowed
 
 REGISTRIES: tuple[Registry[Any], ...] = (
@@ -35,6 +36,7 @@ REGISTRIES: tuple[Registry[Any], ...] = (
     EFFECTS,
     OUTPUTS,
     CRITERIA,
+    STRENGTHS,
 )
 
 

@@ -45,6 +45,7 @@ ROOMS = (
     "diffusion",
     "heat",
     "fracture",
+    "splitting",
     "outputs",
     "results",
     "model",

@@ -33,14 +33,16 @@ def carried(old: Model, new: Model, kin: Parentage, state: State, declared: Stat
     def either(found: Floats, start: Floats) -> Floats:
         return np.where(known, found, start)
 
+    frames = _frames(old, new, kin, state.frames, declared.frames)
+    frames, deformation = _centred(new, kin, frames, either(deformation, declared.deformation))
     velocity, acceleration = (
         moving.rates(rate) if rate.any() else np.zeros_like(deformation)
         for rate in (state.velocity, state.acceleration)
     )
     return replace(
         state,
-        frames=_frames(old, new, kin, state.frames, declared.frames),
-        deformation=either(deformation, declared.deformation),
+        frames=frames,
+        deformation=deformation,
         velocity=either(velocity, declared.velocity),
         acceleration=either(acceleration, declared.acceleration),
         history=carried_history(old, new, kin, state.history, declared.history),
@@ -64,6 +66,22 @@ def _frames(old: Model, new: Model, kin: Parentage, frames: Frames, declared: Fr
         None if frames.tilt is None else np.where(fresh, 0.0, tilt),
         None if frames.way is None else np.where(one, declared.way, far[parent] + turned),
     )
+
+
+def _centred(
+    new: Model, kin: Parentage, frames: Frames, deformation: Floats
+) -> tuple[Frames, Floats]:
+    """Let the frames of parts of divided bodies take over the mean way of their deformation."""
+    parted = ~(_whole(kin) | kin.new_bodies)
+    if not parted.any():
+        return frames, deformation
+    mean = np.zeros((len(parted), 3))
+    mean[parted] = np.asarray(new.rigid_projection @ deformation).reshape(-1, 3)[parted]
+    mean[:, 2] = 0.0
+    shift = frames.to_global(np.arange(len(parted)), mean[:, :2])
+    far = None if frames.way is None else frames.way + shift
+    moved = Frames(frames.centre + shift, frames.angle, frames.tilt, far)
+    return moved, np.asarray(deformation - new.manifold.rigid_modes @ mean.ravel())
 
 
 def _without_rigid(old: Model, new: Model, kin: Parentage, before: Floats, after: Floats) -> Floats:

@@ -46,6 +46,7 @@ CALLED_BY = {
     "bars": "[[bars]]",
     "foundations": "[[foundations]]",
     "masses": "[[masses]]",
+    "splitting": "[splitting.MATERIAL]",
     "viscous damping": "[damping] with mass, stiffness or ratios",
     "local damping": "[damping] with local",
 }

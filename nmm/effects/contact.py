@@ -90,10 +90,11 @@ class Contact(Effect):
             self.record,
             new.record,
             new._candidates,
-            (change.old.manifold, change.new.manifold),
+            change.parentage,
             change.state,
             None if new._exact else new.laws.springs,
         )
+        new._unbonded = new.record.book.broken - self.broken_bonds
         return new
 
     def candidates(
@@ -148,11 +149,12 @@ class Contact(Effect):
 
     def carried(self) -> ContactCarried:
         """See `Effect.carried`."""
-        return ContactCarried(self.record, self.solver.memory.barrier_width)
+        width = self.solver.memory.barrier_width
+        return ContactCarried(self.record, width, self._unbonded)
 
     def carry(self, carried: ContactCarried) -> None:
         """See `Effect.carry`."""
-        self.record = carried.record
+        self.record, self._unbonded = carried.record, carried.unbonded
         self.solver.memory.barrier_width = carried.barrier_width
 
     def forget(self) -> None:

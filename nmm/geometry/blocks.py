@@ -73,6 +73,24 @@ class Regions:
             self.box,
         )
 
+    def divided(self, polygons: Polygons, parent: Ints) -> Regions:
+        """Return other polygons of the same blocks, each a piece of the ``parent`` (n,) it lies in.
+
+        Pieces of a block have its number, so that all that is said of it is said of them.
+        """
+        number = np.arange(len(self)) if self.number is None else self.number
+        first = (parent == self.crack_region[:, None]).argmax(axis=1)
+        return Regions(
+            polygons,
+            np.asarray(self.material)[parent],
+            tuple(self.name[one] for one in parent),
+            np.asarray(self.source)[parent],
+            self.cracks,
+            first,
+            number[parent],
+            self.box,
+        )
+
     def select(self, block: str | None) -> Ints:
         """Indices of a block and of all its pieces; of all blocks for None and "all".
 

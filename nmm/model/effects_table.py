@@ -45,6 +45,7 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "masses": "nmm.effects.members.masses:PointMasses",
         "contact": "nmm.effects.contact:Contact",
         "fracture": "nmm.fracture.growth.crack_growth:CrackGrowth",
+        "splitting": "nmm.splitting.splitting:Splitting",
         "artificial joints": "nmm.constraints.artificial_joints:ArtificialJoints",
     },
 )
@@ -76,6 +77,7 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
     "masses": lambda s: bool(s.masses),
     "contact": lambda s: s.contact is not None,
     "fracture": lambda s: s.fracture is not None,
+    "splitting": lambda s: bool(s.splitting),
 }
 """When a scene calls for a built-in effect, in the order in which they act."""
 

@@ -103,6 +103,8 @@ def _named(
         yield scene.source, ("materials", name), material, _material
     for name, interface in scene.interfaces.items():
         yield scene.source, ("interfaces", name), interface, _interface
+    for name, table in scene.splitting.items():
+        yield scene.source, ("splitting", name), table, _strength
     source = formulation.source
     yield source, ("cover",), formulation.cover, _cover
     yield source, ("contact",), formulation.contact, _enforcement
@@ -180,3 +182,9 @@ def _solver(part: Any) -> None:
     from nmm.solvers.linear import make_solver
 
     make_solver(part.type, part.options)
+
+
+def _strength(part: Any) -> object:
+    from nmm.splitting.splitting import strength_of
+
+    return strength_of(part)

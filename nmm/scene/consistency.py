@@ -19,6 +19,7 @@ from nmm.scene.tables.heat_rules import PARTS as HEAT
 from nmm.scene.tables.heat_rules import heat_contradictions
 from nmm.scene.tables.member_rules import member_contradictions
 from nmm.scene.tables.motion_rules import EDGES, motion_contradictions
+from nmm.scene.tables.splitting_rules import splitting_contradictions
 
 Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
 Tables = Mapping[str, Any]
@@ -44,6 +45,7 @@ def contradictions(data: object) -> list[Finding]:
         motion_contradictions,
         member_contradictions,
         fracture_contradictions,
+        splitting_contradictions,
     )
     return [finding for rule in rules for finding in rule(plain)]
 

@@ -53,6 +53,7 @@ from nmm.scene.tables.members import (
     SpringTable,
 )
 from nmm.scene.tables.records import RecordTable
+from nmm.scene.tables.splitting import SplittingTable
 
 
 class Scene(Frozen):
@@ -111,6 +112,9 @@ class Scene(Frozen):
     )
     masses: tuple[MassTable, ...] = Field(default=(), description="tables [[masses]]")
     damping: DampingTable | None = Field(default=None, description="a table [damping]")
+    splitting: dict[TableName, SplittingTable] = Field(
+        default={}, description="tables [splitting.MATERIAL]"
+    )
     contact: ContactTable | None = Field(default=None, description="a table [contact]")
     fracture: FractureTable | None = Field(default=None, description="a table [fracture]")
     loading: Loading | None = Field(default=None, description="a table [loading]")

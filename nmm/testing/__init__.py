@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from nmm.testing.laws import check_law as check_law
     from nmm.testing.outputs import check_output as check_output
     from nmm.testing.solvers import check_solver as check_solver
+    from nmm.testing.strengths import check_strength as check_strength
 
 _HOME = {
     "check_cover": "covers",
@@ -32,6 +33,7 @@ _HOME = {
     "check_output": "outputs",
     "check_smooth_enforcement": "enforcements",
     "check_solver": "solvers",
+    "check_strength": "strengths",
 }
 
 __all__ = [
@@ -46,6 +48,7 @@ __all__ = [
     "check_output",
     "check_smooth_enforcement",
     "check_solver",
+    "check_strength",
 ]
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from covers.approximation.manifold import Manifold
+from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
 from nmm.contact.candidates.candidates import Candidates
@@ -15,6 +15,7 @@ from nmm.contact.points.inheritance import (
     heirs,
     known_joints,
     placed,
+    within_one,
 )
 from nmm.contact.solution.record import ContactRecord
 
@@ -26,13 +27,14 @@ def succeeding(
     record: ContactRecord,
     fresh: ContactRecord,
     candidates: Candidates,
-    manifolds: tuple[Manifold, Manifold],
+    kin: Parentage,
     state: State,
     springs: Callable[[ContactPoints], tuple[Floats, Floats, Bools]] | None,
 ) -> ContactRecord:
     """Return the record of the new model that goes on from that of the old one.
 
-    Bonds between bodies of which one is new are free of stress as they are placed.
+    Bonds between bodies of which one is new are free of stress as they are placed; where one body
+    has become two there is no bond between them.
 
     Parameters
     ----------
@@ -40,22 +42,24 @@ def succeeding(
         Of the old model, and of the new one as if a run began on it.
     candidates
         Finds the contacts of the new model.
-    manifolds
-        The old one and the new one.
+    kin
+        Which bodies of the new model come from which of the old one.
     state
         Of the new model.
     springs
         Of contact points, see `ContactLaws.springs`; None where contact has no springs.
     """
-    old, new = manifolds
-    line = heirs((new, fresh.book.points), (old, known_joints(record.book)))
+    line = heirs(kin, fresh.book.points, known_joints(record.book))
     book, added = continued_joints(fresh.book, record.book, line)
+    # Faces that a change has made inside a body are no joint.
+    laid = ~(added & within_one(kin, book.points))
+    book, added = book.only(laid), added[laid]
     book = placed(book, candidates.joints(book, state), added)
-    size = float(np.hypot(*np.ptp(new.elements.points, axis=0)))
+    size = float(np.hypot(*np.ptp(kin.new.elements.points, axis=0)))
     found, points = candidates.sought(ContactRecord(book), state, HELD * size)
     points = points.take(~points.is_joint)
     if record.known is not None:
-        line = heirs((new, points), (old, record.known))
+        line = heirs(kin, points, record.known)
         stiffness = None if springs is None else springs(points)[:2]
         points = continued(points, record.known, line, stiffness)
     return ContactRecord(book, found, points)

@@ -1,10 +1,10 @@
 """Contact points on new edges that continue those on old ones, when a model has changed.
 
 Edges are numbered anew, and other cells divide them otherwise. What lasts is where a contact is on
-the material: the two regions, and its place on each in the reference configuration. A new point
-continues the nearest old one between the same regions. Where both coincide it takes over all that
-is known; elsewhere the forces of the old points are divided among those that continue them, by
-length, and springs are stretched as these forces ask.
+the material: the two bodies, and its place on each in the reference configuration. A new point
+continues the nearest old one between the same bodies, or those that they come from. Where both
+coincide it takes over all that is known; elsewhere the forces of the old points are divided among
+those that continue them, by length, and springs are stretched as these forces ask.
 """
 
 from dataclasses import dataclass, replace
@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from covers.approximation.manifold import Manifold
+from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import JointBook
@@ -30,7 +31,7 @@ class Heirs:
     ----------
     parent, child
         The nearest old point of each new one, and the nearest new one of each old one; -1 without
-        any between the same regions.
+        any between the same bodies.
     same
         (m,) new points that are where their parents are, one for one.
     """
@@ -70,16 +71,18 @@ class Heirs:
         }
 
 
-def heirs(new: tuple[Manifold, ContactPoints], old: tuple[Manifold, ContactPoints]) -> Heirs:
-    """Find the nearest points between the same regions."""
+def heirs(kin: Parentage, new: ContactPoints, old: ContactPoints) -> Heirs:
+    """Find the nearest points between the same bodies, or bodies that come from them."""
     from scipy.spatial import KDTree
 
-    (pair_new, place_new), (pair_old, place_old) = _places(*new), _places(*old)
-    size = float(np.hypot(*np.ptp(new[0].elements.points, axis=0)))
+    every = np.arange(kin.old.n_bodies)
+    pair_new, place_new = _places(kin.new, new, kin.bodies.main, len(every))
+    pair_old, place_old = _places(kin.old, old, every, len(every))
+    size = float(np.hypot(*np.ptp(kin.new.elements.points, axis=0)))
     if not len(pair_new) or not len(pair_old):
         none = np.full(len(pair_new), -1), np.full(len(pair_old), -1)
         return Heirs(*none, np.zeros(len(pair_new), dtype=bool))
-    # Pairs of regions lie further apart than any two points of one pair.
+    # Pairs of bodies lie further apart than any two points of one pair.
     number = np.unique(np.concatenate([pair_new, pair_old]), return_inverse=True)[1].ravel()
     apart = 10 * size * number[:, None]
     of_new = np.hstack([place_new, apart[: len(pair_new)]])
@@ -175,18 +178,31 @@ def known_joints(book: JointBook) -> ContactPoints:
     return concatenate([book.points, book.lost])
 
 
-def _places(manifold: Manifold, points: ContactPoints) -> tuple[Ints, Floats]:
-    """Pair (m,) of regions, and places (m, 4) on the lower and the higher of them."""
-    edges, region = manifold.boundary, manifold.element_region
+def within_one(kin: Parentage, points: ContactPoints) -> Bools:
+    """Which points (m,) of the new model lie between parts of one old body."""
+    parent = kin.bodies.main[kin.new.boundary.body]
+    one, other = parent[points.edge_a], parent[points.edge_b]
+    return np.asarray((one == other) & (one >= 0))
+
+
+def _places(
+    manifold: Manifold, points: ContactPoints, named: Ints, count: int
+) -> tuple[Ints, Floats]:
+    """Pair (m,) of bodies, and places (m, 4) on the lower and the higher of them.
+
+    ``named`` (B,) are the numbers of the bodies, of which there are ``count``; those of bodies that
+    come from none are below zero, and make no pair.
+    """
+    edges = manifold.boundary
     sides = []
     for edge, parameter in (
         (points.edge_a, points.parameter_a),
         (points.edge_b, points.parameter_b),
     ):
         way = edges.end[edge] - edges.start[edge]
-        sides.append((region[edges.element[edge]], edges.start[edge] + parameter[:, None] * way))
+        sides.append((named[edges.body[edge]], edges.start[edge] + parameter[:, None] * way))
     (one, at_one), (two, at_two) = sides
     swap = one > two
     place = np.where(swap[:, None], np.hstack([at_two, at_one]), np.hstack([at_one, at_two]))
-    count = int(region.max(initial=0)) + 1
-    return np.minimum(one, two) * count + np.maximum(one, two), place
+    pair = np.minimum(one, two) * count + np.maximum(one, two)
+    return np.where(np.minimum(one, two) >= 0, pair, -1), place

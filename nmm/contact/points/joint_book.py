@@ -44,6 +44,10 @@ class JointBook:
     pair_joint: Ints
     lost: ContactPoints
 
+    def only(self, chosen: Bools) -> "JointBook":
+        """Return the book with some of its points (m,)."""
+        return replace(self, points=self.points.take(chosen), joint=self.joint[chosen])
+
     def hides(self, found: Contacts) -> Bools:
         """Which found contacts a followed joint carries already."""
         if not len(self.joint):

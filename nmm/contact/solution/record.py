@@ -82,7 +82,10 @@ class ContactCarried:
         Joints and contacts.
     barrier_width
         See `nmm.contact.iteration.memory.Memory` (m).
+    unbonded
+        Number of joint points that never had a bond, less those that changes have left out.
     """
 
     record: ContactRecord
     barrier_width: float | None = None
+    unbonded: int = 0

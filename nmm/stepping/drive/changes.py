@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.effects.base import Setup
     from nmm.effects.change import Change
+    from nmm.effects.event import Event
+
+Asked = tuple[tuple[str, "Event"], ...]
+"""Events by the names of the effects that ask for them."""
 
 
 @dataclass(frozen=True)
@@ -31,27 +35,30 @@ class Stands:
     what: str = ""
 
 
-def called_for(recorder: Recorder, at: Stands) -> bool:
-    """Whether an effect asks for another geometry; none is changed."""
+def asked(recorder: Recorder, at: Stands) -> Asked:
+    """Return the events that effects ask for, by their names; nothing is changed."""
     plan = recorder.stepper.plan
     if not plan.askers:
-        return False
+        return ()
     view = recorder.view(at.state, at.contacts)
-    return any(plan.event(name, view) is not None for name in plan.askers)
+    found = [(name, plan.event(name, view)) for name in plan.askers]
+    return tuple((name, event) for name, event in found if event is not None)
 
 
-def with_events(recorder: Recorder, at: Stands, stage: str) -> Stands:
-    """Let every effect change what it asks for, one after the other; return what stands then."""
-    stepper, said = recorder.stepper, []
-    for name in stepper.plan.askers:  # a handful of effects
-        event = stepper.plan.event(name, recorder.view(at.state, at.contacts))
-        if event is None:
+def with_events(recorder: Recorder, at: Stands, events: Asked, stage: str) -> Stands:
+    """Change what was asked for, one event after the other; return what stands then."""
+    stepper = recorder.stepper
+    said: list[str] = []
+    for name, event in events:  # a handful of effects
+        # What one has changed another has not seen.
+        now = stepper.plan.event(name, recorder.view(at.state, at.contacts)) if said else event
+        if now is None:
             continue
-        change = stepper.reshape(event.geometry, at.state)
+        change = stepper.reshape(now.geometry, at.state)
         follow(recorder, change)
         contact = stepper.plan.contact
         at = Stands(change.state, None if contact is None else contact.standing)
-        said.append(event.what)
+        said.append(now.what)
     if not said:
         return at
     what = ", ".join(said)

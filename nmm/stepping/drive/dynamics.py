@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
-from nmm.stepping.drive.changes import Stands, with_events
+from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.budget import BudgetSpentError
@@ -122,6 +122,8 @@ def _next(
     if not attempt.converged:
         return RunVerdict(FAILED, _failure(attempt, state, schedule))
     after, contacts = stepper.accept(attempt)
+    stands = Stands(after, contacts)
+    events = asked(recorder, stands) if schedule.events else ()
     said = recorder.step(state, attempt, contacts, after)
     taken = attempt.state.time - state.time
     cuts, last = at.cuts, at.why
@@ -129,9 +131,7 @@ def _next(
         cuts, last = cuts + 1, f"at {state.time:.6g} s: {why}"
         said = f"{said}  cut to {taken:.3g} s: {why}"
     recorder.offer(after, schedule.stage, contacts)
-    stands = Stands(after, contacts)
-    if schedule.events:
-        stands = with_events(recorder, stands, schedule.stage)
+    stands = with_events(recorder, stands, events, schedule.stage)
     end = at.begin + schedule.duration
     parts = [f"time {after.time:.4g} s of {end:.4g} s", said, stands.what]
     text = "  ".join(filter(None, parts))

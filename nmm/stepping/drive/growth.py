@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.errors import SolveError
-from nmm.stepping.drive.changes import Stands, with_events
+from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
@@ -95,11 +95,13 @@ class _Growing:
     def _grown(self, at: UnderLoad, attempt: "Attempt") -> UnderLoad:
         """Accept the load of the present cracks, and the pieces by which they grow under it."""
         state, _ = self.stepper.accept(attempt)
+        stands = Stands(state, None)
+        events = asked(self.recorder, stands)
         self.recorder.step(at.state, attempt, None)
         self.recorder.offer(state, "load", None)
         factor = state.load_factor
         self.progress(0.0, f"load factor {factor:.5g}")
-        stands = with_events(self.recorder, Stands(state, None), "load")
+        stands = with_events(self.recorder, stands, events, "load")
         return UnderLoad(stands.state, None, factor, at.rest, stands.what)
 
     def _ended(self, why: str, at: UnderLoad) -> RunVerdict:

@@ -13,7 +13,7 @@ import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
-from nmm.stepping.drive.changes import Stands, called_for, with_events
+from nmm.stepping.drive.changes import Asked, Stands, asked, with_events
 from nmm.stepping.drive.relaxation import Relaxed, relax
 from nmm.stepping.drive.static_theorem import carried
 from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED, FAILED, FAILURE, SPENT, RunVerdict
@@ -134,8 +134,8 @@ class Trial:
         Whether no smaller one would be tried before loose blocks are held or brought to rest.
     found, broke
         What came of it, and whether bonds broke in it.
-    event
-        Whether what was found calls for a change of what is solved.
+    events
+        Changes of what is solved that what was found calls for.
     """
 
     factor: float
@@ -143,7 +143,7 @@ class Trial:
     last: bool
     found: "Settled"
     broke: bool
-    event: bool
+    events: "Asked"
 
 
 def run_load(
@@ -201,11 +201,11 @@ class _Raising:
         start = self.stepper.remember()
         trial = self._tried(at)
         # What an event leaves is sought from where it happens, to the tolerance of the load.
-        if trial.found.attempt.converged and (trial.fine or not trial.event):
+        if trial.found.attempt.converged and (trial.fine or not trial.events):
             return self._grown(at, trial)
         self.stepper.restore(start)
         unheld = self.stepper.plan.contact is not None and at.state.load_factor == 0
-        if unheld and at.rest is None and trial.last and not trial.event:
+        if unheld and at.rest is None and trial.last and not trial.events:
             return self._relaxed(at, trial)
         if trial.fine:
             return self._ended(at, trial)
@@ -225,8 +225,8 @@ class _Raising:
             stepper.restore(start)
             found = _anchored(stepper, state, end, breaking)
         stands = Stands(found.attempt.state, found.contacts)
-        event = found.attempt.converged and called_for(self.recorder, stands)
-        return Trial(factor, fine, last, found, stepper.broken_bonds > bonds, event)
+        events = asked(self.recorder, stands) if found.attempt.converged else ()
+        return Trial(factor, fine, last, found, stepper.broken_bonds > bonds, events)
 
     def _grown(self, at: UnderLoad, trial: Trial) -> UnderLoad:
         """Accept an increment; the next is larger unless bonds broke."""
@@ -236,11 +236,9 @@ class _Raising:
         recorder.offer(state, "load", found.contacts)
         text = "  ".join([f"load factor {trial.factor:.5g}", said]).rstrip()
         self.progress(min(trial.factor / schedule.target, 1.0), text)
-        stands = Stands(state, found.contacts)
-        if trial.event:
-            stands = with_events(recorder, stands, "load")
+        stands = with_events(recorder, Stands(state, found.contacts), trial.events, "load")
         longer = min(2 * at.increment, schedule.increment)
-        stays = trial.broke or trial.event or at.changed
+        stays = trial.broke or bool(trial.events) or at.changed
         increment = at.increment if stays else longer
         return UnderLoad(stands.state, stands.contacts, increment, at.rest, stands.what)
 

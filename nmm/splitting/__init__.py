@@ -1,0 +1,1 @@
+"""Blocks that split where nobody laid a joint: strength, planes and cuts (Lin 1995)."""

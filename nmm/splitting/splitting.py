@@ -1,0 +1,176 @@
+"""Blocks whose stress reaches their strength split through their middles (Lin 1995).
+
+In time a piece is judged only once a wave has crossed it since it came to be: until then it has the
+stress that it was born with, which its new faces have not relieved yet. Without this the number of
+pieces would be one of the time step.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from integration.polygons import Polygons
+from nmm.assembly.motion import State
+from nmm.effects.base import Effect, Setup
+from nmm.effects.event import Event
+from nmm.splitting.centres import at_centres
+from nmm.splitting.cuts import Shapes
+from nmm.splitting.division import SplitRules, allowed, parts_of, replaced
+from nmm.splitting.outlines import outlines
+from nmm.splitting.refusals import refuse
+from nmm.splitting.strength import STRENGTHS, BlockStrength, Judged
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+    from nmm.effects.view import View
+    from nmm.scene.tables.splitting import SplittingTable
+
+CONSTANTS = ("tensile_strength", "cohesion", "friction_angle")
+
+
+class Splitting(Effect):
+    """All blocks of materials whose strength a scene names.
+
+    Attributes
+    ----------
+    kept_whole
+        Number of blocks beyond their strength in the last state that the rules keep whole.
+    born
+        (B,) when each body came to be, s; minus infinity where it always was.
+    """
+
+    name = "splitting"
+    external = False
+
+    def __init__(self, setup: Setup, laws: Mapping[int, tuple[BlockStrength, SplitRules]]) -> None:
+        self._setup, self._laws, self.kept_whole = setup, laws, 0
+        manifold = setup.model.manifold
+        self.born = np.full(manifold.n_bodies, -np.inf)
+        self._centres = at_centres(setup.model)
+        self._material = np.zeros(manifold.n_bodies, dtype=np.int64)
+        self._material[manifold.element_body] = setup.region_material[manifold.element_region]
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from ``[splitting.MATERIAL]``.
+
+        Raises
+        ------
+        SceneError, FormulationError
+            See `refuse`.
+        """
+        refuse(setup)
+        names, laws = list(setup.scene.materials), {}
+        for name, table in setup.scene.splitting.items():  # a handful of materials
+            rules = SplitRules(table.smallest_block, table.most_blocks)
+            laws[names.index(name)] = strength_of(table), rules
+        return cls(setup, laws)
+
+    def follow(self, change: "Change") -> "Splitting":
+        """Return the splitting of the blocks as they are now."""
+        new = Splitting(change.setup, self._laws)
+        new.kept_whole = self.kept_whole
+        bodies = change.parentage.bodies
+        parted = np.bincount(bodies.parent, minlength=bodies.n_parents) > 1
+        parent = np.maximum(bodies.main, 0)
+        fresh = parted[parent] | (bodies.main < 0)
+        new.born = np.where(fresh, change.state.time, self.born[parent])
+        return new
+
+    def event(self, view: "View") -> Event | None:
+        """Ask for all splits that the state calls for."""
+        stress, state = np.asarray(self._centres @ view.stress), view.state
+        rests = self._rests(state.time)
+        polygons, home = None, np.zeros(0, dtype=np.int64)
+        splits: dict[int, Shapes] = {}
+        pulled, kept = 0, 0
+        for number, (law, rules) in self._laws.items():  # a handful of materials
+            own = np.flatnonzero(self._material == number)
+            judged = law.judged(stress[own])
+            over = (judged.use >= 1) & rests[own]
+            if not over.any():
+                continue
+            if polygons is None:
+                polygons, home = outlines(self._setup.model, self._setup.geometry.regions)
+            room = rules.most - len(own)
+            found = self._divided(polygons, own[over], judged.only(over), state, rules, room)
+            pulled += int(judged.tension[np.isin(own, list(found))].sum())
+            kept += int(over.sum()) - len(found)
+            splits |= found
+        self.kept_whole = kept
+        if polygons is None or not splits:
+            return None
+        pieces, parent = replaced(polygons, splits)
+        regions = self._setup.geometry.regions.divided(pieces, home[parent])
+        return Event(replace(self._setup.geometry, regions=regions), _said(splits, pulled))
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Numbers of bodies, and of those that are kept whole beyond their strength."""
+        bodies = self._setup.model.manifold.n_bodies
+        return {"bodies": bodies, "kept_whole": self.kept_whole}
+
+    def carried(self) -> tuple[int, Floats]:
+        """See `Effect.carried`."""
+        return self.kept_whole, self.born
+
+    def carry(self, carried: tuple[int, Floats]) -> None:
+        """See `Effect.carry`."""
+        self.kept_whole, self.born = carried
+
+    def _rests(self, time: float) -> Bools:
+        """Which bodies (B,) a wave has crossed since they came to be; all in statics."""
+        if self._setup.scene.inertia is None:
+            return np.ones(len(self.born), dtype=bool)
+        return np.asarray(time - self.born >= self._crossing)
+
+    @cached_property
+    def _crossing(self) -> Floats:
+        """(B,) time in which a wave crosses the root of each body's area (s)."""
+        model, body = self._setup.model, self._setup.model.manifold.element_body
+        slowness = np.zeros(model.manifold.n_bodies)
+        slowness[body] = np.sqrt(model.density / model.modulus)
+        return np.asarray(slowness * np.sqrt(model.manifold.body_area))
+
+    def _divided(
+        self,
+        polygons: Polygons,
+        bodies: Ints,
+        judged: Judged,
+        state: State,
+        rules: SplitRules,
+        room: int,
+    ) -> dict[int, Shapes]:
+        """Return the pieces of the blocks that split, by body; ``room`` more blocks may be."""
+        frames = state.frames
+        turned = frames.angle if frames.tilt is None else frames.angle + frames.tilt
+        found = [
+            parts_of(shape, middle, planes, rules)  # a polygon after the other is cut
+            for shape, middle, planes in zip(
+                polygons.take(bodies).to_shapely(),
+                self._setup.model.manifold.body_centroid[bodies],
+                judged.planes - turned[bodies, None],
+                strict=True,
+            )
+        ]
+        more = np.array([len(shapes) - 1 for shapes in found])
+        splits = (more > 0) & allowed(np.where(more > 0, judged.use, 0.0), more, room)
+        return {int(bodies[one]): found[one] for one in np.flatnonzero(splits)}
+
+
+def strength_of(table: "SplittingTable") -> BlockStrength:
+    """Return the strength that a table names."""
+    given = {name: getattr(table, name) for name in CONSTANTS if getattr(table, name) is not None}
+    law: BlockStrength = STRENGTHS.make(table.law, table.options, **given)
+    return law
+
+
+def _said(splits: Mapping[int, Shapes], pulled: int) -> str:
+    """Say how many blocks split, how, and into how many."""
+    n, pieces = len(splits), sum(len(shapes) for shapes in splits.values())
+    by = {"tension": pulled, "shear": n - pulled}
+    how = ", ".join(f"{count} by {mode}" for mode, count in by.items() if count)
+    return f"{n} block{'s split' if n > 1 else ' splits'} into {pieces} ({how})"

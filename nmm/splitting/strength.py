@@ -1,0 +1,69 @@
+"""What a strength is: from the stress of blocks to how near they are to splitting, and where."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Bools, Floats
+from nmm.registry import Registry
+
+
+@dataclass(frozen=True)
+class Judged:
+    """How near blocks are to splitting.
+
+    Attributes
+    ----------
+    use
+        (m,) share of the strength that is used; a block splits at 1.
+    planes
+        (m, 2) directions of the planes along which each would split, counter-clockwise from x
+        (rad); NaN in the place of the second where there is one alone.
+    tension
+        (m,) whether it would split by tension, else by shear.
+    """
+
+    use: Floats
+    planes: Floats
+    tension: Bools
+
+    def only(self, chosen: Bools) -> "Judged":
+        """Return some of the blocks."""
+        return Judged(self.use[chosen], self.planes[chosen], self.tension[chosen])
+
+
+class BlockStrength(ABC):
+    """Base of strengths: pure functions of the stress.
+
+    Planes turn with the stress, blocks know nothing of each other, and a stress on the way to its
+    strength does not use less of it.
+    """
+
+    @abstractmethod
+    def judged(self, stress: Floats) -> Judged:
+        """Judge stresses (m, 3) as xx, yy, xy (Pa), tension positive."""
+
+
+@dataclass(frozen=True)
+class Principal:
+    """Principal stresses in the plane (Pa), and the direction (m,) of the larger one (rad)."""
+
+    larger: Floats
+    smaller: Floats
+    direction: Floats
+
+    @classmethod
+    def of(cls, stress: Floats) -> "Principal":
+        """Return those of stresses (m, 3): Mohr's circle."""
+        xx, yy, xy = stress.T
+        mean, half = (xx + yy) / 2, (xx - yy) / 2
+        radius = np.hypot(half, xy)
+        return cls(mean + radius, mean - radius, np.arctan2(xy, half) / 2)
+
+
+STRENGTHS: Registry[type[BlockStrength]] = Registry(
+    "strength",
+    BlockStrength,
+    {"mohr_coulomb": "nmm.splitting.coulomb:CoulombStrength"},
+)

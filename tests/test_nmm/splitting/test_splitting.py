@@ -1,0 +1,245 @@
+"""Runs in which blocks split by their stress: at the right load, along the right plane, by rule."""
+
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.errors import NmmError
+
+SPEC = importlib.util.spec_from_file_location(
+    "resume_checks", Path(__file__).parents[1] / "stepping" / "test_resume.py"
+)
+resumed = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(resumed)
+
+COLUMN = """
+title = "column"
+plane = "stress"
+thickness = 0.1
+[materials.concrete]
+young_modulus = "27.5 GPa"
+poisson_ratio = 0.2
+density = 2400
+[contact]
+[interfaces.any]
+between = "any"
+friction_angle = "20 deg"
+[splitting.concrete]
+tensile_strength = "2.9 MPa"
+cohesion = "4.7 MPa"
+friction_angle = "37 deg"
+smallest_block = "5 mm"
+[[blocks]]
+name = "column"
+material = "concrete"
+vertices = {corners}
+[[supports]]
+name = "foot"
+segment = {foot}
+fix = {fix}
+[[supports]]
+name = "corner"
+point = {corner}
+fix = ["x", "y"]
+[[loads]]
+name = "head"
+kind = "edge"
+segment = {head}
+traction = {traction}
+[loading]
+until = "failure"
+[formulation.loading]
+increment = 0.1
+tolerance = 1e-4
+{cover}
+"""
+NET = '[formulation.cover]\ntype = "quads"\nsize = 0.03\ndegree = 0\n'
+
+
+def column(pressure, cover="", quarter=0):
+    """A column 0.1 x 0.25 m under a pressure (Pa, tension positive), in quarters of a turn."""
+    c, s = [(1, 0), (0, 1), (-1, 0), (0, -1)][quarter]
+    turn = np.array([[c, -s], [s, c]])
+    low, right, up, left = (turn @ p for p in np.array([[0, 0], [0.1, 0], [0.1, 0.25], [0, 0.25]]))
+    return COLUMN.format(
+        corners=[p.tolist() for p in (low, right, up, left)],
+        foot=[low.tolist(), right.tolist()],
+        fix='["y"]' if c else '["x"]',
+        corner=low.tolist(),
+        head=[left.tolist(), up.tolist()],
+        traction=(turn @ [0, pressure]).tolist(),
+        cover=cover,
+    )
+
+
+def run(text, **more):
+    return nmm.run(nmm.parse_scene(text, "scene"), **more)
+
+
+def planes_of(found):
+    """Directions (degrees, 0 to 180) of the faces inside the block, in the reference place."""
+    manifold = found.manifold
+    edges = manifold.boundary
+    way = edges.end - edges.start
+    points = manifold.elements.points
+    apart = edges.start - (points.min(axis=0) + points.max(axis=0)) / 2
+    off = apart[:, 0] * way[:, 1] - apart[:, 1] * way[:, 0]
+    through = np.abs(off) < 1e-6 * np.hypot(*way.T)
+    angle = np.degrees(np.arctan2(way[through, 1], way[through, 0]))
+    return np.unique(np.round(angle, 4) % 180)
+
+
+@pytest.mark.parametrize("quarter", [0, 1, 2, 3])
+def test_a_column_in_tension_splits_normal_to_the_load_at_its_strength(quarter):
+    found = run(column(1e6, quarter=quarter))
+    assert found.summary.status == "failure_load", found.summary.sentence
+    assert found.summary.failure_factor == pytest.approx(2.9, rel=1e-4)
+    assert "1 block splits into 2 (1 by tension)" in found.summary.sentence
+    assert planes_of(found).tolist() == [0.0 if quarter % 2 == 0 else 90.0]
+
+
+def test_a_column_in_compression_splits_at_45_and_half_of_phi_to_its_loaded_face():
+    """c = 4.7 MPa, phi = 37: 18.853483 MPa, both planes of 63.5 degrees, for they are as long."""
+    found = run(column(-1e7))
+    assert found.summary.status == "failure_load", found.summary.sentence
+    assert found.summary.failure_factor == pytest.approx(1.8853483, rel=1e-4)
+    np.testing.assert_allclose(planes_of(found), [63.5, 116.5], atol=1e-5)
+    assert found.manifold.n_bodies == 4
+
+
+def test_a_net_over_the_column_splits_at_the_same_load_along_the_same_plane():
+    text = column(1e6, NET).replace(
+        'point = [0.0, 0.0]\nfix = ["x", "y"]', 'segment = [[0, 0], [0, 0.25]]\nfix = ["x"]'
+    )
+    found = run(text)
+    assert found.summary.failure_factor == pytest.approx(2.9, rel=1e-4)
+    assert planes_of(found).tolist() == [0.0]
+    assert found.manifold.n_bodies == 2
+
+
+DROP = """
+title = "drop"
+plane = "stress"
+duration = "12 ms"
+[materials.rock]
+young_modulus = "1 GPa"
+poisson_ratio = 0.2
+density = 2000
+[[blocks]]
+name = "floor"
+material = "rock"
+vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
+[[blocks]]
+name = "left"
+material = "rock"
+vertices = [[0, 0.01], [0.8, 0.21], [0.8, 0.71], [0, 0.51]]
+[[blocks]]
+name = "right"
+material = "rock"
+vertices = [[1.2, 0.21], [2, 0.01], [2, 0.51], [1.2, 0.71]]
+[inertia]
+[gravity]
+[contact]
+[interfaces.any]
+between = "any"
+friction_angle = "30 deg"
+[splitting.rock]
+tensile_strength = "60 kPa"
+cohesion = "150 kPa"
+friction_angle = "30 deg"
+smallest_block = "60 mm"
+[[supports]]
+name = "held"
+block = "floor"
+fix = ["x", "y"]
+[[initial_velocities]]
+block = "left"
+velocity = [0, -4]
+[[initial_velocities]]
+block = "right"
+velocity = [0, -4]
+[output]
+events = ["shape_changes"]
+{checkpoint}
+[formulation.integrator]
+type = "newmark"
+step = "0.5 ms"
+"""
+
+
+@pytest.fixture(scope="module")
+def dropped():
+    return run(DROP.format(checkpoint=""))
+
+
+def test_a_block_that_hits_the_floor_shatters_and_momentum_and_energy_add_up(dropped):
+    assert dropped.summary.status == "converged", dropped.summary.sentence
+    assert dropped.manifold.n_bodies > 8
+    assert dropped.manifold.body_area.sum() == pytest.approx(4 + 2 * 0.4, rel=1e-12)
+    assert dropped.summary.audits["energy_made_in_run"] < 1e-2
+    assert dropped.history["splitting:bodies"][0] == 3
+    # A frame for every event beside the first and the last.
+    assert len(dropped.frames) >= len(dropped.summary.changes)
+
+
+def test_blocks_that_reach_their_strength_together_split_in_one_event_as_mirror_images(dropped):
+    """Later events differ, for friction between the pieces has many answers."""
+    assert "2 blocks split into 4" in dropped.summary.changes[0]
+    centre = dropped.topologies[1].elements.centroids[1:]
+    mirrored = centre * [-1, 1] + [2, 0]
+    found, expected = (points[np.lexsort(np.round(points, 6).T)] for points in (centre, mirrored))
+    np.testing.assert_allclose(found, expected, atol=1e-9)
+
+
+def test_the_order_of_blocks_in_the_scene_does_not_matter(dropped):
+    text = DROP.format(checkpoint="").replace("12 ms", "3.2 ms")
+    left, right = text.index('[[blocks]]\nname = "left"'), text.index('[[blocks]]\nname = "right"')
+    end = text.index("[inertia]")
+    other = run(text[:left] + text[right:end] + text[left:right] + text[end:])
+    one, two = (run.topologies[1].elements.centroids for run in (dropped, other))
+    sort = [points[np.lexsort(np.round(points, 6).T)] for points in (one, two)]
+    np.testing.assert_allclose(*sort, atol=1e-12)
+
+
+@pytest.mark.parametrize("steps", [7, 15])
+def test_two_halves_of_a_run_with_splits_are_the_whole(steps, tmp_path):
+    text = DROP.format(checkpoint="checkpoint = { every_steps = 3 }")
+    whole = run(text, out=tmp_path / "whole")
+    folder = resumed.stopped_after(text, tmp_path / "half", steps)
+    resumed.check_same(whole, nmm.resume(folder), (tmp_path / "whole", folder))
+
+
+def test_no_more_blocks_than_the_rule_says_and_the_history_counts_those_kept_whole():
+    found = run(DROP.format(checkpoint="").replace("60 mm", '60 mm"\nmost_blocks = 5\n#"'))
+    assert found.manifold.n_bodies <= 5
+    assert found.history["splitting:kept_whole"].max() > 0
+
+
+FAULTS = {
+    "smallest_block larger": (
+        'smallest_block = "60 mm"',
+        "smallest_block = 9",
+        "less than the largest block",
+    ),
+    "negative strength": ('tensile_strength = "60 kPa"', "tensile_strength = -1", "> 0"),
+    "no strength": ('tensile_strength = "60 kPa"\ncohesion = "150 kPa"', "", "one of them"),
+    "no such material": ("[splitting.rock]", "[splitting.rook]", 'did you mean "rock"'),
+    "no contact": ("[contact]\n", "", "a scene with contact"),
+    "no such law": ("[splitting.rock]", '[splitting.rock]\nlaw = "hoek"', "mohr_coulomb"),
+    "too few": ("[splitting.rock]", "[splitting.rock]\nmost_blocks = 1", ">= 2"),
+    "too steep": ("smallest_block", "options = {}\nsmallest_bloc", "smallest_block"),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_what_cannot_split_is_refused_by_line_before_anything_runs(fault):
+    old, new, said = FAULTS[fault]
+    text = DROP.format(checkpoint="")
+    assert old in text
+    with pytest.raises(NmmError) as refused:
+        run(text.replace(old, new, 1))
+    assert said in str(refused.value)
+    assert "scene:" in str(refused.value)
