@@ -5,6 +5,8 @@ from scipy.sparse import csc_array, eye_array, kron, random_array
 
 from integration.arrays import Floats
 from nmm.errors import SolveError
+from nmm.solvers.factor import Decomposition
+from nmm.solvers.frontal.frontal_factor import FrontalFactor
 from nmm.solvers.linear import LinearSolver
 from nmm.testing.claims import claim, close
 
@@ -155,3 +157,13 @@ def _condition(solver: LinearSolver, name: str, condition: float) -> None:
         f"{name}: condition estimate {found:.3g}, expected between {expected / 3:.3g} and "
         f"{expected:.3g}",
     )
+
+
+def is_cholesky(found: Decomposition) -> bool:
+    """Whether a decomposition is Cholesky's on fronts."""
+    return isinstance(found, FrontalFactor) and found.symmetric
+
+
+def is_lu(found: Decomposition) -> bool:
+    """Whether a decomposition is LU on fronts."""
+    return isinstance(found, FrontalFactor) and not found.symmetric

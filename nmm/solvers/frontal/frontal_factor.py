@@ -7,7 +7,6 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
-from nmm.solvers.factor import Decomposition
 from nmm.solvers.frontal import fronts
 from nmm.solvers.frontal.blas import Index, addresses, words
 from nmm.solvers.frontal.elimination import Fronts
@@ -101,13 +100,3 @@ class FrontalFactor:
     def _beside_start(self) -> Ints:
         """Where rows beside pivots start (S+1,); not read in Cholesky, which has none."""
         return self.plan.panel_start if self.symmetric else self.plan.beside_start
-
-
-def is_cholesky(found: Decomposition) -> bool:
-    """Whether a decomposition is Cholesky's on fronts."""
-    return isinstance(found, FrontalFactor) and found.symmetric
-
-
-def is_lu(found: Decomposition) -> bool:
-    """Whether a decomposition is LU on fronts."""
-    return isinstance(found, FrontalFactor) and not found.symmetric

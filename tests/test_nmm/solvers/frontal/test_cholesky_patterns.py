@@ -7,7 +7,7 @@ from scipy.sparse import csc_array, eye_array, kron
 from integration.arrays import Floats
 from nmm.solvers.frontal.cholesky import Cholesky
 from nmm.solvers.frontal.elimination import Fronts, skew
-from nmm.solvers.frontal.frontal_factor import is_cholesky
+from nmm.testing.solvers import is_cholesky
 
 
 def chain(n: int, block: int) -> csc_array:

@@ -10,9 +10,9 @@ from integration.arrays import Ints
 from nmm.solvers.frontal import elimination
 from nmm.solvers.frontal.cholesky import Cholesky
 from nmm.solvers.frontal.dissection import SMALL_PART, dissect
-from nmm.solvers.frontal.frontal_factor import is_cholesky
 from nmm.solvers.frontal.metis import metis_order
 from nmm.solvers.optional import METIS
+from nmm.testing.solvers import is_cholesky
 
 
 def graph(first: Ints, second: Ints, n: int) -> csc_array:

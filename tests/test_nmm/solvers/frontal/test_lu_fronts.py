@@ -9,11 +9,11 @@ from scipy.sparse import csc_array, csr_array, eye_array, kron, random_array
 from integration.arrays import Floats
 from nmm.solvers.frontal import symbolic, workspace
 from nmm.solvers.frontal.cholesky import Cholesky
-from nmm.solvers.frontal.frontal_factor import is_cholesky, is_lu
 from nmm.solvers.frontal.lu import FrontalLU
 from nmm.solvers.frontal.workspace import Loan
 from nmm.solvers.linear import LinearSolver, jacobi_scale, make_solver
 from nmm.solvers.superlu import SuperLU
+from nmm.testing.solvers import is_cholesky, is_lu
 
 
 def grid(side: int, per_node: int = 3, seed: int = 0) -> csc_array:
