@@ -44,6 +44,7 @@ ROOMS = (
     "constraints",
     "diffusion",
     "heat",
+    "water",
     "fracture",
     "splitting",
     "outputs",

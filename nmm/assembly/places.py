@@ -82,6 +82,13 @@ def on_segment(
     ``order`` is the degree of the polynomials that the points integrate exactly; ``regions`` (N,)
     says which input regions count, None is all.
     """
+    return on_parts(manifold, *along_segment(manifold, segment, regions), order)
+
+
+def along_segment(
+    manifold: Manifold, segment: Floats, regions: Bools | None = None
+) -> tuple[Ints, Floats, Floats]:
+    """Return boundary edges on a segment (2, 2), and starts and ends (k, 2) of their parts."""
     edges = manifold.boundary
     a, b = segment
     length = float(np.hypot(*(b - a)))
@@ -96,7 +103,7 @@ def on_segment(
         touching &= regions[manifold.element_region[edges.element]]
     index = np.flatnonzero(touching)
     start, end = a + low[index, None] * t, a + high[index, None] * t
-    return _gauss(manifold, index, start, end, order)
+    return index, start, end
 
 
 def on_block(manifold: Manifold, regions: Bools, order: int = 4) -> Place:
@@ -108,11 +115,11 @@ def on_block(manifold: Manifold, regions: Bools, order: int = 4) -> Place:
 def on_edges(manifold: Manifold, chosen: Bools, order: int = 4) -> Place:
     """Return Gauss points on chosen edges (n,) of the boundary."""
     edges, index = manifold.boundary, np.flatnonzero(chosen)
-    return _gauss(manifold, index, edges.start[index], edges.end[index], order)
+    return on_parts(manifold, index, edges.start[index], edges.end[index], order)
 
 
-def _gauss(manifold: Manifold, edge: Ints, start: Floats, end: Floats, order: int) -> Place:
-    """Gauss points on parts of boundary edges."""
+def on_parts(manifold: Manifold, edge: Ints, start: Floats, end: Floats, order: int) -> Place:
+    """Return Gauss points on parts of boundary edges, from ``start`` to ``end`` (k, 2) of each."""
     edges = manifold.boundary
     points, weight = segment_rule(start, end, order)
     q = weight.shape[1]

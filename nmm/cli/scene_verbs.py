@@ -39,6 +39,7 @@ CALLED_BY = {
     "bonded interfaces": "bonded interface without contact",
     "initial velocity": "[[initial_velocities]]",
     "initial stress": "[[initial_stresses]]",
+    "water pressures": "[[water_pressures]]",
     "viscous boundaries": "[[viscous_boundaries]]",
     "free fields": "[[free_fields]]",
     "springs": "[[springs]]",

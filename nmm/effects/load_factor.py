@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING
 from nmm.effects.base import Instant, Setup, factor_of
 
 if TYPE_CHECKING:
-    from nmm.scene.actions import SupportTable
-    from nmm.scene.tables.loads import LoadTable
+    from nmm.scene.actions import Placed, SupportTable
 
 
-def load_factor(setup: Setup, load: "LoadTable") -> Callable[[Instant], float]:
+def load_factor(setup: Setup, load: "Placed") -> Callable[[Instant], float]:
     """Return the factor of a load: its history, times the load factor if it is scaled.
 
     Without ``[loading]`` all loads are scaled: from 0 to 1 in statics, by 1 in dynamics.

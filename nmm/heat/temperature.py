@@ -14,11 +14,12 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
 from nmm.diffusion.carried_field import carried_field
 from nmm.diffusion.course import Course, FieldAt
+from nmm.diffusion.from_scene import of_elements
 from nmm.diffusion.matrices import element_slopes
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.errors import Fault, SceneError
 from nmm.formulation import Diffusion
-from nmm.heat.from_scene import heat_problem, of_elements
+from nmm.heat.from_scene import heat_problem
 from nmm.heat.thermal_strain import ThermalStrain
 from nmm.quantity import Quantity
 

@@ -43,6 +43,7 @@ def known_quantities(scene: "Scene") -> list[str]:
     numbers = [item.name for item in fields(Summary) if _is_number(str(item.type))]
     columns = [f"monitor:{item.name}:u{axis}" for item in scene.monitors for axis in "xy"]
     columns += [f"reaction:{item.name}:{axis}" for item in scene.supports for axis in "xy"]
+    columns += [f"water pressures:{item.name}:{a}" for item in scene.water_pressures for a in "xy"]
     if scene.heat is not None:
         columns += ["heat:lowest", "heat:highest", "heat:stored"]
         acting = (scene.temperatures, scene.heat_fluxes, scene.heat_sources, scene.convections)

@@ -20,14 +20,16 @@ from nmm.scene.tables.heat_rules import heat_contradictions
 from nmm.scene.tables.member_rules import member_contradictions
 from nmm.scene.tables.motion_rules import EDGES, motion_contradictions
 from nmm.scene.tables.splitting_rules import splitting_contradictions
+from nmm.scene.tables.water_rules import PLACED as WATER
+from nmm.scene.tables.water_rules import water_contradictions
 
 Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
 Tables = Mapping[str, Any]
 Rule = Callable[[Tables], Iterator[Finding]]
 
 _SOLIDS = ("blocks", "tessellations")
-_NAMED = ("joint_sets", "cracks", "supports", "loads", "monitors", "stages", *HEAT, *EDGES)
-_AT_BLOCKS = ("supports", "loads", "monitors", *HEAT, *EDGES)
+_NAMED = ("joint_sets", "cracks", "supports", "loads", "monitors", "stages", *HEAT, *WATER, *EDGES)
+_AT_BLOCKS = ("supports", "loads", "monitors", *HEAT, *WATER, *EDGES)
 _ON_BLOCKS = ("initial_velocities", "initial_stresses", "joint_sets")
 
 
@@ -42,6 +44,7 @@ def contradictions(data: object) -> list[Finding]:
         _effects,
         stage_contradictions,
         heat_contradictions,
+        water_contradictions,
         motion_contradictions,
         member_contradictions,
         fracture_contradictions,
@@ -190,7 +193,7 @@ def _output(data: Tables) -> Iterator[Finding]:
 def _scaled_loads(data: Tables) -> Iterator[Finding]:
     supports = [row for _, row in _rows(data, "supports")]
     driven = [row for row in supports if row.get("displacement") or row.get("field")]
-    rows = [row for _, row in _rows(data, "loads")] + driven
+    rows = [row for _, row in _rows(data, "loads", "water_pressures")] + driven
     known = [row["name"] for row in rows if isinstance(row.get("name"), str)]
     scaled = _table(data, "loading").get("scaled", "all")
     for name in scaled if isinstance(scaled, list | tuple) else ():

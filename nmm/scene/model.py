@@ -54,6 +54,7 @@ from nmm.scene.tables.members import (
 )
 from nmm.scene.tables.records import RecordTable
 from nmm.scene.tables.splitting import SplittingTable
+from nmm.scene.tables.water import WaterPressureTable
 
 
 class Scene(Frozen):
@@ -125,6 +126,9 @@ class Scene(Frozen):
         default=(), description="tables [[initial_stresses]]"
     )
     heat: HeatTable | None = Field(default=None, description="a table [heat]")
+    water_pressures: tuple[WaterPressureTable, ...] = Field(
+        default=(), description="tables [[water_pressures]]"
+    )
     temperatures: tuple[TemperatureTable, ...] = Field(
         default=(), description="tables [[temperatures]]"
     )

@@ -1,0 +1,184 @@
+"""Water that presses on dams, slopes and submerged blocks."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from nmm.verification import text
+from nmm.verification.base import Check, Checks, SceneCase, holds
+from nmm.verification.reading import converged
+
+if TYPE_CHECKING:
+    from nmm.stepping.run import Run
+
+EXACT = "statics of a rigid body; contact forces balance what acts to the residual of the step"
+
+
+def water(name: str, more: str) -> str:
+    """Table of a water pressure."""
+    return f'[[water_pressures]]\nname = "{name}"\n{more}\n'
+
+
+@dataclass(frozen=True)
+class Dam(SceneCase):
+    """A gravity dam on its joint, dry below or under full linear uplift."""
+
+    name: ClassVar[str] = "WA1"
+    title: ClassVar[str] = "Dam on a joint under uplift"
+    source: ClassVar[str] = "Equilibrium: base 24 m, crest 4 m, height 30 m, water 28 m"
+    formulations: ClassVar[tuple[str, ...]] = ("cone", "lagrange", "degree 2")
+    uplift: bool = True
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return the dam without and with uplift."""
+        return [cls(False), cls(True)]
+
+    @property
+    def variant(self) -> str:
+        """Whether there is uplift."""
+        return "uplift" if self.uplift else "no uplift"
+
+    def scene(self) -> str:
+        """Return the dam on a held foundation."""
+        below = 'segment = [[0, 0], [24, 0]]\nblock = "dam"\npressures = [274680.0, 0.0]'
+        return text.scene(
+            'title = "Dam"\nplane = "strain"\n[gravity]\n[contact]\n',
+            [
+                text.material("concrete", 30e9, 0.2, 2400.0),
+                text.interface("joint", 45.0),
+                text.block("dam", "concrete", [(0, 0), (24, 0), (4, 30), (0, 30)]),
+                text.box("rock", (-6, -10), (36, 10), "concrete"),
+                text.held("rock"),
+                water("reservoir", 'segment = [[0, 0], [0, 30]]\nblock = "dam"\nlevel = 28.0'),
+                *([water("uplift", below)] if self.uplift else []),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the contact forces on the base and where they act."""
+        last = run.frames[-1]
+        base = np.abs(last.contact_position[:, 1]) < 0.01
+        normal = -last.contact_force[base, 0]
+        place = float(normal @ last.contact_position[base, 0] / normal.sum())
+        shear = float(np.abs(last.contact_force[base, 1].sum()))
+        upward = 3296160.0 if self.uplift else 0.0
+        arm = 13.73015873 if self.uplift else 11.82010582
+        near = "contacts turn with the block, by millimetres over 24 m"
+        checks = {
+            "normal force (N/m)": Check(float(normal.sum()), 9888480.0 - upward, 2e-5, near),
+            "shear (N/m)": Check(shear, 3845520.0, 1e-4, near),
+            "resultant from the heel (m)": Check(place, arm, 1e-3, near),
+            "water on the face (N/m)": Check(
+                run.history["water pressures:reservoir:x"][-1], 3845520.0, 1e-6, EXACT
+            ),
+        }
+        slide = np.tan(np.radians(45)) * float(normal.sum()) / shear
+        wanted = 1.71428571 if self.uplift else 2.57142857
+        return checks | {"safety against sliding": Check(slide, wanted, 1e-4, near)}
+
+
+@dataclass(frozen=True)
+class PlaneFailure(SceneCase):
+    """A slope that fails on a plane behind a crack full of water, 1 % this and that side of it."""
+
+    name: ClassVar[str] = "WA2"
+    title: ClassVar[str] = "Plane failure with a tension crack full of water"
+    source: ClassVar[str] = "Hoek and Bray's section; without cohesion safe from 42.413087 deg on"
+    formulations: ClassVar[tuple[str, ...]] = ("cone", "lagrange")
+    share: float = 1.01
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return a slope that slides and one that holds."""
+        return [cls(0.99), cls(1.01)]
+
+    @property
+    def variant(self) -> str:
+        """The factor of safety."""
+        return f"factor of safety {self.share:g}"
+
+    def scene(self) -> str:
+        """Return the block that slides, the ground below and behind it, and the water."""
+        dip, high = np.radians(35), 60.0
+        toe, crest = np.zeros(2), np.array([high / np.tan(np.radians(60)), high])
+        # The crack meets the plane z below the crest's level.
+        z = 14.0
+        foot = np.array([(high - z) / np.tan(dip), high - z])
+        top = np.array([foot[0], high])
+        pull = f'segment = {[[0.0, 0.0], foot.tolist()]}\nblock = "slab"\n'
+        pull += f"pressures = {[0.0, 9810.0 * z]}"
+        face = f'segment = {[foot.tolist(), top.tolist()]}\nblock = "slab"\nlevel = 60.0'
+        friction = float(np.degrees(np.arctan(self.share * np.tan(np.radians(42.413087)))))
+        # The plane comes out of the ground at the toe and goes on below it.
+        below = (-20.0, -20.0 * float(np.tan(dip)))
+        ground = [below, (-20, -40), (120, -40), (120, 60), top, foot]
+        return text.scene(
+            'title = "Plane failure"\nplane = "strain"\n[gravity]\n[contact]\n',
+            [
+                text.material("rock", 20e9, 0.2, 26e3 / 9.81),
+                text.interface("joint", friction),
+                text.block("slab", "rock", np.array([toe, foot, top, crest])),
+                text.block("ground", "rock", np.array(ground)),
+                text.held("ground"),
+                water("plane", pull),
+                water("crack", face),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Say whether it holds."""
+        why = "1 % from the limit"
+        if self.share > 1:
+            return {"holds": holds(converged(run), why)}
+        return {"slides": holds(run.summary.status in ("collapsed", "failure"), why)}
+
+
+@dataclass(frozen=True)
+class Submerged(SceneCase):
+    """A block under water weighs what it displaces less, unless its base is sealed."""
+
+    name: ClassVar[str] = "WA8"
+    title: ClassVar[str] = "Buoyancy"
+    source: ClassVar[str] = "Archimedes: 2 m by 1 m, 2500 kg/m3, 5 m of water above the floor"
+    formulations: ClassVar[tuple[str, ...]] = ("cone", "degree 2")
+    sealed: bool = False
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return water all around, and a sealed base."""
+        return [cls(False), cls(True)]
+
+    @property
+    def variant(self) -> str:
+        """What is below the block."""
+        return "sealed base" if self.sealed else "water below"
+
+    def scene(self) -> str:
+        """Return the block on its floor."""
+        sides = [((0, 0), (0, 1)), ((2, 0), (2, 1)), ((0, 1), (2, 1))]
+        if not self.sealed:
+            sides.append(((0, 0), (2, 0)))
+        tables = [
+            water(f"side {i}", f'segment = {[list(a), list(b)]}\nblock = "block"\nlevel = 5.0')
+            for i, (a, b) in enumerate(sides)
+        ]
+        return text.scene(
+            'title = "Submerged"\nplane = "strain"\n[gravity]\n[contact]\n',
+            [
+                text.material("rock", 20e9, 0.2, 2500.0),
+                text.interface("joint", 30.0),
+                text.box("block", (0, 0), (2, 1), "rock"),
+                text.box("floor", (-1, -1), (4, 1), "rock"),
+                text.held("floor"),
+                *tables,
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the force on the floor."""
+        force = -float(run.frames[-1].contact_force[:, 0].sum())
+        wanted = 127530.0 if self.sealed else 29430.0
+        return {"force on the floor (N/m)": Check(force, wanted, 1e-6, EXACT)}

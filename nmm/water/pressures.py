@@ -1,0 +1,163 @@
+"""The effect: water that presses on edges, on both faces of joints and cracks, around blocks.
+
+Its pressure is that of the place where the material was laid, and acts along the normal of the edge
+there; both turn with the body, so that the force is constant in the body's axes. Edges are divided
+where the pressure has a kink, at the water table, and integrated exactly.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from covers.cutting.cut_boundary import CutBoundary
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.motion import State
+from nmm.assembly.places import Place, along_segment, on_parts
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.load_factor import load_factor
+from nmm.errors import Fault, SceneError
+from nmm.water.head import Pressure, pressure_of
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.water import WaterPressureTable
+
+# Parts of an edge shorter than this share of it are rounding.
+SHORT = 1e-12
+
+
+@dataclass(frozen=True)
+class WaterOnEdges:
+    """Water on points of edges.
+
+    Attributes
+    ----------
+    name
+        As the scene calls it.
+    place
+        Gauss points.
+    force
+        (m, 2) on each point at factor 1, in the axes of its body (N).
+    unknown
+        (n,) the same on the unknowns.
+    factor
+        From the instant to the factor.
+    steady
+        Whether it has no history.
+    """
+
+    name: str
+    place: Place
+    force: Floats
+    unknown: Floats
+    factor: Callable[[Instant], float]
+    steady: bool
+
+    def forces(self, state: State, end: Instant) -> Floats:
+        """Forces (m, 2) in global axes (N)."""
+        turned = state.frames.to_global(self.place.points.body, self.force)
+        return np.asarray(self.factor(end) * turned)
+
+
+class WaterPressures(Effect):
+    """All water pressures that a scene gives."""
+
+    name = "water pressures"
+
+    def __init__(self, given: list[WaterOnEdges], n_unknowns: int) -> None:
+        self.given, self._n = given, n_unknowns
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[water_pressures]]``."""
+        tables = setup.scene.water_pressures
+        found = [_water(setup, number, item) for number, item in enumerate(tables)]
+        return cls(found, setup.model.manifold.n_unknowns)
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`."""
+        return all(one.steady for one in self.given)
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the pressures in the bodies' axes."""
+        total = np.zeros(self._n)
+        for one in self.given:  # a handful
+            total += one.factor(end) * one.unknown
+        return total
+
+    def work(self, before: State, after: State) -> float:
+        """Mean of the forces at both ends of the step times the motion of their points."""
+        ends = [(one, Instant(one.time, one.load_factor)) for one in (before, after)]
+        total = 0.0
+        for one in self.given:  # a handful
+            points = one.place.points
+            first, last = (one.forces(state, now) for state, now in ends)
+            start, end = (points.place(state.frames, state.deformation) for state, _ in ends)
+            total += float(np.sum((first + last) / 2 * (end - start)))
+        return total
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Return the resultant (N) of each on all that it presses on."""
+        now, found = Instant(state.time, state.load_factor), {}
+        for one in self.given:  # a handful
+            total = one.forces(state, now).sum(axis=0)
+            found[f"{one.name}:x"], found[f"{one.name}:y"] = float(total[0]), float(total[1])
+        return found
+
+
+def _water(setup: Setup, number: int, item: "WaterPressureTable") -> WaterOnEdges:
+    manifold, pressure = setup.model.manifold, pressure_of(item, setup.origin)
+    edge, start, end = _divided(*_edges(setup, item), pressure)
+    if not len(edge):
+        where = setup.scene.source.place("water_pressures", number)
+        found = str(item.segment or item.crack or item.block)
+        raise SceneError(Fault(where, found, "an edge of a block", "move it onto one"))
+    place = on_parts(manifold, edge, start, end, manifold.degree + 1)
+    assert place.normal is not None
+    size = pressure.pressure(place.position) * place.weight * setup.model.thickness
+    force, rows = -size[:, None] * place.normal, place.points.rows
+    local = rows.along(force)
+    spread = np.bincount(rows.unknowns.ravel(), local.ravel(), minlength=manifold.n_unknowns)
+    unknown = np.asarray(spread, dtype=np.float64)
+    factor = load_factor(setup, item)
+    return WaterOnEdges(item.name, place, force, unknown, factor, item.history is None)
+
+
+def _edges(setup: Setup, item: "WaterPressureTable") -> tuple[Ints, Floats, Floats]:
+    """Edges that water presses on, and starts and ends (k, 2) of their wet parts."""
+    manifold, regions = setup.model.manifold, setup.regions(item.block)
+    if item.segment is not None:
+        return along_segment(manifold, np.array(item.segment), regions)
+    boundary = manifold.boundary
+    chosen = np.ones(len(boundary), dtype=bool)
+    if regions is not None:
+        chosen = np.asarray(regions[manifold.element_region[boundary.element]])
+    if item.crack is not None:
+        chosen &= _faces(setup, item.crack)
+    index = np.flatnonzero(chosen)
+    return index, boundary.start[index], boundary.end[index]
+
+
+def _faces(setup: Setup, name: str) -> Bools:
+    """Which edges are faces of a crack."""
+    boundary = setup.model.cut.boundary
+    number = [crack.name for crack in setup.scene.cracks].index(name)
+    if not isinstance(boundary, CutBoundary):
+        return np.zeros(len(boundary), dtype=bool)
+    return np.asarray(boundary.crack == number)
+
+
+def _divided(
+    edge: Ints, start: Floats, end: Floats, pressure: Pressure
+) -> tuple[Ints, Floats, Floats]:
+    """Return parts on which the pressure is linear."""
+    shares = [pressure.crossings(a, b) for a, b in zip(start, end, strict=True)]
+    whole = np.repeat(np.arange(len(edge)), [len(one) - 1 for one in shares])
+    low = np.concatenate([[], *(one[:-1] for one in shares)])
+    high = np.concatenate([[], *(one[1:] for one in shares)])
+    kept = high - low > SHORT
+    whole, low, high = whole[kept], low[kept, None], high[kept, None]
+    way = end[whole] - start[whole]
+    return edge[whole], start[whole] + low * way, start[whole] + high * way
