@@ -44,6 +44,9 @@ def known_quantities(scene: "Scene") -> list[str]:
     columns = [f"monitor:{item.name}:u{axis}" for item in scene.monitors for axis in "xy"]
     columns += [f"reaction:{item.name}:{axis}" for item in scene.supports for axis in "xy"]
     columns += [f"water pressures:{item.name}:{a}" for item in scene.water_pressures for a in "xy"]
+    if scene.seepage is not None:
+        columns += ["seepage:lowest", "seepage:highest", "seepage:stored"]
+        columns += [f"seepage:taken:{item.name}" for item in (*scene.heads, *scene.inflows)]
     if scene.heat is not None:
         columns += ["heat:lowest", "heat:highest", "heat:stored"]
         acting = (scene.temperatures, scene.heat_fluxes, scene.heat_sources, scene.convections)

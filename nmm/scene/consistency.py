@@ -21,7 +21,7 @@ from nmm.scene.tables.member_rules import member_contradictions
 from nmm.scene.tables.motion_rules import EDGES, motion_contradictions
 from nmm.scene.tables.splitting_rules import splitting_contradictions
 from nmm.scene.tables.water_rules import PLACED as WATER
-from nmm.scene.tables.water_rules import water_contradictions
+from nmm.scene.tables.water_rules import seepage_contradictions, water_contradictions
 
 Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
 Tables = Mapping[str, Any]
@@ -45,6 +45,7 @@ def contradictions(data: object) -> list[Finding]:
         stage_contradictions,
         heat_contradictions,
         water_contradictions,
+        seepage_contradictions,
         motion_contradictions,
         member_contradictions,
         fracture_contradictions,

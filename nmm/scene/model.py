@@ -53,6 +53,7 @@ from nmm.scene.tables.members import (
     SpringTable,
 )
 from nmm.scene.tables.records import RecordTable
+from nmm.scene.tables.seepage import HeadTable, InflowTable, SeepageTable
 from nmm.scene.tables.splitting import SplittingTable
 from nmm.scene.tables.water import WaterPressureTable
 
@@ -126,6 +127,9 @@ class Scene(Frozen):
         default=(), description="tables [[initial_stresses]]"
     )
     heat: HeatTable | None = Field(default=None, description="a table [heat]")
+    seepage: SeepageTable | None = Field(default=None, description="a table [seepage]")
+    heads: tuple[HeadTable, ...] = Field(default=(), description="tables [[heads]]")
+    inflows: tuple[InflowTable, ...] = Field(default=(), description="tables [[inflows]]")
     water_pressures: tuple[WaterPressureTable, ...] = Field(
         default=(), description="tables [[water_pressures]]"
     )

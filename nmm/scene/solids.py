@@ -98,22 +98,44 @@ class Material(Frozen):
     thermal_expansion: Annotated[float, quantity("1/K")] | None = Field(
         default=None, description="a strain for each kelvin in 1/K", examples=example("1/K")
     )
+    hydraulic_conductivity: Annotated[float, quantity("m/s")] | None = Field(
+        default=None,
+        gt=0,
+        description="a hydraulic conductivity in m/s, > 0",
+        examples=["1e-6 m/s"],
+    )
+    specific_storage: Annotated[float, quantity("1/m")] | None = Field(
+        default=None,
+        gt=0,
+        description="a volume of water stored in a volume for each metre of head in 1/m, > 0",
+        examples=["1e-5 1/m"],
+    )
+    biot: Number | None = Field(
+        default=None,
+        ge=0,
+        le=1,
+        description="Biot's coefficient in [0, 1], 1 if not given",
+        examples=[0.8],
+    )
     options: Options = Field(default={}, description="a table of options of a law of one's own")
 
 
-_EXCHANGE = quantity("W/m^2/K")
+def _passage(unit: str) -> BeforeValidator:
+    """Validator of what joints let through: a number in ``unit``, or "perfect"."""
+    read = quantity(unit).func
+
+    def checked(value: object) -> object:
+        found = value if value == "perfect" else read(value)  # type: ignore[call-arg]
+        if found == "perfect" or (isinstance(found, float) and found > 0):
+            return found
+        expected = f'a conductance in {unit}, > 0, or "perfect"'
+        raise fault(value, expected, f'write for example "100 {unit}"')
+
+    return BeforeValidator(checked)
 
 
-def _conductance(value: object) -> object:
-    if value == "perfect":
-        return value
-    found = _EXCHANGE.func(value)  # type: ignore[call-arg]
-    if isinstance(found, float) and found > 0:
-        return found
-    raise fault(value, 'a conductance in W/(m2 K), > 0, or "perfect"', 'write "100 W/m^2/K"')
-
-
-Conductance = Annotated[float | Literal["perfect"], BeforeValidator(_conductance)]
+Conductance = Annotated[float | Literal["perfect"], _passage("W/m^2/K")]
+Leakage = Annotated[float | Literal["perfect"], _passage("1/s")]
 
 
 def _pair(value: object) -> object:
@@ -196,6 +218,12 @@ class InterfaceTable(Frozen):
         "where the temperature is one; edges that blocks share insulate if not given",
         examples=["100 W/m^2/K"],
     )
+    leakage: Leakage | None = Field(
+        default=None,
+        description="a velocity of seepage for each metre of head across it in 1/s, > 0, or "
+        '"perfect" where the head is one; edges that blocks share are tight if not given',
+        examples=["perfect"],
+    )
     options: Options = Field(default={}, description="a table of options of a law of one's own")
 
     @model_validator(mode="after")
@@ -234,6 +262,12 @@ class Crack(Frozen):
         description='a heat flux for each kelvin between the faces in W/(m2 K), > 0, or "perfect"; '
         "it insulates if not given",
         examples=["100 W/m^2/K"],
+    )
+    leakage: Leakage | None = Field(
+        default=None,
+        description="a velocity of seepage for each metre of head across it in 1/s, > 0, or "
+        '"perfect"; it is tight if not given',
+        examples=["perfect"],
     )
 
 

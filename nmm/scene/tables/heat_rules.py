@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from nmm.scene.lines import Path
+from nmm.scene.tables.water_rules import lacking
 
 Finding = tuple[Path, str, str, str]
 Tables = Mapping[str, Any]
@@ -37,26 +38,8 @@ def _durations(data: Tables) -> Iterator[Finding]:
 
 def _constants(data: Tables) -> Iterator[Finding]:
     """Materials of blocks in which heat is conducted need its constants."""
-    heat, materials = data["heat"], data.get("materials")
+    heat = data["heat"]
     transient = isinstance(heat, Mapping) and heat.get("transient") is True
     needs = ["conductivity", *(["heat_capacity", "density"] if transient else [])]
-    given = {row.get("block") for row in _rows(data, "temperatures") if "segment" not in row}
-    conducting = [
-        row.get("material")
-        for key in ("blocks", "tessellations")
-        for row in _rows(data, key)
-        if row.get("name") not in given and "all" not in given
-    ]
-    for name, row in materials.items() if isinstance(materials, Mapping) else ():
-        if name not in conducting or not isinstance(row, Mapping):
-            continue
-        for key in needs:
-            if key not in row:
-                expected = "one, as [heat] is named and [[temperatures]] does not give its blocks"
-                yield ("materials", name), f"{key} missing", expected, f"add {key}"
-
-
-def _rows(data: Tables, key: str) -> list[Mapping[str, Any]]:
-    value = data.get(key)
-    rows = value if isinstance(value, list | tuple) else ()
-    return [row for row in rows if isinstance(row, Mapping)]
+    expected = "one, as [heat] is named and [[temperatures]] does not give its blocks"
+    yield from lacking(data, "temperatures", needs, expected)

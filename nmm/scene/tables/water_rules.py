@@ -11,7 +11,8 @@ from nmm.scene.lines import Path
 Finding = tuple[Path, str, str, str]
 Tables = Mapping[str, Any]
 
-PLACED = ("water_pressures",)
+SEEPING = ("heads", "inflows")
+PLACED = ("water_pressures", *SEEPING)
 
 
 def water_contradictions(data: Tables) -> Iterator[Finding]:
@@ -22,6 +23,48 @@ def water_contradictions(data: Tables) -> Iterator[Finding]:
         if isinstance(name, str) and name not in known:
             path: Path = ("water_pressures", number, "crack")
             yield path, f'"{name}"', "the name of a crack", suggestion(name, known)
+
+
+def seepage_contradictions(data: Tables) -> Iterator[Finding]:
+    """Yield what seepage lacks, and what is of seepage where none is named."""
+    if "seepage" not in data:
+        for key in SEEPING:
+            if data.get(key):
+                expected = "a scene with seepage"
+                yield (key,), "no [seepage]", expected, f"add [seepage], or remove [[{key}]]"
+        return
+    table = data["seepage"] if isinstance(data["seepage"], Mapping) else {}
+    transient = table.get("transient") is True
+    if "inertia" in data and "duration" in table:
+        remedy = "remove it: seepage has the time of the run"
+        path: Path = ("seepage", "duration")
+        yield path, "duration with [inertia]", "the duration of the scene", remedy
+    if "inertia" not in data and transient and "duration" not in table:
+        remedy = 'add duration = "1 h", or [inertia]'
+        yield ("seepage", "transient"), "duration missing", "a duration", remedy
+    needs = ["hydraulic_conductivity", *(["specific_storage"] if transient else [])]
+    expected = "one, as [seepage] is named and [[heads]] does not give its blocks"
+    yield from lacking(data, "heads", needs, expected)
+
+
+def lacking(data: Tables, given: str, needs: list[str], expected: str) -> Iterator[Finding]:
+    """Yield materials of blocks in which a field is solved that lack its constants.
+
+    ``given`` are the tables that may give it in whole blocks.
+    """
+    known = {row.get("block") for row in _rows(data, given) if "segment" not in row}
+    solved = [
+        row.get("material")
+        for key in ("blocks", "tessellations")
+        for row in _rows(data, key)
+        if row.get("name") not in known and "all" not in known
+    ]
+    materials = data.get("materials")
+    for name, row in materials.items() if isinstance(materials, Mapping) else ():
+        if name in solved and isinstance(row, Mapping):
+            for key in needs:
+                if key not in row:
+                    yield ("materials", name), f"{key} missing", expected, f"add {key}"
 
 
 def _rows(data: Tables, key: str) -> list[Mapping[str, Any]]:

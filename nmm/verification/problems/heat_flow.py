@@ -37,7 +37,7 @@ def temperature(run: "Run", points: Floats) -> Floats:
     """Temperature (m,) above the reference of a run's last state at points (m, 2)."""
     heat: Heat = run.stepper.plan.effects["heat"]  # type: ignore[assignment]
     elements = elements_at(run.manifold.elements, points)
-    return np.asarray(heat.space.values(elements, points) @ heat.rise(run.state.time))
+    return np.asarray(heat.space.values(elements, points) @ heat.acting(run.state.time))
 
 
 def edge(name: str, start: Floats, end: Floats, value: float) -> str:

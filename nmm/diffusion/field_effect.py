@@ -1,0 +1,152 @@
+"""The effect of a field in the course of a run: what temperature and water head have in common.
+
+A field acts on displacements and is not acted upon: places and openings are those of the reference
+place.
+"""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from covers.scalar.space import ScalarSpace
+from integration.arrays import Floats, Ints
+from nmm.assembly.motion import State
+from nmm.diffusion.carried_field import carried_field
+from nmm.diffusion.course import Course, FieldAt
+from nmm.diffusion.field_stress import FieldStress
+from nmm.diffusion.matrices import element_slopes
+from nmm.diffusion.problem import DiffusionProblem
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.formulation import Diffusion
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+
+
+class FieldEffect(Effect):
+    """A field and its stress.
+
+    Parameters
+    ----------
+    course
+        The field over time.
+    stress
+        What it does to the blocks; None where it does nothing.
+    conductivity
+        (E,) flux for each unit of slope.
+    second
+        Seconds of the field in a unit of the run's time: statics counts its time by the load
+        factor.
+    """
+
+    external = False
+
+    def __init__(
+        self,
+        course: Course,
+        stress: FieldStress | None,
+        conductivity: Floats,
+        second: float = 1.0,
+    ) -> None:
+        self.course, self.stress = course, stress
+        self._conductivity, self._second = conductivity, second
+
+    @property
+    def space(self) -> ScalarSpace:
+        """Functions of the field."""
+        return self.course.problem.space
+
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        how = "steady" if self.course.steady else "transient"
+        return f"{how}, {self.space.n} unknowns"
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`."""
+        return False
+
+    def here(self, time: float) -> FieldAt:
+        """Return the field at a time of the run."""
+        return self.course.at(time * self._second)
+
+    def acting(self, time: float) -> Floats:
+        """Unknowns (n,) of what makes the stress, at a time of the run: the field itself."""
+        return self.here(time).unknowns
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the force of the field's stress at the end of the step."""
+        if end.time > state.time:
+            self.course.begin(state.time * self._second)
+        unknowns = self.acting(end.time)
+        if self.stress is None:
+            return np.zeros(len(state.deformation))
+        return self.stress.force(unknowns)
+
+    def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        """See `Effect.stress_at`."""
+        if self.stress is None:
+            return np.zeros((len(elements), 3))
+        return self.stress.at(self.acting(time), elements, points)
+
+    def mean_stress(self, state: State) -> Floats:
+        """See `Effect.mean_stress`."""
+        if self.stress is None:
+            return np.zeros((len(self._conductivity), 3))
+        return self.stress.mean(self.acting(state.time))
+
+    def flux(self, state: State) -> Floats:
+        """Mean flux (E, 2) of the elements in global axes."""
+        field = self.here(state.time).unknowns
+        slopes = np.stack([rows @ field for rows in element_slopes(self.space)], axis=1)
+        body = self.space.manifold.element_body
+        return state.frames.to_global(body, -self._conductivity[:, None] * slopes)
+
+    def amounts(self, state: State) -> Mapping[str, float]:
+        """Return what was taken up since the start, and is stored; rates of a steady field."""
+        here = self.here(state.time)
+        found = {f"taken:{name}": amount for name, amount in here.taken.items()}
+        return found if self.course.steady else {**found, "stored": here.stored}
+
+    def imbalance(self, state: State) -> float:
+        """See `Effect.imbalance`."""
+        return self.here(state.time).imbalance
+
+    def carried(self) -> Any:
+        """See `Effect.carried`."""
+        return self.course.carried()
+
+    def carry(self, carried: Any) -> None:
+        """See `Effect.carry`."""
+        self.course.carry(carried)
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self.course.problem.forget()
+        if self.stress is not None:
+            self.stress.forget()
+
+    def follow(self, change: "Change") -> "FieldEffect":
+        """Return the field on the new model; blocks that are new have the initial one."""
+        new = type(self).from_setup(change.setup)
+        if new.course.steady:
+            return new
+        here, start = self.here(change.state.time), new.here(change.state.time)
+        spaces = self.space, new.space
+        unknowns = carried_field(change.parentage, spaces, here.unknowns, start.unknowns)
+        new.course.go_on_from(FieldAt(here.time, unknowns, here.taken, here.stored))
+        return new
+
+
+def course_of(
+    setup: Setup, problem: DiffusionProblem, initial: Floats | None, second: float
+) -> Course:
+    """Return the course of a field from its start (n,); None where it is steady."""
+    asked, start = setup.formulation.diffusion or Diffusion(), None
+    if initial is not None:
+        time = setup.start.time * second
+        unknowns = np.where(problem.free, initial, problem.held(time))
+        start = FieldAt(time, unknowns, {})
+    return Course(problem, start, asked.theta, asked.step)

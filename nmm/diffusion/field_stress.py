@@ -1,0 +1,67 @@
+"""The stress of a field: in every element a constant stress times the field.
+
+Its force on the unknowns is integrated exactly; of a field richer than the strains of the elements
+this is the force of its projection on them.
+"""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from covers.scalar.space import ScalarSpace
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+from nmm.diffusion.matrices import element_means, stress_coupling
+
+
+@dataclass(frozen=True)
+class FieldStress:
+    """What a field does to a model.
+
+    Attributes
+    ----------
+    space, model
+        Functions of the field, and what it acts on.
+    stress
+        (E, 3) stress that a unit of the field takes from the material (Pa).
+    """
+
+    space: ScalarSpace
+    model: Model
+    stress: Floats
+    _kept: dict[int, tuple[Floats, Ints, csr_array]] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def coupling(self) -> csr_array:
+        """(n_unknowns, n) force (N) of the field's unknowns, in body axes."""
+        return stress_coupling(self.space, self.model.thickness * self.stress)
+
+    def force(self, unknowns: Floats) -> Floats:
+        """Force (n_unknowns,) of a field (n,), in body axes (N)."""
+        return np.asarray(self.coupling @ unknowns)
+
+    def mean(self, unknowns: Floats) -> Floats:
+        """Stress (E, 3) in body axes that it adds, mean of the elements (Pa)."""
+        return np.asarray(-(self._means @ unknowns)[:, None] * self.stress)
+
+    def at(self, unknowns: Floats, elements: Ints, points: Floats) -> Floats:
+        """Stress (m, 3) in body axes that it adds at reference points (Pa)."""
+        rise = self._rows(elements, points) @ unknowns
+        return np.asarray(-rise[:, None] * self.stress[elements])
+
+    def forget(self) -> None:
+        """Drop what is kept for speed."""
+        self._kept.clear()
+
+    @cached_property
+    def _means(self) -> csr_array:
+        return element_means(self.space)
+
+    def _rows(self, elements: Ints, points: Floats) -> csr_array:
+        """Rows (m, n) at points; those of edges, which are asked for step by step, are kept."""
+        kept = self._kept.get(id(points))
+        if kept is None or kept[0] is not points or kept[1] is not elements:
+            kept = self._kept[id(points)] = points, elements, self.space.values(elements, points)
+        return kept[2]
