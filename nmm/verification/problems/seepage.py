@@ -168,7 +168,7 @@ def total_stress(r: float) -> tuple[float, float]:
 
     def moment(x: float) -> float:
         # Integral of ln(2 / r) r / ln 2 from 1 to x.
-        return (x * x / 2 * np.log(2 / x) + x * x / 4 - np.log(2) / 2 - 0.25) / np.log(2)
+        return float((x * x / 2 * np.log(2 / x) + x * x / 4 - np.log(2) / 2 - 0.25) / np.log(2))
 
     whole, inner = moment(2.0), moment(r)
     radial = unit / r**2 * ((r * r - 1) / 3 * whole - inner)
