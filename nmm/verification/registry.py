@@ -113,7 +113,7 @@ CASES = Registry[type[Case]](
         "WA1": f"{_HOME}.water:Dam",
         "WA2": f"{_HOME}.water:PlaneFailure",
         "WA8": f"{_HOME}.water:Submerged",
-        "WA9": f"{_HOME}.seepage:Column",
+        "WA9": f"{_HOME}.seepage:RisingWater",
         "WA10": f"{_HOME}.seepage:PorousCylinder",
         "WA11": f"{_HOME}.seepage:Layers",
         "B9 damping": f"{_HOME}.time_integration:SpringBlock",

@@ -45,7 +45,7 @@ def pressure(run: "Run", points: Floats) -> Floats:
 
 
 @dataclass(frozen=True)
-class Column(SceneCase):
+class RisingWater(SceneCase):
     """A column of soil in which water rises: near the critical gradient little presses."""
 
     name: ClassVar[str] = "WA9"
