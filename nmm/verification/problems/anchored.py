@@ -1,0 +1,261 @@
+"""Bars and bolts: shear lag, pull-out, a joint that opens, blocks that hang and slide."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from nmm.verification import text
+from nmm.verification.base import Check, Checks, SceneCase, holds
+from nmm.verification.reading import converged, last_way
+
+if TYPE_CHECKING:
+    from nmm.stepping.run import Run
+
+SECTION = np.pi * 0.016**2 / 4
+STEEL = 200e9
+
+PULL = """
+[[bars]]
+name = "bar"
+points = [[0, 0], [{length}, 0]]
+blocks = ["host", "jack"]
+diameter = "16 mm"
+young_modulus = "200 GPa"
+ends = ["free", "fixed"]
+[bars.bond]
+{bond}
+[[supports]]
+name = "wall"
+segment = [[0, -0.1], [0, 0.1]]
+fix = ["x", "y"]
+[[supports]]
+name = "jack"
+segment = [[{end}, -0.1], [{end}, 0.1]]
+fix = ["x", "y"]
+displacement = [{way}, 0]
+[loading]
+[formulation.loading]
+increment = {increment}
+"""
+
+
+def pulled(bond: str, way: float, increment: float, length: float = 0.3) -> str:
+    """Scene of a bar of 16 mm that a jack pulls out of a host which hardly gives way."""
+    end = length + 0.1
+    return text.scene(
+        'plane = "stress"',
+        [
+            text.material("rock", modulus=1e15, poisson=0.0, density=None),
+            text.block("host", "rock", text.rectangle((0, -0.1), (length, 0.1))),
+            text.block("jack", "rock", text.rectangle((length, -0.1), (end, 0.1))),
+            PULL.format(length=length, end=end, bond=bond, way=way, increment=increment),
+        ],
+    )
+
+
+@dataclass(frozen=True)
+class ShearLag(SceneCase):
+    """The force of a bar passes into its surroundings over a length that its bond sets."""
+
+    name: ClassVar[str] = "BO1"
+    title: ClassVar[str] = "Elastic shear lag of a bar that is pulled out"
+    source: ClassVar[str] = "F coth(beta L) / (E A beta), beta^2 = k p / (E A) (Volkersen 1938)"
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "degree 2", "finite elements", "manifold")
+
+    def scene(self) -> str:
+        """Return the bar, pulled by the slip that 50 kN have."""
+        return pulled('stiffness = "10 GPa/m"', 4.474853334e-4, 1.0)
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the force, and what the bond hands to the wall."""
+        force = float(run.history["bars:bar:force"][-1])
+        wall = float(-run.history["reaction:wall:x"][-1])
+        reason = "order 2 in pieces of 0.027 over beta"
+        return {
+            "force at the loaded end (N)": Check(force, 50e3, 2e-4, reason),
+            "sum of the bond's forces (N)": Check(wall, 50e3, 2e-4, reason),
+        }
+
+
+@dataclass(frozen=True)
+class PullOut(SceneCase):
+    """A bond that softens fails zone by zone: the peak is less than all of its strength at once."""
+
+    name: ClassVar[str] = "BO2"
+    title: ClassVar[str] = "Pull-out with a bilinear bond"
+    source: ClassVar[str] = "Yuan, Teng, Seracino, Wu and Yao (2004), two zones in closed form"
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "manifold")
+    length: float = 0.3
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return a bar that is pulled out, and one whose loaded slip snaps back."""
+        return [cls(), cls(1.0)]
+
+    @property
+    def variant(self) -> str:
+        """The length of the bond."""
+        return f"{self.length:g} m"
+
+    def scene(self) -> str:
+        """Return the bar pulled until its force falls."""
+        bond = 'law = "bilinear"\nstrength = "8 MPa"\nslips = ["0.1 mm", "1 mm"]'
+        way, increment = (6e-4, 1 / 60) if self.length < 1 else (3e-3, 0.02)
+        return pulled(bond, way, increment, self.length)
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the peak, and where the loaded slip snaps back."""
+        force = run.history["bars:bar:force"]
+        reason = "increments of 0.01 mm, pieces of a fortieth"
+        if self.length < 1:
+            slip = 6e-4 * run.history["load_factor"]
+            middle = float(np.interp(0.25e-3, slip, force))
+            return {
+                "peak (N)": Check(float(force.max()), 101838.31, 1e-3, reason),
+                "force at 0.25 mm (N)": Check(middle, 77087.065, 2e-3, reason),
+            }
+        last = 3e-3 * float(run.history["load_factor"][-1])
+        return {
+            "peak (N)": Check(float(force.max()), 127162.64, 2e-3, reason),
+            "slip at the snap-back (m)": Check(last, 2.5925e-3, 0.02, "pieces of 25 mm"),
+            "the snap-back is told": holds(
+                "snap-back" in run.summary.sentence, "no stable slips beyond it"
+            ),
+        }
+
+
+GROUTED = """
+[[bars]]
+name = "bolt"
+points = [[-1.5, 0], [1.5, 0]]
+diameter = "25 mm"
+young_modulus = "200 GPa"
+bond = { stiffness = "5 GPa/m" }
+[[supports]]
+name = "left"
+segment = [[-1.5, -0.5], [-1.5, 0.5]]
+fix = ["x", "y"]
+[[supports]]
+name = "right"
+segment = [[1.5, -0.5], [1.5, 0.5]]
+fix = ["x", "y"]
+displacement = ["0.5 mm", 0]
+"""
+
+
+@dataclass(frozen=True)
+class GroutedBolt(SceneCase):
+    """A grouted bolt across a joint resists its opening as two bars that are pulled out."""
+
+    name: ClassVar[str] = "BO4"
+    title: ClassVar[str] = "Grouted bolt across an opening joint"
+    source: ClassVar[str] = "T = E A beta tanh(beta L) w / 2"
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "manifold")
+
+    def scene(self) -> str:
+        """Return two blocks that part by half a millimetre."""
+        return text.scene(
+            'plane = "stress"',
+            [
+                text.material("rock", modulus=1e15, poisson=0.0, density=None),
+                text.block("left", "rock", text.rectangle((-1.5, -0.5), (0, 0.5))),
+                text.block("right", "rock", text.rectangle((0, -0.5), (1.5, 0.5))),
+                GROUTED,
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the force across the joint."""
+        force = float(run.history["bars:bolt:force"][-1])
+        reason = "order 2: an eighth of the square of pieces of 0.15 over beta"
+        return {"force across the joint (N)": Check(force, 48844.636, 4e-3, reason)}
+
+
+@dataclass(frozen=True)
+class BoltedBlock(SceneCase):
+    """A block slides down a plane until its bolt takes what friction does not."""
+
+    name: ClassVar[str] = "BO5 plane"
+    title: ClassVar[str] = "Bolted block on a plane"
+    source: ClassVar[str] = "T = W (sin a - cos a tan phi) / (cos b + sin b tan phi)"
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "lagrange", "cone")
+
+    def scene(self) -> str:
+        """Return the plane drawn level, weight turned by 40 degrees, the bolt at 60."""
+        slope, bolt, pull = np.radians(40), np.radians(60), 100e3 / 2000
+        anchor = [0.5 - 2 * np.cos(bolt), 0.5 - 2 * np.sin(bolt)]
+        down = [pull * np.sin(slope), -pull * np.cos(slope)]
+        return text.scene(
+            'plane = "stress"\n[contact]',
+            [
+                text.material("rock", modulus=1e12, poisson=0.0, density=1000.0),
+                text.interface("joint", 30.0),
+                text.block("base", "rock", text.rectangle((-3, -3), (5, 0))),
+                text.block("block", "rock", text.rectangle((0, 0), (2, 1))),
+                '[[supports]]\nname = "floor"\nsegment = [[-3, -3], [5, -3]]\nfix = ["x", "y"]\n',
+                f"[gravity]\nacceleration = {[float(g) for g in down]}\n",
+                f'[[springs]]\nname = "bolt"\npoints = [[0.5, 0.5], {[float(x) for x in anchor]}]\n'
+                'blocks = ["block", "base"]\nstiffness = "20 MN/m"\n',
+                text.monitor("block", (1, 0), "block"),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the bolt's force and how far the block slid."""
+        force = float(run.history["springs:bolt:force"][-1])
+        slid = float(last_way(run, "block")[0])
+        reason = "the bolt turns by a thousandth as the block slides"
+        return {
+            "in equilibrium": holds(converged(run), "statics ends at load factor 1"),
+            "force of the bolt (N)": Check(force, 20051.164, 3e-3, reason),
+            "slip (m)": Check(slid, 2.00511644e-3, 3e-3, reason),
+        }
+
+
+BOLT = """
+[[bars]]
+name = "{name}"
+points = [[{x}, 3], [{x}, 0]]
+blocks = ["roof", "block"]
+diameter = "25 mm"
+young_modulus = "200 GPa"
+pretension = "20 kN"
+"""
+
+
+@dataclass(frozen=True)
+class HungBlock(SceneCase):
+    """A block hangs on two pretensioned bolts: the joint opens by what they lack."""
+
+    name: ClassVar[str] = "BO5 roof"
+    title: ClassVar[str] = "Block hung on two pretensioned bolts"
+    source: ClassVar[str] = "Balance of forces, E A / L = 32.724923 MN/m"
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "lagrange", "cone", "finite elements")
+
+    def scene(self) -> str:
+        """Return a roof with 60 kN under it, on bolts of 20 kN each."""
+        return text.scene(
+            'plane = "stress"\n[contact]\n[gravity]',
+            [
+                text.material("rock", modulus=1e13, poisson=0.0, density=30e3 / text.G),
+                text.interface("joint", 30.0),
+                text.block("roof", "rock", text.rectangle((0, 0), (4, 3))),
+                text.block("block", "rock", text.rectangle((1, -1), (3, 0))),
+                '[[supports]]\nname = "top"\nsegment = [[0, 3], [4, 3]]\nfix = ["x", "y"]\n',
+                *(BOLT.format(name=name, x=x) for name, x in (("left", 1.5), ("right", 2.5))),
+                text.monitor("block", (2, -1), "block"),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the bolts' forces and the opening of the joint."""
+        reason = "the roof gives way by 1e-3 of a bolt"
+        forces = (float(run.history[f"bars:{name}:force"][-1]) for name in ("left", "right"))
+        opening = float(-last_way(run, "block")[1])
+        checks = {
+            f"force of the {name} bolt (N)": Check(force, 30e3, 1e-3, reason)
+            for name, force in zip(("left", "right"), forces, strict=True)
+        }
+        return checks | {"opening (m)": Check(opening, 0.305577e-3, 4e-3, reason)}
