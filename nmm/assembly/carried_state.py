@@ -137,7 +137,8 @@ class _Moving:
         body = kin.new.element_body[transfer.elements[1]]
         arm = transfer.points - kin.new.body_centroid[body] + transfer.old.apply(self.before)
         turning = arm[:, 0] * fast[:, 1] - arm[:, 1] * fast[:, 0]
-        return transfer.sums(np.column_stack([fast, turning]))
+        thick = self.old.thickness if (self.old.density > 0).all() else 1.0
+        return thick * transfer.sums(np.column_stack([fast, turning]))
 
     @cached_property
     def _rows(self) -> csr_array:

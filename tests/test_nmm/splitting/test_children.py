@@ -15,11 +15,12 @@ from nmm.stepping.simulation import prepare
 BLOCK = """
 title = "block"
 plane = "stress"
+thickness = 0.25
 duration = "1 s"
 [materials.rock]
 young_modulus = "1 GPa"
 poisson_ratio = 0.2
-density = 2000
+density = 8000
 [[blocks]]
 name = "block"
 material = "rock"
