@@ -49,6 +49,7 @@ CALLED_BY = {
     "masses": "[[masses]]",
     "splitting": "[splitting.MATERIAL]",
     "viscous damping": "[damping] with mass, stiffness or ratios",
+    "damping against the ground": "[damping] with ground",
     "local damping": "[damping] with local",
 }
 """How a scene names an effect, where that is not `[effect]`."""

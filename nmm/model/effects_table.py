@@ -39,6 +39,7 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "viscous boundaries": "nmm.effects.motion.viscous_boundaries:ViscousBoundaries",
         "free fields": "nmm.effects.motion.free_fields:FreeFields",
         "viscous damping": "nmm.effects.damping.viscous:ViscousDamping",
+        "damping against the ground": "nmm.effects.damping.viscous:GroundDamping",
         "local damping": "nmm.effects.damping.local:LocalDamping",
         "springs": "nmm.effects.members.springs:PointSprings",
         "dashpots": "nmm.effects.members.dashpots:PointDashpots",
@@ -72,7 +73,10 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
     "inertia": lambda s: s.inertia is not None,
     "viscous boundaries": lambda s: bool(s.viscous_boundaries),
     "free fields": lambda s: bool(s.free_fields),
-    "viscous damping": lambda s: s.damping is not None and s.damping.coefficients is not None,
+    "viscous damping": lambda s: (
+        s.damping is not None and s.damping.coefficients is not None and s.damping.ground is None
+    ),
+    "damping against the ground": lambda s: s.damping is not None and s.damping.ground is not None,
     "local damping": lambda s: s.damping is not None and s.damping.local is not None,
     "springs": lambda s: bool(s.springs),
     "dashpots": lambda s: bool(s.dashpots),

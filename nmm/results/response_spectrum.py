@@ -143,13 +143,21 @@ def monitor_spectrum(
             f"monitor {monitor}, axis {axis}: no column {column}: expected one of "
             f"{', '.join(known) or 'no monitors'} with axis x or y: correct the name"
         )
-    times = np.concatenate([[0.0], history["time"]])
-    way = np.concatenate([[0.0], history[column]])
+    times, way = _from_rest(history["time"], history[column])
     if len(times) < 4 or (np.diff(times) <= 0).any():
         raise NmmError(
-            f"monitor {monitor}: {len(times) - 1} steps: expected a run in time of three or more"
+            f"monitor {monitor}: {len(times) - 1} steps in time: expected three or more: run a "
+            "scene with [inertia]"
         )
     return response_spectrum(times[:-1], _accelerations(times, way), periods, ratio)
+
+
+def _from_rest(times: Floats, way: Floats) -> tuple[Floats, Floats]:
+    """Times and displacements (n,) from the start; of stages at rest before it the last state."""
+    if times[0] > 0:
+        return np.append(0.0, times), np.append(0.0, way)
+    begin = int(np.flatnonzero(times <= times[0])[-1])
+    return times[begin:], way[begin:]
 
 
 def _accelerations(times: Floats, way: Floats) -> Floats:

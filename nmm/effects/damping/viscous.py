@@ -1,15 +1,19 @@
 """Viscous damping by mass and by stiffness (Rayleigh)."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Self
 
+import numpy as np
 from scipy.sparse import csc_array
 
+from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.effects.base import Effect, Setup
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.dead_loads import DeadLoad
 
 if TYPE_CHECKING:
-    from nmm.effects.change import Change
+    from nmm.effects.motion.record import GroundMotion
 
 
 class ViscousDamping(Effect):
@@ -35,10 +39,6 @@ class ViscousDamping(Effect):
         assert coefficients is not None
         return cls(setup.model, *coefficients)
 
-    def follow(self, change: "Change") -> "ViscousDamping":
-        """Return the same damping of the new model."""
-        return type(self)(change.new, self._mass, self._stiffness)
-
     @property
     def about(self) -> str:
         """See `Effect.about`."""
@@ -52,3 +52,57 @@ class ViscousDamping(Effect):
     def damping(self, state: State) -> csc_array:
         """See `Effect.damping`; always the same object."""
         return self._matrix
+
+
+class GroundDamping(ViscousDamping):
+    """The same with mass against ground that moves: it adds the force ``a M v`` of its velocity."""
+
+    name = "damping against the ground"
+
+    def __init__(
+        self, model: Model, mass: float, stiffness: float, motions: "Mapping[int, GroundMotion]"
+    ) -> None:
+        super().__init__(model, mass, stiffness)
+        self._model, self._motions = model, motions
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from ``[damping]`` with the support that it names."""
+        from nmm.effects.motion.record import motions_of
+
+        damping = setup.scene.damping
+        assert damping is not None
+        assert damping.coefficients is not None
+        named = [one.motion for one in setup.scene.supports if one.name == damping.ground]
+        motions = motions_of(setup.scene, named[0]) if named else {}
+        return cls(setup.model, *damping.coefficients, motions)
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`."""
+        return False
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return what the velocity of the ground drags along, in the bodies' axes."""
+        return self._push(state, self._velocity(end.time))
+
+    def work(self, before: State, after: State) -> float:
+        """Mean of that force at both ends of the step times the motion of the mass."""
+        mean = (self._velocity(before.time) + self._velocity(after.time)) / 2
+        pushed = self._push(before, mean), self._push(after, mean)
+        return DeadLoad(self._model, self._density(mean)).work(before, after, pushed)
+
+    def _velocity(self, time: float) -> Floats:
+        """Velocity (2,) of the ground (m/s)."""
+        found = np.zeros(2)
+        for axis, motion in self._motions.items():
+            found[axis] = motion.velocity_at(time)
+        return found
+
+    def _density(self, velocity: Floats) -> Floats:
+        """Force (E, 2) on the volume of elements (N/m3)."""
+        return np.asarray(self._mass * self._model.density[:, None] * velocity)
+
+    def _push(self, state: State, velocity: Floats) -> Floats:
+        body = self._model.manifold.element_body
+        return self._model.body_load(state.frames.to_body(body, self._density(velocity)))

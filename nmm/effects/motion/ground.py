@@ -71,7 +71,7 @@ def _way(
 
 
 def _motions(setup: Setup, support: "SupportTable") -> "dict[int, GroundMotion]":
-    if not support.motion:
+    if not support.motion or setup.scene.inertia is None:  # a stage at rest stands still
         return {}
     from nmm.effects.motion.record import motions_of
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from nmm.scene.fields import Frozen, Number, Time, fault, quantity
+from nmm.scene.fields import Frozen, Name, Number, Time, fault, quantity
 
 
 def _no_angle(value: object) -> object:
@@ -46,6 +46,12 @@ class DampingTable(Frozen):
         description="two frequencies in Hz, > 0, at which the ratios are",
         examples=[["2 Hz", "10 Hz"]],
     )
+    ground: Name | None = Field(
+        default=None,
+        description="the name of a support with a motion, against which mass damps; axes at rest "
+        "when not given",
+        examples=["base"],
+    )
     local: Number | None = Field(
         default=None,
         ge=0,
@@ -66,6 +72,9 @@ class DampingTable(Frozen):
         if not plain and self.ratios is None and self.local is None:
             remedy = "add for example ratios and frequencies, or remove [damping]"
             raise fault("nothing", "mass, stiffness, ratios or local", remedy)
+        if self.ground is not None and not plain and self.ratios is None:
+            remedy = "add mass, or ratios and frequencies"
+            raise fault("ground without mass", "damping by mass", remedy)
         if self.ratios is not None and self.frequencies is not None:
             _check_rayleigh(self.ratios, self.frequencies)
         return self

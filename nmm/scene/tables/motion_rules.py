@@ -21,6 +21,7 @@ def motion_contradictions(data: Tables) -> Iterator[Finding]:
     """Yield records that are not there, and what moves in scenes without time."""
     if "damping" in data and "inertia" not in data:
         yield ("damping",), "no [inertia]", "a dynamic scene", "add [inertia], or remove [damping]"
+    yield from _moving_ground(data)
     for path, row in _rows(data, "supports"):
         yield from _named_records(data, (*path, "motion"), row.get("motion"))
         if row.get("motion") and "inertia" not in data:
@@ -33,6 +34,17 @@ def motion_contradictions(data: Tables) -> Iterator[Finding]:
             yield (key,), "no [inertia]", "a dynamic scene", f"add [inertia], or remove [[{key}]]"
     yield from _bases(data)
     yield from _fields(data)
+
+
+def _moving_ground(data: Tables) -> Iterator[Finding]:
+    """Yield the ground of damping that is no moving support."""
+    damping = data.get("damping")
+    name = damping.get("ground") if isinstance(damping, Mapping) else None
+    moving = [row.get("name") for _, row in _rows(data, "supports") if row.get("motion")]
+    if isinstance(name, str) and name not in moving:
+        known = [one for one in moving if isinstance(one, str)]
+        expected = "the name of a support with a motion"
+        yield ("damping", "ground"), f'"{name}"', expected, suggestion(name, known)
 
 
 def _bases(data: Tables) -> Iterator[Finding]:

@@ -101,6 +101,19 @@ def test_one_mass_under_the_record_has_the_exact_displacements(period, ratio, la
     assert at(run, found, 2.0) == pytest.approx(last, abs=(1e-3 + 2 * late) * largest)
 
 
+def test_mass_that_damps_against_the_moving_ground_has_the_same_answer():
+    omega = 2 * math.pi / 0.5
+    text = scene().replace(f"stiffness = {0.1 / omega}", f'mass = {0.1 * omega}\nground = "base"')
+    assert "ground" in text
+    run = nmm.run(nmm.parse_scene(text))
+    found = (run.history["monitor:top:ux"] - run.history["monitor:base:ux"]) / 1.5
+    assert np.abs(found).max() == pytest.approx(0.08199225, rel=1.5e-3)
+    h = run.history
+    stored = h["kinetic_energy"] + h["strain_energy"] + h["support_energy"]
+    lost = h["damping_loss:damping against the ground"] + h["integration_loss"]
+    assert np.abs(h["external_work"] - stored - lost).max() < 1e-9 * h["external_work"].max()
+
+
 def test_errors_fall_fourfold_when_steps_are_halved_that_do_not_divide_the_samples():
     errors = []
     for step in (0.03, 0.015):

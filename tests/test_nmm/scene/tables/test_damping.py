@@ -37,6 +37,8 @@ def faults(text):
         ("ratios = [5, 5]\nfrequencies = [2, 10]", "ratios from 0 to 1"),
         ("ratios = [0.05, 0.05]\nfrequencies = [2, 2]", "two different frequencies"),
         ("ratios = [0.05, 0.5]\nfrequencies = [2, 10]", "0.2 to 5 times the first"),
+        ('mass = 1\nground = "bas"', 's.toml:14: damping.ground: "bas": expected the name of a'),
+        ('local = 0.1\nground = "bas"', "ground without mass"),
         ('ratios = [0.05, 0.05]\nfrequencies = ["12 rad/s", "2 Hz"]', "no angle a second"),
     ],
 )
