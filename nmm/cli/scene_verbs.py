@@ -224,7 +224,10 @@ def _bound(place: Path, formulation: Path | None) -> None:
     found = load_bound(made.stepper, made.start)
     out = console()
     if found is None:
-        text = "no bound: no body moves by contacts alone, or nothing loads one"
+        text = (
+            "no bound: no body moves by contacts alone, nothing loads one, or members hold some "
+            "with limits of their own"
+        )
     elif found.factor is None:
         text = "no equilibrium: contacts and bonds do not carry the loads that are not scaled"
     elif not found.motion.any():

@@ -215,6 +215,11 @@ class Effect(ABC):
         """Whether `through` gives more than the line of `force` and `matrix`."""
         return True
 
+    @property
+    def limited(self) -> bool:
+        """Whether its forces have limits, beyond which its matrix does not show what it carries."""
+        return False
+
     def through(self, before: State, after: State, span: Span) -> StepForce:
         """Return the weighed force through a step from one state to a trial of its end.
 

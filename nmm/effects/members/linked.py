@@ -84,6 +84,11 @@ class Linked(Effect):
         """Whether forces are no lines in the unknowns of a step."""
         return not (self.members.links.small and self.members.chains.linear)
 
+    @property
+    def limited(self) -> bool:
+        """See `Effect.limited`: yield values, bonds that slide, and cables that go slack."""
+        return not self.members.chains.linear
+
     def force(self, state: State, end: Instant) -> Floats:
         """See `Effect.force`."""
         links = self.members.links

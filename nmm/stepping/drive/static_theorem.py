@@ -94,13 +94,16 @@ def load_bound(stepper: "Stepper", state: State) -> LoadBound | None:
 
 
 def _largest_share(stepper: "Stepper", state: State, asked: float, most: float) -> LoadBound | None:
-    """Return the largest share, up to ``most``, of the loads at ``asked`` that is carried."""
+    """Return the largest share, up to ``most``, of the loads at ``asked`` that is carried.
+
+    It is not known where members have limits of their own, which no condition here says.
+    """
     # The one place that asks for it; its many signatures know no sparse conditions.
     from scipy import optimize
 
     linprog: Any = optimize.linprog
     plan, contact = stepper.plan, stepper.plan.contact
-    if contact is None:
+    if contact is None or any(effect.limited for effect in plan.effects.values()):
         return None
     (normal, tangent), limits = contact.near(state, NEAR * stepper.size)
     balance = _directions(stepper, state)
