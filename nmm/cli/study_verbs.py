@@ -1,4 +1,4 @@
-"""The verbs of studies: cost, compare, study, calibrate. What they need they import."""
+"""The verbs of studies: cost, compare, ablate, study, calibrate. What they need they import."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -113,6 +113,41 @@ def compare(
         tell_files(files)
 
 
+def ablate(
+    scene: SceneFile,
+    formulation: Annotated[
+        Path | None, typer.Argument(help="Formulation file, TOML.", metavar="FORMULATION")
+    ] = None,
+    quantity: Annotated[
+        list[str] | None,
+        typer.Option(help="What is compared, repeatable; else the scene's references or monitors."),
+    ] = None,
+    repeats: Annotated[int, typer.Option(min=1, help="Counted repeats of each run.")] = 1,
+    out: Annotated[Path | None, typer.Option("--out", "-o", help="File of the table, .md.")] = None,
+    quiet: Quiet = False,
+    allow_code: AllowCode = None,
+) -> None:
+    """Show which effects matter: the scene without each of them in turn."""
+    with faults_told(), allowed(scene, allow_code):
+        _one_thread()
+        import nmm
+        from nmm.results.storage.writing import told, write_text
+        from nmm.study.ablation.ablate import ablate as run_without
+        from nmm.study.ablation.page import ablation_table
+
+        ((_, method),) = _formulations(scene, [formulation] if formulation else []).items()
+        with progress_bar(quiet) as progress:
+            found = run_without(nmm.read_scene(scene), method, quantity or (), repeats, progress)
+        lines = ablation_table(found)
+        for line in lines:
+            typer.echo(line)
+        if out is not None:
+            with told(out):
+                out.parent.mkdir(parents=True, exist_ok=True)
+                write_text(out, "\n".join([*lines, ""]))
+            tell_files([out])
+
+
 def study(
     plan: Annotated[Path, typer.Argument(help="Study file, TOML.", metavar="STUDY")],
     scheduler: Annotated[
@@ -197,7 +232,7 @@ def calibrate(
             )
 
 
-VERBS = (cost, compare, study, calibrate)
+VERBS = (cost, compare, ablate, study, calibrate)
 
 
 def register(app: typer.Typer) -> None:

@@ -1,0 +1,144 @@
+"""A scene with each of its effects left out in turn: what changes, and the seconds saved."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from nmm.errors import FormulationError, NmmError
+from nmm.formulation import Formulation
+from nmm.scene import Scene, build_scene
+from nmm.scene.document import build
+from nmm.scene.faults import Source
+from nmm.study.ablation.omissions import Omission, omissions
+from nmm.study.cases.measure import Progress, measure
+from nmm.study.cases.quantities import check_quantity
+from nmm.study.cases.record import Record
+from nmm.study.cases.variants import StudyCase
+
+WHOLE = "the whole scene"
+
+
+@dataclass(frozen=True)
+class AblationRow:
+    """A scene without one of its effects.
+
+    Attributes
+    ----------
+    name
+        What was left out.
+    values
+        Quantities, nan where the run has none.
+    seconds
+        Processor seconds, the best of the repeats; nan where it did not run.
+    verdict
+        How the run ended, or why it could not begin.
+    """
+
+    name: str
+    values: tuple[float, ...]
+    seconds: float
+    verdict: str
+
+
+@dataclass(frozen=True)
+class Ablation:
+    """The whole scene first, then without each of its effects.
+
+    Attributes
+    ----------
+    quantities
+        Names of what is compared.
+    whole, rows
+        The runs.
+    """
+
+    quantities: tuple[str, ...]
+    whole: AblationRow
+    rows: tuple[AblationRow, ...]
+
+    def changes(self, row: AblationRow) -> tuple[float, ...]:
+        """Changes of the quantities, as shares of what they are parts of in the whole scene.
+
+        Components of one vector, whose names differ in what follows the last colon, are shares of
+        the largest of them; where that is zero, changes are what they are.
+        """
+        whole = dict(zip(self.quantities, self.whole.values, strict=True))
+        return tuple(
+            (value - whole[name]) / (_largest(whole, name) or 1.0)
+            for name, value in zip(self.quantities, row.values, strict=True)
+        )
+
+    def saved(self, row: AblationRow) -> float:
+        """Share of the seconds of the whole scene that is saved."""
+        return 1.0 - row.seconds / self.whole.seconds if self.whole.seconds > 0 else math.nan
+
+
+def ablate(
+    scene: Scene,
+    formulation: Formulation,
+    quantities: Sequence[str] = (),
+    repeats: int = 1,
+    progress: Progress | None = None,
+) -> Ablation:
+    """Run a scene whole and without each of its effects.
+
+    Parameters
+    ----------
+    quantities
+        What is compared, see `nmm.study.cases.quantities`; else those of the scene's references,
+        displacements of its monitors, or the elastic energy.
+    repeats
+        Counted runs of each after a warm-up.
+
+    Raises
+    ------
+    NmmError
+        When no run has a quantity, or the whole scene cannot be run.
+    """
+    names = tuple(quantities) or _asked(scene)
+    for name in names:
+        check_quantity(scene, name)
+    tables = scene.model_dump(mode="json", by_alias=True, exclude_defaults=True)
+    method = formulation.model_dump(mode="json", exclude_defaults=True)
+    whole = StudyCase(WHOLE, scene, formulation)
+    cases, refused = [whole], []
+    for omission in omissions(tables, method):
+        try:
+            cases.append(_case(omission, scene))
+        except NmmError as fault:
+            nothing = (math.nan,) * len(names)
+            why = f"cannot be left out alone: {' '.join(str(fault).split())}"
+            refused.append(AblationRow(omission.name, nothing, math.nan, why))
+    records = measure(cases, names, repeats, memory=False, progress=progress)
+    if records[0].status == "error":
+        raise NmmError(records[0].sentence)
+    first, *rest = [_row(record, names) for record in records]
+    return Ablation(names, first, (*rest, *refused))
+
+
+def _largest(values: Mapping[str, float], name: str) -> float:
+    vector = name.rpartition(":")[0]
+    parts = [other for other in values if vector and other.rpartition(":")[0] == vector]
+    return max(abs(values[other]) for other in parts or [name])
+
+
+def _asked(scene: Scene) -> tuple[str, ...]:
+    stated = tuple(dict.fromkeys(one.quantity for one in scene.references))
+    moved = tuple(f"monitor:{one.name}:u{axis}" for one in scene.monitors for axis in "xy")
+    return stated or moved or ("energy",)
+
+
+def _case(omission: Omission, scene: Scene) -> StudyCase:
+    name = scene.source.name
+    return StudyCase(
+        omission.name,
+        build_scene(omission.scene, name),
+        build(omission.formulation, Formulation, Source(name), FormulationError),
+    )
+
+
+def _row(record: Record, names: Sequence[str]) -> AblationRow:
+    values = tuple(record.quantities.get(name, math.nan) for name in names)
+    seconds = min(record.seconds, default=math.nan)
+    told = record.status if record.status != "error" else f"does not run: {record.sentence}"
+    return AblationRow(record.name, values, seconds, told)

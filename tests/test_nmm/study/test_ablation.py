@@ -1,0 +1,78 @@
+"""A scene without each of its effects, beside what mechanics says of the rest."""
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.errors import NmmError
+from nmm.formulation import Formulation
+from nmm.model.effects_table import NAMED
+from nmm.study.ablation.ablate import ablate
+from nmm.study.ablation.omissions import TABLES
+from nmm.study.ablation.page import ablation_table
+from nmm.verification import text
+
+THROWN = text.scene(
+    'plane = "stress"\nduration = 0.4\n[inertia]\n[gravity]\n',
+    [
+        text.material("a", 1e9, 0.0, 2000.0),
+        text.box("b", (0, 0), (1, 1), "a"),
+        '[[initial_velocities]]\nblock = "b"\nvelocity = [3, 0]',
+        '[[loads]]\nname = "lift"\nkind = "body"\nblock = "b"\ndensity = [0, 2000]',
+        '[[monitors]]\nname = "m"\npoint = [0.5, 0.5]',
+    ],
+)
+T, G, LIFT = 0.4, 9.81, 1.0
+
+
+@pytest.fixture(scope="module")
+def thrown():
+    scene = nmm.parse_scene(THROWN, "thrown.toml")
+    return ablate(scene, Formulation.model_validate({"integrator": {"step": 0.01}}))
+
+
+@pytest.mark.parametrize(
+    ("without", "ux", "uy"),
+    [
+        ("gravity", 3 * T, LIFT * T**2 / 2),
+        ("initial velocity", 0.0, (LIFT - G) * T**2 / 2),
+        ("load lift", 3 * T, -G * T**2 / 2),
+        ("finite rotation", 3 * T, (LIFT - G) * T**2 / 2),
+    ],
+)
+def test_what_is_left_moves_as_free_flight_says(thrown, without, ux, uy):
+    row = next(row for row in thrown.rows if row.name == without)
+    # Constant acceleration is exact in every step; a stiff block swings by its load over E.
+    np.testing.assert_allclose(row.values, [ux, uy], atol=1e-6)
+
+
+def test_changes_are_shares_of_the_motion_as_a_whole(thrown):
+    row = next(row for row in thrown.rows if row.name == "gravity")
+    fallen = G * T**2 / 2
+    np.testing.assert_allclose(thrown.changes(row), [0.0, fallen / (3 * T)], atol=1e-6)
+
+
+def test_what_cannot_be_left_out_alone_is_told_and_the_rest_goes_on(thrown):
+    row = next(row for row in thrown.rows if row.name == "inertia")
+    assert row.verdict not in ("", "converged")
+    assert len(thrown.rows) == 5
+
+
+def test_every_effect_of_the_scene_has_a_line_of_the_table(thrown):
+    lines = ablation_table(thrown)
+    assert len(lines) == 2 + 1 + len(thrown.rows)
+    widths = {line.count("|") for line in lines}
+    assert widths == {2 + 1 + 2 + 3 - 1}
+
+
+def test_a_quantity_that_no_run_has_is_refused_before_any_is_made():
+    scene = nmm.parse_scene(THROWN, "thrown.toml")
+    with pytest.raises(NmmError, match="wrong"):
+        ablate(scene, Formulation(), ["wrong"])
+
+
+def test_every_effect_can_be_left_out_or_is_known_to_be_left_out_by_its_loads_or_kept():
+    by_load = {"loads", "body loads", "field loads", "pressures", "moving loads"}
+    as_damping = {"viscous damping", "damping against the ground", "local damping"}
+    kept = {"supports", "bonded interfaces"}  # without them nothing is left of a structure
+    assert set(NAMED) - set(TABLES) == by_load | as_damping | kept
