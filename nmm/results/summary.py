@@ -8,6 +8,7 @@ from collections import abc
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields
+from functools import cache
 from importlib import metadata
 from types import NoneType
 from typing import TYPE_CHECKING, Any, get_args, get_origin
@@ -30,6 +31,12 @@ OPTIONAL = ("pymetis", "qdldl", "python-mumps")
 
 def installed_versions() -> dict[str, str]:
     """Return the versions of Python and of the libraries that a result can depend on."""
+    return dict(_installed_versions())
+
+
+@cache
+def _installed_versions() -> dict[str, str]:
+    """Return them as read from the files of all packages, once."""
     found = {"python": platform.python_version()}
     for name in PACKAGES:
         try:

@@ -38,13 +38,13 @@ class Anderson:
         """
         at, self.count = self.count % self.depth, self.count + 1
         used = min(self.count, self.depth)
-        _add(self.sums, self.corrections, self.gram, at, used, step, new, old, after, before)
+        add_step(self.sums, self.corrections, self.gram, at, used, step, new, old, after, before)
 
     def mixed(self, correction: Floats, residual: Floats) -> Floats:
         """Step that combines ``correction`` with the remembered ones (least squares in ``M``)."""
         used = min(self.count, self.depth)
         return np.asarray(
-            _mixed(self.sums, self.corrections, self.gram, used, correction, residual)
+            mixed_step(self.sums, self.corrections, self.gram, used, correction, residual)
         )
 
 
@@ -74,7 +74,7 @@ class FixedPoint:
 
 
 @nb.njit(cache=True)
-def _add(
+def add_step(
     sums: Floats,
     corrections: Floats,
     gram: Floats,
@@ -98,7 +98,7 @@ def _add(
 
 
 @nb.njit(cache=True)
-def _mixed(
+def mixed_step(
     sums: Floats, corrections: Floats, gram: Floats, used: int, correction: Floats, force: Floats
 ) -> Floats:
     """``correction`` combined with the remembered steps.

@@ -6,17 +6,21 @@ from typing import ClassVar
 
 from scipy.sparse import csc_array
 
+from nmm.solvers.dense import Dense
 from nmm.solvers.factor import Decomposition
 from nmm.solvers.linear import LinearSolver
 from nmm.solvers.superlu import DefiniteSolver, SuperLU
 
 FEW, MANY = 60, 20000
-"""Unknowns below which, and from which on, compiled code never or always pays."""
+"""Unknowns below which a full matrix costs least, and from which on compiled code always pays."""
 
 
 @dataclass(frozen=True)
 class Auto(DefiniteSolver):
-    """Cholesky's factorisation where compiled code is at hand or pays its import, else SuperLU."""
+    """Cholesky's factorisation where compiled code is at hand or pays its import, else SuperLU.
+
+    The least matrices are factorised in full.
+    """
 
     name: ClassVar[str] = "auto"
 
@@ -33,6 +37,8 @@ class Auto(DefiniteSolver):
         return AutoLU(max(self.refinements, 2), self.shift)
 
     def _chosen(self, unknowns: int) -> LinearSolver:
+        if unknowns < FEW:
+            return Dense(self.refinements, self.shift)
         if not _compiled(unknowns):
             return SuperLU(self.refinements, self.shift)
         from nmm.solvers.frontal.cholesky import Cholesky
@@ -45,6 +51,8 @@ class AutoLU(Auto):
     """LU in compiled code where it is at hand or pays its import, else SuperLU."""
 
     def _chosen(self, unknowns: int) -> LinearSolver:
+        if unknowns < FEW:
+            return Dense(self.refinements, self.shift)
         if not _compiled(unknowns):
             return SuperLU(self.refinements, self.shift).unsymmetric()
         from nmm.solvers.frontal.lu import FrontalLU
@@ -53,4 +61,4 @@ class AutoLU(Auto):
 
 
 def _compiled(unknowns: int) -> bool:
-    return unknowns >= MANY or (unknowns >= FEW and "numba" in sys.modules)
+    return unknowns >= MANY or "numba" in sys.modules

@@ -48,6 +48,8 @@ class LinearSolver(ABC):
         SolveError
             When an entry is not finite.
         """
+        if isinstance(matrix, csc_array) and matrix.has_sorted_indices:
+            return Factor.of(self, matrix)
         found = csc_array(matrix)
         # Decompositions sort indices in place, which scaled copies share with their original.
         found.sort_indices()
@@ -87,6 +89,7 @@ SOLVERS: Registry[type[LinearSolver]] = Registry(
         "cholesky": "nmm.solvers.frontal.cholesky:Cholesky",
         "lu": "nmm.solvers.frontal.lu:FrontalLU",
         "superlu": "nmm.solvers.superlu:SuperLU",
+        "dense": "nmm.solvers.dense:Dense",
         "qdldl": "nmm.solvers.qdldl:Qdldl",
         "mumps": "nmm.solvers.mumps:Mumps",
     },

@@ -1,14 +1,17 @@
 """Solve again when the componentwise backward error of a body is too large."""
 
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Ints
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.options import SMALL
 from nmm.contact.problem.balance import length, weights
+from nmm.contact.problem.residual_kernel import meeting_forces
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.solvers.linear import LinearSolver
 
@@ -55,17 +58,13 @@ def imbalance_of_bodies(problem: StepProblem, answer: StepAnswer, body: Ints) ->
     brick that falls upright is not asked for rest aside. What is in balance beside the whole
     scene to `FINE` does not count.
     """
-    n, increment = len(problem.force), np.abs(answer.increment)
-    column = np.repeat(np.arange(n), np.diff(problem.matrix.indptr))
-    entries = np.abs(problem.matrix.data) * increment[column]
-    whole: Floats = np.abs(problem.force) + np.bincount(problem.matrix.indices, entries, n)
-    pressed = np.abs(answer.normal_force) + np.abs(answer.shear_force)
-    for rows in (problem.normal_rows, problem.tangent_rows):
-        push = np.repeat(pressed, np.diff(rows.indptr))
-        whole += np.bincount(rows.indices, np.abs(rows.data) * push, n)
-    rest = np.abs(problem.out_of_balance(answer.increment, answer.normal_force, answer.shear_force))
+    matrix, normal, tangent = problem.matrix, problem.normal_rows, problem.tangent_rows
+    sparse = matrix, normal, tangent
+    parts: Iterator[Any] = (part for one in sparse for part in (one.indptr, one.indices, one.data))
+    forces = answer.normal_force, answer.shear_force
+    rest, whole = meeting_forces(answer.increment, problem.force, *forces, *parts)
     weight = weights(problem)
-    whole, rest = weight * whole, weight * rest
+    whole, rest = weight * whole, weight * np.abs(rest)
     largest = np.zeros(body.max() + 1)
     np.maximum.at(largest, body, whole)
     counts = rest > FINE * length(whole)

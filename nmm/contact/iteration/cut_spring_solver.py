@@ -40,8 +40,8 @@ def solve_springs(
     budget = budget or IterationBudget()
     near = springs.problem.start if start is None else None
     given = near if start is None else start
+    small = len(springs.problem.force) <= SMALL
     increment = start_from(springs, memory.found, memory.moving) if given is None else given
-    small = len(increment) <= SMALL
     if small or (near is not None and springs.problem.n_contacts <= options.springs.few):
         quick = _polished(springs, linear, memory, increment, options)
         if quick.size <= tolerance:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.contact.iteration import compiled_newton
 from nmm.contact.iteration.options import DEFAULT, AlternationOptions, Patience
 from nmm.contact.problem.cut_springs import CutSprings, Residual
 from nmm.solvers.anderson import Anderson
@@ -44,6 +45,19 @@ class ModifiedNewton:
 
         Without ``patience`` slow runs go on as well.
         """
+        if compiled_newton.serves(self.factor):
+            start = self.increment, self.residual.force, self.residual.size
+            steer = self.options.depth, self.options.growth
+            increment, force, size, solves = compiled_newton.run(
+                self.factor, self.springs.columns, start, budget, tolerance, patience, steer
+            )
+            self.increment, self.residual = increment, Residual(force, size)
+            self.solves += solves
+            return size <= tolerance
+        return self._plain(budget, tolerance, patience)
+
+    def _plain(self, budget: int, tolerance: float, patience: Patience | None) -> bool:
+        """Do the same by a loop in Python, for any factor."""
         most, sizes = self.solves + budget, [self.residual.size]
         history = Anderson(self.options.depth)
         history.start(len(self.increment))

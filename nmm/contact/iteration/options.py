@@ -146,7 +146,7 @@ class WayOptions:
 
     acting: float = above_zero(12.0)
     inside: float = above_zero(20.0)
-    guess: float = above_zero(300.0)
+    guess: float = above_zero(400.0)
     trial: float = above_zero(60.0)
     finish: float = above_zero(100.0)
     near: float = above_zero(120.0)

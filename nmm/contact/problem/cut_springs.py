@@ -88,11 +88,12 @@ class CutSprings:
 
     def residual(self, increment: Floats) -> "Residual":
         """Out-of-balance force of ``increment``."""
-        force, size = residual_kernel.residual(increment, *self._columns)
+        force, size = residual_kernel.residual(increment, *self.columns)
         return Residual(force, float(size))
 
     @cached_property
-    def _columns(self) -> tuple[Any, ...]:
+    def columns(self) -> tuple[Any, ...]:
+        """What `residual_kernel.residual` takes besides unknowns."""
         p = self.problem
         return (
             p.force,

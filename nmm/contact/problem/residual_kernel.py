@@ -98,3 +98,40 @@ def squared(pointers: Index, columns: Index, entries: Floats, stiffness: Floats,
         for k in range(pointers[c], pointers[c + 1]):
             found[columns[k]] += entries[k] * entries[k] * stiffness[c]
     return found
+
+
+@nb.njit(cache=True)
+def meeting_forces(
+    increment: Floats,
+    load: Floats,
+    normal: Floats,
+    shear: Floats,
+    pointers: Index,
+    rows: Index,
+    entries: Floats,
+    normal_pointers: Index,
+    normal_columns: Index,
+    normal_entries: Floats,
+    tangent_pointers: Index,
+    tangent_columns: Index,
+    tangent_entries: Floats,
+) -> tuple[Floats, Floats]:
+    """Out-of-balance force (n,) of given contact forces, and the sum of the sizes of its parts.
+
+    A contact counts in the sizes with both its forces through either row.
+    """
+    rest, whole = -load, np.abs(load)
+    for j in range(len(increment)):
+        for k in range(pointers[j], pointers[j + 1]):
+            part = entries[k] * increment[j]
+            rest[rows[k]] += part
+            whole[rows[k]] += abs(part)
+    for c in range(len(normal)):
+        pressed = abs(normal[c]) + abs(shear[c])
+        for k in range(normal_pointers[c], normal_pointers[c + 1]):
+            rest[normal_columns[k]] += normal_entries[k] * normal[c]
+            whole[normal_columns[k]] += abs(normal_entries[k]) * pressed
+        for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
+            rest[tangent_columns[k]] += tangent_entries[k] * shear[c]
+            whole[tangent_columns[k]] += abs(tangent_entries[k]) * pressed
+    return rest, whole

@@ -20,6 +20,13 @@ def stretched(normal_rows: csr_array, tangent_rows: csr_array, increment: Floats
     return moved
 
 
+def along(rows: csr_array, increment: Floats) -> Floats:
+    """(m,) ``rows @ increment``."""
+    found = np.empty(rows.shape[0])
+    _along(rows.indptr, rows.indices, rows.data, increment, found)
+    return found
+
+
 def pushed(
     normal_rows: csr_array, tangent_rows: csr_array, normal: Floats, shear: Floats
 ) -> Floats:

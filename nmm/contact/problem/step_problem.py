@@ -14,6 +14,7 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.problem.contact_state import ContactState
+from nmm.contact.problem.row_products import along
 from nmm.errors import SolveError
 from nmm.interfaces.limits import Limits as Limits
 
@@ -83,11 +84,11 @@ class StepProblem:
 
     def gaps(self, increment: Floats) -> Floats:
         """(m,) gaps at the end of the step."""
-        return np.asarray(self.gap + self.normal_rows @ increment)
+        return self.gap + along(self.normal_rows, increment)
 
     def slips(self, increment: Floats) -> Floats:
         """(m,) total slips at the end of the step, elastic and sliding part."""
-        return np.asarray(self.slip + self.tangent_rows @ increment)
+        return self.slip + along(self.tangent_rows, increment)
 
     def out_of_balance(self, increment: Floats, normal: Floats, shear: Floats) -> Floats:
         """(n,) ``matrix @ d + normal_rows.T @ N + tangent_rows.T @ T - force``."""

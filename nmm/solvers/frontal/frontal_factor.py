@@ -53,21 +53,23 @@ class FrontalFactor:
         """Return the solution of one right-hand side (n,) or of several (n, k)."""
         if rhs.ndim == 2:
             return np.stack([self.solve(column) for column in rhs.T], axis=1)
-        x, plan = np.empty(len(rhs)), self.plan
+        x, (outside, factor) = np.empty(len(rhs)), self.for_loops
         one = np.ascontiguousarray(rhs, dtype=np.float64)
         with one_thread():
-            fronts.solve(
-                addresses(*self._kernels),
-                *words(),
-                one,
-                plan.order,
-                *plan.shape,
-                self._beside_start,
-                self.panels.numbers,
-                self.swaps,
-                x,
-            )
+            fronts.solve(outside, one, factor, x)
         return x
+
+    @property
+    def for_loops(self) -> tuple[fronts.Outside, fronts.Inside]:
+        """What compiled loops hand to `fronts.solve` before and after the right-hand side.
+
+        They hold the factor, whose panels are lent, as long as they use it.
+        """
+        plan = self.plan
+        kernels, (letters, sizes, scalars) = addresses(*self._kernels), words()
+        first, row_start, rows, panel_start = plan.shape
+        places = plan.order, first, row_start, rows, panel_start, self._beside_start
+        return (kernels, letters, sizes, scalars), (*places, self.panels.numbers, self.swaps)
 
     def _filled(self, matrix: csc_array, places: tuple[Ints, Ints]) -> bool:
         """Factorise a matrix whose entries go to ``places``; say whether all pivots will do."""

@@ -14,6 +14,11 @@ from integration.arrays import Floats, Ints
 from nmm.solvers.frontal.blas import Index, call5, call6, call8, call10, call11, call13
 from nmm.solvers.frontal.extend_add import collect_lower, collect_whole, runs
 
+Outside = tuple[Ints, npt.NDArray[np.uint8], Index, Floats]
+"""Addresses of kernels, and room for the letters, sizes and numbers they take."""
+Inside = tuple[Ints, Ints, Ints, Ints, Ints, Ints, Floats, Index]
+"""A plan and the numbers of a factor on it, as `solve` takes them."""
+
 
 @nb.njit(cache=True)
 def factorise(
@@ -120,23 +125,10 @@ def _exchange(beside: Floats, swap: Index, r: int) -> None:
 
 
 @nb.njit(cache=True)
-def solve(
-    kernels: Ints,
-    letters: npt.NDArray[np.uint8],
-    sizes: Index,
-    scalars: Floats,
-    rhs: Floats,
-    order: Ints,
-    first: Ints,
-    row_start: Ints,
-    rows: Ints,
-    panel_start: Ints,
-    beside_start: Ints,
-    panels: Floats,
-    swaps: Index,
-    solution: Floats,
-) -> None:
+def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> None:
     """Fill in the solution for one right-hand side: arrays are slow to return."""
+    kernels, letters, sizes, scalars = outside
+    order, first, row_start, rows, panel_start, beside_start, panels, swaps = inside
     n, count, symmetric = len(rhs), len(first) - 1, len(swaps) == 0
     x = np.empty(n)
     for k in range(n):

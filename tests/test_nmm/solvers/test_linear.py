@@ -26,7 +26,7 @@ def solver_name(request: pytest.FixtureRequest) -> str:
 
 
 def test_every_built_in_solver_is_tested_here() -> None:
-    assert {"auto", "cholesky", "lu", "superlu"} <= set(NAMES)
+    assert {"auto", "cholesky", "lu", "superlu", "dense"} <= set(NAMES)
 
 
 @pytest.mark.parametrize(("name", "package"), [("qdldl", "qdldl"), ("mumps", "python-mumps")])
@@ -43,7 +43,7 @@ def test_a_solver_says_what_it_factorises_with(solver_name: str, unknowns: int) 
     said = make_solver(solver_name).describe(unknowns)
     assert said.startswith(solver_name)
     if solver_name == "auto":
-        assert ("superlu" if unknowns == 10 else "cholesky with orders of") in said
+        assert ("dense" if unknowns == 10 else "cholesky with orders of") in said
 
 
 def test_a_solver_keeps_what_every_solver_promises(solver_name: str) -> None:

@@ -1,0 +1,120 @@
+"""`modified_newton` in one compiled loop, for factors on fronts.
+
+Residual, solution, mixing and judging of a pass call no Python. What it finds is what the plain
+loop finds, to the last digits.
+"""
+
+from dataclasses import astuple
+from typing import Any
+
+import numba as nb
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.iteration.options import Patience
+from nmm.contact.problem import residual_kernel
+from nmm.solvers.anderson import add_step, mixed_step
+from nmm.solvers.frontal import fronts
+from nmm.solvers.frontal.frontal_factor import FrontalFactor
+from nmm.solvers.linear import Factor
+from nmm.solvers.threads import one_thread
+
+NEVER = Patience(-1.0)
+"""Of a loop that is not lost however slow it is."""
+
+
+def serves(factor: Factor) -> bool:
+    """Whether the compiled loop can solve with a factor."""
+    return isinstance(factor.decomposition, FrontalFactor)
+
+
+def run(
+    factor: Factor,
+    columns: tuple[Any, ...],
+    start: tuple[Floats, Floats, float],
+    budget: int,
+    tolerance: float,
+    patience: Patience | None,
+    steer: tuple[int, float],
+) -> tuple[Floats, Floats, float, int]:
+    """Take passes; best unknowns, their out-of-balance force and its size, and solves.
+
+    Parameters
+    ----------
+    columns
+        Of `nmm.contact.problem.residual_kernel.residual`.
+    start
+        Unknowns (n,), out-of-balance force (n,) and its size.
+    steer
+        Last steps that are combined, and growth of the size that is put up with.
+    """
+    decomposition = factor.decomposition
+    assert isinstance(decomposition, FrontalFactor)
+    outside, plan = decomposition.for_loops
+    steady = astuple(patience or NEVER)
+    with one_thread():
+        found = _run(*start, budget, tolerance, steady, steer, factor.scale, outside, plan, columns)
+    increment, force, size, solves = found
+    return increment, force, float(size), int(solves)
+
+
+@nb.njit(cache=True)
+def _run(
+    increment: Floats,
+    force: Floats,
+    size: float,
+    budget: int,
+    tolerance: float,
+    patience: tuple[float, float, int],
+    steer: tuple[int, float],
+    scale: Floats,
+    outside: fronts.Outside,
+    plan: fronts.Inside,
+    columns: tuple[Any, ...],
+) -> tuple[Floats, Floats, float, int]:
+    depth, growth = steer
+    n, count, solves, known = len(increment), 0, 0, False
+    sums, corrections = np.empty((depth, n)), np.empty((depth, n))
+    gram, sizes, passes = np.zeros((depth, depth)), np.empty(budget + 2), 0
+    best, best_force, best_size = increment, force, size
+    at, correction, solution = increment, np.empty(n), np.empty(n)
+    sizes[0] = size
+    while best_size > tolerance and solves < budget:
+        if not known:
+            fronts.solve(outside, scale * force, plan, solution)
+            correction, known, solves = -scale * solution, True, solves + 1
+        used = min(count, depth)
+        step = mixed_step(sums, corrections, gram, used, correction, force)
+        there = at + step
+        new_force, new_size = residual_kernel.residual(there, *columns)
+        if count > 0 and not new_size < growth * best_size:
+            count, at, force, known = 0, best, best_force, False
+            continue
+        if new_size <= tolerance:
+            best, best_force, best_size = there, new_force, new_size
+            break
+        fronts.solve(outside, scale * new_force, plan, solution)
+        new, solves = -scale * solution, solves + 1
+        place, count = count % depth, count + 1
+        used = min(count, depth)
+        add_step(sums, corrections, gram, place, used, step, new, correction, new_force, force)
+        at, force, correction = there, new_force, new
+        if not np.isfinite(new_size):
+            break
+        if new_size < best_size:
+            best, best_force, best_size = at, force, new_size
+        passes += 1
+        sizes[passes] = best_size
+        if _lost(sizes, passes, patience, tolerance):
+            break
+    return best, best_force, best_size, solves
+
+
+@nb.njit(cache=True)
+def _lost(sizes: Floats, passes: int, patience: tuple[float, float, int], tolerance: float) -> bool:
+    """`Patience.lost`."""
+    ahead, below, look = patience
+    if ahead < 0 or passes < look or not sizes[passes] < below:
+        return False
+    gain = np.log(sizes[passes - look] / sizes[passes]) / look
+    return not gain * ahead >= np.log(sizes[passes] / tolerance)
