@@ -47,6 +47,9 @@ def known_quantities(scene: "Scene") -> list[str]:
     if scene.seepage is not None:
         columns += ["seepage:lowest", "seepage:highest", "seepage:stored"]
         columns += [f"seepage:taken:{item.name}" for item in (*scene.heads, *scene.inflows)]
+    if scene.joint_flow is not None:
+        columns += ["joint flow:pressure", "joint flow:aperture"]
+        columns += [f"joint flow:inflow:{item.name}" for item in scene.joint_heads]
     if scene.heat is not None:
         columns += ["heat:lowest", "heat:highest", "heat:stored"]
         acting = (scene.temperatures, scene.heat_fluxes, scene.heat_sources, scene.convections)

@@ -79,7 +79,8 @@ def draw_all(
         for name, quantity in shown.frames[calm].fields.items():  # a handful, of effects
             apart = quantity.on in ("contacts", "members")
             if ":" in name and not apart and quantity.values.ndim == 1:
-                draw(f"{name.replace(':', '_')}.png", stress, shown, name, frame=calm)
+                file = name.replace(":", "_").replace(" ", "_")
+                draw(f"{file}.png", stress, shown, name, frame=calm)
         if len(shown.frames[calm].contact_gap):
             draw("contact_forces.png", contact_forces, shown, frame=calm)
         if shown.frames[calm].on("members"):

@@ -44,6 +44,7 @@ from nmm.scene.tables.heat import (
     HeatTable,
     TemperatureTable,
 )
+from nmm.scene.tables.joint_flow import JointFlowTable, JointHeadTable
 from nmm.scene.tables.loads import LoadTable
 from nmm.scene.tables.members import (
     BarTable,
@@ -130,6 +131,10 @@ class Scene(Frozen):
     seepage: SeepageTable | None = Field(default=None, description="a table [seepage]")
     heads: tuple[HeadTable, ...] = Field(default=(), description="tables [[heads]]")
     inflows: tuple[InflowTable, ...] = Field(default=(), description="tables [[inflows]]")
+    joint_flow: JointFlowTable | None = Field(default=None, description="a table [joint_flow]")
+    joint_heads: tuple[JointHeadTable, ...] = Field(
+        default=(), description="tables [[joint_heads]]"
+    )
     water_pressures: tuple[WaterPressureTable, ...] = Field(
         default=(), description="tables [[water_pressures]]"
     )

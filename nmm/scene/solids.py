@@ -218,6 +218,18 @@ class InterfaceTable(Frozen):
         "where the temperature is one; edges that blocks share insulate if not given",
         examples=["100 W/m^2/K"],
     )
+    aperture: Length | None = Field(
+        default=None,
+        ge=0,
+        description="an aperture in m, >= 0, of the joint as drawn, through which water flows",
+        examples=["0.2 mm"],
+    )
+    residual_aperture: Length | None = Field(
+        default=None,
+        ge=0,
+        description="the least aperture in m, >= 0, that closing leaves; 0 if not given",
+        examples=["0.02 mm"],
+    )
     leakage: Leakage | None = Field(
         default=None,
         description="a velocity of seepage for each metre of head across it in 1/s, > 0, or "

@@ -117,6 +117,8 @@ CASES = Registry[type[Case]](
         "ML1": f"{_HOME}.moving_load:MovingForce",
         "WA1": f"{_HOME}.water:Dam",
         "WA2": f"{_HOME}.water:PlaneFailure",
+        "WA4": f"{_HOME}.joint_water:UpliftByFlow",
+        "WA5": f"{_HOME}.joint_water:LiftedBlock",
         "WA8": f"{_HOME}.water:Submerged",
         "WA9": f"{_HOME}.seepage:RisingWater",
         "WA10": f"{_HOME}.seepage:PorousCylinder",

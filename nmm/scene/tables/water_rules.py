@@ -12,7 +12,7 @@ Finding = tuple[Path, str, str, str]
 Tables = Mapping[str, Any]
 
 SEEPING = ("heads", "inflows")
-PLACED = ("water_pressures", *SEEPING)
+PLACED = ("water_pressures", "joint_heads", *SEEPING)
 
 
 def water_contradictions(data: Tables) -> Iterator[Finding]:
@@ -23,6 +23,12 @@ def water_contradictions(data: Tables) -> Iterator[Finding]:
         if isinstance(name, str) and name not in known:
             path: Path = ("water_pressures", number, "crack")
             yield path, f'"{name}"', "the name of a crack", suggestion(name, known)
+    if data.get("joint_heads") and "joint_flow" not in data:
+        remedy = "add [joint_flow], or remove [[joint_heads]]"
+        yield ("joint_heads",), "no [joint_flow]", "a scene with water in joints", remedy
+    if "joint_flow" in data and not data.get("joint_heads"):
+        remedy = "add [[joint_heads]] with a point and a head"
+        yield ("joint_flow",), "no head", "at least one of [[joint_heads]]", remedy
 
 
 def seepage_contradictions(data: Tables) -> Iterator[Finding]:

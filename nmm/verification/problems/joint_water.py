@@ -1,0 +1,111 @@
+"""Water that flows in the joints below a dam and opens the joint below a block."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from nmm.verification import text
+from nmm.verification.base import Check, Checks, SceneCase
+
+if TYPE_CHECKING:
+    from nmm.stepping.run import Run
+    from nmm.water.joint_flow import JointFlow
+
+FLOW = "[joint_flow]\n"
+SMALL = "contact presses blocks by micrometres, joints are open by tenths of a millimetre"
+
+
+def joint_head(name: str, point: tuple[float, float], head: float) -> str:
+    """Table of a head at the end of a joint."""
+    return f'[[joint_heads]]\nname = "{name}"\npoint = {list(point)}\nhead = {head!r}\n'
+
+
+def joint(name: str, between: tuple[str, str], more: str) -> str:
+    """Table of an interface of 45 degrees of friction."""
+    return text.interface(name, 45.0, between) + more + "\n"
+
+
+class UpliftByFlow(SceneCase):
+    """Below a dam water flows from 28 m of head to none; the joint is wider after 8 m."""
+
+    name, title = "WA4", "Uplift below a dam by flow in its joint"
+    source = "Joints in series: 5.6 m of head after 8 m, uplift 1757952 N/m, q = 1.8312e-5 m2/s"
+    formulations = ("cone", "lagrange")
+
+    def scene(self) -> str:
+        """Return a dam of 24 m on two held blocks."""
+        return text.scene(
+            'title = "Uplift by flow"\nplane = "strain"\n[gravity]\n[contact]\n' + FLOW,
+            [
+                text.material("concrete", 30e9, 0.2, 2400.0),
+                text.material("tight", 30e9, 0.2, 2400.0),
+                text.material("wide", 30e9, 0.2, 2400.0),
+                joint("first", ("concrete", "tight"), "aperture = 0.2e-3"),
+                joint("second", ("concrete", "wide"), "aperture = 0.4e-3"),
+                joint("rock", ("tight", "wide"), ""),
+                text.box("dam", (0, 0), (24, 15), "concrete"),
+                text.box("heel", (0, -10), (8, 10), "tight"),
+                text.box("toe", (8, -10), (16, 10), "wide"),
+                text.held("heel"),
+                text.held("toe"),
+                joint_head("reservoir", (0.0, 0.0), 28.0),
+                joint_head("tail", (24.0, 0.0), 0.0),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare head, flow and what is left of the weight on the base."""
+        flow: JointFlow = run.stepper.plan.effects["joint flow"]  # type: ignore[assignment]
+        heads = flow.heads(run.state, run.state.time)
+        places = flow.sites.places
+        middle = float(heads[np.argmin(np.hypot(*(places - [8.0, 0.0]).T))])
+        last = run.frames[-1]
+        base = (np.abs(last.contact_position[:, 1]) < 0.01) & (
+            np.abs(last.contact_normal[:, 1]) > 0.9
+        )
+        normal = -float(last.contact_force[base, 0].sum())
+        weight = 24 * 15 * 2400 * 9.81
+        return {
+            "head after 8 m (m)": Check(middle, 5.6, 1e-3, SMALL),
+            "flow (m2/s)": Check(
+                run.history["joint flow:inflow:reservoir"][-1], 1.8312e-5, 1e-3, SMALL
+            ),
+            "uplift (N/m)": Check(weight - normal, 1757952.0, 1e-3, SMALL),
+        }
+
+
+@dataclass(frozen=True)
+class LiftedBlock(SceneCase):
+    """Water under a block on a joint with a spring opens it by what it takes off the joint."""
+
+    name: ClassVar[str] = "WA5"
+    title: ClassVar[str] = "A joint that its water opens"
+    source: ClassVar[str] = "w = w0 - (W - U) / (k_n L), U = w h L, W = 1 MN/m on 4 m"
+    formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    stiffness: float = 1e10
+
+    def scene(self) -> str:
+        """Return a block on a held floor under 20 m of head."""
+        more = f"aperture = 0.2e-3\nnormal_stiffness = {self.stiffness!r}\n"
+        return text.scene(
+            'title = "Lifted"\nplane = "strain"\n[gravity]\n[contact]\n' + FLOW,
+            [
+                text.material("rock", 50e12, 0.2, 1e6 / (9.81 * 4 * 2)),
+                joint("joint", ("rock", "rock"), more + f"shear_stiffness = {self.stiffness!r}"),
+                text.box("block", (0, 0), (4, 2), "rock"),
+                text.box("floor", (0, -2), (4, 2), "rock"),
+                text.held("floor"),
+                joint_head("left", (0.0, 0.0), 20.0),
+                joint_head("right", (4.0, 0.0), 20.0),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare aperture and pressure."""
+        aperture = run.history["joint flow:aperture"][-1]
+        exact = 0.2e-3 - (1e6 - 9810 * 20 * 4) / (self.stiffness * 4)
+        return {
+            "aperture (m)": Check(aperture, exact, 1e-6, "the blocks are 5000 times stiffer"),
+            "pressure (Pa)": Check(run.history["joint flow:pressure"][-1], 196200.0, 1e-9, "given"),
+        }

@@ -1,0 +1,152 @@
+"""Flow in networks of joints against closed forms, and what is singular in them."""
+
+import numpy as np
+import pytest
+
+from nmm.errors import SolveError
+from nmm.water.network import JointNetwork, coupled_heads
+
+PARALLEL = np.array([[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]])
+LENGTH = np.array([1.0, 1.0, 1.5, 1.0, 1.0])
+APERTURE = np.array([0.2, 0.1, 0.15, 0.1, 0.2]) * 1e-3
+
+
+def even(apertures):
+    return np.repeat(np.asarray(apertures)[:, None], 2, axis=1)
+
+
+def chain(cells, length, apertures):
+    ends = np.stack([np.arange(cells), np.arange(cells) + 1], axis=1)
+    network = JointNetwork(ends, np.full(cells, length / cells), cells + 1)
+    return network, np.array([0, cells]), even(np.broadcast_to(apertures, cells))
+
+
+@pytest.mark.parametrize("order", [[0, 1, 2, 3], [3, 1, 0, 2]])
+def test_a_bridge_of_five_joints_has_the_heads_of_its_closed_form(order):
+    order = np.array(order)
+    network = JointNetwork(order[PARALLEL], LENGTH, 4)
+    conductance = network.conductance(even(APERTURE))
+    fixed = order[[0, 3]]
+    heads = network.heads(conductance, fixed, np.array([10.0, 0.0]))
+    assert heads[order[[1, 2]]] == pytest.approx([205 / 27, 65 / 27], rel=1e-13)
+    flows = network.flows(conductance, heads)
+    wanted = [1.574444e-5, 6.206944e-6, 9.5375e-6, 6.206944e-6, 1.574444e-5]
+    assert flows == pytest.approx(wanted, rel=1e-6)
+    inflow = network.inflow(conductance, heads)
+    assert inflow[fixed] == pytest.approx([2.195138889e-5, -2.195138889e-5], rel=1e-9)
+
+
+def test_joints_in_series_share_the_head_and_a_dead_end_has_that_of_its_root():
+    network = JointNetwork(np.array([[0, 1], [1, 2], [1, 3]]), np.array([4.0, 1.0, 2.0]), 4)
+    conductance = network.conductance(even([2e-4, 1e-4, 3e-4]))
+    heads = network.heads(conductance, np.array([0, 2]), np.array([12.0, 0.0]))
+    assert heads == pytest.approx([12.0, 8.0, 0.0, 8.0], rel=1e-14)
+    assert network.flows(conductance, heads)[2] == pytest.approx(0.0, abs=1e-18)
+
+
+def test_uplift_below_a_dam_follows_from_the_apertures_and_a_drain():
+    network, fixed, _ = chain(2, 2.0, 1e-4)
+    network = JointNetwork(network.ends, np.array([8.0, 16.0]), 3)
+    conductance = network.conductance(even([2e-4, 4e-4]))
+    heads = network.heads(conductance, fixed, np.array([28.0, 0.0]))
+    assert heads[1] == pytest.approx(5.6, rel=1e-13)
+    assert network.flows(conductance, heads) == pytest.approx([1.8312e-5] * 2, rel=1e-12)
+    means = (heads[:-1] + heads[1:]) / 2
+    assert 9810 * means @ network.length == pytest.approx(1757952.0, rel=1e-12)
+    drained = JointNetwork(network.ends, np.array([6.0, 18.0]), 3)
+    conductance = drained.conductance(even([2e-4, 2e-4]))
+    heads = drained.heads(conductance, np.arange(3), np.array([28.0, 28.0 / 3, 0.0]))
+    means = (heads[:-1] + heads[1:]) / 2
+    # The published head of the drain is rounded to 9.33 m: the uplift to four digits.
+    assert 9810 * means @ drained.length == pytest.approx(1922367.6, rel=1e-3)
+
+
+def test_a_square_network_conducts_as_its_continuum():
+    n, spacing, aperture = 6, 0.5, 1e-4
+    number = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
+    along = np.stack([number[:, :-1].ravel(), number[:, 1:].ravel()], axis=1)
+    up = np.stack([number[:-1].ravel(), number[1:].ravel()], axis=1)
+    ends = np.concatenate([along, up])
+    network = JointNetwork(ends, np.full(len(ends), spacing), number.size)
+    conductance = network.conductance(even(np.full(len(ends), aperture)))
+    fixed = np.concatenate([number[:, 0], number[:, -1]])
+    heads = network.heads(conductance, fixed, np.repeat([1.0, 0.0], n + 1))
+    flow = network.inflow(conductance, heads)[number[:, 0]].sum()
+    # n + 1 rows of joints over n spacings; K = w^3 g / (12 mu s).
+    assert flow * n * spacing / ((n + 1) * spacing) == pytest.approx(1.635e-6, rel=1e-12)
+
+
+@pytest.mark.parametrize("cells", [1, 40])
+@pytest.mark.parametrize("stiffness", [1e6, 1e8, 1e10, 1e12, 1e14])
+def test_apertures_that_pressure_opens_have_a_linear_fourth_power(stiffness, cells):
+    weight = 9810.0
+    network, fixed, start = chain(cells, 10.0, 1e-4)
+    seen = []
+
+    def conductance(heads):
+        seen.append(heads)
+        return network.conductance(start + weight * heads[network.ends] / stiffness, True)
+
+    heads = coupled_heads(network, conductance, fixed, np.array([2e6, 0.0]) / weight)
+    ends = 1e-4 + np.array([2e6, 0.0]) / stiffness
+    x = np.linspace(0, 1, cells + 1)
+    fourth = ends[0] ** 4 + x * (ends[1] ** 4 - ends[0] ** 4)
+    # The fixed point ends at 1e-12 of the head; stiff joints open by little.
+    assert (1e-4 + weight * heads / stiffness) ** 4 == pytest.approx(fourth, rel=1e-8)
+    flow = network.flows(conductance(heads), heads)
+    unit = stiffness * (ends[0] ** 4 - ends[1] ** 4) / (48e-3 * 10)
+    assert flow == pytest.approx(np.full(cells, unit), rel=1e-8)
+    # Each round takes the same share of what is left, however soft the joint.
+    assert len(seen) < 80
+
+
+def test_the_published_aperture_gives_the_published_flow():
+    network, fixed, start = chain(40, 10.0, 1e-4)
+
+    def conductance(heads):
+        return network.conductance(start + 9810 * heads[network.ends] / 1e10, True)
+
+    heads = coupled_heads(network, conductance, fixed, np.array([2e6, 0.0]) / 9810)
+    assert network.flows(conductance(heads), heads)[0] == pytest.approx(1.666666667e-4, rel=1e-8)
+    assert 9810 * heads[20] == pytest.approx(1530439.534, rel=1e-8)
+
+
+def test_a_pulse_of_pressure_runs_into_a_closed_joint_as_diffusion():
+    cells, weight = 80, 9810.0
+    network, fixed, start = chain(cells, 20.0, 1e-4)
+    conductance = network.conductance(start)
+    storage = (1e-4 / 2.2e9 + 1e-10) * weight * 20.0 / cells
+    nodes = np.full(cells + 1, storage)
+    nodes[[0, -1]] /= 2
+    step = 480.21818 / 1000
+    heads = np.zeros(cells + 1)
+    for _ in range(300):  # to t D / L^2 = .3
+        heads = network.stepped(conductance, fixed[:1], np.array([1.0]), nodes / step, heads)
+    assert heads[-1] == pytest.approx(0.39319618, abs=0.01)
+    assert heads[cells // 2] == pytest.approx(0.57015747, abs=0.01)
+
+
+@pytest.mark.parametrize("wide", [1e-6, 1e-4, 1e-2, 1e-1])
+def test_heads_keep_their_digits_among_apertures_of_all_sizes(wide):
+    # A wide joint between two narrow ones: both its ends have half the head.
+    network, fixed, _ = chain(3, 3.0, 1e-4)
+    conductance = network.conductance(even([1e-6, wide, 1e-6]))
+    heads = network.heads(conductance, fixed, np.array([2.0, 0.0]))
+    narrow, between = 1 / conductance[0], 1 / conductance[1]
+    drop = 2.0 * between / (2 * narrow + between)
+    assert heads[1] == pytest.approx(1 + drop / 2, rel=1e-13)
+    assert heads[2] == pytest.approx(1 - drop / 2, rel=1e-13)
+
+
+def test_parts_that_no_head_reaches_are_named_and_closed_joints_are_dry():
+    ends = np.array([[0, 1], [1, 2], [3, 4], [2, 3]])
+    network = JointNetwork(ends, np.ones(4), 6)
+    conductance = network.conductance(even([1e-4, 1e-4, 1e-4, 0.0]))
+    fixed = np.array([0])
+    assert network.isolated(conductance, fixed).tolist() == [False, False, False, True, True, False]
+    with pytest.raises(SolveError, match="node 3 first"):
+        network.heads(conductance, fixed, np.array([5.0]))
+    closed = network.conductance(even([1e-4, 1e-4, 0.0, 0.0]))
+    heads = network.heads(closed, fixed, np.array([5.0]))
+    assert heads[:3] == pytest.approx([5.0, 5.0, 5.0], rel=1e-14)
+    assert np.isnan(heads[3:]).all()
