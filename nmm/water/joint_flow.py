@@ -18,8 +18,8 @@ from nmm.diffusion.edges import Factor, steadily
 from nmm.effects.base import Effect, Instant, Setup, factor_of
 from nmm.errors import Fault, SceneError, SolveError
 from nmm.quantity import Quantity
-from nmm.water.joint_sites import NEAR, JointSites
 from nmm.water.network import JointNetwork
+from nmm.water.wet_joints import NEAR, WetJoints
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class JointFlow(Effect):
 
     def __init__(
         self,
-        sites: JointSites,
+        sites: WetJoints,
         network: JointNetwork,
         aperture: tuple[Floats, Floats],
         held: list[HeldHead],
@@ -78,7 +78,7 @@ class JointFlow(Effect):
             place = scene.source.place("joint_flow")
             expected = "blocks that share an edge, with an interface that has an aperture"
             raise SceneError(Fault(place, "no joint", expected, "add aperture to the interface"))
-        sites = JointSites.of(model, joints.take(wet))
+        sites = WetJoints.of(model, joints.take(wet))
         weight = scene.joint_flow.unit_weight
         mobility = weight / (12 * scene.joint_flow.viscosity)
         length = sites.joints.length
@@ -200,7 +200,7 @@ def _apertures(setup: Setup, edge_a: Ints, edge_b: Ints) -> tuple[Floats, Floats
     return drawn, least
 
 
-def _held(setup: Setup, sites: JointSites) -> list[HeldHead]:
+def _held(setup: Setup, sites: WetJoints) -> list[HeldHead]:
     near = NEAR * float(np.hypot(*np.ptp(setup.model.manifold.elements.points, axis=0)))
     found = []
     for number, item in enumerate(setup.scene.joint_heads):  # a handful

@@ -19,7 +19,7 @@ NEAR = 1e-9
 
 
 @dataclass(frozen=True)
-class JointSites:
+class WetJoints:
     """Joints that carry water.
 
     Attributes
