@@ -30,7 +30,7 @@ AllowCode = Annotated[
 Read = TypeVar("Read")
 
 CALLED_BY = {
-    "loads": "[[loads]]",
+    "loads": "[[loads]] with force or traction",
     "body loads": '[[loads]] of kind "body"',
     "field loads": "[[loads]] with a field",
     "pressures": '[[loads]] of kind "pressure"',
@@ -48,7 +48,7 @@ CALLED_BY = {
     "foundations": "[[foundations]]",
     "masses": "[[masses]]",
     "splitting": "[splitting.MATERIAL]",
-    "viscous damping": "[damping] with mass, stiffness or ratios",
+    "viscous damping": "[damping] with mass, stiffness or ratios, and no ground",
     "damping against the ground": "[damping] with ground",
     "local damping": "[damping] with local",
 }

@@ -54,6 +54,12 @@ def known_quantities(scene: "Scene") -> list[str]:
         columns += ["heat:lowest", "heat:highest", "heat:stored"]
         acting = (scene.temperatures, scene.heat_fluxes, scene.heat_sources, scene.convections)
         columns += [f"heat:taken:{item.name}" for items in acting for item in items]
+    columns += [
+        f"viscous boundaries:{item.name}:u{axis}"
+        for item in scene.viscous_boundaries
+        for axis in "xy"
+    ]
+    columns += [f"damping_loss:{name}" for name in _damping(scene)]
     if scene.contact is not None:
         from nmm.contact.problem.contact_state import ContactState
 
@@ -66,6 +72,20 @@ def _is_number(annotation: str) -> bool:
         "<class 'int'>",
         "<class 'float'>",
     )
+
+
+def _damping(scene: "Scene") -> list[str]:
+    """Names of the effects that a scene names whose losses are booked as those of dampers."""
+    from nmm.effects.base import Effect
+    from nmm.model.effects_table import EFFECTS, called_for
+
+    named = [name for name, wanted in called_for(scene).items() if wanted]
+    hooks = [(name, EFFECTS.load(name)) for name in named]
+    return [
+        name
+        for name, kind in hooks
+        if kind.damping is not Effect.damping or kind.added_mass is not Effect.added_mass
+    ]
 
 
 def _steps(scene: "Scene", formulation: "Formulation") -> Iterator[Fault]:

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
-from nmm.assembly.places import Place, at_point, on_segment
+from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.places import on_segment
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
 
@@ -26,6 +26,11 @@ class MovingLoad:
 
     Attributes
     ----------
+    segment
+        m.
+    ends, elements
+        (k, 2) where the pieces of boundary along the segment begin and end (m from its first
+        point), in order, and the elements (k,) that they belong to.
     force, factor
         (2,) N, and its factor.
     start, speed, spread
@@ -35,6 +40,8 @@ class MovingLoad:
     """
 
     segment: Floats
+    ends: Floats
+    elements: Ints
     force: Floats
     factor: Callable[[Instant], float]
     start: float
@@ -42,24 +49,28 @@ class MovingLoad:
     spread: float
     regions: Bools | None
 
-    def acting(self, model: Model, end: Instant) -> tuple[Place, Floats] | None:
-        """Return where it acts and its forces (m, 2) there (N); None where it is not on the way."""
-        way = self.segment[1] - self.segment[0]
-        length = float(np.hypot(*way))
+    def acting(self, model: Model, end: Instant) -> tuple[MaterialPoints, Floats] | None:
+        """Return the points it acts on and its forces (m, 2) there (N); None off the way."""
+        length = float(np.hypot(*(self.segment[1] - self.segment[0])))
         front = self.speed * (end.time - self.start)
         force = self.factor(end) * self.force
         if not self.spread:
             if not 0 <= front <= length:
                 return None
-            place = at_point(model.manifold, self.segment[0] + front / length * way, self.regions)
-            return place, place.weight[:, None] * force
+            piece = int(np.clip(np.searchsorted(self.ends[:, 1], front), 0, len(self.ends) - 1))
+            point = self._at([front / length])
+            return material_points(model.manifold, self.elements[[piece]], point), force[None, :]
         low, high = max(front - self.spread, 0.0), min(front, length)
         if high <= low:
             return None
-        part = self.segment[0] + np.array([[low], [high]]) / length * way
-        order = model.manifold.degree + BEYOND
-        place = on_segment(model.manifold, part, self.regions, order)
-        return place, place.weight[:, None] / self.spread * force
+        part = self._at([low / length, high / length])
+        place = on_segment(model.manifold, part, self.regions, model.manifold.degree + BEYOND)
+        return place.points, place.weight[:, None] / self.spread * force
+
+    def _at(self, shares: list[float]) -> Floats:
+        """Points (k, 2) at shares of the way."""
+        first, last = self.segment
+        return np.asarray(first + np.array(shares)[:, None] * (last - first))
 
 
 class MovingLoads(Effect):
@@ -69,7 +80,7 @@ class MovingLoads(Effect):
 
     def __init__(self, model: Model, loads: list[MovingLoad]) -> None:
         self._model, self.loads = model, loads
-        self._known: list[tuple[Instant, list[tuple[Place, Floats]]]] = []
+        self._known: list[tuple[Instant, list[tuple[MaterialPoints, Floats]]]] = []
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -86,17 +97,17 @@ class MovingLoads(Effect):
         """Return the forces at the end of the step, in the bodies' axes."""
         n = len(state.deformation)
         total = np.zeros(n)
-        for place, forces in self._acting(end):
-            local = place.points.along(state.frames, forces)
-            total += np.bincount(place.points.rows.unknowns.ravel(), local.ravel(), minlength=n)
+        for points, forces in self._acting(end):
+            local = points.along(state.frames, forces)
+            total += np.bincount(points.rows.unknowns.ravel(), local.ravel(), minlength=n)
         return total
 
     def work(self, before: State, after: State) -> float:
         """Half of the forces of each end times the motion of the points that feel them then."""
         total = 0.0
         for one in (before, after):
-            for place, forces in self._acting(Instant(one.time, one.load_factor)):
-                places = [place.points.place(s.frames, s.deformation) for s in (before, after)]
+            for points, forces in self._acting(Instant(one.time, one.load_factor)):
+                places = [points.place(s.frames, s.deformation) for s in (before, after)]
                 total += float(np.sum(forces * (places[1] - places[0]))) / 2
         return total
 
@@ -104,7 +115,7 @@ class MovingLoads(Effect):
         """See `Effect.forget`."""
         self._known = []
 
-    def _acting(self, end: Instant) -> list[tuple[Place, Floats]]:
+    def _acting(self, end: Instant) -> list[tuple[MaterialPoints, Floats]]:
         """Where the loads act; those at both ends of a step are kept."""
         for known, found in self._known:
             if known == end:
@@ -121,4 +132,13 @@ def _load(setup: Setup, load: "LoadTable") -> MovingLoad:
     assert load.speed is not None
     segment, force = np.array(load.segment), np.array(load.force)
     factor, regions = load_factor(setup, load), setup.regions(load.block)
-    return MovingLoad(segment, force, factor, load.start, load.speed, load.spread, regions)
+    # One point a piece: its middle, which stands for its length.
+    pieces = on_segment(setup.model.manifold, segment, regions, 1)
+    way = segment[1] - segment[0]
+    middle = (pieces.position - segment[0]) @ way / np.hypot(*way)
+    order = np.argsort(middle)
+    half = pieces.weight[order] / 2
+    ends = np.stack([middle[order] - half, middle[order] + half], axis=1)
+    elements = pieces.elements[order]
+    given = (force, factor, load.start, load.speed, load.spread, regions)
+    return MovingLoad(segment, ends, elements, *given)

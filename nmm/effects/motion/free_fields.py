@@ -109,8 +109,8 @@ def _side(setup: Setup, table: "FreeFieldTable") -> FreeField:
     place = on_segment(model.manifold, np.array(table.segment), setup.regions(table.block), order)
     if not len(place):
         raise GeometryError(
-            f"free field {table.name}: {table.segment}: expected a vertical edge of the material: "
-            "move it there"
+            f"[[free_fields]] {table.name}: {table.segment}: expected a vertical edge of the "
+            "material: move it there"
         )
     linear = setup.formulation.cover.highest_degree == 0
     height, element = _layers(place, 1 if linear else FINER)
@@ -153,8 +153,8 @@ def _base(
     support = next((one for one in scene.supports if one.name == table.base), None)
     if support is None:
         raise GeometryError(
-            f"free field {table.name}: base {table.base} is not there in this stage: expected the "
-            "boundary below: keep it, or remove the free field"
+            f"[[free_fields]] {table.name}: base {table.base} is not there in this stage: "
+            "expected the boundary below: keep it, or remove the free field"
         )
     motion = motions_of(scene, support.motion).get(axis)
     return None, (lambda time: 0.0) if motion is None else motion.displacement_at

@@ -134,7 +134,7 @@ def _place(setup: Setup, table: "ViscousBoundaryTable") -> Place:
         place = on_block(manifold, everything if regions is None else regions, order)
     if not len(place):
         raise GeometryError(
-            f"viscous boundary {table.name}: {table.segment or table.block}: expected a place on "
-            "the edge of the material: move it there"
+            f"[[viscous_boundaries]] {table.name}: {table.segment or table.block}: expected a "
+            "place on the edge of the material: move it there"
         )
     return place

@@ -201,5 +201,5 @@ def test_wrong_boundaries_are_told_by_line(old, new, said):
 
 def test_a_boundary_off_the_material_is_refused_with_its_name():
     text = ground().replace("segment = [[0, 0], [3.0, 0]]", "segment = [[0, 1], [3.0, 1]]")
-    with pytest.raises(GeometryError, match="viscous boundary base"):
+    with pytest.raises(GeometryError, match=r"^scene:17: .*viscous_boundaries\]\] base: "):
         nmm.run(nmm.parse_scene(text))
