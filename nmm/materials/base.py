@@ -104,6 +104,7 @@ MATERIAL_LAWS = Registry[Callable[..., Law]](
     Law,
     {
         "elastic": "nmm.materials.elastic:Elastic",
+        "drucker_prager": "nmm.materials.drucker_prager:DruckerPragerPlasticity",
         "mohr_coulomb": "nmm.materials.mohr_coulomb:MohrCoulombPlasticity",
         "von_mises": "nmm.materials.von_mises:VonMisesPlasticity",
     },

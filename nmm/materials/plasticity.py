@@ -43,3 +43,11 @@ def flowed(
         "stress_zz": stress[:, 3:],
     }
     return Response(stress[:, :3], tangent, variables)
+
+
+def grown(history: History, plastic_strain: Floats) -> Floats:
+    """Return the accumulated plastic strain (m,) after a step, that of shape and not of volume."""
+    flow = plastic_strain - history["plastic_strain"]
+    flow = flow - flow[:, [0, 1, 3]].sum(axis=1)[:, None] / 3 * np.array([1, 1, 0, 1])
+    size = np.sqrt(2 / 3 * (np.array([1, 1, 0.5, 1]) * flow**2).sum(axis=1))
+    return np.asarray(history["accumulated_plastic_strain"][:, 0] + size)

@@ -1,8 +1,10 @@
 """Return of Mohr-Coulomb plasticity in principal stresses, all points at once.
 
-Planes of the pyramid are linear and nothing hardens: on a plane, an edge or the apex the returned
-principal stresses, sorted from the largest tension, are a fixed matrix of the trial's and a fixed
-vector (de Souza Neto, Peric and Owen 2008, chapter 8).
+Planes of the pyramid and of the tension cut-off are linear and nothing hardens: on a plane, an edge
+or a corner the returned principal stresses, sorted from the largest tension, are a fixed matrix of
+the trial's and a fixed vector (de Souza Neto, Peric and Owen 2008, chapter 8). Which planes act is
+found by trying all sets that can: none may be exceeded and none may flow backwards (the conditions
+of Karush, Kuhn and Tucker, Koiter 1953).
 """
 
 from dataclasses import dataclass
@@ -16,14 +18,21 @@ from integration.arrays import Floats
 BEYOND = 1e-10
 # In-plane principal stresses closer than this share of the largest have no direction.
 EQUAL = 1e-12
-# Pairs of sorted principal stresses whose planes act: a plane, and the edges where the smaller two
-# or the larger two are equal.
-CASES = (((0, 2),), ((0, 2), (0, 1)), ((0, 2), (1, 2)))
+Acting = tuple[tuple[tuple[int, int], ...], tuple[int, ...]]
+# Pairs of sorted principal stresses whose planes of friction act alone or on the edges where the
+# smaller two or the larger two are equal.
+CONE = (((0, 2),), ((0, 2), (0, 1)), ((0, 2), (1, 2)))
+# Sets with planes of tension: those of the principal stresses that are cut off beside some pairs.
+# The last one is the apex, where there is one.
+CUT: tuple[Acting, ...] = (
+    *(((), (0,)), ((), (0, 1)), (((0, 2),), (0,)), (((0, 2), (0, 1)), (0,))),
+    *((((0, 2),), (0, 1)), (((0, 2), (1, 2)), (0,)), ((), (0, 1, 2))),
+)
 
 
 @dataclass(frozen=True)
 class Pyramid:
-    """Elasticity, yield surface and returns.
+    """Elasticity, yield surface and returns to it by each set of planes.
 
     Attributes
     ----------
@@ -33,36 +42,57 @@ class Pyramid:
         Shear modulus (Pa).
     slope, strength
         ``sin phi`` and ``2 c cos phi`` (Pa).
+    tension
+        Largest principal stress (Pa): the cut-off, or the apex; infinite where there is neither.
     matrix, vector
-        (4, 3, 3) and (4, 3) returned stress of plane, two edges and apex.
+        (k, 3, 3) and (k, 3) returned stress of each set.
+    flow, start
+        (k, 3, 3) and (k, 3): multipliers of its planes are ``flow @ trial - start``, in Pa; zero
+        where it has fewer planes.
     """
 
     elastic: Floats
     shear: float
     slope: float
     strength: float
+    tension: float
     matrix: Floats
     vector: Floats
+    flow: Floats
+    start: Floats
 
     @classmethod
-    def of(cls, elasticity: tuple[float, float], strength: tuple[float, float, float]) -> Self:
-        """Return that of Young's modulus, Poisson's ratio, cohesion and both angles."""
-        (e, nu), (cohesion, friction, dilation) = elasticity, strength
+    def of(
+        cls, elasticity: tuple[float, float], strength: tuple[float, float, float, float]
+    ) -> Self:
+        """Return that of Young's modulus and Poisson's ratio, and of the strength.
+
+        ``strength`` is cohesion, friction angle, dilation angle and the tension cut-off.
+        """
+        (e, nu), (cohesion, friction, dilation, cut) = elasticity, strength
         shear, lame = e / 2 / (1 + nu), e * nu / (1 + nu) / (1 - 2 * nu)
         elastic = lame * np.ones((3, 3)) + 2 * shear * np.eye(3)
         whole = 2 * cohesion * np.cos(friction)
-        matrix, vector = np.zeros((4, 3, 3)), np.zeros((4, 3))
-        for number, pairs in enumerate(CASES):
-            normal = np.array([_plane(pair, np.sin(friction)) for pair in pairs])
-            flow = elastic @ np.array([_plane(pair, np.sin(dilation)) for pair in pairs]).T
-            back = flow @ np.linalg.inv(normal @ flow)
-            matrix[number], vector[number] = np.eye(3) - back @ normal, back.sum(axis=1) * whole
-        vector[3] = cohesion / np.tan(friction) if friction > 0 else np.inf
-        return cls(elastic, shear, float(np.sin(friction)), float(whole), matrix, vector)
+        apex = cohesion / np.tan(friction) if friction > 0 else np.inf
+        tension = min(apex, cut)
+        sets: list[Acting] = [(pairs, ()) for pairs in CONE]
+        if np.isfinite(tension):
+            sets += CUT
+        parts = [
+            _return(elastic, shear, one, (friction, dilation), (whole, tension)) for one in sets
+        ]
+        fixed = (np.array(part) for part in zip(*parts, strict=True))
+        return cls(elastic, shear, float(np.sin(friction)), float(whole), tension, *fixed)
+
+    def beyond(self, stress: Floats) -> Floats:
+        """Return how far (m,) principal stresses (m, 3) in any order exceed the surface (Pa)."""
+        first, last = stress.max(axis=1), stress.min(axis=1)
+        cone = (first - last) + (first + last) * self.slope - self.strength
+        return np.asarray(np.maximum(cone, first - self.tension))
 
 
 @dataclass(frozen=True)
-class ReturnedToPyramid:
+class ReturnedStress:
     """Stress (m, 4: xx, yy, xy, zz), tangent (m, 3, 3), plastic strain (m, 4: xx, yy, 2 xy, zz)."""
 
     stress: Floats
@@ -70,7 +100,7 @@ class ReturnedToPyramid:
     plastic_strain: Floats
 
 
-def principal_return(strain: Floats, plastic: Floats, pyramid: Pyramid) -> ReturnedToPyramid:
+def principal_return(strain: Floats, plastic: Floats, pyramid: Pyramid) -> ReturnedStress:
     """Return stresses to the pyramid; ``strain`` (m, 3) whole, ``plastic`` (m, 4) before."""
     elastic = np.column_stack([strain, np.zeros(len(strain))]) - plastic
     middle, half = (elastic[:, 0] + elastic[:, 1]) / 2, (elastic[:, 0] - elastic[:, 1]) / 2
@@ -93,33 +123,23 @@ def principal_return(strain: Floats, plastic: Floats, pyramid: Pyramid) -> Retur
     flat = np.einsum("mi,mij->mj", left[:, :2], axes[:, :2])
     kept = np.column_stack([flat[:, :2], 2 * flat[:, 2], left[:, 2]])
     same = (found == np.take_along_axis(trial, order, axis=1)).all(axis=1)
-    return ReturnedToPyramid(
-        back, whole, np.where(same[:, None], plastic, plastic + elastic - kept)
-    )
+    return ReturnedStress(back, whole, np.where(same[:, None], plastic, plastic + elastic - kept))
 
 
 def _sorted_return(trial: Floats, pyramid: Pyramid) -> tuple[Floats, Floats]:
     """Sorted principal stresses (m, 3) back at the surface, and their tangent (m, 3, 3)."""
-    first, last = trial[:, 0], trial[:, 2]
     size = np.abs(trial).max(axis=1) + pyramid.strength
-    beyond = (first - last) + (first + last) * pyramid.slope - pyramid.strength
-    plane, right, left = (
-        trial @ matrix.T + vector
-        for matrix, vector in zip(pyramid.matrix[:3], pyramid.vector[:3], strict=True)
-    )
-    case = np.where(plane[:, 2] > plane[:, 1], 1, np.where(plane[:, 1] > plane[:, 0], 2, 0))
-    over = (right[:, 0] < right[:, 2]) & (case == 1) | (left[:, 0] < left[:, 2]) & (case == 2)
-    case = np.where(over, 3, case)
-    flows = beyond > BEYOND * size
-    found = np.where(
-        flows[:, None],
-        np.einsum("mij,mj->mi", pyramid.matrix[case], trial)
-        + np.where(flows[:, None], pyramid.vector[case], 0.0),
-        trial,
-    )
-    tangent = np.where(
-        flows[:, None, None], pyramid.matrix[case] @ pyramid.elastic, pyramid.elastic
-    )
+    found, tangent = trial.copy(), np.tile(pyramid.elastic, (len(trial), 1, 1))
+    flows = np.flatnonzero(pyramid.beyond(trial) > BEYOND * size)
+    least = np.full(len(flows), np.inf)
+    out = trial[flows]
+    for number, matrix in enumerate(pyramid.matrix):  # three to ten sets of planes
+        stress = out @ matrix.T + pyramid.vector[number]
+        back = pyramid.start[number] - out @ pyramid.flow[number].T
+        wrong = np.maximum(pyramid.beyond(stress), back.max(axis=1))
+        better = wrong < least - BEYOND * size[flows]
+        least = np.where(better, wrong, least)
+        found[flows[better]], tangent[flows[better]] = stress[better], matrix @ pyramid.elastic
     return found, tangent
 
 
@@ -143,6 +163,29 @@ def _axes(angle: Floats) -> Floats:
         ],
         axis=1,
     )
+
+
+def _return(
+    elastic: Floats,
+    shear: float,
+    acting: Acting,
+    angles: tuple[float, float],
+    strength: tuple[float, float],
+) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return matrix and vector of the stress, and of the multipliers, of one set of planes."""
+    (pairs, cut), (friction, dilation) = acting, angles
+    slopes = np.sin(friction), np.sin(dilation)
+    tensile = [np.eye(3)[one] for one in cut]
+    normal, way = (
+        np.array([*(_plane(pair, slope) for pair in pairs), *tensile]) for slope in slopes
+    )
+    limit = np.array([strength[0]] * len(pairs) + [strength[1]] * len(cut))
+    flow = elastic @ way.T
+    inverse = np.linalg.inv(normal @ flow)
+    back = flow @ inverse
+    multiplier, start = np.zeros((3, 3)), np.zeros(3)
+    multiplier[: len(limit)], start[: len(limit)] = inverse @ normal, inverse @ limit
+    return np.eye(3) - back @ normal, back @ limit, shear * multiplier, shear * start
 
 
 def _plane(pair: tuple[int, int], slope: float) -> Floats:

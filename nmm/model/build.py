@@ -26,7 +26,7 @@ block_functions = local_functions
 # Constants of a scene's material that not every law has.
 WHERE_GIVEN = (
     *("yield_stress", "hardening_modulus"),
-    *("cohesion", "friction_angle", "dilation_angle"),
+    *("cohesion", "friction_angle", "dilation_angle", "tensile_strength", "match"),
 )
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 NAMING = (
     *("law", "type", "method", "functions", "degree", "enforcement", "fracture_energy", "options"),
     *("yield_stress", "hardening_modulus", "cohesion", "friction_angle", "dilation_angle"),
+    *("tensile_strength", "match"),
 )
 
 

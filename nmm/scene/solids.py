@@ -43,8 +43,8 @@ class Material(Frozen):
 
     law: PartName = Field(
         default="elastic",
-        description='"elastic", "von_mises", "mohr_coulomb", or "module:Name" of a law of one\'s '
-        "own",
+        description='"elastic", "von_mises", "mohr_coulomb", "drucker_prager", or "module:Name" '
+        "of a law of one's own",
     )
     density: Density | None = Field(
         default=None, gt=0, description="a density in kg/m3, > 0", examples=example("kg/m^3")
@@ -70,18 +70,31 @@ class Material(Frozen):
     cohesion: Stress | None = Field(
         default=None,
         ge=0,
-        description='a cohesion in Pa, >= 0, of "mohr_coulomb"',
+        description='a cohesion in Pa, >= 0, of "mohr_coulomb" and "drucker_prager"',
         examples=["20 kPa"],
     )
     friction_angle: Annotated[Angle, AfterValidator(_friction)] | None = Field(
         default=None,
-        description='a friction angle in [0, pi/2) rad, of "mohr_coulomb"',
+        description='a friction angle in [0, pi/2) rad, of "mohr_coulomb" and "drucker_prager"',
         examples=example("rad"),
     )
     dilation_angle: Annotated[Angle, AfterValidator(_friction)] | None = Field(
         default=None,
         description="a dilation angle from 0, no change of volume, to the friction angle, rad",
         examples=["10 deg"],
+    )
+    tensile_strength: Stress | None = Field(
+        default=None,
+        ge=0,
+        description='a largest tension in Pa, >= 0, of "mohr_coulomb" (principal stress) and '
+        '"drucker_prager" (mean stress)',
+        examples=["10 kPa"],
+    )
+    match: Literal["plane_strain", "compression", "extension"] | None = Field(
+        default=None,
+        description='where the cone of "drucker_prager" meets Mohr-Coulomb: "plane_strain" if not '
+        'given, triaxial "compression" or "extension"',
+        examples=["compression"],
     )
     conductivity: Annotated[float, quantity("W/m/K")] | None = Field(
         default=None,

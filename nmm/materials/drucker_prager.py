@@ -1,0 +1,61 @@
+"""Drucker-Prager plasticity: a smooth cone in place of Mohr-Coulomb's pyramid."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.errors import FormulationError
+from nmm.materials.base import History, Response
+from nmm.materials.cone_return import Cone, cone_return
+from nmm.materials.frictional import Frictional
+from nmm.materials.plasticity import flowed, grown
+
+MATCHES = ("plane_strain", "compression", "extension")
+
+
+@dataclass(frozen=True)
+class DruckerPragerPlasticity(Frictional):
+    """Yield where ``sqrt(J2) + eta p`` reaches ``xi c``, p the mean stress, tension positive.
+
+    Flow is along the same with eta of the dilation angle. A tensile strength limits the mean
+    stress; what opens there changes volume alone.
+
+    Attributes
+    ----------
+    match
+        Where the cone meets Mohr-Coulomb's pyramid of the same constants: ``"plane_strain"`` for
+        equal collapse in plane strain, its edges of triaxial ``"compression"``, around it and too
+        strong in plane strain, or of ``"extension"``.
+    """
+
+    match: str = "plane_strain"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.match not in MATCHES:
+            known = ", ".join(f'"{one}"' for one in MATCHES)
+            raise FormulationError(f"match: {self.match!r}: expected one of {known}: correct it")
+
+    def slopes(self, angle: float) -> tuple[float, float]:
+        """Return eta and xi of an angle (Drucker and Prager 1952; Chen and Mizuno 1990)."""
+        if self.match == "plane_strain":
+            tangent = np.tan(angle)
+            root = np.sqrt(9 + 12 * tangent**2)
+            return float(3 * tangent / root), float(3 / root)
+        sign = -1 if self.match == "compression" else 1
+        below = np.sqrt(3) * (3 + sign * np.sin(angle))
+        return float(6 * np.sin(angle) / below), float(6 * np.cos(angle) / below)
+
+    def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
+        """See `Law.update`."""
+        (eta, xi), (flow, _) = self.slopes(self.friction_angle), self.slopes(self.dilation_angle)
+        cone = Cone(
+            self.young_modulus / 2 / (1 + self.poisson_ratio),
+            self.young_modulus / 3 / (1 - 2 * self.poisson_ratio),
+            *(eta, flow, xi * self.cohesion),
+            self.cut_off,
+        )
+        found = cone_return(strain, history["plastic_strain"], cone)
+        accumulated = grown(history, found.plastic_strain)
+        return flowed(found.stress, found.tangent, found.plastic_strain, accumulated)
