@@ -17,8 +17,8 @@ MEAN = np.array([1.0, 1.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
-class Cone:
-    """Elasticity and yield surface.
+class SmoothCone:
+    """Elasticity, and the yield surface of Drucker and Prager.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class Cone:
         return max(self.strength - self.slope * self.cap, 0.0) if self.slope > 0 else self.strength
 
 
-def cone_return(strain: Floats, plastic: Floats, cone: Cone) -> ReturnedStress:
+def cone_return(strain: Floats, plastic: Floats, cone: SmoothCone) -> ReturnedStress:
     """Return stresses to the cone; ``strain`` (m, 3) whole, ``plastic`` (m, 4) before."""
     elastic = np.column_stack([strain, np.zeros(len(strain))]) - plastic
     tensor = elastic * np.array([1, 1, 0.5, 1])
@@ -72,7 +72,7 @@ def cone_return(strain: Floats, plastic: Floats, cone: Cone) -> ReturnedStress:
     return ReturnedStress(stress, tangent, plastic + flow * TWICE)
 
 
-def _places(size: Floats, mean: Floats, cone: Cone) -> tuple[Bools, Bools, Bools]:
+def _places(size: Floats, mean: Floats, cone: SmoothCone) -> tuple[Bools, Bools, Bools]:
     """Return which points (m,) return to the cone, to the cap, to their corner."""
     rounding = BEYOND * (size + np.abs(mean) + cone.strength)
     over = size + cone.slope * mean - cone.strength
@@ -83,12 +83,12 @@ def _places(size: Floats, mean: Floats, cone: Cone) -> tuple[Bools, Bools, Bools
     return on_cone, on_cap, (high | (over > rounding)) & ~on_cone & ~on_cap
 
 
-def _stiff(cone: Cone) -> float:
+def _stiff(cone: SmoothCone) -> float:
     """Stiffness (Pa) against flow along the cone."""
     return cone.shear + cone.bulk * cone.slope * cone.dilation
 
 
-def _tangent(left: Floats, way: Floats, at: tuple[Bools, Bools, Bools], cone: Cone) -> Floats:
+def _tangent(left: Floats, way: Floats, at: tuple[Bools, Bools, Bools], cone: SmoothCone) -> Floats:
     """Consistent tangent (m, 3, 3); ``way`` (m, 3) is the deviator over its size ``sqrt(J2)``."""
     on_cone, on_cap, in_corner = (one[:, None, None] for one in at)
     share = left[:, None, None]

@@ -7,7 +7,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
-from nmm.materials.cone_return import Cone, cone_return
+from nmm.materials.cone_return import SmoothCone, cone_return
 from nmm.materials.frictional import Frictional
 from nmm.materials.plasticity import flowed, grown
 
@@ -50,7 +50,7 @@ class DruckerPragerPlasticity(Frictional):
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
         """See `Law.update`."""
         (eta, xi), (flow, _) = self.slopes(self.friction_angle), self.slopes(self.dilation_angle)
-        cone = Cone(
+        cone = SmoothCone(
             self.young_modulus / 2 / (1 + self.poisson_ratio),
             self.young_modulus / 3 / (1 - 2 * self.poisson_ratio),
             *(eta, flow, xi * self.cohesion),
