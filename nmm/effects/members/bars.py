@@ -10,8 +10,9 @@ from nmm.effects.base import Setup
 from nmm.effects.members.chains import Chains
 from nmm.effects.members.ends import Ends, elements_at, nowhere
 from nmm.effects.members.fibres import Fibres
-from nmm.effects.members.linked import Linked, Members
+from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
+from nmm.effects.members.member_set import Members
 from nmm.errors import SceneError
 from nmm.interfaces.bond_slip import BOND_LAWS, BondLaw
 from nmm.materials.uniaxial import Uniaxial

@@ -8,8 +8,9 @@ from nmm.effects.base import Setup
 from nmm.effects.members.chains import NONE, Chains
 from nmm.effects.members.ends import ends_of
 from nmm.effects.members.fibres import Fibres
-from nmm.effects.members.linked import Linked, Members
+from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
+from nmm.effects.members.member_set import Members
 from nmm.materials.uniaxial import Uniaxial
 
 if TYPE_CHECKING:

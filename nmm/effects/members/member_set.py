@@ -1,0 +1,57 @@
+"""The members of one effect as links and slips, and their places in what is remembered."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.effects.members.chains import Chains
+from nmm.effects.members.links import Links
+
+# Of a place of memory: slip, plastic slip and its length, plastic stretch and its length.
+SLIP, BOND, AXIAL, WIDTH = 0, slice(1, 3), slice(3, 5), 5
+
+
+@dataclass(frozen=True)
+class Members:
+    """Members of one effect as links.
+
+    Attributes
+    ----------
+    names, places
+        Of each member, and how many places of memory it has.
+    links, chains
+        All of their m links, and how they answer.
+    owner
+        (m,) the member of each link.
+    of_link, of_slip
+        (m,) and (p,) places of memory, of all members one after the other.
+    """
+
+    names: tuple[str, ...]
+    places: tuple[int, ...]
+    links: Links
+    chains: Chains
+    owner: Ints
+    of_link: Ints
+    of_slip: Ints
+
+    @property
+    def slip_owner(self) -> Ints:
+        """(p,) the member of each slip."""
+        ends = np.cumsum(self.places)
+        return np.asarray(np.searchsorted(ends, self.of_slip, side="right"))
+
+    def memory(self, known: Mapping[str, Floats], fresh: float = 0.0) -> Floats:
+        """Return what all remember, (places, 5); ``fresh`` numbers of those that are not known."""
+        parts = [
+            known.get(name, np.full((places, WIDTH), fresh))
+            for name, places in zip(self.names, self.places, strict=True)
+        ]
+        return np.concatenate([np.zeros((0, WIDTH)), *parts])
+
+    def remembered(self, whole: Floats) -> dict[str, Floats]:
+        """Return what each remembers by its name."""
+        parts = np.split(whole, np.cumsum(self.places)[:-1])
+        return dict(zip(self.names, parts, strict=True))
