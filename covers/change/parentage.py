@@ -101,22 +101,62 @@ def _same_edges(old: BoundaryEdges, new: BoundaryEdges) -> bool:
 
 
 def _overlaps(old: Manifold, new: Manifold) -> tuple[Relation, Polygons]:
-    """Overlay elements of the same region."""
-    first, second = old.elements.to_shapely(), new.elements.to_shapely()
+    """Overlay elements of the same region; those that are as they were are their own parts."""
+    kept_old, kept_new = _kept(old, new)
+    mine, others = (
+        np.setdiff1d(np.arange(len(side.elements)), kept)
+        for side, kept in ((old, kept_old), (new, kept_new))
+    )
+    first, second = old.elements.take(mine).to_shapely(), new.elements.take(others).to_shapely()
     child, parent = shapely.STRtree(first).query(second, predicate="intersects")
+    parent, child = mine[parent], others[child]
     alike = old.element_region[parent] == new.element_region[child]
     parent, child = parent[alike], child[alike]
     shapes, owner = shapely.get_parts(
-        shapely.intersection(first[parent], second[child]), return_index=True
+        shapely.intersection(
+            first[np.searchsorted(mine, parent)], second[np.searchsorted(others, child)]
+        ),
+        return_index=True,
     )
     parent, child, area = parent[owner], child[owner], shapely.area(shapes)
     smaller = np.minimum(old.elements.areas[parent], new.elements.areas[child])
     counts = (shapely.get_type_id(shapes) == 3) & (area > ROUNDING * smaller)
-    order = np.flatnonzero(counts)[np.lexsort((parent[counts], child[counts]))]
+    parts = Polygons.concatenate(
+        [new.elements.take(kept_new), Polygons.from_shapely(shapes[counts])]
+    )
+    parent = np.concatenate([kept_old, parent[counts]])
+    child = np.concatenate([kept_new, child[counts]])
+    area = np.concatenate([new.elements.areas[kept_new], area[counts]])
+    order = np.lexsort((parent, child))
     relation = Relation(
         parent[order], child[order], area[order], len(old.elements), len(new.elements)
     )
-    return relation, Polygons.from_shapely(shapes[order]).oriented()
+    return relation, parts.take(order).oriented()
+
+
+def _kept(old: Manifold, new: Manifold) -> tuple[Ints, Ints]:
+    """Old and new numbers (k,) of the elements that a change has left as they were.
+
+    They are told by region, number of vertices, first vertex, centroid and area, to the last bit.
+    """
+    rows = []
+    for side in (old, new):
+        elements = side.elements
+        shape = np.diff(elements.ring_offsets)[elements.polygon_offsets[:-1]]
+        corner = elements.points[elements.first_point]
+        told = (side.element_region, shape, corner, elements.centroids, elements.areas)
+        rows.append(np.column_stack(told))
+    _, which, count = np.unique(
+        np.concatenate(rows), axis=0, return_inverse=True, return_counts=True
+    )
+    which, n = which.ravel(), len(old.elements)
+    # Once in the old manifold and once in the new one; a key that either has twice tells nothing.
+    once = np.bincount(which[:n], minlength=len(count)) == 1
+    place = np.full(len(count), -1, dtype=np.int64)
+    place[which[:n]] = np.arange(n)
+    twin = which[n:]
+    kept = np.flatnonzero(once[twin] & (count[twin] == 2))
+    return place[twin[kept]], kept
 
 
 def _along(old: Manifold, new: Manifold) -> Relation:

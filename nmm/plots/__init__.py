@@ -8,6 +8,7 @@ from nmm.plots.gallery import draw_all
 from nmm.plots.results.blocks import blocks
 from nmm.plots.results.contact_forces import contact_forces
 from nmm.plots.results.covers import covers
+from nmm.plots.results.crack_paths import crack_paths
 from nmm.plots.results.curves import curve, history, load_displacement, overview
 from nmm.plots.results.deformed import deformed, failure_mode
 from nmm.plots.results.members import members
@@ -17,6 +18,7 @@ __all__ = [
     "blocks",
     "contact_forces",
     "covers",
+    "crack_paths",
     "curve",
     "deformed",
     "draw_all",

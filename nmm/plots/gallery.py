@@ -12,6 +12,7 @@ from integration.arrays import Floats
 from nmm.errors import DamageError, FormulationError, SceneError
 from nmm.plots.results.contact_forces import contact_forces
 from nmm.plots.results.covers import covers
+from nmm.plots.results.crack_paths import crack_paths, grown_paths
 from nmm.plots.results.curves import load_displacement, overview
 from nmm.plots.results.deformed import deformed, failure_mode
 from nmm.plots.results.members import members
@@ -81,6 +82,8 @@ def draw_all(
             if ":" in name and not apart and quantity.values.ndim == 1:
                 file = name.replace(":", "_").replace(" ", "_")
                 draw(f"{file}.png", stress, shown, name, frame=calm)
+        if grown_paths(shown):
+            draw("crack_paths.png", crack_paths, shown)
         if len(shown.frames[calm].contact_gap):
             draw("contact_forces.png", contact_forces, shown, frame=calm)
         if shown.frames[calm].on("members"):

@@ -57,6 +57,7 @@ CRITERIA: Registry[type[Criterion]] = Registry(
     {
         "hoop_stress": "nmm.fracture.criteria.hoop_stress:HoopStress",
         "strain_energy_density": "nmm.fracture.criteria.strain_energy_density:StrainEnergyDensity",
+        "straight_ahead": "nmm.fracture.criteria.straight_ahead:StraightAhead",
         "energy_release": "nmm.fracture.criteria.energy_release:EnergyRelease",
     },
 )

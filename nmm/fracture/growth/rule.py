@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from nmm.scene.tables.fracture import FractureTable
 
 # Part of the toughness by which a front that is critical may fall short of it.
-ROUNDING = 1e-9
+ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)

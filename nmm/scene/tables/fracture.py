@@ -20,7 +20,8 @@ class FractureTable(Frozen):
 
     criterion: PartName = Field(
         default="hoop_stress",
-        description='"hoop_stress", "strain_energy_density", "energy_release", or "module:Name"',
+        description='"hoop_stress", "strain_energy_density", "energy_release", "straight_ahead" or '
+        '"module:Name"',
         examples=["energy_release"],
     )
     toughness: Intensity | None = Field(

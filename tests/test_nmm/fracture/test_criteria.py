@@ -7,6 +7,7 @@ from integration.arrays import Floats
 from nmm.fracture.criteria.base import CRITERIA, Criterion
 from nmm.fracture.criteria.energy_release import EnergyRelease
 from nmm.fracture.criteria.hoop_stress import HoopStress
+from nmm.fracture.criteria.straight_ahead import StraightAhead
 from nmm.fracture.criteria.strain_energy_density import StrainEnergyDensity
 from nmm.fracture.toughness import Toughness
 from nmm.testing import check_criterion
@@ -24,6 +25,7 @@ MIXED = np.array(
 )
 KAPPA = 3 - 4 * 0.3
 CRITERION: list[Criterion] = [CRITERIA.make(name) for name in CRITERIA.names()]
+TURNING = [item for item in CRITERION if not isinstance(item, StraightAhead)]
 
 
 @pytest.mark.parametrize("criterion", CRITERION, ids=lambda item: type(item).__name__)
@@ -77,12 +79,12 @@ def test_kinks_that_release_most_are_those_of_the_literature() -> None:
 
 def test_criteria_agree_for_little_sliding() -> None:
     one, two, kappa = np.ones(1), np.array([0.02]), np.array([KAPPA])
-    angles = [float(item.kink(one, two, kappa).angle[0]) for item in CRITERION]
+    angles = [float(item.kink(one, two, kappa).angle[0]) for item in TURNING]
     assert angles == pytest.approx([-0.04] * len(angles), rel=5e-3)
 
 
 def test_a_crack_that_is_pressed_but_slides_kinks_too() -> None:
-    for criterion in CRITERION:
+    for criterion in TURNING:
         found = criterion.kink(np.array([-0.15]), np.ones(1), np.array([KAPPA]))
         assert found.equivalent[0] > 0.7
         assert -np.radians(95) < found.angle[0] < -np.radians(65)

@@ -1,0 +1,248 @@
+"""Cracks that grow at their toughness through nets that know nothing of them."""
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.verification import text
+from nmm.verification.base import Check, Checks, SceneCase, holds, limit
+
+if TYPE_CHECKING:
+    from nmm.stepping.run import Run
+
+Line = list[list[float]]
+
+
+class GrowingCrack(SceneCase):
+    """A body whose cracks grow at their toughness."""
+
+    formulations: ClassVar[tuple[str, ...]] = ("dda",)  # the scene's own
+    modulus: ClassVar[float] = 1.0
+    poisson: ClassVar[float] = 0.3
+
+    @property
+    def slow(self) -> bool:
+        """Tens of models one after the other."""
+        return True
+
+    @property
+    @abstractmethod
+    def tables(self) -> Sequence[str]:
+        """Body, cracks, loads, supports, rule of growth and formulation."""
+
+    def scene(self) -> str:
+        """Return the body in plane strain."""
+        matter = text.material("m", self.modulus, self.poisson, None)
+        return text.scene('plane = "strain"', [matter, *self.tables])
+
+
+def crack(name: str, points: Line) -> str:
+    """Table of a crack."""
+    return f'[[cracks]]\nname = "{name}"\npoints = {points}\n'
+
+
+def pull(name: str, segment: Line, traction: list[float]) -> str:
+    """Table of a traction on an edge."""
+    return (
+        f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = {segment}\ntraction = {traction}\n'
+    )
+
+
+def pinned(name: str, point: list[float], *axes: str) -> str:
+    """Table of a point that is held."""
+    fix = ", ".join(f'"{axis}"' for axis in axes)
+    return f'[[supports]]\nname = "{name}"\npoint = {point}\nfix = [{fix}]\n'
+
+
+def grown(increment: float, most: float, resistance: str = "toughness = 1.0") -> str:
+    """Table of growth at the toughness."""
+    rule = f'increment = {increment}\nmax_growth = {most}\ncontrol = "toughness"\n'
+    return f"[fracture]\n{resistance}\n{rule}"
+
+
+def net(size: float, angle: float, kind: str = "triangles", options: str = "") -> str:
+    """Table of a cover of degree 1, turned by an angle in degrees and shifted."""
+    return (
+        f'[formulation.cover]\ntype = "{kind}"\nfunctions = "monomials"\nsize = {size}\n'
+        f"degree = 1\nangle = {float(np.radians(angle))!r}\nshift = [0.13, 0.27]\n{options}"
+    )
+
+
+def path(run: "Run", front: str) -> tuple[Floats, Floats]:
+    """Place (n, 2) of a front in each step, and its K_I under a load factor of one."""
+    history = run.history
+    place = np.stack([history[f"fracture:{front}:{axis}"] for axis in "xy"], axis=1)
+    return place, np.asarray(history[f"fracture:{front}:K_I"] / history["load_factor"])
+
+
+@dataclass(frozen=True)
+class InclinedCrack(GrowingCrack):
+    """A crack under 45 degrees in a wide plate: both ends kink and turn across the tension."""
+
+    name: ClassVar[str] = "GR4"
+    title: ClassVar[str] = "Inclined centre crack that grows from both tips"
+    source: ClassVar[str] = "Finite elements of degree 3 graded to the tip, pieces of 0.025"
+    along: ClassVar[tuple[float, ...]] = (0.6506, 0.8002, 0.9499, 1.2496, 1.3495)
+    across: ClassVar[tuple[float, ...]] = (0.3129, 0.3008, 0.2915, 0.2781, 0.2746)
+    intensity: ClassVar[tuple[float, ...]] = (1.5198, 1.6911, 1.8585, 2.1925, 2.3054)
+    angle: float = 0.0
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return three turns of the net."""
+        return [cls(angle) for angle in (0.0, 17.0, 45.0)]
+
+    @property
+    def variant(self) -> str:
+        """The turn."""
+        return f"net at {self.angle:g} degrees"
+
+    @property
+    def tables(self) -> Sequence[str]:
+        """Return a plate of ten by ten with a crack of one."""
+        half, end = 5.0, float(0.5 / np.sqrt(2.0))
+        foci = [[sign * x, sign * 0.3] for x in (0.4, 0.9, 1.4) for sign in (1, -1)]
+        options = f"[formulation.cover.options]\nfocus = {foci}\nradius = 0.3\ngrowth = 0.2\n"
+        return [
+            text.block("plate", "m", text.rectangle((-half, -half), (half, half))),
+            crack("c", [[-end, -end], [end, end]]),
+            pull("up", [[-half, half], [half, half]], [0.0, 1.0]),
+            pull("down", [[-half, -half], [half, -half]], [0.0, -1.0]),
+            pinned("left", [-half, -half], "x", "y"),
+            pinned("right", [half, -half], "y"),
+            grown(0.1, 1.0),
+            net(0.1, self.angle, "graded", options),
+        ]
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the path and the intensities along it."""
+        (place, opening), (other, _) = path(run, "c:end"), path(run, "c:start")
+        beyond = place[:, 0] <= self.along[-1]
+        off = place[:, 1] - np.interp(place[:, 0], self.along, self.across)
+        far = beyond & (place[:, 0] >= self.along[0])
+        expected = np.interp(place[:, 0], self.along, self.intensity)
+        reason = "2 % of the half length; measured 1e-3"
+        return {
+            "largest distance from the path (m)": limit(
+                float(np.abs(off[far]).max()), 0.01, reason
+            ),
+            "K_I on it, largest error": limit(
+                float(np.abs(opening / expected - 1)[far].max()), 0.02, "measured 3e-3"
+            ),
+            "point symmetry (m)": limit(float(np.abs(place + other).max()), 1e-3, "of the scene"),
+        }
+
+
+@dataclass(frozen=True)
+class DoubleCantilever(GrowingCrack):
+    """Two arms pulled apart: the crack between them grows at the fracture energy.
+
+    It is kept in its plane, as by side grooves: without them it is directionally unstable.
+    """
+
+    name: ClassVar[str] = "GR2"
+    title: ClassVar[str] = "Double cantilever beam, load and opening of a growing crack"
+    source: ClassVar[str] = (
+        "K = sqrt(12) P (a + 0.6725 h) / h^1.5 from finite elements of degree 3; P^2 D is constant"
+    )
+    modulus: ClassVar[float] = 30e9
+    poisson: ClassVar[float] = 0.2
+    arm: ClassVar[float] = 0.1
+    length: ClassVar[float] = 2.4
+
+    @property
+    def tables(self) -> Sequence[str]:
+        """Return both arms with the crack between them."""
+        h, long = self.arm, self.length
+        return [
+            text.block("beam", "m", text.rectangle((0.0, -h), (long, h))),
+            crack("c", [[0.0, 0.0], [0.5, 0.0]]),
+            pull("up", [[0.0, 0.0], [0.0, h]], [0.0, 1 / h]),
+            pull("down", [[0.0, -h], [0.0, 0.0]], [0.0, -1 / h]),
+            pinned("lower", [long, -h], "x", "y"),
+            pinned("upper", [long, h], "x", "y"),
+            text.monitor("above", (0.0, h / 2), "beam"),
+            text.monitor("below", (0.0, -h / 2), "beam"),
+            grown(0.1, 0.7, 'energy = 100.0\ncriterion = "straight_ahead"'),
+            net(0.025, 0.0),
+        ]
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the load at each opening, the length at it, and the energies."""
+        place, _ = path(run, "c:end")
+        history, h = run.history, self.arm
+        load = history["load_factor"]
+        opening = history["monitor:above:uy"] - history["monitor:below:uy"]
+        stiff = self.modulus / (1 - self.poisson**2)
+        constant = 8 * (100 * stiff * h**3 / 12) ** 1.5 / (stiff * h**3)
+        at_opening = np.sqrt(constant / opening)
+        length = np.sqrt(100 * stiff * h**3 / 12) / at_opening - 0.6725 * h
+        taken = history["fracture:energy"][-1]
+        missing = history["external_work"][-1] - history["strain_energy"][-1]
+        missing -= history["support_energy"][-1]
+        return {
+            "load at the opening, largest error": limit(
+                float(np.abs(load / at_opening - 1).max()), 0.015, "the benchmark's"
+            ),
+            "length at the opening, largest error": limit(
+                float(np.abs(place[:, 0] / length - 1).max()), 0.01, "the benchmark's"
+            ),
+            "energy that growth took (J)": Check(missing, taken, 0.03, "of the pieces' length"),
+        }
+
+
+@dataclass(frozen=True)
+class PassedHole(GrowingCrack):
+    """A crack from the edge is pushed away by a hole, drawn to it, and passes; the plate parts."""
+
+    name: ClassVar[str] = "GR5"
+    title: ClassVar[str] = "Edge crack deflected by a hole, and passing it"
+    source: ClassVar[str] = "Finite elements of degree 3 graded to the tip, pieces of 0.01"
+    path: ClassVar[tuple[tuple[float, float], ...]] = (
+        *((0.2, 0.0), (0.26, -0.0024), (0.3199, -0.0044), (0.3799, -0.0052), (0.4399, -0.0038)),
+        *((0.4996, 0.0015), (0.5585, 0.0131), (0.6150, 0.0331), (0.6689, 0.0594)),
+        *((0.7270, 0.0724), (0.7870, 0.0714), (0.8470, 0.0704), (0.9070, 0.0701), (0.987, 0.07)),
+    )
+    hole: ClassVar[float] = 0.1
+
+    @property
+    def tables(self) -> Sequence[str]:
+        """Return the plate with its hole."""
+        turn = np.linspace(0.0, 2 * np.pi, 97)[:-1]
+        ring = np.array([0.6, 0.2]) + self.hole * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        plate = text.block("plate", "m", text.rectangle((0.0, -1.0), (1.0, 1.0)))
+        return [
+            f"{plate}holes = [{ring.tolist()}]\n",
+            crack("c", [[0.0, 0.0], [0.2, 0.0]]),
+            pull("up", [[0.0, 1.0], [1.0, 1.0]], [0.0, 1.0]),
+            pull("down", [[0.0, -1.0], [1.0, -1.0]], [0.0, -1.0]),
+            pinned("lower", [1.0, -1.0], "x", "y"),
+            pinned("upper", [1.0, 1.0], "x"),
+            grown(0.04, 10.0),
+            net(0.05, 11.0),
+        ]
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the path before and behind the hole, and the areas of what is left."""
+        place, _ = path(run, "c:end")
+        x, y = place.T
+        off = np.abs(y - np.interp(x, *np.transpose(self.path)))
+        elements = run.topologies[-1].elements
+        side = 96 * self.hole**2 * np.sin(2 * np.pi / 96) / 2
+        return {
+            "distance from the path before the hole (m)": limit(
+                float(off[x < 0.6].max()), 0.01, "the benchmark's; four times its pieces"
+            ),
+            "distance behind it (m)": limit(float(off[x >= 0.6].max()), 0.015, "the benchmark's"),
+            "where it leaves the plate (m)": Check(
+                float(y[-1]), 0.07, 0.015, "the benchmark's", 1.0
+            ),
+            "area of both parts (m2)": Check(
+                float(elements.areas.sum()), 2 - side, 1e-9, "of polygons"
+            ),
+            "a part is free": holds("came free" in run.summary.sentence, "it parts the plate"),
+        }
