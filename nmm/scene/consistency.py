@@ -14,7 +14,7 @@ from pydantic import BaseModel
 from nmm.scene.faults import suggestion
 from nmm.scene.lines import Path
 from nmm.scene.stage_rules import stage_contradictions
-from nmm.scene.tables.fracture_rules import fracture_contradictions
+from nmm.scene.tables.fracture.rules import fracture_contradictions
 from nmm.scene.tables.heat_rules import PARTS as HEAT
 from nmm.scene.tables.heat_rules import heat_contradictions
 from nmm.scene.tables.member_rules import member_contradictions

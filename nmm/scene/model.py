@@ -36,7 +36,7 @@ from nmm.scene.stages import StageTable
 from nmm.scene.tables.boundaries import FreeFieldTable, ViscousBoundaryTable
 from nmm.scene.tables.damping import DampingTable
 from nmm.scene.tables.fields import FieldTable
-from nmm.scene.tables.fracture import FractureTable
+from nmm.scene.tables.fracture.table import FractureTable
 from nmm.scene.tables.heat import (
     ConvectionTable,
     HeatFluxTable,

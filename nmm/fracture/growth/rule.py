@@ -10,7 +10,7 @@ from nmm.fracture.criteria.base import CRITERIA, Criterion, Kink
 from nmm.fracture.toughness import Toughness
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.fracture import FractureTable
+    from nmm.scene.tables.fracture.table import FractureTable
 
 # Part of the toughness by which a front that is critical may fall short of it.
 ROUNDING = 1e-6

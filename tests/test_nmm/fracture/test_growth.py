@@ -257,3 +257,15 @@ def test_covers_that_cannot_carry_the_growth_are_refused() -> None:
 
 def replace_cover(how: Formulation, **given: object) -> Formulation:
     return how.model_copy(update={"cover": how.cover.model_copy(update=given)})
+
+
+def test_the_path_of_a_crack_is_drawn(tmp_path: Path) -> None:
+    from nmm import plots
+    from nmm.plots.results.crack_paths import grown_paths
+
+    run = nmm.run(plate(FOLLOW.replace("0.2", "0.1")), net())
+    (points,) = grown_paths(run).values()
+    assert points[0] == pytest.approx([0.3, 0.0])
+    assert np.hypot(*(points[1] - points[0])) == pytest.approx(0.1)
+    plots.crack_paths(run, path=tmp_path / "paths.png")
+    assert (tmp_path / "paths.png").stat().st_size > 10_000

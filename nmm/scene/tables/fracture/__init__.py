@@ -1,0 +1,1 @@
+"""The table of growing cracks, and what it must not contradict."""
