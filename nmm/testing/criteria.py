@@ -16,8 +16,8 @@ def check_criterion(criterion: Criterion, seed: int = 0, number: int = 200) -> N
 
     Opening alone leads straight on with its own intensity; kinks do not depend on the size of the
     intensities, which their equivalent follows; sliding the other way mirrors the kink; positive
-    sliding never turns it counter-clockwise; tips know nothing of each other; what slides needs no more opening
-    than what does not; pure sliding, and a little of it, have finite kinks.
+    sliding never turns it counter-clockwise; tips know nothing of each other; what slides needs no
+    more opening than what does not; pure sliding, and a little of it, have finite kinks.
 
     Raises
     ------
