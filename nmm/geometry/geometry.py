@@ -20,7 +20,10 @@ class Geometry:
         The blocks that are there.
     cracks
         Polylines (n, 2) that cut them, m.
+    in_pieces
+        Whether the polygons are pieces that no cover of blocks divides further.
     """
 
     regions: Regions
     cracks: tuple[Floats, ...] = ()
+    in_pieces: bool = False

@@ -81,6 +81,7 @@ def build_model(scene: "Scene", formulation: "Formulation", geometry: Geometry) 
         density=np.array([(item.density or 0.0) * has_mass for item in materials]),
         thickness=scene.thickness,
         lumped=formulation.integrator.mass == "lumped",
+        in_pieces=geometry.in_pieces,
     )
 
 

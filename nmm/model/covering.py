@@ -11,6 +11,7 @@ from covers.approximation.uncut import uncut
 from covers.local_functions.polynomials import FUNCTIONS, LocalFunctions
 from integration.arrays import Floats
 from nmm.errors import FormulationError
+from nmm.geometry.tessellation.block_cover import WholeBlocks
 from nmm.geometry.tessellation.cover_types import block_cover
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ def cover_regions(
     cover: "CoverTable",
     cracks: "Sequence[Floats]" = (),
     kappa: Floats | None = None,
+    in_pieces: bool = False,
 ) -> Covering:
     """Make the manifold that a formulation's ``[cover]`` names.
 
@@ -49,6 +51,8 @@ def cover_regions(
         Polylines (n, 2) of the scene.
     kappa
         Kolosov's constant of each region, for singular functions.
+    in_pieces
+        Whether covers of blocks divide no block further.
 
     Raises
     ------
@@ -74,7 +78,8 @@ def cover_regions(
                 f'[cover] type: "{cover.type}": {len(lines)} cracks end inside blocks: expected a '
                 'cover that cracks can cut: use type = "triangles" with a size'
             )
-        blocks, region = kind.divided(regions.polygons, cover.size, cover.angle, cover.shift)
+        whole = WholeBlocks() if in_pieces else kind
+        blocks, region = whole.divided(regions.polygons, cover.size, cover.angle, cover.shift)
         manifold = block_manifold(blocks, region, functions)
         return Covering(manifold, uncut(manifold))
     return _mesh(regions, cover, functions, lines, kappa)

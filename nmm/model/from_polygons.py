@@ -74,6 +74,7 @@ def covered(
     density: Floats,
     thickness: float,
     lumped: bool,
+    in_pieces: bool = False,
 ) -> Model:
     """Cover regions and give the elements the numbers of their materials.
 
@@ -81,10 +82,12 @@ def covered(
     ----------
     regions
         N regions with their materials, numbers of the ``laws`` and of the densities (kg/m3).
+    in_pieces
+        Whether covers of blocks divide none of them further.
     """
     own = np.asarray(regions.material)
     kappa = np.array([law.kolosov(plane) for law in laws])
-    covering = cover_regions(regions, cover, cracks, kappa[own])
+    covering = cover_regions(regions, cover, cracks, kappa[own], in_pieces)
     of_element = own[covering.manifold.element_region]
     covering = _numbered(covering, regions)
     return Model(

@@ -13,8 +13,8 @@ from nmm.splitting.cuts import Shapes
 def outlines(model: Model, regions: Regions) -> tuple[Polygons, Ints]:
     """Return the polygons (B,) of all bodies, and in which of the regions each lies.
 
-    A body that is all that is left in a region has its polygon; where cracks have parted a region
-    each body is the union of its elements.
+    A body that is all that is left in a region has its polygon, a sub-block that of its element;
+    where cracks have parted a region under a mesh each body is the union of its elements.
     """
     manifold = model.manifold
     n, body = manifold.n_bodies, manifold.element_body
@@ -23,9 +23,11 @@ def outlines(model: Model, regions: Regions) -> tuple[Polygons, Ints]:
     one[body[::-1]] = np.arange(len(body))[::-1]
     blocks = regions.polygons.to_shapely()
     home = _home(shapes[one], blocks)
-    found = np.asarray(blocks[home], dtype=object)
-    for number in np.flatnonzero(np.bincount(home, minlength=len(blocks))[home] > 1):
-        # Bodies that share a polygon are few: those that cracks have freed.
+    single = np.bincount(body, minlength=n) == 1
+    shared = np.bincount(home, minlength=len(blocks))[home] > 1
+    found = np.where(single, shapes[one], blocks[home])
+    for number in np.flatnonzero(shared & ~single):
+        # Bodies under a mesh that share a polygon are few: those that cracks have freed.
         found[number] = shapely.union_all(shapes[body == number])
     return Polygons.from_shapely(found).oriented(), home
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError
-from nmm.geometry.tessellation.cover_types import block_cover
+from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.splitting.division import sizes
 
 
@@ -16,14 +16,13 @@ def refuse(setup: Setup) -> None:
     SceneError
         A smallest block larger than all blocks of the material, or no interface between pieces.
     FormulationError
-        Blocks that are divided and glued already.
+        Pieces of blocks that are glued for good.
     """
     scene, place = setup.scene, setup.scene.source.place
-    blocks = block_cover(setup.formulation.cover)
-    if blocks is not None and blocks.divides:
+    if piece_glue(setup.formulation.cover) is not None:
         raise FormulationError(
-            f'[cover] type: "{setup.formulation.cover.type}" with [splitting]: expected blocks '
-            'that are whole, or meshes: use type = "block", or remove [splitting]'
+            '[cover.options] bond: "elastic" with [splitting]: pieces that are glued for good '
+            'cannot split: expected pieces that may part: use bond = "interface"'
         )
     regions = setup.geometry.regions
     names = list(scene.materials)

@@ -106,7 +106,8 @@ class Splitting(Effect):
             return None
         pieces, parent = replaced(polygons, splits)
         regions = self._setup.geometry.regions.divided(pieces, home[parent])
-        return Event(replace(self._setup.geometry, regions=regions), _said(splits, pulled))
+        geometry = replace(self._setup.geometry, regions=regions, in_pieces=True)
+        return Event(geometry, _said(splits, pulled))
 
     def history(self, state: State) -> Mapping[str, float]:
         """Numbers of bodies, and of those that are kept whole beyond their strength."""

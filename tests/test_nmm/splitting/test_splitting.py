@@ -8,6 +8,7 @@ import pytest
 
 import nmm
 from nmm.errors import NmmError
+from nmm.splitting.strength import Principal
 
 SPEC = importlib.util.spec_from_file_location(
     "resume_checks", Path(__file__).parents[1] / "stepping" / "test_resume.py"
@@ -243,3 +244,67 @@ def test_what_cannot_split_is_refused_by_line_before_anything_runs(fault):
         run(text.replace(old, new, 1))
     assert said in str(refused.value)
     assert "scene:" in str(refused.value)
+
+
+BEAM = """
+title = "beam"
+plane = "stress"
+thickness = 0.1
+[materials.concrete]
+young_modulus = "27.5 GPa"
+poisson_ratio = 0.2
+[contact]
+[interfaces.joint]
+friction_angle = "37 deg"
+cohesion = "50 MPa"
+tensile_strength = "50 MPa"
+bonded = true
+[splitting.concrete]
+tensile_strength = "2.9 MPa"
+smallest_block = "5 mm"
+most_blocks = 26
+[[blocks]]
+name = "beam"
+material = "concrete"
+vertices = [[0, 0], [0.6, 0], [0.6, 0.1], [0, 0.1]]
+[[supports]]
+name = "left"
+point = [0, 0]
+fix = ["x", "y"]
+[[supports]]
+name = "right"
+point = [0.6, 0]
+fix = ["y"]
+[[loads]]
+name = "press"
+kind = "point"
+point = [0.3, 0.1]
+force = [0, -1000]
+[loading]
+until = 14.0
+[formulation.cover]
+type = "sub_blocks"
+size = 0.05
+options = { mesh = "quads", bond = "interface" }
+[formulation.loading]
+increment = 2.0
+tolerance = 1e-2
+"""
+
+
+def test_sub_blocks_split_where_their_joints_are_stronger():
+    """Joints of 50 MPa hold; the sub-blocks under the load reach 2.9 MPa and split upwards."""
+    found = run(BEAM)
+    assert "by tension" in found.summary.changes[0]
+    first = found.topologies[0].elements.centroids
+    second = found.topologies[1].elements.centroids
+    far = np.abs(second[:, None] - first).sum(axis=2).min(axis=1) > 1e-9
+    assert far.any()
+    assert (np.abs(second[far][:, 0] - 0.3) < 0.06).all()
+    assert (second[far][:, 1] < 0.05).all()
+    # They are those that had the largest principal stress, which was the strength.
+    frame = [one for one in found.frames if one.topology == 0][-1]
+    larger = Principal.of(frame.stress).larger
+    assert larger.max() == pytest.approx(2.9e6, rel=1e-2)
+    gone = np.abs(first[:, None] - second).sum(axis=2).min(axis=1) > 1e-9
+    assert (larger[gone] > 0.99 * larger.max()).all()
