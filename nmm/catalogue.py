@@ -11,6 +11,7 @@ from inspect import getmembers, isabstract, isclass
 from pathlib import Path
 from typing import Any
 
+from nmm.contact.controls.base import CONTROLS
 from nmm.contact.enforcement.base import ENFORCEMENTS
 from nmm.fracture.criteria.base import CRITERIA
 from nmm.geometry.tessellation.cover_types import COVER_TYPES
@@ -37,6 +38,7 @@ REGISTRIES: tuple[Registry[Any], ...] = (
     OUTPUTS,
     CRITERIA,
     STRENGTHS,
+    CONTROLS,
 )
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Self
 
 from scipy.sparse import csr_array
 
-from integration.arrays import Ints
+from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
@@ -19,8 +19,12 @@ from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.candidates.succession import succeeding
 from nmm.contact.detection.crossing import Motion
 from nmm.contact.detection.narrow_phase import Contacts
+from nmm.contact.following.path_equation import PathEquation
+from nmm.contact.following.path_solution import path_solution
+from nmm.contact.following.release import let_go
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import follow_joints
+from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.problem.step_problem import Limits
 from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.driver import ContactSolver
@@ -120,15 +124,37 @@ class Contact(Effect):
         surface = self.partners.surface(state)
 
         def besides(present: ContactPoints) -> list[Transform]:
-            tied, free = None, present
-            if self._bonds is not None and present.tied.any():
-                more = self._stresses, request.time
-                tied = TiedBonds.of(self._bonds, present, state, rows, request.weight, *more)
-                free = present.take(~present.tied)
+            tied = self._tied(present, state, rows, request)
+            free = present if tied is None else present.take(~present.tied)
             means = self.geometry.face_means(free, surface)
             return [part for part in (tied, means, request.null_space) if part is not None]
 
         return self.solver.solve(contacts, rows, request, besides)
+
+    def solve_path(
+        self, contacts: ContactPoints, state: State, request: StepRequest, path: PathEquation
+    ) -> tuple[ContactSolution, float]:
+        """Solve a step along a path; return it and by how much the load factor changes."""
+        rows = self.geometry.rows(contacts, state)
+        tied = self._tied(contacts, state, rows, request)
+        return path_solution(self.laws, contacts, rows, tied, request, path)
+
+    def overload(self, solved: ContactSolution) -> Floats:
+        """Return load over strength (m,) of bonds that break or begin to soften above one."""
+        return self.laws.overload(solved.contacts, solved.answer)
+
+    def release(self, solved: ContactSolution, gone: Bools) -> None:
+        """Let bonds (m,) give way before the next step, though the solution be no step."""
+        self.record = let_go(self.record, self.laws, solved, gone)
+
+    def _tied(
+        self, contacts: ContactPoints, state: State, rows: ContactRows, request: StepRequest
+    ) -> TiedBonds | None:
+        """Return the bonds that consistent terms hold; None without any."""
+        if self._bonds is None or not contacts.tied.any():
+            return None
+        more = self._stresses, request.time
+        return TiedBonds.of(self._bonds, contacts, state, rows, request.weight, *more)
 
     def overlooked(self, contacts: ContactPoints, motion: Motion) -> tuple[Ints, Ints] | None:
         """Return pairs that crossed and were no contacts; see `Candidates.overlooked`."""

@@ -106,6 +106,8 @@ def _named(
         yield scene.source, ("interfaces", name), interface, _interface
     for name, table in scene.splitting.items():
         yield scene.source, ("splitting", name), table, _strength
+    if scene.loading is not None and scene.loading.control is not None:
+        yield scene.source, ("loading", "control"), scene.loading.control, _control
     source = formulation.source
     yield source, ("cover",), formulation.cover, _cover
     yield source, ("contact",), formulation.contact, _enforcement
@@ -125,6 +127,12 @@ def _interface(part: Any) -> None:
     from nmm.interfaces.from_scene import interface_law
 
     interface_law(part)
+
+
+def _control(part: Any) -> None:
+    from nmm.contact.controls.base import CONTROLS
+
+    CONTROLS.load(part.type).of(part)
 
 
 def _cover(part: Any) -> None:

@@ -29,6 +29,7 @@ from nmm.scene.fields import (
     Velocity,
     fault,
 )
+from nmm.scene.tables.control import ControlTable
 from nmm.scene.tables.expressions import FieldOf
 
 _HISTORY = "pairs [t, factor] with t increasing"
@@ -149,9 +150,15 @@ class Loading(Frozen):
         description="a duration in s: the failed blocks move with inertia, to show the mode",
         examples=["5 ms"],
     )
+    control: ControlTable | None = Field(
+        default=None, description="a table [loading.control]: what grows in place of the load"
+    )
 
     @model_validator(mode="after")
     def _check(self) -> Loading:
+        if self.control is not None and (self.until != "failure" or self.motion_after_failure):
+            remedy = 'write until = "failure" without motion_after_failure, or remove control'
+            raise fault("control", 'until = "failure"', remedy)
         if self.until != "failure" and self.maximum_factor is not None:
             remedy = 'write until = "failure", or leave maximum_factor out'
             raise fault(f"until = {self.until} and maximum_factor", 'until = "failure"', remedy)

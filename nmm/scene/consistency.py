@@ -172,6 +172,7 @@ def _effects(data: Tables) -> Iterator[Finding]:
         remedy = "add [inertia], or remove [[initial_velocities]]"
         yield ("initial_velocities",), "no [inertia]", "a dynamic scene", remedy
     yield from _scaled_loads(data)
+    yield from _control(data)
     yield from _output(data)
 
 
@@ -189,6 +190,21 @@ def _output(data: Tables) -> Iterator[Finding]:
     if output.get("events") and "contact" not in data:
         remedy = "remove events, or add [contact]"
         yield ("output", "events"), "no [contact]", "a scene with contact", remedy
+
+
+def _control(data: Tables) -> Iterator[Finding]:
+    control = _table(_table(data, "loading"), "control")
+    if not control:
+        return
+    if "contact" not in data:
+        remedy = "add [contact], or remove [loading.control]"
+        yield ("loading", "control"), "no [contact]", "a scene with contact", remedy
+    known = [row["name"] for _, row in _rows(data, "monitors") if isinstance(row.get("name"), str)]
+    named = control.get("monitors", ())
+    for number, name in enumerate(named if isinstance(named, list | tuple) else ()):
+        if isinstance(name, str) and name not in known:
+            place: Path = ("loading", "control", "monitors", number)
+            yield place, f'"{name}"', "the name of a monitor", suggestion(name, known)
 
 
 def _scaled_loads(data: Tables) -> Iterator[Finding]:

@@ -20,7 +20,7 @@ _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\
 
 # SI unit -> unit -> factor; a test compares every entry with pint.
 COMMON: dict[str, dict[str, str]] = {
-    "m": {"m": "1", "mm": "1e-3", "cm": "1e-2", "km": "1e3"},
+    "m": {"m": "1", "um": "1e-6", "mm": "1e-3", "cm": "1e-2", "km": "1e3"},
     "s": {"s": "1", "ms": "1e-3", "min": "60", "h": "3600"},
     "rad": {"rad": "1", "deg": "deg", "mrad": "1e-3"},
     "N": {"N": "1", "kN": "1e3", "MN": "1e6"},
@@ -33,6 +33,7 @@ COMMON: dict[str, dict[str, str]] = {
     "Pa/m": {"Pa/m": "1", "kPa/m": "1e3", "MPa/m": "1e6", "GPa/m": "1e9", "MPa/mm": "1e9"},
     "J/m^2": {"J/m^2": "1", "kJ/m^2": "1e3", "N/m": "1", "N/mm": "1e3"},
     "Pa m^0.5": {"Pa m^0.5": "1", "kPa m^0.5": "1e3", "MPa m^0.5": "1e6"},
+    "J": {"J": "1", "mJ": "1e-3", "kJ": "1e3"},
     "m/s": {"m/s": "1", "mm/s": "1e-3", "cm/s": "1e-2", "km/h": str(Decimal("1") / Decimal("3.6"))},
     "m/s^2": {"m/s^2": "1", "mm/s^2": "1e-3"},
     "1/s": {"1/s": "1", "Hz": "1"},
@@ -58,6 +59,7 @@ EXAMPLES: dict[str, str] = {
     **{"m": "100 mm", "s": "10 ms", "rad": "37 deg", "N": "10 kN", "Pa": "27.5 GPa"},
     **{"kg/m^3": "2400 kg/m^3", "N/m^3": "25 kN/m^3", "Pa/m": "10 GPa/m", "J/m^2": "100 J/m^2"},
     **{"Pa m^0.5": "1.2 MPa m^0.5"},
+    "J": "0.1 J",
     **{"m/s": "3 m/s", "m/s^2": "9.81 m/s^2", "rad/s": "30 deg/s", "1/s": "2 Hz"},
     **{"K": "80 K", "K/m": "10 K/m", "1/K": "1e-5 1/K", "W/m/K": "2.5 W/m/K"},
     **{"1/m": "1e-5 1/m", "Pa s": "1 mPa s"},

@@ -40,6 +40,8 @@ from nmm.scene import scene_hash
 from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.checkpoints import Checkpoints
+from nmm.stepping.control.following import PathEnd, run_path
+from nmm.stepping.control.making import control_of
 from nmm.stepping.drive.changes import topology
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages
@@ -241,6 +243,10 @@ class Simulation:
             assert isinstance(begun, InTime)
             return run_in_time(stepper, recorder, begun, times, progress, checkpoints.keep)
         loads = self._load_schedule()
+        if scene.loading is not None and scene.loading.control is not None:
+            control = control_of(scene.loading.control, self.stepper, self.formulation)
+            end = PathEnd(loads.target, scene.loading.control.fall)
+            return run_path(stepper, recorder, self.start, control, end, progress)
         under = at or checkpoints.begin(UnderLoad.at_start(self.start, loads))
         assert isinstance(under, UnderLoad)
         if scene.fracture is not None and scene.fracture.control == "toughness":

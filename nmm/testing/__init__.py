@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from nmm.testing.controls import check_control as check_control
     from nmm.testing.covers import check_cover as check_cover
     from nmm.testing.criteria import check_criterion as check_criterion
     from nmm.testing.effects import check_effect as check_effect
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from nmm.testing.strengths import check_strength as check_strength
 
 _HOME = {
+    "check_control": "controls",
     "check_cover": "covers",
     "check_criterion": "criteria",
     "check_effect": "effects",
@@ -37,6 +39,7 @@ _HOME = {
 }
 
 __all__ = [
+    "check_control",
     "check_cover",
     "check_criterion",
     "check_effect",

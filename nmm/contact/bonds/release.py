@@ -6,23 +6,45 @@ that breaks while it is pressed stays pressed.
 """
 
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.contact.points.contact_points import TIED, ContactPoints
-from nmm.contact.problem.step_problem import Limits, StepAnswer
+from nmm.interfaces.limits import Limits
 
-# Stiffness of the springs that go on, in penalties of the terms. What softens unloads by its
-# strength over them while it opens: of a crack between blocks of 10 mm that is 1e-4 of its width.
-FIRM = 100.0
+# Stiffness of the springs that go on, in penalties of the terms: of broken bonds, which press at
+# most, and of those that soften. These unload by their strength over it while they open, which is
+# missing in the energy that they take.
+FIRM, RIGID = 100.0, 1e4
 
 # Normal and shear stiffness (m,) in N/m, and which are a law's own.
 Springs = tuple[Floats, Floats, Bools]
 
 
+class LoadedContacts(Protocol):
+    """Forces and jumps (m,) of contacts at an instant."""
+
+    @property
+    def normal_force(self) -> Floats:
+        """Pull (N)."""
+
+    @property
+    def shear_force(self) -> Floats:
+        """Shear (N)."""
+
+    @property
+    def gap(self) -> Floats:
+        """Gap (m)."""
+
+    @property
+    def slip(self) -> Floats:
+        """Slip (m)."""
+
+
 def released(
-    contacts: ContactPoints, gone: Bools, answer: StepAnswer, springs: Springs, limits: Limits
+    contacts: ContactPoints, gone: Bools, answer: LoadedContacts, springs: Springs, limits: Limits
 ) -> tuple[ContactPoints, float]:
     """Return the contacts with bonds that their laws hold, or have lost, from now on.
 
@@ -42,7 +64,8 @@ def released(
         Of the laws; what goes beyond is not taken over.
     """
     held, (penalty, shear_penalty, _) = contacts.bonded, springs
-    normal, tangent = FIRM * penalty, FIRM * shear_penalty
+    firm = np.where(held, RIGID, FIRM)
+    normal, tangent = firm * penalty, firm * shear_penalty
     pull = np.minimum(answer.normal_force, np.where(held, limits.tension, 0.0))
     bound = limits.cohesion + limits.friction * np.maximum(-pull, 0.0)
     shear = np.where(held, np.clip(answer.shear_force, -bound, bound), 0.0)
@@ -56,7 +79,7 @@ def released(
         gap=contacts.gap - lag,
         slip=contacts.slip - slid,
         reference=contacts.reference + lag,
-        spring_factor=np.where(gone, FIRM, 1.0) * contacts.spring_factor,
+        spring_factor=np.where(gone, firm, 1.0) * contacts.spring_factor,
         history={
             **history,
             TIED: np.where(gone, 0.0, history[TIED]),

@@ -141,15 +141,27 @@ class TiedBonds(Transform):
         both = (self.normal, self.tangent)
         return float(sum(one.energy(self.area, self.penalty).sum() for one in both))
 
+    @cached_property
+    def push(self) -> Floats:
+        """What the forces at the start are on the unknowns (n,), with the sign changed."""
+        both = (self.normal, self.tangent)
+        return np.asarray(sum(one.push(self.area, self.penalty) for one in both))
+
+    def forces(self, increment: Floats) -> tuple[Floats, Floats]:
+        """Return pull and shear (k,) in N after an increment (n,)."""
+        mean = self.weight * increment
+        normal, shear = (
+            one.force(self.area, self.penalty, mean) for one in (self.normal, self.tangent)
+        )
+        return normal, shear
+
     def apply(self, problem: StepProblem) -> StepProblem:
         """See `Transform.apply`."""
         others = self._others(problem)
-        push = self.normal.push(self.area, self.penalty)
-        push = push + self.tangent.push(self.area, self.penalty)
         return replace(
             problem,
             matrix=csc_array(problem.matrix + self.weight * self.matrix),
-            force=problem.force - push,
+            force=problem.force - self.push,
             normal_rows=csr_array(problem.normal_rows[others]),
             tangent_rows=csr_array(problem.tangent_rows[others]),
             limits=Limits(*(column[others] for column in vars(problem.limits).values())),
@@ -159,11 +171,9 @@ class TiedBonds(Transform):
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
         """See `Transform.undo`."""
-        others, mean = self._others(problem), self.weight * answer.increment
+        others = self._others(problem)
         gap, slip = problem.gaps(answer.increment), problem.slips(answer.increment)
-        normal, shear = (
-            one.force(self.area, self.penalty, mean) for one in (self.normal, self.tangent)
-        )
+        normal, shear = self.forces(answer.increment)
         return replace(
             answer,
             normal_force=self._joined(others, answer.normal_force, normal),

@@ -67,7 +67,7 @@ class ContactLaws:
         open_share = np.ones(m)
         # Cohesion is lost with the joint: what is found by search has none.
         area = self._areas(contacts)
-        for law, index, history in self._by_law(contacts):
+        for law, index, history in self.by_law(contacts):
             own = law.response(history, _over(stiffness, area)[index])
             tension[index] = _times(own.limits.tension, area[index])
             cohesion[index] = _times(own.limits.cohesion, area[index])
@@ -84,7 +84,7 @@ class ContactLaws:
         """
         after = {name: column.copy() for name, column in contacts.history.items()}
         area = self._areas(contacts)
-        for law, index, history in self._by_law(contacts):
+        for law, index, history in self.by_law(contacts):
             spring = _over(stiffness, area)[index]
             for name, column in law.evolved(history, gap[index], sliding[index], spring).items():
                 after[name][index] = column
@@ -106,7 +106,7 @@ class ContactLaws:
         """Return the limits with the strength of intact bonds, which has none within a step."""
         limits = self.response(contacts, self.springs(contacts)[0]).limits
         tension, cohesion = limits.tension.copy(), limits.cohesion.copy()
-        for law, index, _ in self._by_law(contacts):
+        for law, index, _ in self.by_law(contacts):
             area = contacts.length[index] * self.thickness
             tension[index] = np.minimum(tension[index], law.tensile_strength * area)
             cohesion[index] = np.where(
@@ -197,6 +197,14 @@ class ContactLaws:
         forces have moved: the order of failure then does not depend on the load increment. Whole
         bonds that begin to soften do so together, since no force jumps.
         """
+        load = self.overload(contacts, answer)
+        over, brittle = load > 1, self.brittle[contacts.interface]
+        if worst_only and (over & brittle).any():
+            over &= ~brittle | (load >= load[brittle].max() * (1 - TIE))
+        return over
+
+    def overload(self, contacts: ContactPoints, answer: StepAnswer) -> Floats:
+        """Return load over strength (m,) of the bonds that break or begin to soften above one."""
         load = np.zeros(len(contacts))
         bonds = np.flatnonzero(contacts.bonded)
         area = contacts.length[bonds] * self.thickness
@@ -207,10 +215,7 @@ class ContactLaws:
             stress = [force / area[mine] for force in forces]
             whole = contacts.tied[index]
             load[index] = np.where(whole, law.onset(*stress), law.overload(*stress))
-        over, brittle = load > 1, self.brittle[contacts.interface]
-        if worst_only and (over & brittle).any():
-            over &= ~brittle | (load >= load[brittle].max() * (1 - TIE))
-        return over
+        return load
 
     @cached_property
     def brittle(self) -> Bools:
@@ -224,7 +229,7 @@ class ContactLaws:
     def break_bonds(self, contacts: ContactPoints, broken: Bools) -> ContactPoints:
         """Return the contacts with some bonds broken for good, their forces gone."""
         history = {name: column.copy() for name, column in contacts.history.items()}
-        for law, index, own in self._by_law(contacts):
+        for law, index, own in self.by_law(contacts):
             gone, lost = broken[index], law.broken(own)
             for name, column in lost.items():
                 history[name][index[gone]] = column[gone]
@@ -248,7 +253,7 @@ class ContactLaws:
             if law.normal_stiffness is not None
         ]
 
-    def _by_law(self, contacts: ContactPoints) -> Iterator[tuple[InterfaceLaw, Ints, History]]:
+    def by_law(self, contacts: ContactPoints) -> Iterator[tuple[InterfaceLaw, Ints, History]]:
         """Yield each law with its contacts and their history, columns of its own alone."""
         for number, law in enumerate(self.laws):
             index = np.flatnonzero(contacts.interface == number)

@@ -81,7 +81,7 @@ class Touching:
         SolveError
             Where the load moves a part that nothing holds.
         """
-        contact, state = self._contact, equations.state
+        contact, state = self.contact, equations.state
         passes, halves, looks = 0, 0, 0
         contacts, midpoint = self.candidates(state, reach, equations.step), None
         crossed: Pairs | None = None
@@ -131,10 +131,15 @@ class Touching:
     ) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
         with self._clock.phase("search"):
-            return self._contact.candidates(state, reach, step, crossed)
+            return self.contact.candidates(state, reach, step, crossed)
+
+    def moved(self, equations: Equations, increment: Floats) -> Attempt:
+        """Return the bodies moved by an increment (n,)."""
+        return self._mover.after(equations, increment)
 
     @property
-    def _contact(self) -> "Contact":
+    def contact(self) -> "Contact":
+        """The contact effect."""
         contact = self._current.plan.contact
         assert contact is not None
         return contact
@@ -175,7 +180,7 @@ class Touching:
             time=equations.end.time,
         )
         with self._clock.phase("solve"):
-            return self._contact.solve(contacts, equations.state, request, midpoint)
+            return self.contact.solve(contacts, equations.state, request, midpoint)
 
     def _judged(
         self, equations: Equations, solved: "ContactSolution", held: "NullSpace | None"
@@ -204,7 +209,7 @@ class Touching:
         """Return the attempt with the velocity that keeps momentum and angular momentum."""
         assert equations.step is not None
         state = result.state
-        change = self._contact.momentum.kept(solved, equations.state, state, equations.step, rest)
+        change = self.contact.momentum.kept(solved, equations.state, state, equations.step, rest)
         return replace(result, state=replace(state, velocity=state.velocity + change))
 
 

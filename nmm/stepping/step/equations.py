@@ -15,6 +15,7 @@ from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
 from nmm.model.discretisation import ModelWithEffects
+from nmm.model.plan import Plan
 from nmm.stepping.step.damping import Damping
 
 
@@ -117,6 +118,11 @@ class Assembly:
     def __init__(self, solved: ModelWithEffects) -> None:
         self._solved = solved
         self.forget()
+
+    @property
+    def plan(self) -> Plan:
+        """The effects."""
+        return self._solved.plan
 
     def forget(self) -> None:
         """Drop the sums of matrices."""

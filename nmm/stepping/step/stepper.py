@@ -31,6 +31,7 @@ from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
+    from nmm.contact.following.path_equation import PathEquation
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import Breaking, ContactRecord
     from nmm.effects.change import Change
@@ -199,6 +200,35 @@ class Stepper:
         symmetric = self.plan.contact is not None
         inner = Inner(current, state, step, self._rule, still, symmetric, clock)
         return newton(inner, state, solve, clock)
+
+    def along(self, state: State, path: "PathEquation") -> Attempt:
+        """Solve a step of statics along a path (`nmm.contact.following`).
+
+        Raises
+        ------
+        BudgetSpentError
+            When the run may cost no more.
+        """
+        from nmm.stepping.step.path_step import path_step
+
+        self.budget.check()
+        assert self._touching is not None
+        with self._clock.phase("path"):
+            return path_step(
+                self._assembly,
+                self._touching,
+                self.solver,
+                self._rule,
+                state,
+                path,
+                self._carried.reach,
+            )
+
+    def unit_load(self, state: State) -> Floats:
+        """Return the force (n,) that a load factor of one more adds (N)."""
+        from nmm.stepping.step.path_step import unit_load
+
+        return unit_load(self._assembly, state)
 
     def _solved(self, equations: Equations, breaking: "Breaking") -> Attempt:
         """Solve equations, with contact where the scene has it."""

@@ -1,0 +1,1 @@
+"""What grows in a static run in place of the load: a displacement, an opening, energy."""

@@ -1,0 +1,97 @@
+"""Controls of a path: what grows step by step, while the load factor follows."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.motion import MaterialPoints, State
+from nmm.contact.following.path_equation import PathEquation
+from nmm.registry import Registry
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.control import ControlTable
+
+
+@dataclass(frozen=True)
+class Standing:
+    """Where a path stands.
+
+    Attributes
+    ----------
+    state
+        The last state in equilibrium.
+    load
+        (n,) force of a load factor of one there (N).
+    monitors
+        Points of the scene, by name.
+    way
+        (n,) displacements of the unknowns since the start of the run, rigid motions included.
+    """
+
+    state: State
+    load: Floats
+    monitors: Mapping[str, MaterialPoints]
+    way: Floats
+
+
+@dataclass(frozen=True)
+class Control(ABC):
+    """Base of controls.
+
+    A control is linear in what a step changes: `row` times the increment of the unknowns and
+    `share` times that of the load factor is how far the step goes (`PathEquation`).
+
+    Attributes
+    ----------
+    increment
+        Largest change of what is controlled in a step.
+    end
+        Total change at which to stop; infinite without.
+    """
+
+    increment: float
+    end: float = np.inf
+
+    by_load: ClassVar[bool] = False
+    """Whether the load factor itself is sought, at which the next bond is at its limit."""
+
+    def idle(self, events: int, softened: bool) -> bool:
+        """Whether nothing is controlled yet: the load is then what grows, up to the next event.
+
+        ``events`` is their number so far, ``softened`` whether the last ones were of bonds that
+        soften.
+        """
+        return False
+
+    @classmethod
+    @abstractmethod
+    def of(cls, table: "ControlTable") -> Self:
+        """Make it from ``[loading.control]`` of a scene."""
+
+    @abstractmethod
+    def row(self, at: Standing) -> Floats:
+        """(n,) change of what is controlled by that of the unknowns."""
+
+    def share(self, at: Standing) -> float:
+        """Change of what is controlled by that of the load factor."""
+        return 0.0
+
+    def path(self, at: Standing, target: float) -> PathEquation:
+        """Return the equation of a step that goes so far."""
+        return PathEquation(at.load, self.row(at), self.share(at), target)
+
+
+CONTROLS: Registry[type[Control]] = Registry(
+    "control",
+    Control,
+    {
+        "displacement": "nmm.contact.controls.displacement:Displacement",
+        "opening": "nmm.contact.controls.displacement:Opening",
+        "dissipation": "nmm.contact.controls.dissipation:Dissipation",
+        "events": "nmm.contact.controls.events:NextEvent",
+    },
+)

@@ -1,0 +1,40 @@
+"""Arc length by dissipation: every step takes the same energy from the structure.
+
+With loads ``lambda f`` on a structure that unloads to its origin ``lambda f.u / 2`` is stored, so
+that a step dissipates ``(lambda f.du - dlambda f.u) / 2`` (Gutierrez 2004; Verhoosel, Remmers and
+Gutierrez 2009). Before anything is dissipated the work of the load is what grows.
+"""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.controls.base import Control, Standing
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.control import ControlTable
+
+
+@dataclass(frozen=True)
+class Dissipation(Control):
+    """Energy that steps take (J)."""
+
+    @classmethod
+    def of(cls, table: "ControlTable") -> Self:
+        """See `Control.of`."""
+        assert table.energy is not None
+        return cls(table.energy, np.inf if table.end_energy is None else table.end_energy)
+
+    def idle(self, events: int, softened: bool) -> bool:
+        """See `Control.idle`."""
+        return not softened
+
+    def row(self, at: Standing) -> Floats:
+        """See `Control.row`."""
+        return np.asarray(at.state.load_factor * at.load / 2)
+
+    def share(self, at: Standing) -> float:
+        """See `Control.share`."""
+        return -float(at.load @ at.way) / 2

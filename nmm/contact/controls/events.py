@@ -1,0 +1,32 @@
+"""Event by event: every step ends where the next bond is at its limit, up or down the load."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.controls.base import Control, Standing
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.control import ControlTable
+
+
+@dataclass(frozen=True)
+class NextEvent(Control):
+    """The load factor, at which the next bond breaks."""
+
+    by_load: ClassVar[bool] = True
+
+    @classmethod
+    def of(cls, table: "ControlTable") -> Self:
+        """See `Control.of`."""
+        return cls(1.0)
+
+    def row(self, at: Standing) -> Floats:
+        """See `Control.row`."""
+        return np.zeros_like(at.load)
+
+    def share(self, at: Standing) -> float:
+        """See `Control.share`."""
+        return 1.0

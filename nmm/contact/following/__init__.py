@@ -1,0 +1,1 @@
+"""Steps along a path: the load factor is found with the unknowns, from one more equation."""

@@ -1,0 +1,36 @@
+"""The equation that a step along a path satisfies beside balance."""
+
+from dataclasses import dataclass
+
+from integration.arrays import Floats
+
+
+@dataclass(frozen=True)
+class PathEquation:
+    """``row @ d + share * change = target`` of increment and change of the load factor.
+
+    Attributes
+    ----------
+    load
+        (n,) force of a load factor of one (N).
+    row
+        (n,) what is controlled, by unknown.
+    share
+        The same by load factor.
+    target
+        How far the step goes.
+    """
+
+    load: Floats
+    row: Floats
+    share: float
+    target: float
+
+    def change(self, along: Floats, still: Floats, so_far: float) -> float:
+        """Return by how much the load factor changes further.
+
+        ``along`` (n,) is what a load factor of one moves, ``still`` (n,) the increment without a
+        further change, ``so_far`` the change of the step before.
+        """
+        rest = self.target - self.row @ still - self.share * so_far
+        return float(rest / (self.row @ along + self.share))

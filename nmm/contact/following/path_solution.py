@@ -1,0 +1,120 @@
+"""Contact of a step along a path: posed, solved, and told as any other step's."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.bonds.tied_step import TiedBonds
+from nmm.contact.following.newton import PathProblem, PathStep, follow
+from nmm.contact.following.path_equation import PathEquation
+from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.history_iteration import HistoryIteration
+from nmm.contact.laws.tractions import ContactForces, contact_forces
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.midpoint import ContactRows
+from nmm.contact.problem.step_problem import BONDED, OPEN, SLIDE, STICK, StepAnswer, Verdict
+from nmm.contact.solution.record import ContactSolution
+from nmm.contact.solution.request import StepRequest
+
+# Elastic slips that differ by less than this share of the largest are the same: nothing slid.
+STILL = 1e-12
+
+
+def path_solution(
+    laws: ContactLaws,
+    contacts: ContactPoints,
+    rows: ContactRows,
+    tied: TiedBonds | None,
+    request: StepRequest,
+    path: PathEquation,
+) -> tuple[ContactSolution, float]:
+    """Solve a step; return it, and by how much its load factor changes.
+
+    Raises
+    ------
+    SolveError
+        Where nothing holds a part.
+    """
+    index = np.zeros(0, dtype=np.int64) if tied is None else tied.index
+    free = np.ones(len(contacts), dtype=bool)
+    free[index] = False
+    some, springs = contacts.take(free), laws.springs(contacts)
+    stiff = (springs[0][free], springs[1][free], springs[2][free])
+
+    def law(gap: Floats, slip: Floats) -> ContactForces:
+        return contact_forces(laws, some, gap, slip, stiff)
+
+    matrix, force = request.matrix, request.force
+    scale = float(np.linalg.norm(force))
+    if tied is not None:
+        matrix, push = matrix + tied.matrix, tied.push
+        force, scale = force - push, max(scale, float(np.linalg.norm(push)))
+    through = ContactRows(rows.normal[free], rows.tangent[free], rows.direction[free])
+    problem = PathProblem(matrix, force, through, some.gap, some.slip, law, scale)
+    step = follow(problem, path, request.solver)
+    answer = _answer(contacts, rows, step, free, tied)
+    history = {name: column.copy() for name, column in contacts.history.items()}
+    for name, column in step.contacts.history.items():
+        history[name][free] = column
+    after = replace(contacts, history=history)
+    sliding = history["plastic_slip"] - contacts.history["plastic_slip"]
+    loss = _loss(laws, contacts, after, answer, sliding)
+    solved = ContactSolution(after, answer, step.iterations, loss, sliding=sliding, rows=rows)
+    return solved, step.change
+
+
+def _answer(
+    contacts: ContactPoints,
+    rows: ContactRows,
+    step: PathStep,
+    free: Floats,
+    tied: TiedBonds | None,
+) -> StepAnswer:
+    """Return the solution as that of a step's problem."""
+    increment, m = step.increment, len(contacts)
+    force = np.zeros((m, 2))
+    force[free] = step.contacts.force
+    gap = contacts.gap + rows.normal @ increment
+    slip = contacts.slip + rows.tangent @ increment
+    slid = step.contacts.history["plastic_slip"] - contacts.history["plastic_slip"][free]
+    slip[free] -= slid
+    if tied is not None:
+        force[tied.index] = np.stack(tied.forces(increment), axis=1)
+    touching = (force != 0).any(axis=1)
+    sliding = np.zeros(m, dtype=bool)
+    sliding[free] = np.abs(slid) > STILL * np.abs(slip).max(initial=0.0)
+    state = np.where(sliding, SLIDE, STICK)
+    state = np.where(touching, state, OPEN)
+    slip = np.where(touching | contacts.bonded, slip, 0.0)
+    bonded = contacts.bonded.copy()
+    bonded[free] = step.contacts.history["bonded"]
+    why = "settled" if step.converged else f"out of balance by {step.residual:.1e}"
+    return StepAnswer(
+        increment=increment,
+        normal_force=force[:, 0],
+        shear_force=force[:, 1],
+        gap=gap,
+        slip=slip,
+        state=np.where(bonded, int(BONDED), state),
+        passes=step.iterations,
+        residual=step.residual,
+        verdict=Verdict(
+            step.converged,
+            "converged" if step.converged else "stalled",
+            f"{why} after {step.iterations} iterations along the path",
+        ),
+    )
+
+
+def _loss(
+    laws: ContactLaws,
+    before: ContactPoints,
+    after: ContactPoints,
+    answer: StepAnswer,
+    sliding: Floats,
+) -> float:
+    """Energy (J) that friction and softening took in the step."""
+    iteration = HistoryIteration(laws, before)
+    iteration.contacts = after
+    return iteration.loss(answer, sliding)

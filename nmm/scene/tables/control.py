@@ -1,0 +1,72 @@
+"""What grows in a static run in place of the load: ``[loading.control]``."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from pydantic import Field, model_validator
+
+from nmm.scene.fields import Energy, Frozen, Length, Name, Number, PartName, fault
+
+# Keys that each built-in control asks for, and how many monitors.
+NEEDS: dict[str, tuple[tuple[str, ...], int]] = {
+    "displacement": (("increment",), 1),
+    "opening": (("increment",), 2),
+    "dissipation": (("energy",), 0),
+    "events": ((), 0),
+}
+
+
+class ControlTable(Frozen):
+    """What grows step by step; the load factor is found with the displacements, up or down."""
+
+    type: PartName = Field(
+        description='"displacement" of a monitor, "opening" between two, "dissipation", "events", '
+        'or "module:Name" of your own',
+        examples=["opening"],
+    )
+    monitors: tuple[Name, ...] = Field(
+        default=(),
+        description="names of monitors: the point, or the two points of an opening",
+        examples=[["right lip", "left lip"]],
+    )
+    direction: tuple[Number, Number] = Field(
+        default=(1.0, 0.0),
+        description="a direction [x, y], not zero: along it displacements and openings grow",
+        examples=[[0, -1]],
+    )
+    increment: Length | None = Field(
+        default=None, gt=0, description="a largest step in m, > 0", examples=["2 um"]
+    )
+    end: Length | None = Field(
+        default=None, gt=0, description="a displacement or opening in m at which to stop, > 0"
+    )
+    energy: Energy | None = Field(
+        default=None, gt=0, description="energy in J that a step dissipates at most, > 0"
+    )
+    end_energy: Energy | None = Field(
+        default=None, gt=0, description="energy in J dissipated at which to stop, > 0"
+    )
+    fall: Number = Field(
+        default=0.0,
+        ge=0,
+        lt=1,
+        description="a share of the largest load in [0, 1): the run ends where the load has fallen "
+        "to it",
+        examples=[0.2],
+    )
+
+    words: ClassVar[str] = "a table [loading.control]"
+
+    @model_validator(mode="after")
+    def _check(self) -> ControlTable:
+        keys, count = NEEDS.get(self.type, ((), len(self.monitors)))
+        for key in keys:
+            if getattr(self, key) is None:
+                raise fault(f'type = "{self.type}" without {key}', key, f"add {key}")
+        if len(self.monitors) != count:
+            expected = f"{count} monitors"
+            raise fault(f"{len(self.monitors)} monitors", expected, "correct their number")
+        if not any(self.direction):
+            raise fault("direction [0, 0]", "a direction that is not zero", "correct it")
+        return self

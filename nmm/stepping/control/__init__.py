@@ -1,0 +1,1 @@
+"""Static runs along a path: event by event, up and down the load."""
