@@ -40,6 +40,7 @@ CALLED_BY = {
     "initial velocity": "[[initial_velocities]]",
     "initial stress": "[[initial_stresses]]",
     "water pressures": "[[water_pressures]]",
+    "joint flow": "[joint_flow]",
     "viscous boundaries": "[[viscous_boundaries]]",
     "free fields": "[[free_fields]]",
     "springs": "[[springs]]",

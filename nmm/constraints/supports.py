@@ -88,7 +88,7 @@ class Supports(TiedInterfaces):
 
     def work(self, before: State, after: State) -> float:
         """Mean reaction of each driven support times the way it is driven."""
-        total = 0.0
+        total = super().work(before, after)
         for number, start, end in self._driven(before, after):
             if (end != start).any():
                 first, last = self._ends(number, before, after)

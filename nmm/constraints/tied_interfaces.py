@@ -118,10 +118,24 @@ class TiedInterfaces(Effect):
         """Energy (J) stored in ``state``, with places of its own instant."""
         now = instant_of(state)
         pairs = list(zip(self.ties, self._jumps(state, now), strict=True))
-        total = sum(tie.energy(state, jump) for tie, jump in pairs)
-        if self._stresses:
-            total -= sum(float(np.sum(jump * self._added(tie, state, now))) for tie, jump in pairs)
-        return total
+        return sum(tie.energy(state, jump) for tie, jump in pairs) + self.felt_energy(state)
+
+    def felt_energy(self, state: State) -> float:
+        """See `Effect.felt_energy`: minus the tractions of these stresses times the jumps."""
+        return -self._felt(state, instant_of(state)) if self._stresses else 0.0
+
+    def work(self, before: State, after: State) -> float:
+        """Work (J) of these stresses as they change, on the mean jump of both ends of the step."""
+        if not self._stresses:
+            return 0.0
+        start, end = instant_of(before), instant_of(after)
+        rise = (self._felt(state, end) - self._felt(state, start) for state in (before, after))
+        return -sum(rise) / 2
+
+    def _felt(self, state: State, at: Instant) -> float:
+        """Tractions of stresses at an instant times the jumps of a state (J)."""
+        pairs = zip(self.ties, self._jumps(state, instant_of(state)), strict=True)
+        return sum(float(np.sum(jump * self._added(tie, state, at))) for tie, jump in pairs)
 
     def gap_volume(self, state: State, k: int) -> Floats:
         """See `Effect.gap_volume`."""

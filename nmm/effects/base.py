@@ -284,6 +284,10 @@ class Effect(ABC):
         """Take the `stress_at` of the other effects: what holds edges by tractions needs them."""
         raise NotImplementedError
 
+    def felt_energy(self, state: State) -> float:
+        """The part (J) of its energy that is of the stresses that it feels."""
+        raise NotImplementedError
+
     def imbalance(self, state: State) -> float:
         """What a conserved quantity lacks, as a share of all that came and went."""
         raise NotImplementedError

@@ -44,7 +44,10 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 SHARED = frozenset(
-    ("inertia", "initial stress", "contact", "supports", "bonded interfaces", "artificial joints")
+    (
+        *("inertia", "initial stress", "heat", "contact"),
+        *("supports", "bonded interfaces", "artificial joints"),
+    )
 )
 """Effects whose energy is counted with that of bodies, contacts or supports."""
 
@@ -161,6 +164,10 @@ class Plan:
         """Volumes (k,) between edges and where they are held."""
         gaps = [effect.gap_volume(state, k) for effect in self._with("gap_volume")]
         return sum(gaps, start=np.zeros(k))
+
+    def felt_energy(self, state: State) -> float:
+        """Return the energy (J) at edges of stresses that what holds them was told of."""
+        return sum(effect.felt_energy(state) for effect in self._with("felt_energy"))
 
     def added_stress(self, state: State) -> Floats | None:
         """Return the mean stress (E, 3) beyond that of the strain; None where nothing adds any."""

@@ -127,6 +127,7 @@ CASES = Registry[type[Case]](
         "WA2": f"{_HOME}.water:PlaneFailure",
         "WA4": f"{_HOME}.joint_water:UpliftByFlow",
         "WA5": f"{_HOME}.joint_water:LiftedBlock",
+        "WA7": f"{_HOME}.water:PressurisedCrack",
         "WA8": f"{_HOME}.water:Submerged",
         "WA9": f"{_HOME}.seepage:RisingWater",
         "WA10": f"{_HOME}.seepage:PorousCylinder",

@@ -225,4 +225,5 @@ def standing(plan: "Plan", before: State, after: State) -> float:
     """
     held = replace(after, time=before.time, load_factor=before.load_factor)
     stress = sum(plan.energy(name, before) - plan.energy(name, held) for name in STRAINING)
+    stress += plan.felt_energy(before) - plan.felt_energy(held)
     return (plan.work(before, held) + stress) / 2

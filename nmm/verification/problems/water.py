@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
+from nmm.study.samples import fields
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.reading import converged
@@ -182,3 +183,43 @@ class Submerged(SceneCase):
         force = -float(run.frames[-1].contact_force[:, 0].sum())
         wanted = 127530.0 if self.sealed else 29430.0
         return {"force on the floor (N/m)": Check(force, wanted, 1e-6, EXACT)}
+
+
+class PressurisedCrack(SceneCase):
+    """Water in an inclined crack of a large plate opens it to an ellipse."""
+
+    name, title = "WA7", "Crack under the pressure of its water"
+    source = "Griffith (1921), Sneddon (1946): w = 4 (1 - nu^2) p a / E, work p V / 2 = 589.04862 J"
+    formulations = ("manifold",)
+
+    @property
+    def slow(self) -> bool:
+        """It has 12,000 unknowns."""
+        return True
+
+    def scene(self) -> str:
+        """Return a crack of 2 m under 2 MPa in a plate of 20 m."""
+        tip = [0.9, 0.435889894354067]
+        return text.scene(
+            'title = "Pressurised crack"\nplane = "strain"\n',
+            [
+                text.material("rock", 20e9, 0.25, None),
+                text.box("plate", (-10, -10), (20, 20), "rock"),
+                f'[[cracks]]\nname = "crack"\npoints = {[[-x for x in tip], tip]}\n',
+                # A level so high that the pressure is even to 1e-6.
+                water("water", 'crack = "crack"\nlevel = 1e6\nunit_weight = 2.0'),
+                '[[supports]]\nname = "a"\npoint = [-10, -10]\nfix = ["x", "y"]\n',
+                '[[supports]]\nname = "b"\npoint = [10, -10]\nfix = ["y"]\n',
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the work of the water and the opening in the middle."""
+        across = np.array([-0.435889894354067, 0.9])
+        sides = fields(run, np.outer([1e-6, -1e-6], across)).displacement
+        opening = float((sides[0] - sides[1]) @ across)
+        plate = "the aim; a plate of ten half-lengths gives more than an endless one, by 1 %"
+        return {
+            "work (J)": Check(run.history["external_work"][-1], 589.04862, 0.02, plate),
+            "opening in the middle (m)": Check(opening, 0.375e-3, 0.02, plate),
+        }
