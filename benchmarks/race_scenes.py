@@ -4,8 +4,8 @@ Each is a scene and the step of its run. A few have a smaller sibling whose coun
 a test.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -31,18 +31,22 @@ class Race:
         Length of its steps (s); None where loads drive it.
     steps
         How many are raced.
+    formulation
+        What the formulation says besides.
     """
 
     scene: Callable[[float], Scene]
     step: float | None
     steps: int
+    formulation: Mapping[str, object] = field(default_factory=dict)
 
     def made(self) -> tuple[Scene, Formulation]:
         """Return the scene as long as its steps, and its formulation."""
         if self.step is None:
             scene = self.scene(0.0)
             return scene, Formulation.model_validate(scene.formulation or {})
-        formulation = Formulation.model_validate({"integrator": {"step": self.step}})
+        given = {"integrator": {"step": self.step}, **self.formulation}
+        formulation = Formulation.model_validate(given)
         return self.scene(self.steps * self.step), formulation
 
 

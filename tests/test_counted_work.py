@@ -4,6 +4,7 @@
 """
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,20 @@ def test_work_of_a_step_is_at_most_five_percent_above_that_recorded(name):
     # The first run of a process imports and compiles what it calls.
     raced(SMALL[name])
     assert not list(lost(raced(SMALL[name]).work, record.work[name], 0.05))
+
+
+@pytest.mark.parametrize("name", ["wall of 25", "sliding wall of 25", "pile of 25"])
+def test_a_looser_tolerance_costs_no_more(name):
+    from counted_work import raced
+    from race_scenes import SMALL
+
+    def solves(tolerance):
+        options = {"contact": {"options": {"tolerance": tolerance}}}
+        work = raced(replace(SMALL[name], formulation=options)).work
+        return work.passes + 12 * work.factorisations  # a factorisation takes that of a solve
+
+    tight, loose = (solves(tolerance) for tolerance in (1e-8, 1e-3))
+    assert loose < tight
 
 
 def test_a_loss_of_six_percent_is_told_and_a_gain_is_not():

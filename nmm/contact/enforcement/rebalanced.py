@@ -20,7 +20,9 @@ UNEVEN = 1e-3
 UNEVEN_SMALL = 1e-6
 """The same in problems of up to `SMALL` unknowns, where more costs nothing."""
 FINE = 1e-11
-"""Tolerance of the second solution."""
+"""Least tolerance of a further solution."""
+FINER = 1e-3
+"""Part of its tolerance that the next solution of a step is asked for."""
 
 
 def solve_rebalanced(
@@ -30,23 +32,26 @@ def solve_rebalanced(
     memory: Memory,
     body: Ints,
 ) -> StepAnswer:
-    """Solve a step, and again with a tolerance of `FINE` where the first answer is uneven.
+    """Solve a step, and again by finer tolerances, down to `FINE`, while the answer is uneven.
 
     A tolerance relative to the largest force says nothing of a part whose own forces are as
     small as that: a block of 0.1 mm on one of 1 m has 1e-8 of its weight.
     """
     answer = enforcement.solve(problem, linear, memory)
     allowed = UNEVEN_SMALL if len(problem.force) <= SMALL else UNEVEN
-    if not answer.verdict.converged or imbalance_of_bodies(problem, answer, body) <= allowed:
-        return answer
-    if not getattr(enforcement, "tolerance", 0.0) > FINE:
-        return answer
-    memory.answered = (problem, answer)
-    finer = replace(enforcement, **{"tolerance": FINE}).solve(
-        memory.started(problem), linear, memory
-    )
-    passes = answer.passes + finer.passes
-    return replace(finer if finer.verdict.converged else answer, passes=passes)
+    tolerance, passes = float(getattr(enforcement, "tolerance", 0.0)), answer.passes
+    while answer.verdict.converged and tolerance > FINE:
+        if imbalance_of_bodies(problem, answer, body) <= allowed:
+            break
+        memory.answered, tolerance = (problem, answer), max(FINE, FINER * tolerance)
+        finer = replace(enforcement, **{"tolerance": tolerance}).solve(
+            memory.started(problem), linear, memory
+        )
+        passes += finer.passes
+        if not finer.verdict.converged:
+            break
+        answer = finer
+    return replace(answer, passes=passes)
 
 
 def imbalance_of_bodies(problem: StepProblem, answer: StepAnswer, body: Ints) -> float:
