@@ -122,7 +122,7 @@ class IntegratorTable(PartTable):
 
     type: PartName = Field(
         default="shi",
-        description=f'"shi", "newmark", "generalized_alpha" {OWN}',
+        description=f'"shi", "newmark", "generalized_alpha", "central_differences" {OWN}',
         examples=["newmark"],
     )
     step: Time = Field(default=1e-3, gt=0, description="a step in s, > 0", examples=["1 ms"])

@@ -11,6 +11,7 @@ start no contact pulls, so that closing and opening never give more than the spr
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
@@ -62,8 +63,18 @@ class Integrator(ABC):
 
     @property
     def end_weight(self) -> float:
-        """Share ``s`` of the end of the step in elastic and applied forces."""
+        """Share ``s`` of the end of the step in elastic and applied forces; 0 is explicit."""
         return 1.0
+
+    @property
+    def limit(self) -> float:
+        """Largest product of circular frequency and step that is stable; infinite where any is."""
+        return inf
+
+    @property
+    def beginning(self) -> "Integrator | None":
+        """What takes a step whose start's acceleration is not known; None is the common rule."""
+        return None
 
     @property
     def contact_factor(self) -> float:
@@ -119,6 +130,7 @@ INTEGRATORS = Registry[type[Integrator]](
     {
         "shi": "nmm.integrators.shi:Shi",
         "newmark": "nmm.integrators.newmark:Newmark",
+        "central_differences": "nmm.integrators.central_differences:CentralDifferences",
         "generalized_alpha": "nmm.integrators.generalized_alpha:GeneralizedAlpha",
     },
 )

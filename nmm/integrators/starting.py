@@ -10,4 +10,6 @@ def rule_of(integrator: Integrator, knows_start: bool) -> Integrator:
     Without it the step is Shi's, which needs none and damps the waves of loads that come all at
     once. Its error of the velocity, once of order 2 in the step, leaves orders as they are.
     """
-    return integrator if knows_start else Shi(kinetic_factor=integrator.kinetic_factor)
+    if knows_start:
+        return integrator
+    return integrator.beginning or Shi(kinetic_factor=integrator.kinetic_factor)

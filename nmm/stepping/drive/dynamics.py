@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.stepping.drive.changes import Stands, asked, with_events
+from nmm.stepping.drive.stable_step import longest_step, singular_mass
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.budget import BudgetSpentError
@@ -94,7 +95,7 @@ def run_in_time(
     -------
     The last accepted state and the verdict.
     """
-    verdict = None
+    verdict = _unstable(stepper, at.state, schedule)
     while verdict is None and at.rest(schedule):
         found = _next(stepper, recorder, at, schedule, progress)
         if isinstance(found, RunVerdict):
@@ -103,6 +104,25 @@ def run_in_time(
             at = keep(found) if found.rest(schedule) else found
     recorder.last(at.state, schedule.stage, at.contacts)
     return at.state, verdict or _arrived(at)
+
+
+def _unstable(stepper: Stepper, state: State, schedule: Schedule) -> RunVerdict | None:
+    """Return why a step is too long for an explicit integrator; None where it is not."""
+    if singular_mass(stepper):
+        return RunVerdict(
+            FAILED,
+            "the mass is singular, as functions depend on one another: expected one that an "
+            'explicit integrator can divide by: use [integrator] mass = "lumped"',
+        )
+    longest = longest_step(stepper, state)
+    if schedule.step <= longest:
+        return None
+    return RunVerdict(
+        FAILED,
+        f"steps of {schedule.step:.3g} s grow without bound: expected at most {longest:.3g} s, the "
+        "limit of the integrator over the highest frequency: take shorter steps, larger cells or "
+        '[integrator] type = "newmark"',
+    )
 
 
 def _next(

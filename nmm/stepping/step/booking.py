@@ -65,11 +65,13 @@ def booked(
     damped = added = 0.0
     if terms.damping is not None:
         lost, damped, added = terms.damping.taken(increment, terms.factor, terms.rates)
-    if terms.weight != 0.5:
+    more = 0.0 if terms.gain is None else float(increment @ terms.gain)
+    if terms.elastic is not None:
+        beyond = (more - float(increment @ (terms.elastic @ increment))) / 2
+    elif terms.weight != 0.5:
         share = terms.contact_factor
         # The matrix is that of inertia and, weighted, of all that is elastic, over the share.
         whole = share * float(increment @ (equations.matrix @ increment))
-        more = 0.0 if terms.gain is None else float(increment @ terms.gain)
         elastic = whole - heavy - damped - added
         beyond = (terms.weight - 0.5) * (elastic / terms.weight - more)
     work = 0.0

@@ -66,6 +66,8 @@ class InertiaTerms:
         the material among them; None where nothing does.
     damping
         Dampers; None without any.
+    elastic
+        All that is elastic (n, n), where it is no part of the step's matrix.
     """
 
     mass: csc_array
@@ -76,6 +78,7 @@ class InertiaTerms:
     contact_factor: float
     gain: Floats | None
     damping: Damping | None = None
+    elastic: csc_array | None = None
 
 
 # An out-of-balance force below this share of the forces that it is the difference of is rounding.
@@ -171,15 +174,22 @@ class Assembly:
         rates = rule.momentum(velocity, state.acceleration, step)
         momentum, factor = mass @ rates, rule.mass_factor(step)
         damping = Damping.of(plan, rule, state, velocity, step)
-        parts = [(1.0, line.stiffness), (factor / weight, mass)]
+        heavy = [mass]
         pushed = force + momentum
         if damping is not None:
-            parts += [(damping.rate / weight, one) for one in damping.dampers.values()]
-            parts += [(factor / weight, one) for one in damping.masses.values()]
+            heavy += damping.masses.values()
             pushed += damping.force()
             pushed += sum(one @ rates for one in damping.masses.values())
         share = 1.0 if plan.contact is None else rule.contact_factor
         terms = InertiaTerms(mass, factor, momentum, rates, weight, share, gain, damping)
+        if not weight:  # explicit: what is elastic joins no matrix
+            elastic = plan.matrix(state, line.stiffness)
+            matrix = self._sum([(factor / share, one) for one in heavy])
+            terms = replace(terms, elastic=elastic)
+            return replace(static, matrix=matrix, force=pushed / share, inertia=terms)
+        parts = [(1.0, line.stiffness), *((factor / weight, one) for one in heavy)]
+        if damping is not None:
+            parts += [(damping.rate / weight, one) for one in damping.dampers.values()]
         matrix = self._times(weight / share, plan.matrix(state, self._sum(parts)))
         return replace(static, matrix=matrix, force=pushed / share, inertia=terms)
 
@@ -197,11 +207,15 @@ class Assembly:
         """Return the sum of factors times matrices, the same one as long as all of them stay."""
         kept = self._kept
         if kept is None or not _are(kept[0], parts):
-            total = parts[0][1]
+            total = self._scaled(*parts[0])
             for factor, matrix in parts[1:]:  # stiffness, mass, and a handful of dampers
                 total = csc_array(total + factor * matrix)
             kept = self._kept = parts, total
         return kept[1]
+
+    @staticmethod
+    def _scaled(factor: float, matrix: csc_array) -> csc_array:
+        return matrix if factor == 1 else csc_array(factor * matrix)
 
     def _times(self, factor: float, matrix: csc_array) -> csc_array:
         """Return ``factor * matrix``."""

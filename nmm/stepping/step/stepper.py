@@ -126,6 +126,11 @@ class Stepper:
             part.forget()
 
     @property
+    def integrator(self) -> Integrator:
+        """What takes the steps."""
+        return self._integrator
+
+    @property
     def anchored(self) -> bool:
         """Whether soft springs hold bodies in statics to where they stand (`anchors`)."""
         return self._carried.anchored

@@ -3,6 +3,7 @@
 import pytest
 
 from nmm.integrators.base import INTEGRATORS
+from nmm.integrators.central_differences import CentralDifferences
 from nmm.integrators.generalized_alpha import GeneralizedAlpha
 from nmm.integrators.newmark import Newmark
 from nmm.integrators.shi import Shi
@@ -13,6 +14,7 @@ MADE = {
     "shi": [(Shi(), 1.0)],
     # gamma > 1/2 damps and costs an order.
     "newmark": [(Newmark(), 2.0), (Newmark(beta=0.3025, gamma=0.6), 1.0)],
+    "central_differences": [(CentralDifferences(), 2.0)],
     "generalized_alpha": [(GeneralizedAlpha(rho_inf=rho), 2.0) for rho in (0.0, 0.5, 0.8, 1.0)],
 }
 

@@ -1,0 +1,54 @@
+"""The longest step of an explicit integrator: its limit over the highest frequency."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from nmm.assembly.motion import State
+
+if TYPE_CHECKING:
+    from nmm.stepping.step.stepper import Stepper
+
+# Systems of fewer unknowns are solved whole.
+FEW = 200
+
+
+def singular_mass(stepper: "Stepper") -> bool:
+    """Whether an explicit integrator meets a mass of dependent functions, which has no inverse."""
+    model = stepper.model
+    explicit = not np.isinf(stepper.integrator.limit)
+    return explicit and not model.lumped and bool(model.manifold.dependent)
+
+
+def longest_step(stepper: "Stepper", state: State) -> float:
+    """Return the longest stable step (s); infinite of implicit integrators.
+
+    The frequency is that of the matter and of all that effects add to its stiffness; conditions of
+    multipliers only lower it. A damper of the ratio ``z`` shortens the step by ``sqrt(1 + z^2) -
+    z``.
+    """
+    limit, plan = stepper.integrator.limit, stepper.plan
+    if np.isinf(limit) or plan.inertia is None:
+        return np.inf
+    stiffness = plan.matrix(state, stepper.model.tangent(state))
+    square, mode = _highest(stiffness, plan.inertia.mass)
+    omega, heavy = np.sqrt(square), float(mode @ (plan.inertia.mass @ mode))
+    damped = sum(float(mode @ (one @ mode)) for one in plan.damping(state).values())
+    ratio = damped / (2 * omega * heavy)
+    return float(limit / omega * (np.sqrt(1 + ratio**2) - ratio))
+
+
+def _highest(stiffness: csc_array, mass: csc_array) -> tuple[float, np.ndarray]:
+    """Return the highest eigenvalue (1/s2) of the pair, with its vector."""
+    if stiffness.shape[0] < FEW:
+        from scipy.linalg import eigh
+
+        last = stiffness.shape[0] - 1
+        values, modes = eigh(stiffness.toarray(), mass.toarray(), subset_by_index=(last, last))
+    else:
+        from scipy.sparse.linalg import eigsh
+
+        start = np.random.default_rng(0).normal(size=stiffness.shape[0])
+        values, modes = eigsh(stiffness, 1, mass, which="LM", v0=start, tol=1e-4)
+    return float(values[-1]), modes[:, -1]
