@@ -104,6 +104,7 @@ CASES = Registry[type[Case]](
         "GR2": f"{_HOME}.growing_cracks:DoubleCantilever",
         "GR4": f"{_HOME}.growing_cracks:InclinedCrack",
         "GR5": f"{_HOME}.growing_cracks:PassedHole",
+        "GR8": f"{_HOME}.growing_cracks:PassingCracks",
         "PL0 bar": f"{_HOME}.plasticity:PlasticBar",
         "PL0 beam": f"{_HOME}.plasticity:PlasticBeam",
         "PL3": f"{_HOME}.plasticity:PlasticCylinder",

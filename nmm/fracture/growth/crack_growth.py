@@ -49,17 +49,25 @@ class Intensities:
     share: Floats
 
 
+@dataclass(frozen=True)
+class GrownSoFar:
+    """How far each front has grown (n,) (m), and the energy that all of them took (J)."""
+
+    length: Floats
+    energy: float
+
+
 class CrackGrowth(Effect):
     """Cracks of the scene that grow by a rule; their fracture energy is what the growth takes."""
 
     name = "fracture"
     external = False
 
-    def __init__(self, setup: Setup, fronts: CrackFronts, grown: Floats) -> None:
+    def __init__(self, setup: Setup, fronts: CrackFronts, sofar: GrownSoFar) -> None:
         table = setup.scene.fracture
         assert table is not None
         self.rule = GrowthRule.of(table)
-        self._setup, self._fronts, self._grown, self._table = setup, fronts, grown, table
+        self._setup, self._fronts, self._sofar, self._table = setup, fronts, sofar, table
         self._tips = fronts.tips(setup.model.cut, setup.geometry.cracks)
         self._known: tuple[Floats, Intensities] | None = None
 
@@ -75,7 +83,7 @@ class CrackGrowth(Effect):
             A cover whose tips carry no functions, or matter that is not linear.
         """
         names = [crack.name for crack in setup.scene.cracks]
-        made = cls(setup, CrackFronts.of(names), np.zeros(2 * len(names)))
+        made = cls(setup, CrackFronts.of(names), GrownSoFar(np.zeros(2 * len(names)), 0.0))
         _refuse(setup, made._tips)
         return made
 
@@ -94,8 +102,7 @@ class CrackGrowth(Effect):
         model, front = self._setup.model, np.flatnonzero(self._tips >= 0)
         tip = self._tips[front]
         element = model.cut.tips.element[tip]
-        kappa = np.array([_kolosov(model, int(one)) for one in element])
-        stiff = 8 * model.elasticity[element, 2, 2] / (kappa + 1)
+        kappa, stiff = _stiff(model, element)
         weight = self._weight()
         about = [
             stress_intensity(
@@ -125,12 +132,12 @@ class CrackGrowth(Effect):
 
     def free(self, found: Intensities) -> Bools:
         """Which fronts (k,) with a tip have not grown as far as they may."""
-        return np.asarray(self._grown[found.front] < self.rule.most * (1 - 1e-9))
+        return self.rule.free(self._sofar.length[found.front])
 
     def event(self, view: "View") -> Event | None:
         """Ask for new pieces where tips have reached their toughness."""
         found = self.intensities(view.state)
-        rows = np.flatnonzero(self.rule.growing(found.share, self._grown[found.front]))
+        rows = np.flatnonzero(self.rule.growing(found.share, self._sofar.length[found.front]))
         if not len(rows):
             return None
         geometry, cut = self._setup.geometry, self._setup.model.cut
@@ -149,15 +156,19 @@ class CrackGrowth(Effect):
     def follow(self, change: "Change") -> "CrackGrowth":
         """Return the effect on the new geometry, with what its fronts have gained."""
         gained = self._fronts.gained(self._setup.geometry.cracks, change.setup.geometry.cracks)
-        return CrackGrowth(change.setup, self._fronts, self._grown + gained)
+        model, front = self._setup.model, np.flatnonzero(self._tips >= 0)
+        stiff = _stiff(model, model.cut.tips.element[self._tips[front]])[1]
+        energy = model.thickness * gained[front] @ self.rule.toughness.energies(stiff)
+        sofar = GrownSoFar(self._sofar.length + gained, self._sofar.energy + float(energy))
+        return CrackGrowth(change.setup, self._fronts, sofar)
 
     def history(self, state: State) -> Mapping[str, float]:
         """Place, growth and intensities of every front, and the energy that growth took (J)."""
         found = self.intensities(state)
         rate = (found.opening**2 + found.sliding**2) / found.stiff
         places = self._fronts.points(self._setup.geometry.cracks) + self._setup.origin
-        row = {"growth": float(self._grown.sum()), "energy": self._taken()}
-        for name, (x, y), grown in zip(self._fronts.name, places, self._grown, strict=True):
+        row = {"growth": float(self._sofar.length.sum()), "energy": self._sofar.energy}
+        for name, (x, y), grown in zip(self._fronts.name, places, self._sofar.length, strict=True):
             row |= {f"{name}:x": x, f"{name}:y": y, f"{name}:growth": grown}
         for number, front in enumerate(found.front):
             name = self._fronts.name[front]
@@ -165,29 +176,24 @@ class CrackGrowth(Effect):
             row[f"{name}:G"], row[f"{name}:share"] = rate[number], found.share[number]
         return {key: float(value) for key, value in row.items()}
 
-    def _taken(self) -> float:
-        model = self._setup.model
-        stiff = 8 * model.elasticity[0, 2, 2] / (_kolosov(model, 0) + 1)
-        energy = float(self.rule.toughness.energies(np.array([stiff]))[0])
-        return energy * float(self._grown.sum()) * model.thickness
+    def carried(self) -> tuple[Floats, float]:
+        """How far each front has grown (m), and what that took (J)."""
+        return self._sofar.length, self._sofar.energy
 
-    def carried(self) -> Floats:
-        """How far each front has grown (m)."""
-        return self._grown
-
-    def carry(self, carried: Floats) -> None:
+    def carry(self, carried: tuple[Floats, float]) -> None:
         """See `Effect.carry`."""
-        self._grown = carried
+        self._sofar = GrownSoFar(*carried)
 
     def forget(self) -> None:
         """See `Effect.forget`."""
         self._known = None
 
 
-def _kolosov(model: Model, element: int) -> float:
-    """Kolosov's constant of the material of an element."""
-    number = 0 if model.law is None else int(model.law[element])
-    return model.laws[number].kolosov(model.plane)
+def _stiff(model: Model, element: Ints) -> tuple[Floats, Floats]:
+    """Kolosov's constant and E' (Pa) of the material of elements (n,)."""
+    number = np.zeros(len(element), dtype=np.int64) if model.law is None else model.law[element]
+    kappa = np.array([law.kolosov(model.plane) for law in model.laws])[number]
+    return kappa, np.asarray(8 * model.elasticity[element, 2, 2] / (kappa + 1))
 
 
 def _even(force: Floats) -> Callable[[Floats], Floats]:

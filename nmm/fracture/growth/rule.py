@@ -50,8 +50,12 @@ class GrowthRule:
         """Share (n,) of the toughness that fronts have reached, E' being ``stiff`` (Pa)."""
         return np.asarray(kink.equivalent / self.toughness.intensities(stiff))
 
+    def free(self, grown: Floats) -> Bools:
+        """Which fronts (n,) have not grown as far as they may."""
+        return np.asarray(grown < self.most * (1 - ROUNDING))
+
     def growing(self, share: Floats, grown: Floats) -> Bools:
         """Which fronts (n,) grow: none before one is critical, then all that nearly are."""
-        free = grown < self.most * (1 - ROUNDING)
+        free = self.free(grown)
         critical = bool((share[free] >= 1 - ROUNDING).any())
         return np.asarray(free & critical & (share >= 1 - max(self.together, ROUNDING)))

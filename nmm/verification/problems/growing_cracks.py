@@ -196,6 +196,50 @@ class DoubleCantilever(GrowingCrack):
 
 
 @dataclass(frozen=True)
+class PassingCracks(GrowingCrack):
+    """Two cracks from opposite edges: first apart, then each hooks into the flank of the other."""
+
+    name: ClassVar[str] = "GR8"
+    title: ClassVar[str] = "Two offset edge cracks that pass, hook and coalesce"
+    source: ClassVar[str] = "Finite elements of degree 3 graded to the tips, pieces of 0.01"
+    path: ClassVar[tuple[tuple[float, float], ...]] = (
+        *((0.3, 0.05), (0.3397, 0.0552), (0.379, 0.0626), (0.4178, 0.0723), (0.4565, 0.0823)),
+        *((0.496, 0.0881), (0.5359, 0.086), (0.5743, 0.075), (0.6091, 0.0555), (0.6383, 0.0283)),
+        *((0.66, -0.0052), (0.6735, -0.0428), (0.6756, -0.053)),
+    )
+
+    @property
+    def tables(self) -> Sequence[str]:
+        """Return the plate with both cracks; tips that are nearly critical grow together."""
+        return [
+            text.block("plate", "m", text.rectangle((0.0, -1.0), (1.0, 1.0))),
+            crack("left", [[0.0, 0.05], [0.3, 0.05]]),
+            crack("right", [[1.0, -0.05], [0.7, -0.05]]),
+            pull("up", [[0.0, 1.0], [1.0, 1.0]], [0.0, 1.0]),
+            pull("down", [[0.0, -1.0], [1.0, -1.0]], [0.0, -1.0]),
+            pinned("lower", [1.0, -1.0], "x", "y"),
+            pinned("other", [0.0, -1.0], "y"),
+            grown(0.03, 10.0) + "together = 0.1\n",
+            net(0.05, 17.0),
+        ]
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the path, and one crack with the other."""
+        import shapely
+
+        (place, _), (other, _) = path(run, "left:end"), path(run, "right:end")
+        line = shapely.LineString(self.path)
+        off = shapely.distance(shapely.points(place), line)
+        return {
+            "distance from the path (m)": limit(float(np.max(off)), 0.02, "the benchmark's"),
+            "point symmetry (m)": limit(
+                float(np.abs(place + other - np.array([1.0, 0.0])).max()), 1e-3, "of the scene"
+            ),
+            "parts are free": holds("came free" in run.summary.sentence, "they meet"),
+        }
+
+
+@dataclass(frozen=True)
 class PassedHole(GrowingCrack):
     """A crack from the edge is pushed away by a hole, drawn to it, and passes; the plate parts."""
 

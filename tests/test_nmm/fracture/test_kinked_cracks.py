@@ -89,3 +89,12 @@ def test_tips_in_the_same_covers_have_their_own_functions() -> None:
     # Measured 0.2 and 1.6 %.
     assert np.abs(fine[0] - fine[1]).max() < 0.01 * size
     assert np.abs(coarse - fine).max() < 0.03 * size
+
+
+@pytest.mark.parametrize("away", [1e-14, 1e-9, 1e-6])
+def test_a_tip_may_lie_beside_a_node_of_the_net_as_on_it(away: float) -> None:
+    node = np.array([0.24796917, 0.0854402])
+    cracks = [np.array([[-1.1, -0.05], node + far * np.array([0.1, 0.0])]) for far in (0.0, away)]
+    on, beside = (plate([crack], 0.1, 0.3, 0.2)[0] for crack in cracks)
+    # Other covers touch the tip: measured 2e-3.
+    assert beside == pytest.approx(on, abs=5e-3 * float(np.hypot(*on)))
