@@ -42,7 +42,7 @@ from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.control.following import PathEnd, run_path
 from nmm.stepping.control.making import control_of
-from nmm.stepping.drive.changes import topology
+from nmm.stepping.drive.changes import refuse_events, topology
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages
 from nmm.stepping.drive.static_theorem import load_bound
@@ -405,6 +405,8 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     for later in stages[1:]:
         compile_plan(later.setup)  # its faults are told before anything is solved
     plan = discretisation.plan
+    if stages:
+        refuse_events(scene, plan)
     stepper = Stepper(
         discretisation,
         make_integrator(formulation.integrator),

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nmm.assembly.motion import State
+from nmm.errors import Fault, SceneError
 from nmm.results.frame import Topology
 from nmm.stepping.reports.recorder import Recorder, monitors
 from nmm.stepping.step.frozen import with_parts
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from nmm.effects.base import Setup
     from nmm.effects.change import Change
     from nmm.effects.event import Event
+    from nmm.model.plan import Plan
+    from nmm.scene.model import Scene
 
 Asked = tuple[tuple[str, "Event"], ...]
 """Events by the names of the effects that ask for them."""
@@ -33,6 +36,21 @@ class Stands:
     state: State
     contacts: "ContactPoints | None"
     what: str = ""
+
+
+def refuse_events(scene: "Scene", plan: "Plan") -> None:
+    """Refuse effects that may change a geometry which the next stage would set back.
+
+    Raises
+    ------
+    SceneError
+        Naming the effects.
+    """
+    if plan.askers:
+        names = ", ".join(plan.askers)
+        expected = "stages of blocks that no event changes"
+        remedy = "remove [[stages]], or what asks for events"
+        raise SceneError(Fault(scene.source.place("stages"), names, expected, remedy))
 
 
 def asked(recorder: Recorder, at: Stands) -> Asked:

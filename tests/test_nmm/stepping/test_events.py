@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.errors import SceneError
 from nmm.results.storage.stored_run import read_run
 from nmm.results.viewing.paraview import write_paraview
 
@@ -145,3 +146,10 @@ def test_a_bar_that_is_cut_through_fails_at_the_load_of_the_cut():
     assert done.summary.status == "failure_load", done.summary.sentence
     assert done.summary.failure_factor == pytest.approx(0.6, rel=5e-3)
     assert "after a seam opened" in done.summary.sentence
+
+
+def test_stages_that_would_set_an_event_back_are_refused_by_line():
+    text = SEAM.replace('duration = "20 ms"\n', "", 1)
+    text += '[[stages]]\nname = "first"\nduration = "10 ms"\n'
+    with pytest.raises(SceneError, match=r"scene:\d+: stages.*effects.seam"):
+        run(text)
