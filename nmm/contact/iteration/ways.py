@@ -36,7 +36,7 @@ class Ways:
     def budget(
         self, whole: IterationBudget, near: bool, options: WayOptions
     ) -> IterationBudget | None:
-        """Return what the alternation may cost before the interior point; None: it is left out.
+        """Begin a step: what the alternation may cost before the interior point; None: left out.
 
         ``near`` says that the search starts near its end, where a few solves mostly do.
         """
