@@ -3,7 +3,7 @@
 What a scene does not name is not imported and has no arrays.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from time import perf_counter
@@ -95,20 +95,26 @@ class Plan:
     def force(self, state: State, end: Instant) -> Floats:
         """Return the sum of all effects' forces (n,)."""
         total = np.zeros(len(state.deformation))
+        for part in self.forces(state, end):
+            total += part
+        return total
+
+    def forces(self, state: State, end: Instant) -> Iterator[Floats]:
+        """Yield the force (n,) of each effect."""
+        shape = state.deformation.shape
         for name, effect in self._named("force"):
             part = self._timed(name, partial(effect.force, state, end))
-            if part.shape != total.shape:
+            if part.shape != shape:
                 raise SolveError(
-                    f"{name}: the force has the shape {part.shape}: expected {total.shape}, one "
+                    f"{name}: the force has the shape {part.shape}: expected {shape}, one "
                     "number an unknown: correct Effect.force"
                 )
-            total += part
             if not np.isfinite(part).all():
                 raise SolveError(
                     f"{name} at {end.time:.6g} s: the force is infinite or no number: "
                     "expected finite numbers: correct its magnitude, history or place"
                 )
-        return total
+            yield part
 
     @cached_property
     def steady(self) -> bool:

@@ -4,6 +4,7 @@ Matter that is not linear enters by its `Linearisation` at an iterate of the ste
 stay linear in the whole increment, whatever the iterate.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -148,10 +149,10 @@ class Assembly:
         """
         model, plan = self._solved.model, self._solved.plan
         line = Linearisation.linear(model, state) if matter is None else matter
-        applied = plan.force(state, end)
-        force = applied - line.force
+        parts = list(plan.forces(state, end))
+        force = sum(parts, start=np.zeros(len(state.deformation))) - line.force
         if step is None or plan.inertia is None:
-            if model.manifold.dependent and _rounded(force, applied, line.force):
+            if model.manifold.dependent and _rounded(force, [*parts, line.force]):
                 force = np.zeros_like(force)
             held = self._anchored(line.stiffness) if anchored else line.stiffness
             matrix, even = plan.matrix(state, held), line.symmetric
@@ -235,10 +236,10 @@ def _are(some: list[tuple[float, csc_array]], others: list[tuple[float, csc_arra
     return all(a == b and one is other for (a, one), (b, other) in pairs)
 
 
-def _rounded(force: Floats, applied: Floats, inner: Floats) -> bool:
-    """Whether a force (n,) is nothing but rounding of the two that it is the difference of.
+def _rounded(force: Floats, parts: Sequence[Floats]) -> bool:
+    """Whether a force (n,) is nothing but rounding of the parts that it is the sum of.
 
     That is no load that dependent functions can carry: it does work on motions without strain.
     """
-    size = float(np.linalg.norm(applied) + np.linalg.norm(inner))
+    size = sum(float(np.linalg.norm(part)) for part in parts)
     return float(np.linalg.norm(force)) < ROUNDING * size

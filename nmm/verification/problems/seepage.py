@@ -46,7 +46,7 @@ def pressure(run: "Run", points: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class RisingWater(SceneCase):
-    """A column of soil in which water rises: near the critical gradient little presses."""
+    """A column of soil in which water rises: at the critical gradient nothing presses any more."""
 
     name: ClassVar[str] = "WA9"
     title: ClassVar[str] = "Rising water takes the weight of soil"
@@ -56,8 +56,8 @@ class RisingWater(SceneCase):
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
-        """Return still water, and half and nine tenths of the critical gradient."""
-        return [cls(0.0), cls(0.5), cls(0.9)]
+        """Return still water, half of the critical gradient, and it itself."""
+        return [cls(0.0), cls(0.5), cls(1.0)]
 
     @property
     def variant(self) -> str:

@@ -77,11 +77,12 @@ def test_no_rise_changes_nothing():
     assert "heat" in neutral.summary.effect_seconds
 
 
-def test_a_scene_without_heat_imports_none_of_it():
+def test_a_scene_without_heat_and_water_imports_none_of_it():
     code = (
         "import sys, nmm\n"
         f"nmm.run(nmm.parse_scene('''{WALL.format(joint='')}'''))\n"
-        "print([m for m in sys.modules if m.startswith(('nmm.heat', 'nmm.diffusion'))])"
+        "rooms = ('nmm.heat', 'nmm.diffusion', 'nmm.water', 'covers.scalar')\n"
+        "print([m for m in sys.modules if m.startswith(rooms)])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
