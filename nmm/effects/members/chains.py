@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
 from scipy.sparse import coo_array, csr_array, diags_array
+from scipy.sparse.csgraph import connected_components
 
 from integration.arrays import Floats, Ints
 from nmm.effects.members.fibres import FibreAnswer, Fibres
@@ -109,18 +110,23 @@ class Chains:
         own = found.axial.tangent
         if not len(found.slip):
             return csr_array(diags_array(own))
-        rows, columns, values = [], [], []
-        for links, slips in self._bars:  # each bar has its own small system
+        band, values = self._band(found), []
+        for links, slips, opening in self._bars:  # each bar has its own small system
             block = np.diag(own[links])
             if len(slips):
-                stiff = own[links, None] * self.opening[links][:, slips].toarray()
-                factor = cholesky_banded(self._band(found)[:, slips])
+                stiff = own[links, None] * opening
+                factor = cholesky_banded(band[:, slips])
                 block = block - stiff @ cho_solve_banded((factor, False), stiff.T)
-            rows.append(np.repeat(links, len(links)))
-            columns.append(np.tile(links, len(links)))
             values.append(block.ravel())
-        place = np.concatenate(rows), np.concatenate(columns)
-        return csr_array(coo_array((np.concatenate(values), place), shape=(len(own), len(own))))
+        shape = (len(own), len(own))
+        return csr_array(coo_array((np.concatenate(values), self._places), shape=shape))
+
+    @cached_property
+    def _places(self) -> tuple[Ints, Ints]:
+        """Rows and columns of the blocks of all chains."""
+        pairs = [np.meshgrid(links, links, indexing="ij") for links, *_ in self._bars]
+        row, column = (np.concatenate([pair[i].ravel() for pair in pairs]) for i in (0, 1))
+        return row, column
 
     def _at(self, stretch: Floats, slip: Floats, memory: tuple[Floats, Floats]) -> ChainAnswer:
         axial = self.axial.answer(stretch + self.opening @ slip, memory[0])
@@ -158,7 +164,7 @@ class Chains:
         try:
             return cholesky_banded(band), NONE
         except LinAlgError:
-            return band, np.concatenate([s for _, s in self._bars if not _positive(band[:, s])])
+            return band, np.concatenate([s for _, s, _ in self._bars if not _positive(band[:, s])])
 
     def _band(self, at: ChainAnswer) -> Floats:
         return self._matrix(at.axial.tangent, at.bond.tangent + LEFT * self.bond.stiffness)
@@ -179,17 +185,15 @@ class Chains:
         return band
 
     @cached_property
-    def _bars(self) -> list[tuple[Ints, Ints]]:
-        """Links and slips of each chain; a chain that is cut is as many as its parts."""
-        from scipy.sparse.csgraph import connected_components
-
+    def _bars(self) -> list[tuple[Ints, Ints, Floats]]:
+        """Links and slips of each chain, and how one opens the other; a cut chain is several."""
         joined = csr_array(abs(self.opening.T) @ abs(self.opening))
         count, label = connected_components(joined, directed=False)
         end = np.maximum(self.left, self.right)
-        of_link = np.where(end >= 0, label[np.maximum(end, 0)], -1)
-        bars = [(np.flatnonzero(of_link == n), np.flatnonzero(label == n)) for n in range(count)]
-        alone = [(np.array([link]), NONE) for link in np.flatnonzero(of_link < 0)]
-        return [*bars, *alone]
+        of_link = np.where(end >= 0, label[np.maximum(end, 0)], -1) if len(label) else end
+        parts = [(np.flatnonzero(of_link == n), np.flatnonzero(label == n)) for n in range(count)]
+        parts += [(np.array([link]), NONE) for link in np.flatnonzero(of_link < 0)]
+        return [(links, slips, self.opening[links][:, slips].toarray()) for links, slips in parts]
 
 
 NONE = np.zeros(0, dtype=np.int64)

@@ -71,7 +71,9 @@ class Iterate:
 
     @property
     def stiffness(self) -> csc_array:
-        """(n, n) of both."""
+        """(n, n) of both; that of matter itself where effects add nothing."""
+        if not self.effects.stiffness.nnz:
+            return self.matter.stiffness
         return csc_array(self.matter.stiffness + self.effects.stiffness)
 
 
@@ -121,6 +123,7 @@ class Inner:
             self.elastic = matter.stiffness(matter.elastic)
             self.start = matter.force(state.deformation, state.history[STRESS])
         self._lines = {name: self._line(name) for name in self._plan.bent}
+        self._lined = all(defines(one, "matrix") for one in self._plan.bent.values())
 
     def _line(self, name: str) -> tuple[Floats, csc_array]:
         """Force (n,) and matrix (n, n) of an effect in the equations of the step."""
@@ -140,6 +143,8 @@ class Inner:
         """
         with self._clock.phase("material"):
             matter, history = self._of_matter(increment)
+        if self._lined and not increment.any():
+            return self._first(increment, matter, history)
         pulls = self._pulls(increment)
         memory = dict(self._state.memory)
         total, beyond = np.zeros_like(increment), np.zeros_like(increment)
@@ -150,6 +155,13 @@ class Inner:
             memory |= one.memory
         effects = InnerPart(beyond, lambda: self._beyond(pulls))
         return Iterate(increment, matter, effects, total, history, memory)
+
+    def _first(self, still: Floats, matter: InnerPart, history: Mapping[str, Floats]) -> Iterate:
+        """Return the iterate at no increment, where effects are on their lines."""
+        nothing = csc_array(self.elastic.shape)
+        pull = sum((force for force, _ in self._lines.values()), start=np.zeros_like(still))
+        effects = InnerPart(np.zeros_like(still), lambda: nothing)
+        return Iterate(still, matter, effects, pull, history, self._state.memory)
 
     def imbalance(self, now: Iterate, then: Iterate, scale: Floats, applied: Floats) -> float:
         """Return what the tangents at ``now`` missed at ``then``, as a share of the forces.
