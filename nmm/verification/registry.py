@@ -102,6 +102,7 @@ CASES = Registry[type[Case]](
         "D4": f"{_HOME}.enforcement:Groove",
         "GR1": f"{_HOME}.kinks:MixedKinks",
         "GR2": f"{_HOME}.growing_cracks:DoubleCantilever",
+        "GR3": f"{_HOME}.growing_cracks:CompactTension",
         "GR4": f"{_HOME}.growing_cracks:InclinedCrack",
         "GR5": f"{_HOME}.growing_cracks:PassedHole",
         "GR8": f"{_HOME}.growing_cracks:PassingCracks",

@@ -80,6 +80,53 @@ def path(run: "Run", front: str) -> tuple[Floats, Floats]:
 
 
 @dataclass(frozen=True)
+class CompactTension(GrowingCrack):
+    """The standard specimen, pulled at two holes: intensities as its crack grows straight on."""
+
+    name: ClassVar[str] = "GR3"
+    title: ClassVar[str] = "Compact tension specimen, intensities of four lengths"
+    source: ClassVar[str] = (
+        "K sqrt(W) / P from finite elements of degree 3; the polynomial of ASTM E399 is 1 % lower "
+        "at the shortest, for it knows another load"
+    )
+    known: ClassVar[tuple[float, ...]] = (5.675, 7.280, 9.621, 13.624)
+    corners: ClassVar[int] = 48
+
+    @property
+    def tables(self) -> Sequence[str]:
+        """Return the specimen with the load even over the outer half of each hole."""
+        turn = 2 * np.pi * np.arange(self.corners) / self.corners
+        circle = 0.125 * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        rings = [circle + np.array([0.0, 0.275]), circle - np.array([0.0, 0.275])]
+        half = self.corners // 2
+        side = float(np.hypot(*(circle[1] - circle[0])))
+        even = 1 / (half * side)
+        ends = [np.stack([ring, np.roll(ring, -1, axis=0)], axis=1).tolist() for ring in rings]
+        loads = [pull(f"up{n}", ends[0][n], [0.0, even]) for n in range(half)]
+        loads += [pull(f"down{n}", ends[1][half + n], [0.0, -even]) for n in range(half)]
+        block = text.block("specimen", "m", text.rectangle((-0.25, -0.6), (1.0, 0.6)))
+        return [
+            f"{block}holes = {[ring.tolist() for ring in rings]}\n",
+            crack("c", [[-0.25, 0.0], [0.3, 0.0]]),
+            *loads,
+            pinned("lower", [1.0, -0.6], "x", "y"),
+            pinned("upper", [1.0, 0.6], "x"),
+            grown(0.1, 0.3, 'toughness = 1.0\ncriterion = "straight_ahead"'),
+            net(0.05, 11.0),
+        ]
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the intensity at each length."""
+        place, opening = path(run, "c:end")
+        return {
+            f"K sqrt(W) / P at a / W = {x:.1f}": Check(
+                float(found), expected, 0.01, "the benchmark's"
+            )
+            for (x, _), found, expected in zip(place, opening, self.known, strict=True)
+        }
+
+
+@dataclass(frozen=True)
 class InclinedCrack(GrowingCrack):
     """A crack under 45 degrees in a wide plate: both ends kink and turn across the tension."""
 
