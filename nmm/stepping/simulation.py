@@ -3,6 +3,7 @@
 import resource
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -40,13 +41,11 @@ from nmm.scene import scene_hash
 from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.checkpoints import Checkpoints
-from nmm.stepping.control.following import PathEnd, run_path
-from nmm.stepping.control.making import control_of
 from nmm.stepping.drive.changes import refuse_events, topology
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages
 from nmm.stepping.drive.static_theorem import load_bound
-from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
+from nmm.stepping.drive.statics import Beyond, LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import FAILURE, RunVerdict
 from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.output import (
@@ -244,6 +243,9 @@ class Simulation:
             return run_in_time(stepper, recorder, begun, times, progress, checkpoints.keep)
         loads = self._load_schedule()
         if scene.loading is not None and scene.loading.control is not None:
+            from nmm.stepping.control.following import PathEnd, run_path
+            from nmm.stepping.control.making import control_of
+
             control = control_of(scene.loading.control, self.stepper, self.formulation)
             end = PathEnd(loads.target, scene.loading.control.fall)
             return run_path(stepper, recorder, self.start, control, end, progress)
@@ -254,12 +256,30 @@ class Simulation:
 
             return run_growth(stepper, recorder, under, loads, progress, checkpoints.keep)
         state, verdict = run_load(
-            stepper, recorder, under, loads, progress, self.regions.name, checkpoints.keep
+            stepper,
+            recorder,
+            under,
+            loads,
+            progress,
+            self.regions.name,
+            checkpoints.keep,
+            self._beyond(),
         )
         loading = scene.loading
         if verdict.code == FAILURE and loading is not None and loading.motion_after_failure:
             self._show_failure(recorder, state, verdict, loading.motion_after_failure, progress)
         return state, verdict
+
+    def _beyond(self) -> Beyond:
+        """Return what looks for limit points; it sees none where paths cannot be followed."""
+        if self.stepper.plan.contact is None:
+            return lambda state, factor: None
+        from nmm.stepping.control.limit_point import limit_point
+        from nmm.stepping.control.making import hindrances
+
+        if hindrances(self.stepper, self.formulation):
+            return lambda state, factor: None
+        return partial(limit_point, self.stepper)
 
     def _show_failure(
         self,

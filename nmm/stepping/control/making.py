@@ -18,10 +18,23 @@ def control_of(table: "ControlTable", stepper: "Stepper", formulation: "Formulat
     Raises
     ------
     FormulationError
-        Where steps along a path cannot be solved: contact without springs, conditions held by
-        multipliers, matter that is not linear, blocks laid anew.
+        Where steps along a path cannot be solved.
+    """
+    faults = hindrances(stepper, formulation)
+    if faults:
+        raise FormulationError(*(f"loading.control: {what}: {why}" for what, why in faults))
+    return CONTROLS.load(table.type).of(table)
+
+
+def hindrances(stepper: "Stepper", formulation: "Formulation") -> list[tuple[str, str]]:
+    """Return what hinders steps along a path, and what to do.
+
+    Contact without springs, conditions held by multipliers, matter and effects that are not linear,
+    blocks laid anew.
     """
     plan, faults = stepper.plan, []
+    if plan.contact is None:
+        faults.append(("a scene without contact", "expected [contact]"))
     if stepper.model.matter is not None:
         faults.append(("a material that is not linear", "expected elastic materials"))
     if plan.bent:
@@ -33,6 +46,4 @@ def control_of(table: "ControlTable", stepper: "Stepper", formulation: "Formulat
         faults.append(("conditions held by multipliers", "use another [supports] or [glue] method"))
     if formulation.rotation.update == "linear":
         faults.append(('[rotation] update: "linear"', 'use update = "exact"'))
-    if faults:
-        raise FormulationError(*(f"loading.control: {what}: {why}" for what, why in faults))
-    return CONTROLS.load(table.type).of(table)
+    return faults

@@ -16,7 +16,15 @@ from nmm.effects.base import Instant
 from nmm.stepping.drive.changes import Asked, Stands, asked, with_events
 from nmm.stepping.drive.relaxation import Relaxed, relax
 from nmm.stepping.drive.static_theorem import carried
-from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED, FAILED, FAILURE, SPENT, RunVerdict
+from nmm.stepping.drive.verdict import (
+    COLLAPSED,
+    CONVERGED,
+    FAILED,
+    FAILURE,
+    SPENT,
+    LimitPoint,
+    RunVerdict,
+)
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.anchors import ANCHOR, block_name, largest_mover, neutral
 from nmm.stepping.step.budget import BudgetSpentError
@@ -46,6 +54,10 @@ SMALLEST = 2.0**-30
 
 # A structure whose points move by this share of its size in one increment has no equilibrium near.
 COLLAPSE = 0.05
+
+
+# From a state and a load factor to the limit point between, if one is seen.
+Beyond = Callable[[State, float], LimitPoint | None]
 
 
 @dataclass(frozen=True)
@@ -154,16 +166,18 @@ def run_load(
     progress: Callable[[float, str], None],
     names: Sequence[str] = (),
     keep: Callable[[UnderLoad], UnderLoad] = lambda at: at,
+    beyond: Beyond = lambda state, factor: None,
 ) -> tuple[State, RunVerdict]:
     """Raise the load factor from where it stands; ``names`` are those of the regions.
 
-    ``keep`` is shown where every accepted increment but the last one ends.
+    ``keep`` is shown where every accepted increment but the last one ends; ``beyond`` looks for a
+    limit point beyond a state, before a load factor.
 
     Returns
     -------
     The last state in equilibrium and the verdict.
     """
-    raising = _Raising(stepper, recorder, schedule, progress, names)
+    raising = _Raising(stepper, recorder, schedule, progress, names, beyond)
     verdict = None
     try:
         while verdict is None and not raising.reached(at):
@@ -190,6 +204,7 @@ class _Raising:
     schedule: LoadSchedule
     progress: Callable[[float, str], None]
     names: Sequence[str]
+    beyond: Beyond
 
     def reached(self, at: UnderLoad) -> bool:
         """Whether the load has grown as far as it is to."""
@@ -209,6 +224,10 @@ class _Raising:
             return self._relaxed(at, trial)
         if trial.fine:
             return self._ended(at, trial)
+        if self.schedule.until_failure and _unsettled(trial.found.attempt):
+            limit = self.beyond(at.state, trial.factor)
+            if limit is not None:
+                return RunVerdict(FAILURE, limit.sentence, limit.factor, 0.0)
         return replace(at, increment=at.increment / 2)
 
     def _tried(self, at: UnderLoad) -> Trial:
@@ -257,7 +276,7 @@ class _Raising:
     def _ended(self, at: UnderLoad, trial: Trial) -> RunVerdict:
         """Return the verdict on the finest increment, under which no equilibrium was found."""
         verdict = _no_equilibrium(
-            at, trial.factor, trial.found, self.schedule, self.stepper, self.names
+            at, trial.factor, trial.found, self.schedule, self.stepper, self.names, self.beyond
         )
         return _with_neutral(verdict, self.stepper, at.state, self.names)
 
@@ -367,6 +386,12 @@ def _joined(first: Attempt, then: Attempt) -> Attempt:
     )
 
 
+def _unsettled(attempt: Attempt) -> bool:
+    """Whether what interface laws remember did not settle: bonds soften where no load is held."""
+    solved = attempt.solved
+    return solved is not None and solved.answer.verdict.code == "passes"
+
+
 def _no_rest(rest: Relaxed) -> RunVerdict:
     sentence = f"after {rest.steps} steps of relaxation: {rest.sentence}"
     if rest.falls:
@@ -381,10 +406,14 @@ def _no_equilibrium(
     schedule: LoadSchedule,
     stepper: Stepper,
     names: Sequence[str],
+    beyond: Beyond,
 ) -> RunVerdict:
     """Return the verdict on a load that was not solved: of the structure, if that is shown."""
     held, reason = at.state.load_factor, found.attempt.sentence
     shown = evidence(stepper, at.state, factor, found, names)
+    if shown is None and schedule.until_failure and held:
+        limit = beyond(at.state, factor)
+        shown = None if limit is None else limit.sentence
     where = f"at load factor {held:.6g} after {at.changed}"
     if not at.changed:
         where = f"between load factors {held:.6g} and {factor:.6g}"

@@ -44,3 +44,19 @@ class RunVerdict:
     sentence: str
     load_factor: float | None = None
     tolerance: float | None = None
+
+
+@dataclass(frozen=True)
+class LimitPoint:
+    """A load factor that a path passes and falls from.
+
+    Attributes
+    ----------
+    factor
+        The largest on the path.
+    sentence
+        What was seen.
+    """
+
+    factor: float
+    sentence: str

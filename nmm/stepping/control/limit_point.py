@@ -1,0 +1,44 @@
+"""Whether a path falls beyond the last load that was solved: a limit point, seen by following."""
+
+from nmm.assembly.motion import State
+from nmm.contact.controls.base import Control
+from nmm.contact.controls.dissipation import Dissipation
+from nmm.contact.controls.events import NextEvent
+from nmm.results.tee import Tee
+from nmm.stepping.control.following import PathEnd, run_path
+from nmm.stepping.drive.verdict import FAILURE, LimitPoint
+from nmm.stepping.reports.ledger import stored
+from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.step.stepper import Stepper
+
+# Share of the largest load to which a path must fall, and of the stored energy that a step of it
+# dissipates where bonds soften.
+FALLEN, PART = 0.98, 0.01
+
+
+def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | None:
+    """Follow the path from ``state``; None unless it falls before it comes to ``factor``.
+
+    Nothing is kept of it.
+    """
+    contact = stepper.plan.contact
+    assert contact is not None
+    record, taken, energy = stepper.remember(), stepper.budget.taken, _energy(stepper, state)
+    soft = not contact.laws.brittle.all()
+    control: Control = Dissipation(PART * energy) if soft else NextEvent(1.0)
+    end, quiet = PathEnd(factor, FALLEN), Recorder(stepper, Tee([]), [])
+    last, verdict = run_path(stepper, quiet, state, control, end, lambda share, said: None)
+    stepper.restore(record)
+    stepper.budget.taken = taken
+    peak = verdict.load_factor
+    if verdict.code != FAILURE or peak is None or last.load_factor >= peak:
+        return None
+    sentence = (
+        f"a limit point was passed: followed beyond it, the path falls from load factor {peak:.6g} "
+        f"to {last.load_factor:.6g} in equilibrium"
+    )
+    return LimitPoint(peak, sentence)
+
+
+def _energy(stepper: Stepper, state: State) -> float:
+    return sum(stored(stepper.plan, stepper.model, state).values())
