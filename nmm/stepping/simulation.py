@@ -425,8 +425,7 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     for later in stages[1:]:
         compile_plan(later.setup)  # its faults are told before anything is solved
     plan = discretisation.plan
-    if stages:
-        refuse_events(scene, plan)
+    refuse_events(scene, plan)
     stepper = Stepper(
         discretisation,
         make_integrator(formulation.integrator),

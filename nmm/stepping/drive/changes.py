@@ -39,18 +39,20 @@ class Stands:
 
 
 def refuse_events(scene: "Scene", plan: "Plan") -> None:
-    """Refuse effects that may change a geometry which the next stage would set back.
+    """Refuse effects that may change a geometry which stages or a control know nothing of.
 
     Raises
     ------
     SceneError
         Naming the effects.
     """
-    if plan.askers:
-        names = ", ".join(plan.askers)
-        expected = "stages of blocks that no event changes"
-        remedy = "remove [[stages]], or what asks for events"
-        raise SceneError(Fault(scene.source.place("stages"), names, expected, remedy))
+    controlled = scene.loading is not None and scene.loading.control is not None
+    beside = {("stages",): bool(scene.stages), ("loading", "control"): controlled}
+    for key, there in beside.items():
+        if there and plan.askers:
+            place, names = scene.source.place(*key), ", ".join(plan.askers)
+            expected, word = "blocks and cracks that no event changes", ".".join(key)
+            raise SceneError(Fault(place, names, expected, f"remove it, or {word}"))
 
 
 def asked(recorder: Recorder, at: Stands) -> Asked:

@@ -82,7 +82,7 @@ class CrushedColumn(SceneCase):
         pressure = 1e6 if self.tension else -1e7
         return text.scene(
             'title = "column"\nplane = "stress"\n[contact]\n[loading]\nuntil = "failure"\n'
-            "[formulation.loading]\nincrement = 0.1\ntolerance = 1e-4\n",
+            "[formulation.loading]\nincrement = 1.0\ntolerance = 1e-4\n",
             [
                 text.material("concrete", modulus=27.5e9),
                 text.interface("contact", 20.0),

@@ -53,7 +53,7 @@ traction = {traction}
 [loading]
 until = "failure"
 [formulation.loading]
-increment = 0.1
+increment = 1.0
 tolerance = 1e-4
 {cover}
 """

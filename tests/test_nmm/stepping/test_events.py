@@ -153,3 +153,11 @@ def test_stages_that_would_set_an_event_back_are_refused_by_line():
     text += '[[stages]]\nname = "first"\nduration = "10 ms"\n'
     with pytest.raises(SceneError, match=r"scene:\d+: stages.*effects.seam"):
         run(text)
+
+
+def test_a_control_that_would_overlook_an_event_is_refused_by_line():
+    control = '{ type = "displacement", monitors = ["end"], increment = 1e-4, end = 1e-3 }'
+    text = BAR.replace("until = 1.0", f'until = "failure"\ncontrol = {control}')
+    text = text.replace("[loading]", "[contact]\n[interfaces.any]\nfriction_angle = 0.5\n[loading]")
+    with pytest.raises(SceneError, match=r"scene:\d+: loading.control.*effects.seam"):
+        run(text + CRACK.format(at=0.5, end=0.6))
