@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from integration.rules import polygon_rule
+from nmm.assembly.model import Model
 from nmm.assembly.motion import MaterialPoints, State, material_points
 from nmm.assembly.places import on_segment
 from nmm.effects.base import Effect, Instant, Setup
@@ -47,6 +48,31 @@ class SpreadLoad:
         """Forces (m, 2) on the points at an instant (N)."""
         values = self.field.values(self.position, end.time)
         return np.asarray(self.factor(end) * self.share[:, None] * values)
+
+    @classmethod
+    def over_volume(
+        cls,
+        model: Model,
+        field: ValueField,
+        order: int,
+        regions: Bools | None = None,
+        factor: Callable[[Instant], float] = lambda end: 1.0,
+        steady: bool = True,
+    ) -> Self:
+        """Spread a field over the volume of input regions (N,), all of them where None.
+
+        ``order`` is the degree of polynomials that are integrated exactly.
+        """
+        manifold = model.manifold
+        rule = polygon_rule(manifold.elements, order)
+        inside = np.ones(len(rule.owner), dtype=bool)
+        if regions is not None:
+            inside = regions[manifold.element_region[rule.owner]]
+        owner, position = rule.owner[inside], rule.points[inside]
+        share = rule.weights[inside] * model.thickness
+        return cls(
+            material_points(manifold, owner, position), position, share, field, factor, steady
+        )
 
 
 class FieldLoads(Effect):
@@ -92,23 +118,16 @@ def _load(setup: Setup, load: "LoadTable") -> SpreadLoad:
     assert load.field is not None
     model, regions = setup.model, setup.regions(load.block)
     manifold, order = model.manifold, model.manifold.degree + BEYOND
-    if load.segment is not None:
-        place = on_segment(manifold, np.array(load.segment), regions, order)
-        points, position, share = place.points, place.position, place.weight
-    else:
-        rule = polygon_rule(manifold.elements, order)
-        inside = np.ones(len(rule.owner), dtype=bool)
-        if regions is not None:
-            inside = regions[manifold.element_region[rule.owner]]
-        owner, position = rule.owner[inside], rule.points[inside]
-        points, share = material_points(manifold, owner, position), rule.weights[inside]
-    if not len(share):
-        raise GeometryError(
-            f"load {load.name}: {load.segment or load.block}: expected a place on the material: "
-            "move it onto a block or onto the edge of one"
-        )
-    what = f"[[loads]] {load.name}"
-    field = ValueField.named(setup, load.field, what)
+    field = ValueField.named(setup, load.field, f"[[loads]] {load.name}")
     steady = load.history is None and not field.varies
     factor = load_factor(setup, load)
-    return SpreadLoad(points, position, share * model.thickness, field, factor, steady)
+    if load.segment is None:
+        return SpreadLoad.over_volume(model, field, order, regions, factor, steady)
+    place = on_segment(manifold, np.array(load.segment), regions, order)
+    if not len(place):
+        raise GeometryError(
+            f"load {load.name}: {load.segment}: expected a place on the material: "
+            "move it onto a block or onto the edge of one"
+        )
+    share = place.weight * model.thickness
+    return SpreadLoad(place.points, place.position, share, field, factor, steady)

@@ -18,7 +18,8 @@ from nmm.constraints.imposition import Method
 from nmm.constraints.shared_edges import shared_edges
 from nmm.constraints.supports import Supports
 from nmm.effects.base import Effect, Instant
-from nmm.effects.field_loads import FieldLoad
+from nmm.effects.loading.field_loads import FieldLoads, SpreadLoad
+from nmm.effects.loading.fields import ValueField
 from nmm.effects.loads import Load, Loads
 from nmm.errors import FormulationError
 from nmm.formulation import Glue, IntegratorTable, Solver
@@ -145,6 +146,8 @@ def traction(model: Model, place: Place, field: Callable[[Floats, Floats], Float
     return Loads([load], model.manifold.n_unknowns)
 
 
-def body_force(model: Model, field: Field, order: int) -> FieldLoad:
+def body_force(model: Model, field: Field, order: int) -> FieldLoads:
     """Load the volume by a force density ``field(points)`` (m, 2) in N/m3."""
-    return FieldLoad.of(model, field, order)
+    density = ValueField(False, lambda points, time: field(points), np.zeros(2), "body force")
+    load = SpreadLoad.over_volume(model, density, order)
+    return FieldLoads([load], model.manifold.n_unknowns)
