@@ -14,7 +14,7 @@ from nmm.effects.load_factor import load_factor
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.loads import LoadTable as SceneLoad
+    from nmm.scene.tables.loading.loads import LoadTable as SceneLoad
 
 LEAST_ORDER = 4
 """Least degree that the work of a traction along an edge is integrated to: that of most covers."""

@@ -30,7 +30,7 @@ from nmm.scene.fields import (
     fault,
 )
 from nmm.scene.tables.control import ControlTable
-from nmm.scene.tables.expressions import FieldOf
+from nmm.scene.tables.loading.expressions import FieldOf
 
 _HISTORY = "pairs [t, factor] with t increasing"
 

@@ -18,7 +18,7 @@ from nmm.scene.tables.fracture.rules import fracture_contradictions
 from nmm.scene.tables.heat_rules import PARTS as HEAT
 from nmm.scene.tables.heat_rules import heat_contradictions
 from nmm.scene.tables.member_rules import member_contradictions
-from nmm.scene.tables.motion_rules import EDGES, motion_contradictions
+from nmm.scene.tables.shaking.rules import EDGES, motion_contradictions
 from nmm.scene.tables.splitting import splitting_contradictions
 from nmm.scene.tables.water_rules import PLACED as WATER
 from nmm.scene.tables.water_rules import seepage_contradictions, water_contradictions

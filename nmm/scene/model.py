@@ -33,9 +33,6 @@ from nmm.scene.output import OutputTable
 from nmm.scene.own_tables import EffectTable
 from nmm.scene.solids import Block, Crack, InterfaceTable, JointSet, Material, Tessellation
 from nmm.scene.stages import StageTable
-from nmm.scene.tables.boundaries import FreeFieldTable, ViscousBoundaryTable
-from nmm.scene.tables.damping import DampingTable
-from nmm.scene.tables.fields import FieldTable
 from nmm.scene.tables.fracture.table import FractureTable
 from nmm.scene.tables.heat import (
     ConvectionTable,
@@ -45,7 +42,8 @@ from nmm.scene.tables.heat import (
     TemperatureTable,
 )
 from nmm.scene.tables.joint_flow import JointFlowTable, JointHeadTable
-from nmm.scene.tables.loads import LoadTable
+from nmm.scene.tables.loading.fields import FieldTable
+from nmm.scene.tables.loading.loads import LoadTable
 from nmm.scene.tables.members import (
     BarTable,
     DashpotTable,
@@ -53,8 +51,10 @@ from nmm.scene.tables.members import (
     MassTable,
     SpringTable,
 )
-from nmm.scene.tables.records import RecordTable
 from nmm.scene.tables.seepage import HeadTable, InflowTable, SeepageTable
+from nmm.scene.tables.shaking.boundaries import FreeFieldTable, ViscousBoundaryTable
+from nmm.scene.tables.shaking.damping import DampingTable
+from nmm.scene.tables.shaking.records import RecordTable
 from nmm.scene.tables.splitting import SplittingTable
 from nmm.scene.tables.water import WaterPressureTable
 

@@ -40,7 +40,7 @@ def _read_from(source: Source, scene: Scene) -> Scene:
     """Tell a scene, and the formulation in it, where they stand."""
     files = [one.file for one in scene.records.values()]
     if any([*files, *(one.file for one in scene.fields.values())]):
-        from nmm.scene.tables.read_files import with_files
+        from nmm.scene.tables.loading.read_files import with_files
 
         scene = with_files(scene, source)
     scene._source = source

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.scene.tables.expressions import CONSTANTS, FUNCTIONS, Expression
+from nmm.scene.tables.loading.expressions import CONSTANTS, FUNCTIONS, Expression
 
 _NUMPY = {
     **{name: getattr(np, name) for name in FUNCTIONS if hasattr(np, name)},

@@ -17,7 +17,7 @@ from nmm.effects.loading.fields import ValueField
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.loads import LoadTable
+    from nmm.scene.tables.loading.loads import LoadTable
 
 # Degree of polynomials that fields times functions of the covers are integrated to, beyond theirs.
 BEYOND = 6

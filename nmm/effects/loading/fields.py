@@ -11,12 +11,12 @@ from integration.arrays import Floats
 from nmm.effects.base import Setup
 from nmm.effects.loading.evaluation import evaluated
 from nmm.errors import Fault, SceneError
-from nmm.scene.tables.expressions import Expression
+from nmm.scene.tables.loading.expressions import Expression
 
 if TYPE_CHECKING:
     from scipy.spatial import Delaunay
 
-    from nmm.scene.tables.fields import FieldTable
+    from nmm.scene.tables.loading.fields import FieldTable
 
 # Places of a table lie on a line when they are this close to one, in sizes of them all; and points
 # as far outside of them are still among them.

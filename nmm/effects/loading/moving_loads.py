@@ -14,7 +14,7 @@ from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.loads import LoadTable
+    from nmm.scene.tables.loading.loads import LoadTable
 
 # Degree of polynomials that a spread force is integrated to, beyond that of the displacements.
 BEYOND = 4

@@ -15,7 +15,7 @@ from nmm.effects.load_factor import load_factor
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.loads import LoadTable
+    from nmm.scene.tables.loading.loads import LoadTable
 
 # A vector turned clockwise: the way along a surface gives the way out of it.
 CLOCKWISE = np.array([[0.0, 1.0], [-1.0, 0.0]])

@@ -17,7 +17,7 @@ from nmm.effects.motion.viscous_boundaries import ground_of
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.boundaries import FreeFieldTable
+    from nmm.scene.tables.shaking.boundaries import FreeFieldTable
 
 # Linear elements of a column to a piece of the edge between two vertices of the mesh: one beside
 # finite elements, so that waves are as fast in both; beside functions of higher degree so many.

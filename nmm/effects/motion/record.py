@@ -11,7 +11,7 @@ from integration.arrays import Floats
 
 if TYPE_CHECKING:
     from nmm.scene.model import Scene
-    from nmm.scene.tables.records import RecordTable
+    from nmm.scene.tables.shaking.records import RecordTable
 
 Axis = Literal["x", "y"]
 

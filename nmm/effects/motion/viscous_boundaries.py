@@ -16,7 +16,7 @@ from nmm.effects.motion.record import GroundMotion, motions_of
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.boundaries import ViscousBoundaryTable
+    from nmm.scene.tables.shaking.boundaries import ViscousBoundaryTable
 
 
 @dataclass(frozen=True)

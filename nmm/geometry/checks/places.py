@@ -14,7 +14,7 @@ from nmm.geometry.checks.supports import contradicting_supports
 from nmm.geometry.places import edges_on, polygons_at, tolerance
 from nmm.scene.actions import MonitorTable, SupportTable
 from nmm.scene.model import Scene
-from nmm.scene.tables.loads import LoadTable
+from nmm.scene.tables.loading.loads import LoadTable
 
 _Finding = tuple[str, str, str]  # value, expected, remedy
 _COVERED = 1e-6  # of a loaded segment's length

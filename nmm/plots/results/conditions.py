@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from nmm.scene import Scene
     from nmm.scene.actions import SupportTable
-    from nmm.scene.tables.loads import LoadTable
+    from nmm.scene.tables.loading.loads import LoadTable
 
 SUPPORT = "#1f5f3f"
 LOAD = "#8c2d19"

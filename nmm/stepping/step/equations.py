@@ -15,9 +15,9 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
+from nmm.integrators.damping import Damping
 from nmm.model.discretisation import ModelWithEffects
 from nmm.model.plan import Plan
-from nmm.stepping.step.damping import Damping
 
 
 @dataclass(frozen=True)
@@ -174,7 +174,8 @@ class Assembly:
         velocity = rule.kinetic_factor * state.velocity
         rates = rule.momentum(velocity, state.acceleration, step)
         momentum, factor = mass @ rates, rule.mass_factor(step)
-        damping = Damping.of(plan, rule, state, velocity, step)
+        resisting = plan.damping(state), plan.added_mass(state)
+        damping = Damping.of(*resisting, rule, velocity, state.acceleration, step)
         heavy = [mass]
         pushed = force + momentum
         if damping is not None:

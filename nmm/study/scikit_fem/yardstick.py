@@ -20,7 +20,7 @@ from nmm.scene import scene_hash
 
 if TYPE_CHECKING:
     from nmm.scene import Scene
-    from nmm.scene.tables.loads import LoadTable
+    from nmm.scene.tables.loading.loads import LoadTable
 
 DEGREES = (1, 2, 3, 4)
 NEAR = 1e-9  # of the body's extent: what lies on a segment

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.scene.tables.damping import rayleigh
+from nmm.scene.tables.shaking.damping import rayleigh
 from nmm.testing import check_effect_of
 
 # One bilinear cell that can only shear: its top moves as a mass on a spring, w^2 = 3 G / (rho h^2).

@@ -92,7 +92,7 @@ def test_a_manufactured_solution_from_a_scene_alone_is_exact():
 
 def test_a_table_over_triangles_and_times_is_linear_between_them():
     from nmm.effects.loading.fields import ValueTable
-    from nmm.scene.tables.fields import FieldTable
+    from nmm.scene.tables.loading.fields import FieldTable
 
     places = [(0, 0), (2, 0), (0, 2), (2, 2)]
     rows = [(t, x, y, t * (x + 2 * y), -t) for t in (0, 1, 3) for x, y in places]

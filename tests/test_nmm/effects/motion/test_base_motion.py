@@ -156,7 +156,7 @@ def test_a_step_above_half_of_the_record_s_warns(step, warns):
 )
 def test_baselines_bring_the_record_to_rest(baseline, speed, way):
     from nmm.effects.motion.record import GroundMotion
-    from nmm.scene.tables.records import RecordTable
+    from nmm.scene.tables.shaking.records import RecordTable
 
     table = RecordTable(values=R1, step=0.1, baseline=baseline)
     motion = GroundMotion.of(table)
@@ -168,7 +168,7 @@ def test_baselines_bring_the_record_to_rest(baseline, speed, way):
 @pytest.mark.parametrize("quantity", ["velocity", "displacement"])
 def test_a_record_of_velocity_or_displacement_moves_by_it(quantity):
     from nmm.effects.motion.record import GroundMotion
-    from nmm.scene.tables.records import RecordTable
+    from nmm.scene.tables.shaking.records import RecordTable
 
     values = [0.0, 1.0, 3.0, 0.0]
     motion = GroundMotion.of(RecordTable(values=values, step=0.5, quantity=quantity))

@@ -6,17 +6,13 @@ whatever the integrator, so that dampers are linear in it as all else is.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
 from nmm.integrators.base import Integrator
-
-if TYPE_CHECKING:
-    from nmm.model.plan import Plan
 
 
 @dataclass(frozen=True)
@@ -40,15 +36,20 @@ class Damping:
 
     @classmethod
     def of(
-        cls, plan: "Plan", rule: Integrator, state: State, velocity: Floats, step: float
+        cls,
+        dampers: Mapping[str, csc_array],
+        masses: Mapping[str, csc_array],
+        rule: Integrator,
+        velocity: Floats,
+        acceleration: Floats,
+        step: float,
     ) -> Self | None:
-        """Return the dampers of a plan in a step; None where it has none."""
-        dampers, masses = plan.damping(state), plan.added_mass(state)
+        """Return the dampers and masses of a step that starts with such rates; None without any."""
         if not dampers and not masses:
             return None
         one, none, weight = np.ones(1), np.zeros(1), rule.end_weight
         rate = float(rule.rates(one, none, none, step)[0][0])
-        last, _ = rule.rates(np.zeros_like(velocity), velocity, state.acceleration, step)
+        last, _ = rule.rates(np.zeros_like(velocity), velocity, acceleration, step)
         return cls(dampers, masses, weight * rate, weight * last + (1 - weight) * velocity)
 
     def force(self) -> Floats:

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from nmm.scene.actions import Placed, given
 from nmm.scene.fields import Force, ForceDensity, Length, Stress, Time, Velocity, fault
-from nmm.scene.tables.expressions import FieldOf
+from nmm.scene.tables.loading.expressions import FieldOf
 
 
 class _Kind(NamedTuple):

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, TypeVar
 from pydantic_core import PydanticCustomError
 
 from nmm.errors import Fault, SceneError
-from nmm.scene.tables.columns import all_faults, record_of, rows_of
-from nmm.scene.tables.fields import check_rows
+from nmm.scene.tables.loading.columns import all_faults, record_of, rows_of
+from nmm.scene.tables.loading.fields import check_rows
 
 if TYPE_CHECKING:
     from nmm.scene.faults import Source
     from nmm.scene.model import Scene
-    from nmm.scene.tables.fields import FieldTable
-    from nmm.scene.tables.records import RecordTable
+    from nmm.scene.tables.loading.fields import FieldTable
+    from nmm.scene.tables.shaking.records import RecordTable
 
 Table = TypeVar("Table", "RecordTable", "FieldTable")
 

@@ -5,7 +5,7 @@ import pytest
 
 import nmm
 from nmm.errors import SceneError
-from nmm.scene.tables.records import RecordTable
+from nmm.scene.tables.shaking.records import RecordTable
 
 SCENE = """plane = "strain"
 duration = "1 s"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from nmm.effects.loading.evaluation import evaluated
-from nmm.scene.tables.expressions import Expression, ExpressionError
+from nmm.scene.tables.loading.expressions import Expression, ExpressionError
 
 POINTS = np.array([[1.0, 2.0], [-3.0, 0.5]])
 

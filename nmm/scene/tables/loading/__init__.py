@@ -1,0 +1,1 @@
+"""Tables of loads, the fields that they are given by, and files of numbers."""

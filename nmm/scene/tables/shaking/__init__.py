@@ -1,0 +1,1 @@
+"""Tables of what shakes the ground, what lets waves out, and what damps motion."""
