@@ -93,7 +93,7 @@ class Chains:
         now = self._at(stretch, slip, memory)
         if not len(slip):
             return now
-        size, before = self._out(now)[1], np.inf
+        size = before = np.inf
         for _ in range(MOST):
             out, scale = self._out(now)
             size = float(np.abs(out).max()) / scale if scale else 0.0

@@ -52,6 +52,8 @@ class Linked(Effect):
 
     def _stiffness(self, state: State) -> csc_array:
         members, found = self.members, self._answers.of(state)
+        if len(found.broken):
+            raise SolveError(self._lost(found))
         tangent = members.chains.tangent(found)
         lines = members.links.lines(state)
         return members.links.stiffness(state, lines, tangent, found.axial.force)
