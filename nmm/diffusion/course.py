@@ -5,7 +5,7 @@ was when the step began; once the next one begins, all others are dropped.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -117,6 +117,8 @@ class Course:
     def _found(self, time: float) -> FieldAt:
         start, began = self._start, self._began
         if start is None or began is None:
+            if began is not None and not self.problem.changes(began.time, time):
+                return replace(began, time=time)
             unknowns = self.problem.steady(time)
             return FieldAt(time, unknowns, self.problem.taken(unknowns, time))
         return self._gone_on(began if time > began.time else start, time)

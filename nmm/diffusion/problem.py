@@ -112,6 +112,13 @@ class DiffusionProblem:
             total[one.chosen] = one.factor(time) * one.unknowns[one.chosen]
         return total
 
+    def changes(self, begin: float, end: float) -> bool:
+        """Whether anything that acts is other at one time than at another."""
+        factors = [edge.factor for edge in self.edges]
+        factors += [source.factor for source in self.sources]
+        factors += [body.factor for body in self.given]
+        return any(factor(begin) != factor(end) for factor in factors)
+
     def steady(self, time: float) -> Floats:
         """Unknowns (n,) of the field that no longer changes."""
         return self._solved(0.0, self.matrix, self.load(time), time)

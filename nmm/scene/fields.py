@@ -122,6 +122,7 @@ Segment = Annotated[tuple[Point, Point], BeforeValidator(_listed)]
 Ring = Annotated[
     tuple[Point, ...], BeforeValidator(_listed), Field(min_length=3), AfterValidator(_ring)
 ]
+Line = Annotated[tuple[Point, ...], BeforeValidator(_listed), Field(min_length=2)]
 History = Annotated[tuple[tuple[Number, Number], ...], BeforeValidator(_listed)]
 
 # Signs that a terminal, a table of numbers or a file name would take for something else: control

@@ -3,25 +3,19 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Annotated
 
-from pydantic import BeforeValidator, Field, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from nmm.scene.actions import Placed
 from nmm.scene.fields import (
     Coordinate,
     ForceDensity,
+    Line,
     Name,
-    Point,
     Stress,
     fault,
 )
 
-Line = Annotated[
-    tuple[Point, ...],
-    BeforeValidator(lambda value: value.tolist() if hasattr(value, "tolist") else value),
-    Field(min_length=2),
-]
 WATER = 9810.0
 """Weight of fresh water (N/m3)."""
 
