@@ -38,7 +38,8 @@ class Splitting(Effect):
     Attributes
     ----------
     kept_whole
-        Number of blocks beyond their strength in the last state that the rules keep whole.
+        Number of blocks beyond their strength that the rules keep whole, in the state that was
+        judged last; it is told and decides nothing.
     born
         (B,) when each body came to be, s; minus infinity where it always was.
     """

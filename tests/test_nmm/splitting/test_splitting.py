@@ -308,3 +308,13 @@ def test_sub_blocks_split_where_their_joints_are_stronger():
     assert larger.max() == pytest.approx(2.9e6, rel=1e-2)
     gone = np.abs(first[:, None] - second).sum(axis=2).min(axis=1) > 1e-9
     assert (larger[gone] > 0.99 * larger.max()).all()
+
+
+def test_the_slab_of_the_example_parts_along_its_length_at_the_blow():
+    text = (Path(__file__).parents[3] / "examples" / "splitting" / "slab.toml").read_text()
+    found = run(text.replace('duration = "0.1 s"', 'duration = "5 ms"'))
+    assert found.summary.changes == ["at 0.0037: 1 block splits into 2 (1 by tension)"]
+    edges = found.manifold.boundary
+    lengths = np.hypot(*(edges.end - edges.start)[edges.body > 0].T)
+    assert np.sort(lengths)[-2:] == pytest.approx(lengths.max(), rel=1e-9)  # both new faces
+    assert lengths.max() > 0.95
