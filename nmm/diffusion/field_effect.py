@@ -66,7 +66,7 @@ class FieldEffect(Effect):
     @property
     def steady(self) -> bool:
         """See `Effect.steady`."""
-        return False
+        return self.course.steady and self.course.problem.still
 
     def here(self, time: float) -> FieldAt:
         """Return the field at a time of the run."""

@@ -19,7 +19,7 @@ from scipy.sparse import csc_array
 from covers.approximation.manifold import Manifold
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats
-from nmm.diffusion.edges import Edge, Factor
+from nmm.diffusion.edges import Edge, Factor, steadily
 from nmm.formulation import Solver
 from nmm.solvers.linear import Factor as Decomposed
 from nmm.solvers.linear import LinearSolver, make_solver
@@ -114,10 +114,21 @@ class DiffusionProblem:
 
     def changes(self, begin: float, end: float) -> bool:
         """Whether anything that acts is other at one time than at another."""
-        factors = [edge.factor for edge in self.edges]
-        factors += [source.factor for source in self.sources]
-        factors += [body.factor for body in self.given]
-        return any(factor(begin) != factor(end) for factor in factors)
+        return any(factor(begin) != factor(end) for factor in self._varying)
+
+    @property
+    def still(self) -> bool:
+        """Whether nothing that acts ever changes."""
+        return all(factor is steadily for factor in self._varying)
+
+    @property
+    def _varying(self) -> list[Factor]:
+        """Factors of all that acts."""
+        return [
+            *(edge.factor for edge in self.edges),
+            *(source.factor for source in self.sources),
+            *(body.factor for body in self.given),
+        ]
 
     def steady(self, time: float) -> Floats:
         """Unknowns (n,) of the field that no longer changes."""
