@@ -103,7 +103,7 @@ def mesh_manifold(
 def _carried(enrichments: Sequence[Enrichment], found: Carriers) -> Floats:
     """Singular points (n, 2) whose functions are carried."""
     places = np.array([item.point for item in enrichments]).reshape(-1, 2)
-    return np.asarray(places[found.carried.astype(bool)])
+    return np.asarray(places[found.carried])
 
 
 def _uniform(functions: LocalFunctions, n: int) -> Kinds:

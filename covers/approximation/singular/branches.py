@@ -94,8 +94,7 @@ def _edges(
     joins: Joins, item: Enrichment, element: Ints, part: Ints, middle: Floats
 ) -> tuple[Ints, Ints, Floats]:
     """Pairs of joined places of one part, and the turns by which their angles differ."""
-    least = int(joins.second.max(initial=-1)) if len(joins.first) else -1
-    n = max(least, int(joins.first.max(initial=-1)), int(element.max(initial=-1))) + 1
+    n = 1 + max(int(one.max(initial=-1)) for one in (joins.first, joins.second, element))
     there = np.zeros(n, dtype=bool)
     there[element] = True
     joins = joins.take(there[joins.first] & there[joins.second])

@@ -8,7 +8,7 @@ import numpy as np
 from covers.approximation.singular.branches import branches
 from covers.approximation.singular.enrichment import Enrichment
 from covers.cutting.cut_cells import CutCells
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 
 NEAR = 1e-9
 
@@ -32,7 +32,7 @@ class Carriers:
     place: Ints
     point: Ints
     bearing: Floats
-    carried: Ints
+    carried: Bools
 
     @property
     def counts(self) -> Ints:
@@ -87,7 +87,7 @@ def carriers(cut: CutCells, patch_centre: Floats, enrichments: Sequence[Enrichme
     return Carriers(points, key, point, bearing, carried)
 
 
-def _rows(chosen: Ints) -> Ints:
+def _rows(chosen: Bools) -> Ints:
     """Numbers of the rows of a table (N, C) that are chosen for each column, filled up by -1."""
     most = int(chosen.sum(axis=0).max(initial=0))
     order = np.argsort(~chosen, axis=0, kind="stable")[:most].T
@@ -97,7 +97,8 @@ def _rows(chosen: Ints) -> Ints:
 def no_carriers(cut: CutCells) -> Carriers:
     """Return that no cover carries anything."""
     none = np.empty(0, dtype=np.int64)
-    return Carriers(np.empty((cut.n_covers, 0), dtype=np.int64), none, none, np.empty(0), none)
+    points = np.empty((cut.n_covers, 0), dtype=np.int64)
+    return Carriers(points, none, none, np.empty(0), np.empty(0, dtype=bool))
 
 
 def touching_covers(cut: CutCells, point: Floats) -> Ints:

@@ -215,6 +215,12 @@ def _refuse(setup: Setup, tips: Ints) -> None:
             expected = "a mesh of monomials, with cells of less than a third of the crack's length"
             remedy = "correct functions or size of [cover], or tips of [cover.enrichment]"
             raise FormulationError(Fault(place, value, expected, remedy))
+    table, update = scene.fracture, setup.formulation.rotation.update
+    if table is not None and table.control == "toughness" and update not in ("auto", "small"):
+        place = setup.formulation.source.place("rotation", "update")
+        value, expected = f'"{update}" with control = "toughness"', "answers that a factor scales"
+        remedy = 'leave it out, or use control = "loads" in [fracture]'
+        raise FormulationError(Fault(place, value, expected, remedy))
     if model.matter is not None:
         remedy = "use elastic materials, or remove [fracture]"
         raise FormulationError(Fault(place, "matter that is not linear", "elastic matter", remedy))

@@ -255,6 +255,12 @@ def test_covers_that_cannot_carry_the_growth_are_refused() -> None:
         prepare(plate(), parse_formulation('[cover]\ntype = "block"\nfunctions = "rigid_strain"\n'))
 
 
+def test_turns_that_no_factor_scales_are_refused() -> None:
+    how = parse_formulation(NET + '[rotation]\nupdate = "exact"\n')
+    with pytest.raises(NmmError, match="that a factor scales"):
+        prepare(plate(), how)
+
+
 def replace_cover(how: Formulation, **given: object) -> Formulation:
     return how.model_copy(update={"cover": how.cover.model_copy(update=given)})
 
