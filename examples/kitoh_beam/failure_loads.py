@@ -111,9 +111,10 @@ def page(results: dict[str, Any]) -> str:
             f"{1e3 * low:.0f} .. {1e3 * high:.0f} |"
         )
     lines += ["", "130 blocks, seed 1, the rest as in the scene:", ""]
-    for name, unit in (("penalty", "times E"), ("increment", "kN, growing load,")):
+    words = {"penalty": ("penalty", "times E"), "increment": ("growing load, increments of", "kN")}
+    for name, (said, unit) in words.items():
         row = ", ".join(f"{key:g} {unit}: {load:.3f} kN" for key, load in results[name].items())
-        lines.append(f"- {name} {row}")
+        lines.append(f"- {said} {row}")
     return "\n".join([*lines, ""])
 
 

@@ -29,7 +29,7 @@ from nmm.scene.fields import (
     Velocity,
     fault,
 )
-from nmm.scene.tables.control import ControlTable
+from nmm.scene.tables.loading.control import ControlTable
 from nmm.scene.tables.loading.expressions import FieldOf
 
 _HISTORY = "pairs [t, factor] with t increasing"

@@ -13,7 +13,7 @@ from nmm.contact.following.path_equation import PathEquation
 from nmm.registry import Registry
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.control import ControlTable
+    from nmm.scene.tables.loading.control import ControlTable
 
 
 @dataclass(frozen=True)

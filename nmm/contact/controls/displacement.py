@@ -9,7 +9,7 @@ from integration.arrays import Floats
 from nmm.contact.controls.base import Control, Standing
 
 if TYPE_CHECKING:
-    from nmm.scene.tables.control import ControlTable
+    from nmm.scene.tables.loading.control import ControlTable
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from nmm.errors import FormulationError
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
-    from nmm.scene.tables.control import ControlTable
+    from nmm.scene.tables.loading.control import ControlTable
     from nmm.stepping.step.stepper import Stepper
 
 

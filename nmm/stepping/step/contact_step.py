@@ -17,6 +17,8 @@ from nmm.contact.detection.tolerances import (
     FURTHER,
     MIDPOINT_SOLUTIONS,
 )
+from nmm.contact.solution.request import StepRequest
+from nmm.effects.base import Instant
 from nmm.model.discretisation import Current
 from nmm.solvers.linear import LinearSolver
 from nmm.stepping.step.clock import Clock
@@ -26,11 +28,14 @@ from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.enforcement.null_space import NullSpace
+    from nmm.contact.following.path_equation import PathEquation
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import Breaking, ContactSolution
     from nmm.effects.change import Change
     from nmm.effects.contact import Contact
 
+# Solutions of a step along a path, each with contacts sought further.
+PATH_SOLUTIONS = 4
 # Vertex and edge (k,) of pairs.
 Pairs = tuple[Ints, Ints]
 
@@ -118,6 +123,37 @@ class Touching:
                 solved=solved,
             )
 
+    def along(self, equations: Equations, path: "PathEquation", reach: float) -> Attempt:
+        """Solve a step of statics whose load factor is found with the unknowns.
+
+        Contacts are sought up to ``reach`` (m) at first. The equations are of the load factor that
+        the step begins with.
+
+        Raises
+        ------
+        SolveError
+            Where nothing holds a part.
+        """
+        state, still = equations.state, equations.end
+        request = StepRequest(equations.matrix, equations.force, self.solver, time=still.time)
+        for _ in range(PATH_SOLUTIONS):
+            contacts = self.candidates(state, reach, None)
+            solved, change = self.contact.solve_path(contacts, state, request, path)
+            end = Instant(still.time, still.load_factor + change)
+            result = self._mover.after(replace(equations, end=end), solved.answer.increment)
+            if result.motion <= reach or not solved.answer.verdict.converged:
+                break
+            reach = FURTHER * result.motion
+        verdict = solved.answer.verdict
+        return replace(
+            result,
+            converged=verdict.converged,
+            sentence=verdict.sentence,
+            residual=solved.answer.residual,
+            passes=solved.passes,
+            solved=solved,
+        )
+
     def _why(self, solution: str, result: Attempt, solved: "ContactSolution") -> str:
         """Say why a solution is no step, though it be one of its equations."""
         if solved.stopped:
@@ -132,10 +168,6 @@ class Touching:
         """Return the contact points of a step in which no point moves further than ``reach``."""
         with self._clock.phase("search"):
             return self.contact.candidates(state, reach, step, crossed)
-
-    def moved(self, equations: Equations, increment: Floats) -> Attempt:
-        """Return the bodies moved by an increment (n,)."""
-        return self._mover.after(equations, increment)
 
     @property
     def contact(self) -> "Contact":
@@ -163,8 +195,6 @@ class Touching:
         held: "NullSpace | None",
         reach: float,
     ) -> "ContactSolution":
-        from nmm.contact.solution.request import StepRequest
-
         def near(increment: Floats) -> bool:
             return self._mover.after(equations, increment).motion <= reach
 

@@ -17,7 +17,6 @@ from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
 from nmm.integrators.damping import Damping
 from nmm.model.discretisation import ModelWithEffects
-from nmm.model.plan import Plan
 
 
 @dataclass(frozen=True)
@@ -122,11 +121,6 @@ class Assembly:
     def __init__(self, solved: ModelWithEffects) -> None:
         self._solved = solved
         self.forget()
-
-    @property
-    def plan(self) -> Plan:
-        """The effects."""
-        return self._solved.plan
 
     def forget(self) -> None:
         """Drop the sums of matrices."""

@@ -214,26 +214,21 @@ class Stepper:
         BudgetSpentError
             When the run may cost no more.
         """
-        from nmm.stepping.step.path_step import path_step
-
         self.budget.check()
         assert self._touching is not None
         with self._clock.phase("path"):
-            return path_step(
-                self._assembly,
-                self._touching,
-                self.solver,
-                self._rule,
-                state,
-                path,
-                self._carried.reach,
-            )
+            still = Instant(state.time, state.load_factor)
+            equations = self._assembly.of(state, still, None, self._rule, anchored=False)
+            try:
+                return self._touching.along(equations, path, self._carried.reach)
+            except SolveError as fault:
+                return _failed(equations.state, fault)
 
     def unit_load(self, state: State) -> Floats:
         """Return the force (n,) that a load factor of one more adds (N)."""
-        from nmm.stepping.step.path_step import unit_load
-
-        return unit_load(self._assembly, state)
+        time, factor = state.time, state.load_factor
+        more, now = (self.plan.force(state, Instant(time, at)) for at in (factor + 1.0, factor))
+        return more - now
 
     def _solved(self, equations: Equations, breaking: "Breaking") -> Attempt:
         """Solve equations, with contact where the scene has it."""

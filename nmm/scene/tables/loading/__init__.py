@@ -1,1 +1,1 @@
-"""Tables of loads, the fields that they are given by, and files of numbers."""
+"""Tables of loads, what grows in their place, the fields they are given by, files of numbers."""
