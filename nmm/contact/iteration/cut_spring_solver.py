@@ -46,7 +46,8 @@ def solve_springs(
         quick = _polished(springs, linear, memory, increment, options)
         if quick.size <= tolerance:
             return _kept(quick, memory)
-    way = _by_cost if budget.interior else _alternated
+    # In statics no step is like the last: what goes first is thorough.
+    way = (_by_cost if memory.moving else _in_order) if budget.interior else _alternated
     found = way(springs, linear, memory, tolerance, increment, budget, options)
     if small and found.size <= tolerance:
         end = _polished(springs, linear, memory, found.increment, options)
@@ -74,10 +75,33 @@ def _by_cost(
         if not near:
             ways.alternation_met()
         return found
-    ended = _inside(found, linear, memory, tolerance, budget, options)
-    if not near and ended.size <= tolerance:
+    goals = (options.springs.loose, tolerance) if ways.finishes else (tolerance,)
+    rest = replace(budget, factors=options.springs.first, cost=options.ways.finish)
+    ended = _inside(found, linear, memory, goals, rest, options)
+    if not ended.size <= tolerance:
+        more = _in_order(springs, linear, memory, tolerance, increment, budget, options)
+        return _joined(ended, more)
+    if not near:
         ways.interior_took(_less(ended, found), options.ways)
     return ended
+
+
+def _in_order(
+    springs: CutSprings,
+    linear: LinearSolver,
+    memory: Memory,
+    tolerance: float,
+    increment: Floats,
+    budget: IterationBudget,
+    options: IterationOptions,
+) -> IterationResult:
+    """Best of the alternation and, where it has not met the tolerance, of all there is."""
+    first = replace(budget, factors=min(budget.factors, options.springs.first))
+    found = _alternated(springs, linear, memory, tolerance, increment, first, options)
+    if found.size <= tolerance:
+        return found
+    goals = options.springs.loose, tolerance
+    return _inside(found, linear, memory, goals, first, options)
 
 
 def _alternated(
@@ -96,24 +120,23 @@ def _inside(
     found: IterationResult,
     linear: LinearSolver,
     memory: Memory,
-    tolerance: float,
-    budget: IterationBudget,
+    goals: tuple[float, ...],
+    rest: IterationBudget,
     options: IterationOptions,
 ) -> IterationResult:
-    """Best of the interior point; broken off near the end for the alternation where that helps."""
+    """Best of the interior point; at each of its ``goals`` the alternation may spend ``rest``."""
     springs, problem, best = found.springs, found.springs.problem, found
     stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
     sides = Complementarity.of(springs, np.zeros(problem.n_contacts, dtype=bool), 1 / stiffness)
     start = inside_start(sides, linear, memory, options)
-    loose = options.springs.loose
-    for balance in (loose, tolerance) if memory.ways.finishes else (tolerance,):
+    tolerance = goals[-1]
+    for balance in goals:
         method = InteriorPoint(sides, memory.pattern_of(problem), linear, options.interior)
         if best.size > balance:
-            best = _joined(best, method.run(start, budget.interior, Goal(max(balance, tolerance))))
+            best = _joined(best, method.run(start, rest.interior, Goal(max(balance, tolerance))))
             start = method.reached if best.size <= balance else start
         if best.size <= tolerance:
             break
-        rest = replace(budget, factors=options.springs.first, cost=options.ways.finish)
         more = _alternated(springs, linear, memory, tolerance, best.increment, rest, options)
         best = _joined(best, more)
         memory.ways.finishes = best.size <= tolerance
