@@ -8,8 +8,8 @@ from scipy.sparse import csc_array
 
 from nmm.solvers.dense import Dense
 from nmm.solvers.factor import Decomposition
+from nmm.solvers.libraries.superlu import DefiniteSolver, SuperLU
 from nmm.solvers.linear import LinearSolver
-from nmm.solvers.superlu import DefiniteSolver, SuperLU
 
 FEW, MANY = 60, 20000
 """Unknowns below which a full matrix costs least, and from which on compiled code always pays."""

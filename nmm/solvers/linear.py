@@ -88,10 +88,10 @@ SOLVERS: Registry[type[LinearSolver]] = Registry(
         "auto": "nmm.solvers.auto:Auto",
         "cholesky": "nmm.solvers.frontal.cholesky:Cholesky",
         "lu": "nmm.solvers.frontal.lu:FrontalLU",
-        "superlu": "nmm.solvers.superlu:SuperLU",
+        "superlu": "nmm.solvers.libraries.superlu:SuperLU",
         "dense": "nmm.solvers.dense:Dense",
-        "qdldl": "nmm.solvers.qdldl:Qdldl",
-        "mumps": "nmm.solvers.mumps:Mumps",
+        "qdldl": "nmm.solvers.libraries.qdldl:Qdldl",
+        "mumps": "nmm.solvers.libraries.mumps:Mumps",
     },
 )
 

@@ -8,8 +8,8 @@ from nmm.contact.enforcement.cone import Cone
 from nmm.contact.enforcement.penalty import Penalty
 from nmm.integrators.base import Integrator
 from nmm.integrators.newmark import Newmark
+from nmm.solvers.libraries.superlu import SuperLU
 from nmm.solvers.linear import LinearSolver
-from nmm.solvers.superlu import SuperLU
 
 
 @dataclass(frozen=True)

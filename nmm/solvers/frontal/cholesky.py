@@ -10,8 +10,8 @@ from nmm.solvers.frontal.frontal_factor import FrontalFactor
 from nmm.solvers.frontal.lu import FrontalLU
 from nmm.solvers.frontal.metis import ordering
 from nmm.solvers.frontal.symbolic import symmetric_plan
+from nmm.solvers.libraries.superlu import DefiniteSolver, SuperLU
 from nmm.solvers.linear import sorted_rows
-from nmm.solvers.superlu import DefiniteSolver, SuperLU
 
 
 @dataclass(frozen=True)

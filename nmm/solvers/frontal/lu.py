@@ -12,8 +12,8 @@ from nmm.solvers.factor import Decomposition
 from nmm.solvers.frontal.frontal_factor import FrontalFactor
 from nmm.solvers.frontal.metis import ordering
 from nmm.solvers.frontal.symbolic import any_plan
+from nmm.solvers.libraries.superlu import DefiniteSolver, SuperLU
 from nmm.solvers.linear import sorted_rows
-from nmm.solvers.superlu import DefiniteSolver, SuperLU
 
 TRUSTED = 1e-6
 """Largest residual of a load of ones of either sign. On contact problems SuperLU leaves as much

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from integration.arrays import Ints
-from nmm.solvers.optional import METIS
+from nmm.solvers.libraries.optional import METIS
 
 Index = npt.NDArray[np.int32]
 

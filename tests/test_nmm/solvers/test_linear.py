@@ -10,8 +10,8 @@ from scipy.sparse import csc_array, eye_array
 import nmm
 from integration.arrays import Floats
 from nmm.errors import FormulationError, SolveError
+from nmm.solvers.libraries.optional import MUMPS, QDLDL
 from nmm.solvers.linear import SOLVERS, Factor, make_solver
-from nmm.solvers.optional import MUMPS, QDLDL
 from nmm.testing import check_solver
 from nmm.testing.solvers import free_row
 

@@ -22,7 +22,7 @@ from nmm.interfaces.softening import LinearSoftening
 from nmm.outputs.base import Output
 from nmm.outputs.stresses import VonMises
 from nmm.quantity import Quantity
-from nmm.solvers.superlu import SuperLU
+from nmm.solvers.libraries.superlu import SuperLU
 from nmm.stepping.simulation import prepare
 from nmm.testing import (
     check_cover,

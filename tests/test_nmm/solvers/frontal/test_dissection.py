@@ -11,7 +11,7 @@ from nmm.solvers.frontal import elimination
 from nmm.solvers.frontal.cholesky import Cholesky
 from nmm.solvers.frontal.dissection import SMALL_PART, dissect
 from nmm.solvers.frontal.metis import metis_order
-from nmm.solvers.optional import METIS
+from nmm.solvers.libraries.optional import METIS
 from nmm.testing.solvers import is_cholesky
 
 

@@ -11,8 +11,8 @@ from nmm.solvers.frontal import symbolic, workspace
 from nmm.solvers.frontal.cholesky import Cholesky
 from nmm.solvers.frontal.lu import FrontalLU
 from nmm.solvers.frontal.workspace import Loan
+from nmm.solvers.libraries.superlu import SuperLU
 from nmm.solvers.linear import LinearSolver, jacobi_scale, make_solver
-from nmm.solvers.superlu import SuperLU
 from nmm.testing.solvers import is_cholesky, is_lu
 
 

@@ -8,8 +8,8 @@ from scipy.sparse import coo_matrix, csc_array
 
 from integration.arrays import Floats
 from nmm.solvers.factor import Decomposition, RankDeficientError
+from nmm.solvers.libraries.optional import MUMPS
 from nmm.solvers.linear import LinearSolver
-from nmm.solvers.optional import MUMPS
 from nmm.solvers.saddle import saddle_scale
 from nmm.solvers.scaling import jacobi_scale, ruiz_scale
 

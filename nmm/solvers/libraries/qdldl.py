@@ -6,8 +6,8 @@ from typing import ClassVar
 from scipy.sparse import csc_array, csc_matrix, triu
 
 from nmm.solvers.factor import Decomposition, RankDeficientError
-from nmm.solvers.optional import QDLDL
-from nmm.solvers.superlu import DefiniteSolver
+from nmm.solvers.libraries.optional import QDLDL
+from nmm.solvers.libraries.superlu import DefiniteSolver
 
 
 @dataclass(frozen=True)
