@@ -199,6 +199,11 @@ def _control(data: Tables) -> Iterator[Finding]:
     if "contact" not in data:
         remedy = "add [contact], or remove [loading.control]"
         yield ("loading", "control"), "no [contact]", "a scene with contact", remedy
+    others = ("stages", data), ("checkpoint", _table(data, "output"))
+    for key, table in others:
+        if table.get(key):
+            remedy = f"remove {key}, or [loading.control]"
+            yield ("loading", "control"), f"{key} besides", f"a path without {key}", remedy
     known = [row["name"] for _, row in _rows(data, "monitors") if isinstance(row.get("name"), str)]
     named = control.get("monitors", ())
     for number, name in enumerate(named if isinstance(named, list | tuple) else ()):

@@ -192,6 +192,12 @@ def test_a_control_at_fault_is_told_before_anything_runs(table, fault):
     assert fault in str(error.value)
 
 
+def test_a_path_with_checkpoints_is_refused():
+    more = "[output.checkpoint]\nevery_steps = 1\n"
+    with pytest.raises(nmm.NmmError, match="checkpoint besides"):
+        nmm.run(parse_scene(bar(1.0, ENERGY, 'type = "events"\n', more=more)))
+
+
 @pytest.mark.parametrize("more", ['[formulation.contact]\nenforcement = "lagrange"\n'])
 def test_a_path_without_springs_of_contact_is_refused(more):
     with pytest.raises(nmm.NmmError, match=r"loading\.control"):
