@@ -249,13 +249,16 @@ def _bound(place: Path, formulation: Path | None) -> None:
 def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) -> Iterator[str]:
     """Yield the lines that say what kind of run it is."""
     dynamic = scene.inertia is not None
-    yield f"run: {'dynamic' if dynamic else 'static'}, plane {scene.plane}"
+    kind = "dynamic" if dynamic else "quasi-static, over time" if scene.in_time else "static"
+    yield f"run: {kind}, plane {scene.plane}"
     if dynamic:
         yield f"integrator: {chosen.integrator.type}, step {chosen.integrator.step:g} s"
         if scene.contact is not None:
             yield from _rule_among_contacts(chosen)
         if scene.duration is not None:
             yield f"duration: {scene.duration:g} s"
+    elif scene.in_time:
+        yield f"duration: {scene.duration:g} s, step {chosen.integrator.step:g} s, no inertia"
     elif scene.loading is not None:
         yield f"loading: until {scene.loading.until}, increment {chosen.loading.increment:g}"
     if scene.stages:

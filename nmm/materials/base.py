@@ -103,9 +103,13 @@ MATERIAL_LAWS = Registry[Callable[..., Law]](
     "material law",
     Law,
     {
+        "burgers": "nmm.materials.viscous.laws:Burgers",
         "elastic": "nmm.materials.elastic:Elastic",
         "drucker_prager": "nmm.materials.drucker_prager:DruckerPragerPlasticity",
+        "kelvin": "nmm.materials.viscous.laws:Kelvin",
+        "maxwell": "nmm.materials.viscous.laws:Maxwell",
         "mohr_coulomb": "nmm.materials.mohr_coulomb:MohrCoulombPlasticity",
+        "standard_solid": "nmm.materials.viscous.laws:StandardSolid",
         "von_mises": "nmm.materials.von_mises:VonMisesPlasticity",
     },
 )

@@ -27,6 +27,7 @@ block_functions = local_functions
 WHERE_GIVEN = (
     *("yield_stress", "hardening_modulus"),
     *("cohesion", "friction_angle", "dilation_angle", "tensile_strength", "match"),
+    *("viscosity", "delayed_modulus", "delayed_viscosity"),
 )
 
 

@@ -32,7 +32,7 @@ def check_together(scene: "Scene", formulation: "Formulation") -> None:
     faults = [*_steps(scene, formulation), *_references(scene)]
     if faults:
         raise SceneError(*faults)
-    if scene.inertia is not None and scene.duration is not None:
+    if scene.in_time and scene.duration is not None:
         steps = scene.duration / formulation.integrator.step
         place = formulation.source.place("integrator", "step")
         capacity.refuse(place, f"{steps:.3g} steps", steps * capacity.STEP, "take longer steps")
@@ -90,7 +90,7 @@ def _damping(scene: "Scene") -> list[str]:
 
 def _steps(scene: "Scene", formulation: "Formulation") -> Iterator[Fault]:
     step, duration = formulation.integrator.step, scene.duration
-    if scene.inertia is not None and duration is not None and step > (1 + 1e-9) * duration:
+    if scene.in_time and duration is not None and step > (1 + 1e-9) * duration:
         place = formulation.source.place("integrator", "step")
         value = f"{step:g} s, longer than the duration of {duration:g} s"
         yield Fault(place, value, "a part of the duration", "take shorter steps")

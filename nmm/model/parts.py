@@ -23,6 +23,7 @@ NAMING = (
     *("law", "type", "method", "functions", "degree", "enforcement", "fracture_energy", "options"),
     *("yield_stress", "hardening_modulus", "cohesion", "friction_angle", "dilation_angle"),
     *("tensile_strength", "match"),
+    *("viscosity", "delayed_modulus", "delayed_viscosity"),
 )
 
 

@@ -168,6 +168,8 @@ def _effects(data: Tables) -> Iterator[Finding]:
     if "loading" in data and "inertia" in data:
         remedy = "remove [loading], or [inertia]; in dynamics loads follow their history"
         yield ("loading",), "[loading] with [inertia]", "a static scene", remedy
+    if "duration" in data and "inertia" not in data:
+        yield from _without_inertia(data)
     if data.get("initial_velocities") and "inertia" not in data:
         remedy = "add [inertia], or remove [[initial_velocities]]"
         yield ("initial_velocities",), "no [inertia]", "a dynamic scene", remedy
@@ -176,14 +178,26 @@ def _effects(data: Tables) -> Iterator[Finding]:
     yield from _output(data)
 
 
+def _without_inertia(data: Tables) -> Iterator[Finding]:
+    """What has another clock than time that passes in equilibrium."""
+    if "loading" in data:
+        remedy = "remove duration, or [loading]: over time loads follow their history"
+        yield ("duration",), "duration with [loading]", "one of the two", remedy
+    for key in ("heat", "seepage"):
+        if _table(data, key).get("transient") is True:
+            remedy = f"remove it, and let [{key}] have its duration, or add [inertia]"
+            yield ("duration",), f"duration with transient [{key}]", "one clock", remedy
+
+
 def _output(data: Tables) -> Iterator[Finding]:
     output, loading = _table(data, "output"), _table(data, "loading")
-    moves = "inertia" in data or "motion_after_failure" in loading
+    timed = "inertia" in data or "duration" in data
+    moves = timed or "motion_after_failure" in loading
     if "every_time" in output and not moves:
         remedy = "use every_steps, or add [inertia]; growing loads have no time"
         yield ("output", "every_time"), "no [inertia]", "a scene that moves in time", remedy
     checkpoint = _table(output, "checkpoint")
-    if "every_time" in checkpoint and "inertia" not in data:
+    if "every_time" in checkpoint and not timed:
         remedy = "use every_steps; growing loads have no time"
         place = ("output", "checkpoint", "every_time")
         yield place, "no [inertia]", "a scene that moves in time", remedy

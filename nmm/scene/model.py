@@ -162,6 +162,11 @@ class Scene(Frozen):
     _source: Source = PrivateAttr(default_factory=Source)
 
     @property
+    def in_time(self) -> bool:
+        """Whether a clock runs: with inertia, or with a duration in which matter creeps."""
+        return self.inertia is not None or (self.duration is not None and self.loading is None)
+
+    @property
     def source(self) -> Source:
         """Where the scene was read; `scene.source.place("blocks", 3)` is "file:line: blocks.3"."""
         return self._source

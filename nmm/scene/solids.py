@@ -43,8 +43,8 @@ class Material(Frozen):
 
     law: PartName = Field(
         default="elastic",
-        description='"elastic", "von_mises", "mohr_coulomb", "drucker_prager", or "module:Name" '
-        "of a law of one's own",
+        description='"elastic", "von_mises", "mohr_coulomb", "drucker_prager", "maxwell", '
+        '"kelvin", "standard_solid", "burgers", or "module:Name" of a law of one\'s own',
     )
     density: Density | None = Field(
         default=None, gt=0, description="a density in kg/m3, > 0", examples=example("kg/m^3")
@@ -95,6 +95,25 @@ class Material(Frozen):
         description='where the cone of "drucker_prager" meets Mohr-Coulomb: "plane_strain" if not '
         'given, triaxial "compression" or "extension"',
         examples=["compression"],
+    )
+    viscosity: Annotated[float, quantity("Pa s")] | None = Field(
+        default=None,
+        gt=0,
+        description='a shear viscosity in Pa s, > 0, of "maxwell", "kelvin" and "burgers"',
+        examples=["1e18 Pa s"],
+    )
+    delayed_modulus: Stress | None = Field(
+        default=None,
+        gt=0,
+        description='a shear modulus in Pa, > 0, of what gives way in time in "standard_solid" and '
+        '"burgers"',
+        examples=["5 GPa"],
+    )
+    delayed_viscosity: Annotated[float, quantity("Pa s")] | None = Field(
+        default=None,
+        gt=0,
+        description="a shear viscosity in Pa s, > 0, beside it",
+        examples=["1e16 Pa s"],
     )
     conductivity: Annotated[float, quantity("W/m/K")] | None = Field(
         default=None,

@@ -46,7 +46,7 @@ from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages
 from nmm.stepping.drive.static_theorem import load_bound
 from nmm.stepping.drive.statics import Beyond, LoadSchedule, UnderLoad, run_load
-from nmm.stepping.drive.verdict import FAILURE, RunVerdict
+from nmm.stepping.drive.verdict import CONVERGED, FAILURE, RunVerdict
 from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.output import (
     FRAMES_AFTER_FAILURE,
@@ -232,7 +232,7 @@ class Simulation:
         stood: RunState | None,
     ) -> tuple[State, RunVerdict]:
         stepper, scene = self.stepper, self.scene
-        checkpoints.counting(self.start.time, scene.inertia is not None)
+        checkpoints.counting(self.start.time, scene.in_time)
         at = None if stood is None else checkpoints.go_on(stood)
         stepper.budget.taken = recorder.steps
         if scene.inertia is not None:
@@ -241,6 +241,8 @@ class Simulation:
             begun = at or checkpoints.begin(InTime.at_start(self.start, times))
             assert isinstance(begun, InTime)
             return run_in_time(stepper, recorder, begun, times, progress, checkpoints.keep)
+        if scene.in_time:
+            return self._creep(recorder, progress, checkpoints, at)
         loads = self._load_schedule()
         if scene.loading is not None and scene.loading.control is not None:
             from nmm.stepping.control.following import PathEnd, run_path
@@ -281,6 +283,30 @@ class Simulation:
             return lambda state, factor: None
         return partial(limit_point, self.stepper)
 
+    def _creep(
+        self,
+        recorder: Recorder,
+        progress: Progress,
+        checkpoints: Checkpoints,
+        at: InTime | UnderLoad | None,
+    ) -> tuple[State, RunVerdict]:
+        """Bring the loads on while the clock stands; then let time pass, in equilibrium."""
+        scene, stepper, asked = self.scene, self.stepper, self.formulation.loading
+        assert scene.duration is not None
+        times = Schedule(scene.duration, self.formulation.integrator.step, stage="creep")
+        if not isinstance(at, InTime):
+            increment = asked.increment if "increment" in asked.model_fields_set else 1.0
+            begin = self.start.time
+            loads = LoadSchedule(1.0, False, increment, asked.tolerance, begin, stops=True)
+            under = at or checkpoints.begin(UnderLoad.at_start(self.start, loads))
+            state, verdict = run_load(
+                stepper, recorder, under, loads, progress, self.regions.name, checkpoints.keep
+            )
+            if verdict.code != CONVERGED:
+                return state, verdict
+            at = checkpoints.begin(InTime.at_start(state, times))
+        return run_in_time(stepper, recorder, at, times, progress, checkpoints.keep)
+
     def _show_failure(
         self,
         recorder: Recorder,
@@ -313,7 +339,7 @@ class Simulation:
 
     def _choice(self) -> Choice:
         """Return which states are stored."""
-        if self.scene.inertia is None or self.scene.duration is None:
+        if not self.scene.in_time or self.scene.duration is None:
             return choice_under_loads(self.scene.output)
         return choice_in_time(self.scene.output, self.start.time, self.scene.duration)
 
@@ -322,7 +348,7 @@ class Simulation:
         """How much the frames take, but for those of the motion after failure."""
         elements, duration = self.stepper.model.manifold.elements, self.scene.duration
         times = None
-        if self.scene.inertia is not None and duration is not None:
+        if self.scene.in_time and duration is not None:
             times = duration, self.formulation.integrator.step
         return storage(self._choice(), times, len(elements.points), len(elements))
 

@@ -76,7 +76,7 @@ class Mover:
     def _faster(self, equations: Equations, increment: Floats, push: Floats | None) -> State:
         """Return the state at the start with the rates of the end."""
         state, step, rule = equations.state, equations.step, equations.rule
-        if step is None:
+        if step is None or equations.inertia is None:
             return state
         before = rule.kinetic_factor * state.velocity
         velocity, acceleration = rule.rates(increment, before, state.acceleration, step)

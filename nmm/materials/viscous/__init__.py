@@ -1,0 +1,1 @@
+"""Laws of matter that creeps: elastic in volume, springs and dashpots in shape."""
