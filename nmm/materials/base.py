@@ -109,6 +109,7 @@ MATERIAL_LAWS = Registry[Callable[..., Law]](
         "kelvin": "nmm.materials.viscous.laws:Kelvin",
         "maxwell": "nmm.materials.viscous.laws:Maxwell",
         "mohr_coulomb": "nmm.materials.mohr_coulomb:MohrCoulombPlasticity",
+        "orthotropic": "nmm.materials.orthotropic:Orthotropic",
         "standard_solid": "nmm.materials.viscous.laws:StandardSolid",
         "von_mises": "nmm.materials.von_mises:VonMisesPlasticity",
     },

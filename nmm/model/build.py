@@ -28,6 +28,8 @@ WHERE_GIVEN = (
     *("yield_stress", "hardening_modulus"),
     *("cohesion", "friction_angle", "dilation_angle", "tensile_strength", "match"),
     *("viscosity", "delayed_modulus", "delayed_viscosity"),
+    *("young_modulus_2", "shear_modulus", "axis_angle"),
+    *("young_modulus_3", "poisson_ratio_13", "poisson_ratio_23"),
 )
 
 

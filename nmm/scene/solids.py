@@ -44,7 +44,8 @@ class Material(Frozen):
     law: PartName = Field(
         default="elastic",
         description='"elastic", "von_mises", "mohr_coulomb", "drucker_prager", "maxwell", '
-        '"kelvin", "standard_solid", "burgers", or "module:Name" of a law of one\'s own',
+        '"kelvin", "standard_solid", "burgers", "orthotropic", or "module:Name" of a law of '
+        "one's own",
     )
     density: Density | None = Field(
         default=None, gt=0, description="a density in kg/m3, > 0", examples=example("kg/m^3")
@@ -114,6 +115,40 @@ class Material(Frozen):
         gt=0,
         description="a shear viscosity in Pa s, > 0, beside it",
         examples=["1e16 Pa s"],
+    )
+    young_modulus_2: Stress | None = Field(
+        default=None,
+        gt=0,
+        description='Young\'s modulus of axis 2 in Pa, > 0, of "orthotropic"; young_modulus and '
+        "poisson_ratio are those of axis 1",
+        examples=["0.9 GPa"],
+    )
+    shear_modulus: Stress | None = Field(
+        default=None,
+        gt=0,
+        description="a shear modulus between both axes in Pa, > 0",
+        examples=["0.7 GPa"],
+    )
+    axis_angle: Angle | None = Field(
+        default=None, description="an angle of axis 1 from x in rad", examples=["30 deg"]
+    )
+    young_modulus_3: Stress | None = Field(
+        default=None,
+        gt=0,
+        description="Young's modulus out of the plane in Pa, > 0; that of axis 2 if not given",
+        examples=["0.9 GPa"],
+    )
+    poisson_ratio_13: Number | None = Field(
+        default=None,
+        description="a contraction out of the plane under pull along axis 1; poisson_ratio if not "
+        "given",
+        examples=[0.3],
+    )
+    poisson_ratio_23: Number | None = Field(
+        default=None,
+        description="a contraction out of the plane under pull along axis 2; poisson_ratio if not "
+        "given",
+        examples=[0.3],
     )
     conductivity: Annotated[float, quantity("W/m/K")] | None = Field(
         default=None,

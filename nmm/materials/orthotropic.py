@@ -1,0 +1,79 @@
+"""Linear elasticity with three axes of symmetry, two of them in the plane."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.errors import FormulationError
+from nmm.materials.base import Law
+
+
+@dataclass(frozen=True)
+class Orthotropic(Law):
+    """Hooke's law of wood, layered rock and masonry: axis 1, axis 2, and 3 out of the plane.
+
+    Attributes
+    ----------
+    young_modulus, poisson_ratio
+        Of axis 1 (Pa): pulled along it, matter contracts by the ratio along axis 2.
+    young_modulus_2
+        Of axis 2 (Pa).
+    shear_modulus
+        Between them (Pa).
+    axis_angle
+        Of axis 1 from x, counter-clockwise (rad).
+    young_modulus_3, poisson_ratio_13, poisson_ratio_23
+        Of axis 3, and its contractions under pull along 1 and 2; those of axis 2 and of
+        ``poisson_ratio`` if not given. They act in plane strain.
+    """
+
+    young_modulus: float
+    poisson_ratio: float
+    young_modulus_2: float
+    shear_modulus: float
+    axis_angle: float = 0.0
+    young_modulus_3: float | None = None
+    poisson_ratio_13: float | None = None
+    poisson_ratio_23: float | None = None
+
+    def __post_init__(self) -> None:
+        least = np.linalg.eigvalsh(self._compliance())[0]
+        if not (least > 0 and self.shear_modulus > 0):
+            raise FormulationError(
+                f"poisson_ratio: {self.poisson_ratio}: expected moduli and ratios whose energy is "
+                "positive, |nu_12| < sqrt(E_1 / E_2) among others: lower the ratios"
+            )
+
+    def stiffness(self, plane: str) -> Floats:
+        """See `Law.stiffness`; the matrix of the axes, turned."""
+        solid = self._compliance()
+        flat = solid[:2, :2]
+        if plane == "strain":
+            flat = flat - np.outer(solid[:2, 2], solid[2, :2]) / solid[2, 2]
+        own = np.zeros((3, 3))
+        own[:2, :2], own[2, 2] = np.linalg.inv(flat), self.shear_modulus
+        c, s = np.cos(self.axis_angle), np.sin(self.axis_angle)
+        turn = np.array(
+            [[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]]
+        )
+        whole = turn.T @ own @ turn
+        return np.asarray((whole + whole.T) / 2)
+
+    @property
+    def modulus(self) -> float:
+        """The larger of Young's moduli in the plane (Pa)."""
+        return max(self.young_modulus, self.young_modulus_2)
+
+    def _compliance(self) -> Floats:
+        """Return strains (3,) along the axes from stresses along them (1/Pa)."""
+        third = self.young_modulus_2 if self.young_modulus_3 is None else self.young_modulus_3
+        across = [
+            self.poisson_ratio if given is None else given
+            for given in (self.poisson_ratio_13, self.poisson_ratio_23)
+        ]
+        found = np.diag([1 / self.young_modulus, 1 / self.young_modulus_2, 1 / third])
+        found[0, 1] = found[1, 0] = -self.poisson_ratio / self.young_modulus
+        found[0, 2] = found[2, 0] = -across[0] / self.young_modulus
+        found[1, 2] = found[2, 1] = -across[1] / self.young_modulus_2
+        return found
