@@ -261,6 +261,10 @@ def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) ->
         yield f"duration: {scene.duration:g} s, step {chosen.integrator.step:g} s, no inertia"
     elif scene.loading is not None:
         yield f"loading: until {scene.loading.until}, increment {chosen.loading.increment:g}"
+    if scene.strength_reduction is not None:
+        asked = scene.strength_reduction
+        bounds = f"factors {asked.lowest:g} to {asked.highest:g}, within {asked.tolerance:g}"
+        yield f"strength reduction: {bounds}; a run each, some 10"
     if scene.stages:
         spans = (
             "to rest" if one.duration is None else f"{one.duration:g} s" for one in scene.stages

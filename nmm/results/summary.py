@@ -7,7 +7,7 @@ import types
 from collections import abc
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields, replace
 from functools import cache
 from importlib import metadata
 from types import NoneType
@@ -90,6 +90,9 @@ class Summary:
         above it, relative to it, the smallest load was found that is not.
     failure_bound
         Load factor that admissible forces of contacts and bonds cannot pass, by the static theorem.
+    factor_of_safety, factor_that_fails
+        Largest factor over which strengths were in equilibrium, and the smallest over which they
+        were not; None where there was none between the bounds, or none was sought.
     largest_contacts
         Largest number of contact points in each state at one step.
     versions, seed, scene_hash, formulation_hash
@@ -123,6 +126,8 @@ class Summary:
     failure_factor: float | None = None
     failure_tolerance: float | None = None
     failure_bound: float | None = None
+    factor_of_safety: float | None = None
+    factor_that_fails: float | None = None
     largest_contacts: Mapping[str, int] = field(default_factory=dict)
     versions: Mapping[str, str] = field(default_factory=installed_versions)
     seed: int | None = None
@@ -178,6 +183,45 @@ class Summary:
                     "restore the file"
                 )
         return cls(**values)
+
+
+@dataclass(frozen=True)
+class Safety:
+    """The factor of safety of a scene, bracketed.
+
+    Attributes
+    ----------
+    holds, fails
+        Largest factor with equilibrium and smallest without; None where there is none.
+    shown
+        Whether failing is shown to be the structure's and not the solver's.
+    sentence
+        What the run that fails says.
+    runs
+        How many factors were tried.
+    """
+
+    holds: float | None
+    fails: float | None
+    shown: bool
+    sentence: str
+    runs: int
+
+    def told(self, summary: Summary) -> Summary:
+        """Return the summary of the run at the factor that holds with what is known of others."""
+        found = replace(summary, factor_of_safety=self.holds, factor_that_fails=self.fails)
+        if self.holds is None:
+            said = f"no factor of safety down to {self.fails:.6g}: {summary.sentence}"
+            return replace(found, sentence=said)
+        if self.fails is None:
+            said = f"in equilibrium up to strength over {self.holds:.6g}, the highest factor tried"
+            return replace(found, sentence=said)
+        said = (
+            f"factor of safety {self.holds:.6g}: in equilibrium with strength over it, not over "
+            f"{self.fails:.6g} ({self.runs} runs): {self.sentence}"
+        )
+        spoilt = summary.status == "converged" and not self.shown
+        return replace(found, status="failed" if spoilt else summary.status, sentence=said)
 
 
 def _fits(value: Any, kind: Any) -> bool:
@@ -243,6 +287,8 @@ def rows(summary: Summary) -> list[tuple[str, str]]:
             "load factor reached" if summary.status in ON_THE_WAY else "failure load factor",
             _or_none(summary.failure_factor, _number),
         ),
+        ("factor of safety", _or_none(summary.factor_of_safety, _number)),
+        ("factor that fails", _or_none(summary.factor_that_fails, _number)),
         ("failure factor at most", _or_none(summary.failure_bound, _number)),
         ("equilibrium residual", _or_none(summary.equilibrium_residual, _number)),
         ("largest penetration", _or_none(summary.largest_penetration, _metre)),

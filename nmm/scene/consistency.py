@@ -20,6 +20,7 @@ from nmm.scene.tables.heat_rules import heat_contradictions
 from nmm.scene.tables.member_rules import member_contradictions
 from nmm.scene.tables.shaking.rules import EDGES, motion_contradictions
 from nmm.scene.tables.splitting import splitting_contradictions
+from nmm.scene.tables.strength_reduction import reduction_contradictions
 from nmm.scene.tables.water_rules import PLACED as WATER
 from nmm.scene.tables.water_rules import seepage_contradictions, water_contradictions
 
@@ -50,6 +51,7 @@ def contradictions(data: object) -> list[Finding]:
         member_contradictions,
         fracture_contradictions,
         splitting_contradictions,
+        reduction_contradictions,
     )
     return [finding for rule in rules for finding in rule(plain)]
 

@@ -56,6 +56,7 @@ from nmm.scene.tables.shaking.boundaries import FreeFieldTable, ViscousBoundaryT
 from nmm.scene.tables.shaking.damping import DampingTable
 from nmm.scene.tables.shaking.records import RecordTable
 from nmm.scene.tables.splitting import SplittingTable
+from nmm.scene.tables.strength_reduction import StrengthReductionTable
 from nmm.scene.tables.water import WaterPressureTable
 
 
@@ -120,6 +121,9 @@ class Scene(Frozen):
     )
     contact: ContactTable | None = Field(default=None, description="a table [contact]")
     fracture: FractureTable | None = Field(default=None, description="a table [fracture]")
+    strength_reduction: StrengthReductionTable | None = Field(
+        default=None, description="a table [strength_reduction]"
+    )
     loading: Loading | None = Field(default=None, description="a table [loading]")
     initial_velocities: tuple[InitialVelocityTable, ...] = Field(
         default=(), description="tables [[initial_velocities]]"

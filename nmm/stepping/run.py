@@ -133,11 +133,20 @@ def _run(
     progress: Progress,
     budget: float | None,
 ) -> Run:
-    simulation = prepare(scene, formulation or scene.formulation or Formulation())
+    simulation = _prepared(scene, formulation or scene.formulation or Formulation(), progress)
     if budget is not None:
         simulation.stepper.budget.seconds = budget
     folder = None if out is None else simulation.folder(Path(out))
     return finished(simulation, MemorySink(), folder, progress)
+
+
+def _prepared(scene: "Scene", formulation: Formulation, progress: Progress) -> Simulation:
+    """Compile scene and formulation, at the factor of safety where the scene asks for it."""
+    if scene.strength_reduction is None:
+        return prepare(scene, formulation)
+    from nmm.stepping.strength_reduction import reduced
+
+    return reduced(scene, formulation, progress)
 
 
 def finished(

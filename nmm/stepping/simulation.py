@@ -35,7 +35,7 @@ from nmm.results.storage import files
 from nmm.results.storage.checkpoint import damaged
 from nmm.results.storage.run_folder import RunFolder, checkpoint_header
 from nmm.results.storage.values import Arrays
-from nmm.results.summary import Summary
+from nmm.results.summary import Safety, Summary
 from nmm.results.tee import FramesOnly, Tee
 from nmm.scene import scene_hash
 from nmm.stepping.audits.base import Ended
@@ -89,6 +89,8 @@ class Simulation:
         (2,) where the axes of model and states lie (m); what is written has those of the scene.
     stages
         What is solved one after the other; none in a scene without stages.
+    safety
+        The factor of safety at which the scene is run; None where strength is not reduced.
     """
 
     scene: "Scene"
@@ -100,6 +102,7 @@ class Simulation:
     begun: float
     origin: Floats
     stages: Sequence[Staged] = ()
+    safety: Safety | None = None
 
     def folder(self, path: Path) -> RunFolder:
         """Return the run folder at ``path`` with scene and formulation as run."""
@@ -162,6 +165,8 @@ class Simulation:
             return self._in_stages(recorder, progress, checkpoints, stood)
         state, verdict = self._advance(recorder, progress, checkpoints, stood)
         summary = self._summary(recorder, state, verdict)
+        if self.safety is not None:
+            summary = self.safety.told(summary)
         sink.finish(replace(summary, failure_bound=bound))
         return state
 

@@ -1,0 +1,63 @@
+"""Strength reduction: by what factor strength may be divided until nothing holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pydantic import Field, model_validator
+
+from nmm.scene.fields import Frozen, Number, fault
+from nmm.scene.lines import Path
+
+Finding = tuple[Path, str, str, str]
+# What a run that is repeated with other strengths cannot be besides.
+OTHERS = ("inertia", "duration", "loading", "stages", "fracture", "splitting")
+STRENGTHS = ("cohesion", "friction_angle", "tensile_strength", "yield_stress")
+
+
+class StrengthReductionTable(Frozen):
+    """Finds the factor of safety, over which strengths are divided until nothing holds.
+
+    Cohesion, the tangents of friction angles, tensile strengths and yield stresses of all materials
+    and interfaces are divided. A factor holds where the scene finds equilibrium under all its
+    loads, and fails where it finds none. The answer is bracketed: the largest factor that holds and
+    the smallest that fails.
+    """
+
+    lowest: Number = Field(
+        default=0.1, gt=0, description="a factor > 0 below which is not sought", examples=[0.5]
+    )
+    highest: Number = Field(
+        default=10.0, gt=0, description="a factor above which is not sought", examples=[4.0]
+    )
+    tolerance: Number = Field(
+        default=0.01, gt=0, description="a width of the bracket, > 0", examples=[0.01]
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> StrengthReductionTable:
+        if not self.lowest < self.highest:
+            remedy = "raise highest, or lower lowest"
+            raise fault(f"lowest = {self.lowest:g}", f"less than {self.highest:g}", remedy)
+        return self
+
+
+def reduction_contradictions(data: Mapping[str, Any]) -> Iterator[Finding]:
+    """Yield what a scene with ``[strength_reduction]`` must not have, or lacks."""
+    if "strength_reduction" not in data:
+        return
+    place: Path = ("strength_reduction",)
+    for key in OTHERS:
+        if data.get(key) is not None and data.get(key) != ():
+            remedy = f"remove {key}, or [strength_reduction]"
+            yield place, f"[strength_reduction] with {key}", "statics under full load", remedy
+    output = data.get("output")
+    if isinstance(output, Mapping) and "checkpoint" in output:
+        remedy = "remove it: its runs are not stored"
+        yield ("output", "checkpoint"), "checkpoint with [strength_reduction]", "none", remedy
+    tables = [data.get(key) for key in ("materials", "interfaces")]
+    rows = [row for table in tables if isinstance(table, Mapping) for row in table.values()]
+    if not any(isinstance(row, Mapping) and any(key in row for key in STRENGTHS) for row in rows):
+        remedy = "give a material a law with strength, or add [interfaces.NAME]"
+        yield place, "nothing has strength", "strength to be reduced", remedy

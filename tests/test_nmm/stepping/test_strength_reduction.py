@@ -1,0 +1,137 @@
+"""Factors of safety: a block on an incline against its closed form, the bracket, the bounds."""
+
+import json
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.errors import SceneError
+from nmm.scene import parse_scene
+from nmm.scene.tables.strength_reduction import StrengthReductionTable
+from nmm.stepping.strength_reduction import Tried, bracket, weakened
+
+SCENE = """
+plane = "strain"
+[materials.rock]
+young_modulus = "1 GPa"
+poisson_ratio = 0.2
+density = "2000 kg/m^3"
+[interfaces.joint]
+friction_angle = "{friction} deg"
+cohesion = {cohesion}
+[[blocks]]
+name = "slope"
+material = "rock"
+vertices = [[0, 0], {foot}, {top}]
+[[blocks]]
+name = "block"
+material = "rock"
+vertices = {block}
+[[supports]]
+name = "ground"
+block = "slope"
+fix = ["x", "y"]
+[gravity]
+[contact]
+[strength_reduction]
+lowest = {lowest}
+highest = {highest}
+"""
+
+
+def incline(slope, friction, cohesion=0.0, lowest=0.5, highest=4.0):
+    """A block of 1 m by 0.5 m on an incline of so many degrees."""
+    angle = np.radians(slope)
+    along = np.array([np.cos(angle), np.sin(angle)])
+    off = 0.5 * np.array([-along[1], along[0]])
+    block = [2 * along, 3 * along, 3 * along + off, 2 * along + off]
+    text = SCENE.format(
+        friction=friction,
+        cohesion=cohesion,
+        foot=[float(6 * along[0]), 0.0],
+        top=(6 * along).tolist(),
+        block=[point.tolist() for point in block],
+        lowest=lowest,
+        highest=highest,
+    )
+    return parse_scene(text, "incline.toml")
+
+
+@pytest.mark.parametrize(
+    ("slope", "friction", "cohesion"), [(30, 40, 0.0), (20, 30, 0.0), (30, 20, 10e3), (35, 30, 0.0)]
+)
+def test_a_block_on_an_incline_is_as_safe_as_its_closed_form(slope, friction, cohesion, tmp_path):
+    run = nmm.run(incline(slope, friction, cohesion), out=tmp_path / "run")
+    angle, weight = np.radians(slope), 2000 * 9.81 * 0.5
+    resists = cohesion + weight * np.cos(angle) * np.tan(np.radians(friction))
+    expected = resists / (weight * np.sin(angle))
+    found = run.summary
+    assert found.factor_of_safety <= expected <= found.factor_that_fails
+    assert found.factor_that_fails - found.factor_of_safety <= 0.01
+    assert found.status == "converged"
+    assert "factor of safety" in found.sentence
+    stored = json.loads((tmp_path / "run/summary.json").read_text())
+    assert stored["factor_of_safety"] == found.factor_of_safety
+
+
+def test_a_scene_that_holds_at_the_highest_factor_says_so():
+    found = nmm.run(incline(10, 40, highest=1.5)).summary
+    assert found.factor_of_safety == 1.5
+    assert found.factor_that_fails is None
+    assert "highest" in found.sentence
+
+
+def test_a_scene_that_fails_at_the_lowest_factor_has_collapsed():
+    found = nmm.run(incline(40, 20, lowest=0.9, highest=1.2)).summary
+    assert found.factor_of_safety is None
+    assert found.factor_that_fails == 0.9
+    assert found.status == "collapsed"
+
+
+@pytest.mark.parametrize("limit", [0.13, 0.99, 1.0, 1.37, 7.7])
+def test_the_bracket_closes_around_any_limit(limit):
+    def run(factor):
+        return Tried(factor, "converged" if factor <= limit else "collapsed", "")
+
+    low, high = bracket(run, StrengthReductionTable())
+    assert low.factor <= limit < high.factor
+    assert high.factor - low.factor <= 0.01
+
+
+def test_strengths_are_divided_and_angles_by_their_tangents():
+    soil = {"law": "mohr_coulomb", "young_modulus": 1e8, "poisson_ratio": 0.3, "cohesion": 1e4}
+    soil |= {"friction_angle": 0.5, "dilation_angle": 0.4, "tensile_strength": 2e3}
+    block = {"material": "soil", "vertices": [[0, 0], [1, 0], [0, 1]]}
+    scene = nmm.scene.build_scene(
+        {"plane": "strain", "materials": {"soil": soil}, "blocks": [block]}
+    )
+    weak = weakened(scene, 2.0).materials["soil"]
+    assert (weak.cohesion, weak.tensile_strength) == (5e3, 1e3)
+    assert np.tan(weak.friction_angle) == pytest.approx(np.tan(0.5) / 2)
+    assert weak.dilation_angle == weak.friction_angle  # 0.4 would be beyond it
+    assert weak.young_modulus == 1e8
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("lowest = 0.5", "lowest = 5.0", "less than 4"),
+        ("[gravity]", "[gravity]\n[inertia]", "with inertia"),
+        ("[gravity]", "[gravity]\n[output]\ncheckpoint.every_steps = 1", "runs are not stored"),
+        ("[strength_reduction]", "[strength_reduction]\nfactor = 1", "factor"),
+    ],
+)
+def test_what_contradicts_it_is_refused_by_line(old, new, said):
+    text = SCENE.format(
+        friction=30,
+        cohesion=0,
+        foot=[1, 0],
+        top=[1, 1],
+        block=[[2, 0], [3, 0], [2, 1]],
+        lowest=0.5,
+        highest=4.0,
+    )
+    assert old in text
+    with pytest.raises(SceneError, match=rf"slope\.toml:\d+.*{said}"):
+        parse_scene(text.replace(old, new), "slope.toml")
