@@ -23,12 +23,10 @@ if TYPE_CHECKING:
 
 # While no bracket is known factors go up and down by this.
 STRIDE = 2.0
-# Under factors that fail the load need not be known more closely than this share of it.
-COARSE = 0.05
 
 
 @dataclass(frozen=True)
-class Tried:
+class FactorTried:
     """A run with strengths over a factor: its status, and its verdict in words."""
 
     factor: float
@@ -51,12 +49,12 @@ def reduced(scene: "Scene", formulation: "Formulation", progress: Progress) -> S
     """
     table = scene.strength_reduction
     assert table is not None
-    begun, tried = perf_counter(), list[Tried]()
-    quick = _quick(formulation)
+    begun, tried = perf_counter(), list[FactorTried]()
+    quick = formulation if _grows(scene) else _at_once(formulation)
 
-    def run(factor: float) -> Tried:
+    def run(factor: float) -> FactorTried:
         found = _run(weakened(scene, factor), quick)
-        tried.append(Tried(factor, found.status, found.sentence))
+        tried.append(FactorTried(factor, found.status, found.sentence))
         says = "equilibrium" if tried[-1].holds else "none"
         progress(min(len(tried) / 12, 1.0), f"strength / {factor:.5g}: {says}")
         return tried[-1]
@@ -78,8 +76,8 @@ def reduced(scene: "Scene", formulation: "Formulation", progress: Progress) -> S
 
 
 def bracket(
-    run: Callable[[float], Tried], table: "StrengthReductionTable"
-) -> tuple[Tried | None, Tried | None]:
+    run: Callable[[float], FactorTried], table: "StrengthReductionTable"
+) -> tuple[FactorTried | None, FactorTried | None]:
     """Return the largest factor that holds and the smallest that fails; None where there is none.
 
     From 1 factors are doubled or halved within the bounds until one of each is known; then the
@@ -127,16 +125,21 @@ def _weaker(part: Any, factor: float) -> Any:
 
 
 def _sorted(
-    found: Tried, low: Tried | None, high: Tried | None
-) -> tuple[Tried | None, Tried | None]:
+    found: FactorTried, low: FactorTried | None, high: FactorTried | None
+) -> tuple[FactorTried | None, FactorTried | None]:
     return (found, high) if found.holds else (low, found)
 
 
-def _quick(formulation: "Formulation") -> "Formulation":
-    """Return a formulation that does not look closely at which load a failing scene carries."""
-    loading = formulation.loading
-    coarse = loading.model_copy(update={"tolerance": max(loading.tolerance, COARSE)})
-    return formulation.model_copy(update={"loading": coarse})
+def _grows(scene: "Scene") -> bool:
+    """Whether anything but weight acts, which the load factor brings on bit by bit."""
+    moved = any(any(one.displacement) or one.field is not None for one in scene.supports)
+    return bool(scene.loads or scene.water_pressures) or moved
+
+
+def _at_once(formulation: "Formulation") -> "Formulation":
+    """Return a formulation that tries no smaller increments, which have the same weight."""
+    loading = formulation.loading.model_copy(update={"tolerance": 1.0})
+    return formulation.model_copy(update={"loading": loading})
 
 
 def _run(scene: "Scene", formulation: "Formulation") -> "Summary":

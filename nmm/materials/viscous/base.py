@@ -24,7 +24,7 @@ MEAN = np.array([1.0, 1.0, 0.0, 1.0])
 SHAPE = np.diag([1.0, 1.0, 0.5, 1.0]) - np.outer(MEAN, MEAN) / 3
 
 
-class Branches(NamedTuple):
+class Rheology(NamedTuple):
     """Springs and dashpots of the deviator.
 
     Attributes
@@ -52,7 +52,7 @@ class Viscous(Elastic):
 
     @property
     @abstractmethod
-    def branches(self) -> Branches:
+    def branches(self) -> Rheology:
         """What the deviator is made of."""
 
     @property

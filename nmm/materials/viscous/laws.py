@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.materials.viscous.base import Branches, Viscous, above_zero
+from nmm.materials.viscous.base import Rheology, Viscous, above_zero
 
 # An instant counts as this share of Kelvin's time: without time his dashpot would be rigid.
 INSTANT = 1e-6
@@ -27,9 +27,9 @@ class Maxwell(Viscous):
         above_zero(viscosity=self.viscosity)
 
     @property
-    def branches(self) -> Branches:
+    def branches(self) -> Rheology:
         """See `Viscous.branches`."""
-        return Branches(0.0, np.array([self.shear]), np.array([self.viscosity / self.shear]))
+        return Rheology(0.0, np.array([self.shear]), np.array([self.viscosity / self.shear]))
 
 
 @dataclass(frozen=True)
@@ -51,9 +51,9 @@ class Kelvin(Viscous):
         above_zero(viscosity=self.viscosity)
 
     @property
-    def branches(self) -> Branches:
+    def branches(self) -> Rheology:
         """See `Viscous.branches`."""
-        return Branches(self.shear, np.zeros(0), np.zeros(0))
+        return Rheology(self.shear, np.zeros(0), np.zeros(0))
 
     def stiff(self, step: float) -> float:
         """See `Viscous.stiff`."""
@@ -78,12 +78,12 @@ class StandardSolid(Viscous):
         above_zero(delayed_modulus=self.delayed_modulus, delayed_viscosity=self.delayed_viscosity)
 
     @property
-    def branches(self) -> Branches:
+    def branches(self) -> Rheology:
         """See `Viscous.branches`."""
         both = self.shear + self.delayed_modulus
         modulus, time = self.shear**2 / both, self.delayed_viscosity / both
         spring = self.shear * self.delayed_modulus / both
-        return Branches(spring, np.array([modulus]), np.array([time]))
+        return Rheology(spring, np.array([modulus]), np.array([time]))
 
 
 @dataclass(frozen=True)
@@ -110,14 +110,14 @@ class Burgers(Viscous):
         )
 
     @property
-    def branches(self) -> Branches:
+    def branches(self) -> Rheology:
         """See `Viscous.branches`; two of Maxwell's act as the chain does (Findley et al. 1976)."""
         relaxes = self.shear / self.viscosity
         delays = self.delayed_modulus / self.delayed_viscosity
         fast = relaxes + self.shear / self.delayed_viscosity + delays
         rates = _roots(fast, relaxes * delays)
         moduli = self.shear * (rates - delays) / (rates - rates[::-1])
-        return Branches(0.0, moduli, 1 / rates)
+        return Rheology(0.0, moduli, 1 / rates)
 
 
 def _roots(total: float, product: float) -> Floats:

@@ -9,7 +9,7 @@ import nmm
 from nmm.errors import SceneError
 from nmm.scene import parse_scene
 from nmm.scene.tables.strength_reduction import StrengthReductionTable
-from nmm.stepping.strength_reduction import Tried, bracket, weakened
+from nmm.stepping.strength_reduction import FactorTried, bracket, weakened
 
 SCENE = """
 plane = "strain"
@@ -92,7 +92,7 @@ def test_a_scene_that_fails_at_the_lowest_factor_has_collapsed():
 @pytest.mark.parametrize("limit", [0.13, 0.99, 1.0, 1.37, 7.7])
 def test_the_bracket_closes_around_any_limit(limit):
     def run(factor):
-        return Tried(factor, "converged" if factor <= limit else "collapsed", "")
+        return FactorTried(factor, "converged" if factor <= limit else "collapsed", "")
 
     low, high = bracket(run, StrengthReductionTable())
     assert low.factor <= limit < high.factor
