@@ -11,7 +11,7 @@ from nmm.effects.members.ends import Ends, nowhere
 from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
-from nmm.effects.members.springs import alone
+from nmm.effects.members.member_set import Members
 from nmm.errors import SceneError
 from nmm.materials.uniaxial import Uniaxial
 
@@ -51,7 +51,7 @@ class Foundations(Linked):
         area = np.concatenate([area for *_, area in sides])
         names = tuple(one.name for one, _ in parts)
         axial = Fibres.of(laws, np.ones(len(area)), area)
-        return cls(setup.model, alone(names, places, links, axial))
+        return cls(setup.model, Members.without_slip(names, places, links, axial))
 
 
 def _place(setup: Setup, table: "FoundationTable") -> Place:

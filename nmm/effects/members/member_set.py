@@ -2,15 +2,18 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.effects.members.chains import Chains
+from nmm.effects.members.chains import NONE, Chains
+from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.links import Links
 
 # Of a place of memory: slip, plastic slip and its length, plastic stretch and its length.
 SLIP, BOND, AXIAL, WIDTH = 0, slice(1, 3), slice(3, 5), 5
+NO_BOND = Fibres.of([], np.zeros(0), np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,16 @@ class Members:
     owner: Ints
     of_link: Ints
     of_slip: Ints
+
+    @classmethod
+    def without_slip(
+        cls, names: tuple[str, ...], places: tuple[int, ...], links: Links, axial: Fibres
+    ) -> Self:
+        """Return members of so many links each, none of which slips."""
+        m = len(links)
+        chains = Chains(axial, NO_BOND, np.full(m, -1), np.full(m, -1))
+        owner = np.repeat(np.arange(len(names)), places)
+        return cls(names, places, links, chains, owner, np.arange(m), NONE)
 
     @property
     def slip_owner(self) -> Ints:

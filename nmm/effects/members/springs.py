@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from nmm.effects.base import Setup
-from nmm.effects.members.chains import NONE, Chains
 from nmm.effects.members.ends import ends_of
 from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.linked import Linked
@@ -30,7 +29,7 @@ class PointSprings(Linked):
         laws = [_law(spring) for spring in springs]
         one, names = np.ones(len(springs)), tuple(spring.name for spring in springs)
         axial = Fibres.of(laws, one, one, np.array([spring.force for spring in springs]))
-        return cls(setup.model, alone(names, (1,) * len(names), links, axial))
+        return cls(setup.model, Members.without_slip(names, (1,) * len(names), links, axial))
 
 
 def _law(spring: "SpringTable") -> Uniaxial:
@@ -38,14 +37,3 @@ def _law(spring: "SpringTable") -> Uniaxial:
     flowed, yields = ((), ()) if limit is None else ((0.0,), (limit,))
     pulls, pushes = spring.carries != "compression", spring.carries != "tension"
     return Uniaxial(spring.stiffness, flowed, yields, pulls, pushes)
-
-
-def alone(names: tuple[str, ...], places: tuple[int, ...], links: Links, axial: Fibres) -> Members:
-    """Return members of so many links each, none of which slips."""
-    m = len(links)
-    chains = Chains(axial, NO_BOND, np.full(m, -1), np.full(m, -1))
-    owner = np.repeat(np.arange(len(names)), places)
-    return Members(names, places, links, chains, owner, np.arange(m), NONE)
-
-
-NO_BOND = Fibres.of([], np.zeros(0), np.zeros(0))

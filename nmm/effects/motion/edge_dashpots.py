@@ -1,7 +1,7 @@
 """Dashpots along an edge: impedances of the ground beyond, and their matrix."""
 
 from dataclasses import dataclass
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
@@ -10,6 +10,9 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.shaking.boundaries import ViscousBoundaryTable
 
 
 @dataclass(frozen=True)
@@ -77,3 +80,12 @@ def impedances(model: Model, place: Place) -> Floats:
     """Density times the speeds of pressure and shear waves (m, 2) of the material at points."""
     density, elasticity = model.density[place.elements], model.elasticity[place.elements]
     return np.sqrt(density[:, None] * elasticity[:, [0, 2], [0, 2]])
+
+
+def ground_of(table: "ViscousBoundaryTable") -> Floats | None:
+    """Impedances (2,) of the ground beyond that a table gives (Pa s/m); None is the material's."""
+    if table.density is None:
+        return None
+    assert table.p_velocity is not None
+    assert table.s_velocity is not None
+    return table.density * np.array([table.p_velocity, table.s_velocity])

@@ -10,10 +10,9 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, on_segment
 from nmm.effects.base import Effect, Instant, Setup
-from nmm.effects.motion.edge_dashpots import EdgeDashpots
+from nmm.effects.motion.edge_dashpots import EdgeDashpots, ground_of
 from nmm.effects.motion.ground_column import Drive, GroundColumn
 from nmm.effects.motion.record import motions_of
-from nmm.effects.motion.viscous_boundaries import ground_of
 from nmm.errors import GeometryError
 
 if TYPE_CHECKING:

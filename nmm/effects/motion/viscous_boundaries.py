@@ -11,7 +11,7 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, on_block, on_segment
 from nmm.effects.base import Effect, Instant, Setup
-from nmm.effects.motion.edge_dashpots import EdgeDashpots
+from nmm.effects.motion.edge_dashpots import EdgeDashpots, ground_of
 from nmm.effects.motion.record import GroundMotion, motions_of
 from nmm.errors import GeometryError
 
@@ -112,15 +112,6 @@ def _boundary(setup: Setup, table: "ViscousBoundaryTable") -> ViscousBoundary:
     model, place = setup.model, _place(setup, table)
     dashpots = EdgeDashpots.of(model, place, ground_of(table))
     return ViscousBoundary(table.name, dashpots, motions_of(setup.scene, table.incoming))
-
-
-def ground_of(table: "ViscousBoundaryTable") -> Floats | None:
-    """Impedances (2,) of the ground beyond that a table gives (Pa s/m); None is the material's."""
-    if table.density is None:
-        return None
-    assert table.p_velocity is not None
-    assert table.s_velocity is not None
-    return table.density * np.array([table.p_velocity, table.s_velocity])
 
 
 def _place(setup: Setup, table: "ViscousBoundaryTable") -> Place:
