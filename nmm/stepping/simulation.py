@@ -250,8 +250,9 @@ class Simulation:
             return self._creep(recorder, progress, checkpoints, at)
         loads = self._load_schedule()
         if scene.loading is not None and scene.loading.control is not None:
-            from nmm.stepping.control.following import PathEnd, run_path
+            from nmm.stepping.control.following import run_path
             from nmm.stepping.control.making import control_of
+            from nmm.stepping.control.position import PathEnd
 
             control = control_of(scene.loading.control, self.stepper, self.formulation)
             end = PathEnd(loads.target, scene.loading.control.fall)

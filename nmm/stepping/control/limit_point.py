@@ -5,7 +5,8 @@ from nmm.contact.controls.base import Control
 from nmm.contact.controls.dissipation import Dissipation
 from nmm.contact.controls.events import NextEvent
 from nmm.results.tee import Tee
-from nmm.stepping.control.following import PathEnd, run_path
+from nmm.stepping.control.following import run_path
+from nmm.stepping.control.position import PathEnd
 from nmm.stepping.drive.verdict import FAILURE, LimitPoint
 from nmm.stepping.reports.ledger import stored
 from nmm.stepping.reports.recorder import Recorder

@@ -9,6 +9,8 @@ from nmm.stepping.step.trial import Attempt
 
 # Load over strength that is as good as one, and trials before the nearest one is taken.
 CLOSE, MOST = 1e-10, 60
+# Load over strength beyond one above which a bond cannot hold.
+ABOVE = 1e-9
 
 
 @dataclass(frozen=True)

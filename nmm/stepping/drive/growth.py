@@ -13,9 +13,9 @@ from nmm.assembly.motion import State
 from nmm.errors import SolveError
 from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad
-from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
+from nmm.stepping.drive.until_verdict import until_verdict
+from nmm.stepping.drive.verdict import CONVERGED, FAILED, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
-from nmm.stepping.step.budget import BudgetSpentError
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:
@@ -39,19 +39,13 @@ def run_growth(
     The last state and the verdict.
     """
     growing = _Growing(stepper, recorder, schedule, progress, stepper.model.manifold.n_bodies)
-    verdict = None
-    try:
-        while verdict is None:
-            found = growing.next(at)
-            if isinstance(found, RunVerdict):
-                verdict = found
-            else:
-                at = keep(found)
-    except BudgetSpentError as spent:
-        held = at.state.load_factor
-        verdict = RunVerdict(SPENT, f"stopped at load factor {held:.6g}: {spent}")
-    recorder.last(at.state, "load", at.contacts)
-    return at.state, verdict
+
+    def step(at: UnderLoad) -> UnderLoad | RunVerdict:
+        found = growing.next(at)
+        return found if isinstance(found, RunVerdict) else keep(found)
+
+    # Where a crack has just grown balance is not found anew yet.
+    return until_verdict(at, step, recorder, stopped="stopped")
 
 
 @dataclass(frozen=True)

@@ -16,18 +16,17 @@ from nmm.effects.base import Instant
 from nmm.stepping.drive.changes import Asked, Stands, asked, with_events
 from nmm.stepping.drive.relaxation import Relaxed, relax
 from nmm.stepping.drive.static_theorem import carried
+from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import (
     COLLAPSED,
     CONVERGED,
     FAILED,
     FAILURE,
-    SPENT,
     LimitPoint,
     RunVerdict,
 )
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.anchors import ANCHOR, block_name, largest_mover, neutral
-from nmm.stepping.step.budget import BudgetSpentError
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -178,21 +177,17 @@ def run_load(
     The last state in equilibrium and the verdict.
     """
     raising = _Raising(stepper, recorder, schedule, progress, names, beyond)
-    verdict = None
-    try:
-        while verdict is None and not raising.reached(at):
-            found = raising.next(at)
-            if isinstance(found, RunVerdict):
-                verdict = found
-            else:
-                grown = at.changed or found.state.load_factor > at.state.load_factor
-                at = keep(found) if grown and not raising.reached(found) else found
-        verdict = verdict or raising.arrived(at)
-    except BudgetSpentError as spent:
-        held = at.state.load_factor
-        verdict = RunVerdict(SPENT, f"stopped in equilibrium at load factor {held:.6g}: {spent}")
-    recorder.last(at.state, "load", at.contacts)
-    return at.state, verdict
+
+    def step(at: UnderLoad) -> UnderLoad | RunVerdict:
+        if raising.reached(at):
+            return raising.arrived(at)
+        found = raising.next(at)
+        if isinstance(found, RunVerdict) or raising.reached(found):
+            return found
+        grown = at.changed or found.state.load_factor > at.state.load_factor
+        return keep(found) if grown else found
+
+    return until_verdict(at, step, recorder)
 
 
 @dataclass(frozen=True)

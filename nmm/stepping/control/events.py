@@ -1,0 +1,54 @@
+"""The load at which the next bond is at its limit, up or down from where a path stands."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nmm.stepping.control.locating import ABOVE, Tried, located, outward
+from nmm.stepping.control.position import OnPath
+from nmm.stepping.control.trials import Trials
+from nmm.stepping.control.verdicts import no_balance, no_event
+from nmm.stepping.drive.verdict import RunVerdict
+
+
+@dataclass(frozen=True)
+class Reached:
+    """Where a change of the load ends: where bonds give way, or else at the largest load."""
+
+    tried: Tried
+    event: bool
+
+
+def next_event(trials: Trials, at: OnPath, most: float) -> Reached | RunVerdict:
+    """Change the load to where the next bond is at its limit, or to a factor of ``most``."""
+    standing = trials.standing(at)
+
+    def try_(change: float) -> Tried:
+        return trials.of_load(standing, change)
+
+    still = try_(0.0)
+    if not still.attempt.converged:
+        return no_balance(at, still.attempt)
+    factor, found = at.state.load_factor, still
+    if abs(still.over) > ABOVE:
+        first = factor * (1 / still.load - 1) if factor and still.load else 1.0
+        other = outward(try_, still, first or 1.0)
+        if other is None:
+            return _at_most(try_, most - factor) or no_event(at)
+        low, high = sorted((still, other), key=lambda one: one.over)
+        event = located(try_, low, high)
+        if event is None:
+            return no_balance(at, other.attempt)
+        found = event
+    last = _at_most(try_, most - factor) if factor + found.way > most else None
+    return last or Reached(replace(found, way=0.0), event=True)
+
+
+def _at_most(try_: Callable[[float], Tried], change: float) -> Reached | None:
+    """Return where the largest load stands; None where it is infinite, or bonds do not hold it."""
+    if not np.isfinite(change):
+        return None
+    last = try_(change)
+    holds = last.attempt.converged and last.load <= 1 + ABOVE
+    return Reached(replace(last, way=0.0), event=False) if holds else None

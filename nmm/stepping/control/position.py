@@ -1,0 +1,58 @@
+"""Where a path stands, and where it is to end."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
+
+
+@dataclass(frozen=True)
+class OnPath:
+    """Where a path stands.
+
+    Attributes
+    ----------
+    state, contacts
+        The last state in equilibrium, and its contacts as left.
+    advance
+        How far the next step goes, in the unit of what is controlled.
+    way
+        (n,) sum of all increments of the unknowns.
+    gone
+        How far what is controlled has come.
+    peak
+        Largest load factor so far.
+    softened
+        Whether the bonds that gave way last soften.
+    events
+        How often bonds gave way.
+    """
+
+    state: State
+    contacts: "ContactPoints | None"
+    advance: float
+    way: Floats
+    gone: float = 0.0
+    peak: float = 0.0
+    softened: bool = False
+    events: int = 0
+
+
+@dataclass(frozen=True)
+class PathEnd:
+    """Where a path is to end.
+
+    Attributes
+    ----------
+    factor
+        Largest load factor.
+    fall
+        Share of the largest load so far to which it may fall.
+    """
+
+    factor: float
+    fall: float

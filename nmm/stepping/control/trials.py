@@ -1,0 +1,59 @@
+"""Steps along a path as they are tried, and the bonds that give way in one."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from integration.arrays import Bools, Floats
+from nmm.assembly.motion import MaterialPoints
+from nmm.contact.controls.base import Standing
+from nmm.contact.following.path_equation import PathEquation
+from nmm.stepping.control.locating import Tried
+from nmm.stepping.control.position import OnPath
+from nmm.stepping.step.stepper import Stepper
+from nmm.stepping.step.trial import Attempt
+
+# Share of the largest load over strength within which bonds give way together.
+TIE = 1e-6
+
+
+@dataclass(frozen=True)
+class Trials:
+    """Tries steps from where a path stands; ``monitors`` are points of the scene, by name."""
+
+    stepper: Stepper
+    monitors: Mapping[str, MaterialPoints]
+
+    def standing(self, at: OnPath) -> Standing:
+        """Return what controls ask of where a path stands."""
+        return Standing(at.state, self.stepper.unit_load(at.state), self.monitors, at.way)
+
+    def along(self, at: Standing, path: PathEquation) -> Tried:
+        """Try a step along a path."""
+        attempt = self.stepper.along(at.state, path)
+        if attempt.converged and attempt.motion > self.stepper.size:
+            attempt = replace(attempt, converged=False, sentence="points leave the domain")
+        load = float(self._overload(attempt).max(initial=0.0)) if attempt.converged else np.inf
+        return Tried(path.target, attempt, load)
+
+    def of_load(self, at: Standing, change: float) -> Tried:
+        """Try a step by which the load factor changes so much."""
+        return self.along(at, PathEquation(at.load, 0 * at.way, 1.0, change))
+
+    def give_way(self, attempt: Attempt) -> bool:
+        """Let the bonds that are loaded most give way; say whether any of them breaks at once."""
+        contact, solved = self.stepper.plan.contact, attempt.solved
+        assert contact is not None
+        assert solved is not None
+        load = self._overload(attempt)
+        gone: Bools = load >= load.max() * (1 - TIE)
+        contact.release(solved, gone)
+        return bool(contact.laws.brittle[solved.contacts.interface[gone]].any())
+
+    def _overload(self, attempt: Attempt) -> Floats:
+        """Return load over strength (m,) of the bonds of an attempt."""
+        contact, solved = self.stepper.plan.contact, attempt.solved
+        assert contact is not None
+        assert solved is not None
+        return contact.overload(solved)

@@ -1,0 +1,52 @@
+"""A run as a sequence of states: from each to the next, until a verdict ends it."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol, TypeVar
+
+from nmm.assembly.motion import State
+from nmm.stepping.drive.verdict import SPENT, RunVerdict
+from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.step.budget import BudgetSpentError
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
+
+
+class Position(Protocol):
+    """Where a run stands: its last state, and the contacts as they were left."""
+
+    @property
+    def state(self) -> State:
+        """The last accepted state."""
+
+    @property
+    def contacts(self) -> "ContactPoints | None":
+        """Its contacts; None without any."""
+
+
+P = TypeVar("P", bound=Position)
+
+
+def until_verdict(
+    at: P,
+    step: Callable[[P], P | RunVerdict],
+    recorder: Recorder,
+    stopped: str = "stopped in equilibrium",
+) -> tuple[State, RunVerdict]:
+    """Go on from where a run stands until a step ends it, or its budget is spent.
+
+    ``stopped`` says what a budget that is spent leaves.
+
+    Returns
+    -------
+    The last accepted state, which is recorded as the last, and the verdict.
+    """
+    try:
+        while not isinstance(found := step(at), RunVerdict):
+            at = found
+        verdict = found
+    except BudgetSpentError as spent:
+        factor = at.state.load_factor
+        verdict = RunVerdict(SPENT, f"{stopped} at load factor {factor:.6g}: {spent}")
+    recorder.last(at.state, "load", at.contacts)
+    return at.state, verdict
