@@ -8,16 +8,15 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
-from nmm.assembly.places import Place, at_point, on_block, on_segment
 from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
 from nmm.constraints.nitsche import Nitsche
 from nmm.constraints.tied_interfaces import TiedInterfaces, instant_of
 from nmm.constraints.volume_lift import sharing
+from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Setup
 from nmm.effects.motion.ground import Ground
-from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -162,26 +161,9 @@ def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
 
 def _interface(setup: Setup, support: "SupportTable", method: Method) -> Interface:
     model = setup.model
-    place = _place(setup, support, ORDER if method.size is None else method.order(model))
+    order = ORDER if method.size is None else method.order(model)
+    place = acting_place(setup, "supports", support, order)
     ground = Ground.of(setup, support, place)
     held = np.array(("x" in support.fix, "y" in support.fix))
     area = place.weight * model.thickness
     return Interface(place, None, area, support.name, held, ground)
-
-
-def _place(setup: Setup, support: "SupportTable", order: int) -> Place:
-    manifold, regions = setup.model.manifold, setup.regions(support.block)
-    if support.point is not None:
-        place = at_point(manifold, np.array(support.point), regions)
-    elif support.segment is not None:
-        place = on_segment(manifold, np.array(support.segment), regions, order)
-    else:
-        assert regions is not None or support.block == "all"
-        everything = np.ones(len(setup.region_name), dtype=bool)
-        place = on_block(manifold, everything if regions is None else regions, order)
-    if not len(place):
-        raise GeometryError(
-            f"support {support.name}: {support.point or support.segment or support.block}: "
-            "expected a place on the material: move it onto a block or onto the edge of one"
-        )
-    return place

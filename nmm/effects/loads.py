@@ -8,10 +8,10 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
-from nmm.assembly.places import Place, at_point, on_segment
+from nmm.assembly.places import Place
+from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
-from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.loads import LoadTable as SceneLoad
@@ -103,19 +103,12 @@ class Loads(Effect):
 
 
 def _load(setup: Setup, load: "SceneLoad") -> Load:
-    manifold, regions = setup.model.manifold, setup.regions(load.block)
     if load.kind == "point":
-        place = at_point(manifold, np.array(load.point), regions)
-        total = np.array(load.force)
+        order, total = LEAST_ORDER, np.array(load.force)
     else:
         # The work of a uniform traction is of the degree of the displacements.
-        order = max(LEAST_ORDER, manifold.degree)
-        place = on_segment(manifold, np.array(load.segment), regions, order)
+        order = max(LEAST_ORDER, setup.model.manifold.degree)
         total = np.array(load.traction) * setup.model.thickness
-    if not len(place):
-        raise GeometryError(
-            f"load {load.name}: {load.point or load.segment}: expected a place on the material: "
-            "move it onto a block or onto the edge of one"
-        )
+    place = acting_place(setup, "loads", load, order)
     force, factor = place.weight[:, None] * total, load_factor(setup, load)
     return Load(load.name, place, force, factor, load.history is None)

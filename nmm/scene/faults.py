@@ -5,7 +5,9 @@ from __future__ import annotations
 import difflib
 import json
 import re
+import tomllib
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, get_args, get_origin
@@ -41,6 +43,14 @@ class Source:
         line = self._line(path)
         where = f"{self.name}:{line}" if line else self.name
         return f"{where}: {dotted}" if dotted else where
+
+    def of_name(self, key: str, name: str) -> str:
+        """`place` of the table ``[[key]]`` of a name, wherever it stands among the others."""
+        rows: Any = []
+        with suppress(tomllib.TOMLDecodeError):
+            rows = tomllib.loads(self.text).get(key, [])
+        number = [n for n, row in enumerate(rows) if row.get("name") == name]
+        return self.place(key, *number[:1])
 
     def line(self, *path: str | int) -> int:
         """Line of the nearest key that is in the file, 0 if there is none."""

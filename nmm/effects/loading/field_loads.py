@@ -10,11 +10,10 @@ from integration.arrays import Bools, Floats
 from integration.rules import polygon_rule
 from nmm.assembly.model import Model
 from nmm.assembly.motion import MaterialPoints, State, material_points
-from nmm.assembly.places import on_segment
+from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
 from nmm.effects.loading.fields import ValueField
-from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.loads import LoadTable
@@ -117,17 +116,12 @@ class FieldLoads(Effect):
 def _load(setup: Setup, load: "LoadTable") -> SpreadLoad:
     assert load.field is not None
     model, regions = setup.model, setup.regions(load.block)
-    manifold, order = model.manifold, model.manifold.degree + BEYOND
+    order = model.manifold.degree + BEYOND
     field = ValueField.named(setup, load.field, f"[[loads]] {load.name}")
     steady = load.history is None and not field.varies
     factor = load_factor(setup, load)
     if load.segment is None:
         return SpreadLoad.over_volume(model, field, order, regions, factor, steady)
-    place = on_segment(manifold, np.array(load.segment), regions, order)
-    if not len(place):
-        raise GeometryError(
-            f"load {load.name}: {load.segment}: expected a place on the material: "
-            "move it onto a block or onto the edge of one"
-        )
+    place = edge_place(setup, "loads", load, order)
     share = place.weight * model.thickness
     return SpreadLoad(place.points, place.position, share, field, factor, steady)

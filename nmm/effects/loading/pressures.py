@@ -9,10 +9,10 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
-from nmm.assembly.places import Place, on_block, on_segment
+from nmm.assembly.places import Place
+from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
-from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.loads import LoadTable
@@ -134,19 +134,9 @@ class SurfacePressures(Effect):
 
 def _pressure(setup: Setup, load: "LoadTable") -> SurfacePressure:
     assert load.pressure is not None
-    manifold, regions = setup.model.manifold, setup.regions(load.block)
     # As many points on a piece as functions along it.
-    order = 2 * max(manifold.degree, 1) + 1
-    if load.segment is not None:
-        place = on_segment(manifold, np.array(load.segment), regions, order)
-    else:
-        everything = np.ones(len(setup.region_name), dtype=bool)
-        place = on_block(manifold, everything if regions is None else regions, order)
-    if not len(place):
-        raise GeometryError(
-            f"load {load.name}: {load.segment or load.block}: expected an edge of the material: "
-            "move it there"
-        )
+    order = 2 * max(setup.model.manifold.degree, 1) + 1
+    place = edge_place(setup, "loads", load, order)
     size, factor = load.pressure * setup.model.thickness, load_factor(setup, load)
     return SurfacePressure(load.name, place, _slopes(place), size, factor, load.history is None)
 

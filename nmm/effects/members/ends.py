@@ -1,8 +1,6 @@
 """Ends of what connects points: on bodies, with which they move, or on the ground."""
 
-import tomllib
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
@@ -92,11 +90,7 @@ def nowhere(
     setup: Setup, key: str, name: str, point: tuple[float, float], block: str | None
 ) -> Fault:
     """Return the fault of a member of ``[[key]]`` with an end that no block is at."""
-    text, rows = setup.scene.source.text, []
-    with suppress(tomllib.TOMLDecodeError):
-        rows = tomllib.loads(text).get(key, [])
-    number = [n for n, row in enumerate(rows) if row.get("name") == name]
-    place = setup.scene.source.place(key, *number[:1])
+    place = setup.scene.source.of_name(key, name)
     x, y = np.array(point) + setup.origin
     there = "no block" if block is None else f'no block "{block}"'
     remedy = 'move it, name "ground" for it, or leave the member out of the stage'

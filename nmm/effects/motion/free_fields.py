@@ -8,7 +8,8 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
-from nmm.assembly.places import Place, on_segment
+from nmm.assembly.places import Place
+from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.motion.edge_dashpots import EdgeDashpots, ground_of
 from nmm.effects.motion.ground_column import Drive, GroundColumn
@@ -105,12 +106,7 @@ class FreeFields(Effect):
 def _side(setup: Setup, table: "FreeFieldTable") -> FreeField:
     model = setup.model
     order = 2 * max(model.manifold.degree, 1)
-    place = on_segment(model.manifold, np.array(table.segment), setup.regions(table.block), order)
-    if not len(place):
-        raise GeometryError(
-            f"[[free_fields]] {table.name}: {table.segment}: expected a vertical edge of the "
-            "material: move it there"
-        )
+    place = edge_place(setup, "free_fields", table, order)
     linear = setup.formulation.cover.highest_degree == 0
     height, element = _layers(place, 1 if linear else FINER)
     damping = setup.scene.damping

@@ -9,11 +9,10 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
-from nmm.assembly.places import Place, on_block, on_segment
+from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.motion.edge_dashpots import EdgeDashpots, ground_of
 from nmm.effects.motion.record import GroundMotion, motions_of
-from nmm.errors import GeometryError
 
 if TYPE_CHECKING:
     from nmm.scene.tables.shaking.boundaries import ViscousBoundaryTable
@@ -109,23 +108,9 @@ class ViscousBoundaries(Effect):
 
 
 def _boundary(setup: Setup, table: "ViscousBoundaryTable") -> ViscousBoundary:
-    model, place = setup.model, _place(setup, table)
+    model = setup.model
+    # Products of two displacements.
+    order = 2 * max(model.manifold.degree, 1)
+    place = edge_place(setup, "viscous_boundaries", table, order)
     dashpots = EdgeDashpots.of(model, place, ground_of(table))
     return ViscousBoundary(table.name, dashpots, motions_of(setup.scene, table.incoming))
-
-
-def _place(setup: Setup, table: "ViscousBoundaryTable") -> Place:
-    manifold, regions = setup.model.manifold, setup.regions(table.block)
-    # Products of two displacements.
-    order = 2 * max(manifold.degree, 1)
-    if table.segment is not None:
-        place = on_segment(manifold, np.array(table.segment), regions, order)
-    else:
-        everything = np.ones(len(setup.region_name), dtype=bool)
-        place = on_block(manifold, everything if regions is None else regions, order)
-    if not len(place):
-        raise GeometryError(
-            f"[[viscous_boundaries]] {table.name}: {table.segment or table.block}: expected a "
-            "place on the edge of the material: move it there"
-        )
-    return place

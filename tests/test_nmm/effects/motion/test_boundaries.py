@@ -199,7 +199,10 @@ def test_wrong_boundaries_are_told_by_line(old, new, said):
     assert "s.toml:" in str(caught.value)
 
 
-def test_a_boundary_off_the_material_is_refused_with_its_name():
+def test_a_boundary_off_the_material_is_refused_with_its_line_and_place():
     text = ground().replace("segment = [[0, 0], [3.0, 0]]", "segment = [[0, 1], [3.0, 1]]")
-    with pytest.raises(GeometryError, match=r"^scene:17: .*viscous_boundaries\]\] base: "):
+    told = (
+        r'^scene:17: viscous_boundaries\.0: "base": \[\[0\.0, 1\.0\], \[3\.0, 1\.0\]\]: expected '
+    )
+    with pytest.raises(GeometryError, match=told):
         nmm.run(nmm.parse_scene(text))

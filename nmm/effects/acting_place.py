@@ -1,0 +1,62 @@
+"""Where a table of the scene acts: points of the material at its point, segment or block."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nmm.assembly.places import Place, at_point, on_block, on_segment
+from nmm.effects.base import Setup
+from nmm.errors import Fault, GeometryError
+
+if TYPE_CHECKING:
+    from nmm.scene.actions import Placed
+    from nmm.scene.tables.shaking.boundaries import FreeFieldTable, ViscousBoundaryTable
+
+    OnEdges = Placed | FreeFieldTable | ViscousBoundaryTable
+
+
+def acting_place(setup: Setup, key: str, table: "Placed", order: int) -> Place:
+    """Return the material at the point of a table ``[[key]]``, else what `edge_place` returns.
+
+    Raises
+    ------
+    GeometryError
+        Where no material is, naming the line of the table.
+    """
+    if table.point is None:
+        return edge_place(setup, key, table, order)
+    point = np.array(table.point)
+    place = at_point(setup.model.manifold, point, setup.regions(table.block))
+    if not len(place):
+        there = str((point + setup.origin).tolist())
+        raise GeometryError(_nowhere(setup, key, table, there))
+    return place
+
+
+def edge_place(setup: Setup, key: str, table: "OnEdges", order: int) -> Place:
+    """Return Gauss points on edges along the segment of a table ``[[key]]``, or round its block.
+
+    They integrate polynomials of degree ``order`` exactly.
+
+    Raises
+    ------
+    GeometryError
+        Where no edge is, naming the line of the table.
+    """
+    manifold, regions = setup.model.manifold, setup.regions(table.block)
+    if table.segment is None:
+        everything = np.ones(len(setup.region_name), dtype=bool)
+        place, there = on_block(manifold, everything if regions is None else regions, order), None
+    else:
+        segment = np.array(table.segment)
+        place = on_segment(manifold, segment, regions, order)
+        there = str((segment + setup.origin).tolist())
+    if not len(place):
+        raise GeometryError(_nowhere(setup, key, table, there or str(table.block)))
+    return place
+
+
+def _nowhere(setup: Setup, key: str, table: "OnEdges", there: str) -> Fault:
+    where = setup.scene.source.of_name(key, table.name)
+    expected, remedy = "a place on the material", "move it onto a block or onto the edge of one"
+    return Fault(where, f'"{table.name}": {there}', expected, remedy)
