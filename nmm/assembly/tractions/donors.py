@@ -49,30 +49,35 @@ class Flux:
 
 def donors(model: Model, elements: Ints) -> Ints:
     """Return for each of ``elements`` (m,) the element (m,) whose field gives its traction."""
-    manifold, area = model.manifold, model.element_area
-    found = np.arange(len(area))
-    near = np.unique(elements)
-    extends = manifold.extends
+    area = model.element_area
+    served, place = np.unique(elements, return_inverse=True)
+    found = served
     for _ in range(STEPS):  # rings of neighbours
-        first, second = neighbours(manifold, np.unique(found[near]))
-        best = np.arange(len(area))
-        size = area.copy()
-        for one, two in ((first, second), (second, first)):
-            use = extends[two] & (manifold.element_region[one] == manifold.element_region[two])
-            order = np.argsort(area[two[use]], kind="stable")
-            top = np.zeros(len(area))
-            pick = np.arange(len(area))
-            top[one[use][order]] = area[two[use]][order]
-            pick[one[use][order]] = two[use][order]
-            larger = top > size
-            best, size = np.where(larger, pick, best), np.where(larger, top, size)
-        poor = area < FAIR * size
-        after = np.where(poor, best, np.arange(len(area)))
-        moved = after[found[near]]
-        if np.array_equal(moved, found[near]):
+        best = _largest_about(model, np.unique(found))
+        poor = area < FAIR * area[best]
+        moved = np.where(poor, best, np.arange(len(area)))[found]
+        if np.array_equal(moved, found):
             break
-        found[near] = moved
-    return np.asarray(found[elements])
+        found = moved
+    return np.asarray(found[place.ravel()])
+
+
+def _largest_about(model: Model, elements: Ints) -> Ints:
+    """Largest (E,) of each element and its neighbours in its region that may be continued.
+
+    Neighbours are those across edges of ``elements``; others are their own largest.
+    """
+    manifold, area = model.manifold, model.element_area
+    first, second = neighbours(manifold, elements)
+    best = np.arange(len(area))
+    for one, two in ((first, second), (second, first)):
+        use = manifold.extends[two] & (manifold.element_region[one] == manifold.element_region[two])
+        rising = np.argsort(area[two[use]], kind="stable")
+        pick = np.arange(len(area))
+        # Of several neighbours the last, the largest, stays.
+        pick[one[use][rising]] = two[use][rising]
+        best = np.where(area[pick] > area[best], pick, best)
+    return best
 
 
 def across(stress: Floats, normal: Floats) -> Floats:
@@ -95,7 +100,7 @@ def traction_rows(
         [gradient[:, 0, 0], gradient[:, 1, 1], gradient[:, 0, 1] + gradient[:, 1, 0]], axis=1
     )
     stress = np.einsum("mij,mjl->mil", model.drained[elements], strain)
-    n = normal[:, :, None]
-    across = n[:, 0] * stress[:, 0] + n[:, 1] * stress[:, 2]
-    up = n[:, 0] * stress[:, 2] + n[:, 1] * stress[:, 1]
-    return unknowns, np.stack([across, up], axis=1)
+    x, y = np.moveaxis(normal, 1, 0)[:, :, None]
+    along_x = x * stress[:, 0] + y * stress[:, 2]
+    along_y = x * stress[:, 2] + y * stress[:, 1]
+    return unknowns, np.stack([along_x, along_y], axis=1)
