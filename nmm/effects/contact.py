@@ -124,7 +124,7 @@ class Contact(Effect):
         surface = self.partners.surface(state)
 
         def besides(present: ContactPoints) -> list[Transform]:
-            tied = self._tied(present, state, rows, request)
+            tied = self._tied(present, state, rows, request.weight, request.time)
             free = present if tied is None else present.take(~present.tied)
             means = self.geometry.face_means(free, surface)
             return [part for part in (tied, means, request.null_space) if part is not None]
@@ -136,7 +136,7 @@ class Contact(Effect):
     ) -> tuple[ContactSolution, float]:
         """Solve a step along a path; return it and by how much the load factor changes."""
         rows = self.geometry.rows(contacts, state)
-        tied = self._tied(contacts, state, rows, request)
+        tied = self._tied(contacts, state, rows, request.weight, request.time)
         return path_solution(self.laws, contacts, rows, tied, request, path)
 
     def overload(self, solved: ContactSolution) -> Floats:
@@ -148,13 +148,17 @@ class Contact(Effect):
         self.record = let_go(self.record, self.laws, solved, gone)
 
     def _tied(
-        self, contacts: ContactPoints, state: State, rows: ContactRows, request: StepRequest
+        self,
+        contacts: ContactPoints,
+        state: State,
+        rows: ContactRows,
+        weight: float = 1.0,
+        time: float | None = None,
     ) -> TiedBonds | None:
-        """Return the bonds that consistent terms hold; None without any."""
+        """Return the bonds that consistent terms hold, see `TiedBonds.of`; None without any."""
         if self._bonds is None or not contacts.tied.any():
             return None
-        more = self._stresses, request.time
-        return TiedBonds.of(self._bonds, contacts, state, rows, request.weight, *more)
+        return TiedBonds.of(self._bonds, contacts, state, rows, weight, self._stresses, time)
 
     def overlooked(self, contacts: ContactPoints, motion: Motion) -> tuple[Ints, Ints] | None:
         """Return pairs that crossed and were no contacts; see `Candidates.overlooked`."""
@@ -213,9 +217,8 @@ class Contact(Effect):
         if self._bonds is None:
             return total
         joints = self._candidates.joints(record.book, state)
-        rows = self.geometry.rows(joints, state)
-        more = self._stresses
-        return total + TiedBonds.of(self._bonds, joints, state, rows, stresses=more).energy
+        tied = self._tied(joints, state, self.geometry.rows(joints, state))
+        return total if tied is None else total + tied.energy
 
     def feel(self, stresses: Sequence[StressAt]) -> None:
         """See `Effect.feel`: the tractions of whole bonds are of the whole stress."""

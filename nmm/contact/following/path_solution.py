@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.following.newton import PathProblem, PathStep, follow
 from nmm.contact.following.path_equation import PathEquation
@@ -30,6 +30,17 @@ def path_solution(
     path: PathEquation,
 ) -> tuple[ContactSolution, float]:
     """Solve a step; return it, and by how much its load factor changes.
+
+    Parameters
+    ----------
+    laws, contacts, rows
+        Of all contacts of the step.
+    tied
+        Those among them that consistent terms hold; None without any.
+    request
+        Matrix and force of all but contacts, and the solver.
+    path
+        The equation beside balance.
 
     Raises
     ------
@@ -68,7 +79,7 @@ def _answer(
     contacts: ContactPoints,
     rows: ContactRows,
     step: PathStep,
-    free: Floats,
+    free: Bools,
     tied: TiedBonds | None,
 ) -> StepAnswer:
     """Return the solution as that of a step's problem."""
@@ -84,8 +95,7 @@ def _answer(
     touching = (force != 0).any(axis=1)
     sliding = np.zeros(m, dtype=bool)
     sliding[free] = np.abs(slid) > STILL * np.abs(slip).max(initial=0.0)
-    state = np.where(sliding, SLIDE, STICK)
-    state = np.where(touching, state, OPEN)
+    state = np.where(touching, np.where(sliding, SLIDE, STICK), OPEN)
     slip = np.where(touching | contacts.bonded, slip, 0.0)
     bonded = contacts.bonded.copy()
     bonded[free] = step.contacts.history["bonded"]
