@@ -11,6 +11,7 @@ import pytest
 
 import nmm.testing
 from nmm import parse_scene
+from nmm.effects.base import Effect
 from nmm.geometry import regions
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -94,6 +95,34 @@ def test_the_parts_of_the_manual_pass_their_checks(monkeypatch):
 def test_every_suite_is_in_the_manual():
     page = (ROOT / "docs/extending.md").read_text()
     assert all(name in page for name in nmm.testing.__all__)
+
+
+def test_every_page_is_in_the_index():
+    index = (ROOT / "docs/index.md").read_text()
+    pages = {path.name for path in (ROOT / "docs").glob("*.md")} - {"index.md"}
+    assert not [page for page in pages if f"({page})" not in index]
+
+
+def test_every_hook_of_effects_is_in_the_manual():
+    page = (ROOT / "docs/extending.md").read_text()
+    hooks = {name for name in vars(Effect) if not name.startswith("_")} - {"from_setup"}
+    assert not [hook for hook in hooks if f"`{hook}`" not in page]
+
+
+def rooms(package):
+    """Folders of a package that stand in it itself."""
+    return {path.parent.name for path in (ROOT / package).glob("*/__init__.py")}
+
+
+def test_every_room_is_in_the_plan_of_the_house():
+    page = (ROOT / "docs/architecture.md").read_text()
+    assert not [room for room in rooms("nmm") | rooms("covers") if f"`{room}`" not in page]
+
+
+def test_every_room_is_on_the_way_of_a_scene():
+    page = (ROOT / "docs/walk.md").read_text()
+    paths = [f"{package}/{room}" for package in ("nmm", "covers") for room in rooms(package)]
+    assert not [path for path in paths if path not in page]
 
 
 def test_pages_of_keys_are_those_of_the_models_that_read_the_files():
