@@ -18,8 +18,8 @@ from nmm.model.from_polygons import covered
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
     from nmm.geometry.blocks import Regions
+    from nmm.scene.matter.materials import Material
     from nmm.scene.model import Scene
-    from nmm.scene.solids import Material
 
 block_functions = local_functions
 

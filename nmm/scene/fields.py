@@ -6,6 +6,7 @@ example; the fault report is made of them (see `faults.py`).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Any
 
@@ -90,11 +91,19 @@ def _ring(value: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], 
     return value
 
 
+def _friction(value: float) -> float:
+    if 0 <= value < math.pi / 2:
+        return value
+    remedy = 'numbers are radians; write for example friction_angle = "37 deg"'
+    raise fault(value, "a friction angle in [0, pi/2) rad", remedy)
+
+
 Number = Annotated[float, quantity("1")]
 Coordinate = Annotated[float, quantity("m")]
 Length = Annotated[float, quantity("m", SMALLEST)]
 Time = Annotated[float, quantity("s", SMALLEST)]
 Angle = Annotated[float, quantity("rad")]
+FrictionAngle = Annotated[Angle, AfterValidator(_friction)]
 Force = Annotated[float, quantity("N", SMALLEST)]
 Energy = Annotated[float, quantity("J", SMALLEST)]
 Stress = Annotated[float, quantity("Pa", SMALLEST)]

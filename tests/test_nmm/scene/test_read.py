@@ -10,7 +10,8 @@ import pytest
 from nmm.errors import SceneError
 from nmm.scene import Scene, canonical_text, json_schema, parse_scene, read_scene, scene_hash
 from nmm.scene.actions import GravityTable
-from nmm.scene.solids import Block, Material
+from nmm.scene.matter.materials import Material
+from nmm.scene.solids import Block
 
 GOOD = """
 plane = "stress"
