@@ -9,13 +9,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.stepping.drive.changes import Asked, Stands, asked, with_events
+from nmm.stepping.drive.evidence import evidence
 from nmm.stepping.drive.relaxation import Relaxed, relax
-from nmm.stepping.drive.static_theorem import carried
+from nmm.stepping.drive.settling import Settled, anchored, may_be_loose, settle
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import (
     COLLAPSED,
@@ -26,7 +25,7 @@ from nmm.stepping.drive.verdict import (
     RunVerdict,
 )
 from nmm.stepping.reports.recorder import Recorder
-from nmm.stepping.step.anchors import ANCHOR, block_name, largest_mover, neutral
+from nmm.stepping.step.anchors import ANCHOR, neutral
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -34,25 +33,8 @@ if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import Breaking
 
-# Corrections for the turn of contacts and bodies end when they move nothing by more than this
-# share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain,
-# or of its distance from the origin: see `_rounding`).
-SETTLED = 1e-8
-ROUNDING = 1e-13
-CORRECTIONS = 12
-# While corrections shrink by this factor each they go on to so many.
-SHRINKS, PATIENCE = 0.9, 60
-# Corrections with anchors that do not shrink, so many and further than `COLLAPSE`, show a
-# mechanism: what is out of balance moves it on and on.
-STEADY = 4
-# A block that only anchors hold may wander by so many times that rounding.
-WANDER = 100.0
-
 # A load increment that was cut to this share of the largest is not cut further.
 SMALLEST = 2.0**-30
-
-# A structure whose points move by this share of its size in one increment has no equilibrium near.
-COLLAPSE = 0.05
 
 
 # From a state and a load factor to the limit point between, if one is seen.
@@ -152,9 +134,9 @@ class Trial:
     factor: float
     fine: bool
     last: bool
-    found: "Settled"
+    found: Settled
     broke: bool
-    events: "Asked"
+    events: Asked
 
 
 def run_load(
@@ -235,9 +217,9 @@ class _Raising:
         end, breaking = self.schedule.instant(factor), _breaking(fine)
         found = settle(stepper, state, end, breaking)
         last = fine or (state.load_factor == 0 and not schedule.until_failure)
-        if last and _may_be_loose(stepper, found):
+        if last and may_be_loose(stepper, found):
             stepper.restore(start)
-            found = _anchored(stepper, state, end, breaking)
+            found = anchored(stepper, state, end, breaking)
         stands = Stands(found.attempt.state, found.contacts)
         events = asked(self.recorder, stands) if found.attempt.converged else ()
         return Trial(factor, fine, last, found, stepper.broken_bonds > bonds, events)
@@ -298,89 +280,6 @@ def _with_neutral(
     return replace(verdict, sentence="; ".join(said))
 
 
-def _may_be_loose(stepper: Stepper, found: "Settled") -> bool:
-    """Whether anchors may help a step without equilibrium: not where a bond was to break."""
-    solved = found.attempt.solved
-    stopped = found.attempt.converged or (solved is not None and solved.stopped)
-    return stepper.plan.contact is not None and not stepper.anchored and not stopped
-
-
-def _anchored(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> "Settled":
-    """Find equilibrium with anchors; where that succeeds they stay, and carry nothing."""
-    stepper.anchored = True
-    found = settle(stepper, state, end, breaking)
-    stepper.anchored = found.attempt.converged
-    return found
-
-
-@dataclass(frozen=True)
-class Settled:
-    """An attempt with its corrections, and the contacts as they are left.
-
-    ``mechanism`` says that corrections went on without end.
-    """
-
-    attempt: Attempt
-    contacts: "ContactPoints | None"
-    mechanism: bool = False
-
-
-def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> Settled:
-    """Find equilibrium in the moved place: solve, move, and correct until nothing moves.
-
-    Corrections are no steps of the load: what matter remembers is that of the step's start for all
-    of them, and what the last one made of it is kept.
-    """
-    contacts: ContactPoints | None = None
-    rounding = _rounding(stepper)
-    total = attempt = stepper.attempt(state, end, None, breaking)
-    way, steady, count = 0.0, 0, 0
-    while count < CORRECTIONS or (count < PATIENCE and not steady):
-        far = not stepper.small and total.motion > COLLAPSE * stepper.size
-        if far or not attempt.converged:
-            return Settled(replace(total, converged=False), contacts, far)
-        _, contacts = stepper.accept(attempt)
-        if not stepper.anchored and stepper.small:
-            return Settled(total, contacts)
-        if attempt.motion <= SETTLED * total.motion + rounding:
-            return Settled(total, contacts)
-        last, way = attempt, way + attempt.motion
-        attempt = stepper.attempt(_remembering(attempt.state, state), end, None, breaking)
-        steady = steady + 1 if attempt.motion > SHRINKS * last.motion else 0
-        total, count = _joined(total, attempt), count + 1
-        if stepper.anchored and steady >= STEADY and way > COLLAPSE * stepper.size:
-            sentence = f"it moved by {way:.3g} m in {count} corrections that did not shrink"
-            return Settled(replace(total, converged=False, sentence=sentence), contacts, True)
-    sentence = f"the moved place is not in equilibrium after {count} corrections"
-    return Settled(replace(total, converged=False, sentence=sentence), contacts)
-
-
-def _remembering(moved: State, start: State) -> State:
-    """Return a state with what matter and effects remember of the start."""
-    return replace(moved, history=start.history, memory=start.memory)
-
-
-def _rounding(stepper: Stepper) -> float:
-    """How far points must move to be known to have moved (m)."""
-    farthest = float(np.abs(stepper.reference).max())
-    still = max(ROUNDING * stepper.size, 4 * float(np.finfo(float).eps) * farthest)
-    # Rounding of the loads, over anchors.
-    return WANDER * still if stepper.anchored else still
-
-
-def _joined(first: Attempt, then: Attempt) -> Attempt:
-    """One attempt of a step and its correction."""
-    solved = then.solved
-    if solved is not None and first.solved is not None:
-        solved = replace(solved, loss=solved.loss + first.solved.loss)
-    return replace(
-        then,
-        motion=max(first.motion, then.motion),
-        passes=first.passes + then.passes,
-        solved=solved,
-    )
-
-
 def _unsettled(attempt: Attempt) -> bool:
     """Whether what interface laws remember did not settle: bonds soften where no load is held."""
     solved = attempt.solved
@@ -429,28 +328,3 @@ def _no_equilibrium(
         f"({100 * tolerance:.2g} % above): {shown}"
     )
     return RunVerdict(FAILURE, sentence, held, tolerance)
-
-
-def evidence(
-    stepper: Stepper, state: State, factor: float, found: Settled, names: Sequence[str]
-) -> str | None:
-    """Return what shows that a structure, and not the solver, is at fault; None if nothing does.
-
-    The static theorem, a motion without end, or a system that is singular with the bonds and
-    contacts that are left.
-    """
-    attempt = found.attempt
-    proof = carried(stepper, state, factor)
-    said = [proof.sentence] if proof is not None and proof.fails else []
-    moves = attempt.motion > COLLAPSE * stepper.size
-    if (found.mechanism or moves) and np.isfinite(attempt.increment).all():
-        body, how = largest_mover(stepper.model, state, attempt.increment)
-        name = block_name(stepper.model, body, names)
-        if moves:
-            way = f"points move by more than {100 * COLLAPSE:.0f} % of the domain in one increment"
-        else:
-            way = attempt.sentence
-        said.append(f"a mechanism was found: {way}, block {name} most: {how}")
-    elif attempt.singular:
-        said.append(f"a mechanism was found: {attempt.sentence}")
-    return "; ".join(said) or None

@@ -1,0 +1,36 @@
+"""What shows that a structure, and not the solver, is at fault where no equilibrium was found."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from nmm.assembly.motion import State
+from nmm.stepping.drive.settling import COLLAPSE, Settled
+from nmm.stepping.drive.static_theorem import carried
+from nmm.stepping.step.anchors import block_name, largest_mover
+from nmm.stepping.step.stepper import Stepper
+
+
+def evidence(
+    stepper: Stepper, state: State, factor: float, found: Settled, names: Sequence[str]
+) -> str | None:
+    """Return what shows that a structure, and not the solver, is at fault; None if nothing does.
+
+    The static theorem, a motion without end, or a system that is singular with the bonds and
+    contacts that are left.
+    """
+    attempt = found.attempt
+    proof = carried(stepper, state, factor)
+    said = [proof.sentence] if proof is not None and proof.fails else []
+    moves = attempt.motion > COLLAPSE * stepper.size
+    if (found.mechanism or moves) and np.isfinite(attempt.increment).all():
+        body, how = largest_mover(stepper.model, state, attempt.increment)
+        name = block_name(stepper.model, body, names)
+        if moves:
+            way = f"points move by more than {100 * COLLAPSE:.0f} % of the domain in one increment"
+        else:
+            way = attempt.sentence
+        said.append(f"a mechanism was found: {way}, block {name} most: {how}")
+    elif attempt.singular:
+        said.append(f"a mechanism was found: {attempt.sentence}")
+    return "; ".join(said) or None

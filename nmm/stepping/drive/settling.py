@@ -1,0 +1,118 @@
+"""Equilibrium in the moved place: a step is solved, moved and corrected until nothing moves.
+
+Where blocks may be loose anchors hold them meanwhile, which carry nothing in the end.
+"""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+from nmm.stepping.step.stepper import Stepper
+from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
+    from nmm.contact.solution.record import Breaking
+
+# Corrections for the turn of contacts and bodies end when they move nothing by more than this
+# share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain,
+# or of its distance from the origin: see `_rounding`).
+SETTLED = 1e-8
+ROUNDING = 1e-13
+CORRECTIONS = 12
+# While corrections shrink by this factor each they go on to so many.
+SHRINKS, PATIENCE = 0.9, 60
+# Corrections with anchors that do not shrink, so many and further than `COLLAPSE`, show a
+# mechanism: what is out of balance moves it on and on.
+STEADY = 4
+# A block that only anchors hold may wander by so many times that rounding.
+WANDER = 100.0
+
+# A structure whose points move by this share of its size in one increment has no equilibrium near.
+COLLAPSE = 0.05
+
+
+@dataclass(frozen=True)
+class Settled:
+    """An attempt with its corrections, and the contacts as they are left.
+
+    ``mechanism`` says that corrections went on without end.
+    """
+
+    attempt: Attempt
+    contacts: "ContactPoints | None"
+    mechanism: bool = False
+
+
+def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> Settled:
+    """Find equilibrium in the moved place: solve, move, and correct until nothing moves.
+
+    Corrections are no steps of the load: what matter remembers is that of the step's start for all
+    of them, and what the last one made of it is kept.
+    """
+    contacts: ContactPoints | None = None
+    rounding = _rounding(stepper)
+    total = attempt = stepper.attempt(state, end, None, breaking)
+    way, steady, count = 0.0, 0, 0
+    while count < CORRECTIONS or (count < PATIENCE and not steady):
+        far = not stepper.small and total.motion > COLLAPSE * stepper.size
+        if far or not attempt.converged:
+            return Settled(replace(total, converged=False), contacts, far)
+        _, contacts = stepper.accept(attempt)
+        if not stepper.anchored and stepper.small:
+            return Settled(total, contacts)
+        if attempt.motion <= SETTLED * total.motion + rounding:
+            return Settled(total, contacts)
+        last, way = attempt, way + attempt.motion
+        attempt = stepper.attempt(_remembering(attempt.state, state), end, None, breaking)
+        steady = steady + 1 if attempt.motion > SHRINKS * last.motion else 0
+        total, count = _joined(total, attempt), count + 1
+        if stepper.anchored and steady >= STEADY and way > COLLAPSE * stepper.size:
+            sentence = f"it moved by {way:.3g} m in {count} corrections that did not shrink"
+            return Settled(replace(total, converged=False, sentence=sentence), contacts, True)
+    sentence = f"the moved place is not in equilibrium after {count} corrections"
+    return Settled(replace(total, converged=False, sentence=sentence), contacts)
+
+
+def _remembering(moved: State, start: State) -> State:
+    """Return a state with what matter and effects remember of the start."""
+    return replace(moved, history=start.history, memory=start.memory)
+
+
+def _rounding(stepper: Stepper) -> float:
+    """How far points must move to be known to have moved (m)."""
+    farthest = float(np.abs(stepper.reference).max())
+    still = max(ROUNDING * stepper.size, 4 * float(np.finfo(float).eps) * farthest)
+    # Rounding of the loads, over anchors.
+    return WANDER * still if stepper.anchored else still
+
+
+def _joined(first: Attempt, then: Attempt) -> Attempt:
+    """One attempt of a step and its correction."""
+    solved = then.solved
+    if solved is not None and first.solved is not None:
+        solved = replace(solved, loss=solved.loss + first.solved.loss)
+    return replace(
+        then,
+        motion=max(first.motion, then.motion),
+        passes=first.passes + then.passes,
+        solved=solved,
+    )
+
+
+def may_be_loose(stepper: Stepper, found: "Settled") -> bool:
+    """Whether anchors may help a step without equilibrium: not where a bond was to break."""
+    solved = found.attempt.solved
+    stopped = found.attempt.converged or (solved is not None and solved.stopped)
+    return stepper.plan.contact is not None and not stepper.anchored and not stopped
+
+
+def anchored(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> "Settled":
+    """Find equilibrium with anchors; where that succeeds they stay, and carry nothing."""
+    stepper.anchored = True
+    found = settle(stepper, state, end, breaking)
+    stepper.anchored = found.attempt.converged
+    return found
