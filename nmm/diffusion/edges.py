@@ -11,14 +11,15 @@ Nitsche's method (1971), which alone has ``Q``. Its matrix is symmetric,
     N^T s N - N^T Q - Q^T N.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
+from nmm.effects.base import factor_of
 
 Factor = Callable[[float], float]
 """From a time (s) to a factor."""
@@ -27,6 +28,11 @@ Factor = Callable[[float], float]
 def steadily(time: float) -> float:
     """Return the factor of what does not change."""
     return 1.0
+
+
+def of_history(history: Sequence[tuple[float, float]] | None) -> Factor:
+    """Return the factor of a history of pairs of time (s) and factor; `steadily` without one."""
+    return steadily if history is None else partial(factor_of, history)
 
 
 @dataclass(frozen=True)

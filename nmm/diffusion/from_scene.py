@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,7 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats
 from nmm.assembly.places import Place, on_segment
 from nmm.diffusion.determined import undetermined
-from nmm.diffusion.edges import Edge, Factor, steadily
+from nmm.diffusion.edges import Edge, Factor, of_history
 from nmm.diffusion.holding import held
 from nmm.diffusion.joints import Conductance, Joining, across_blocks, across_cracks
 from nmm.diffusion.matrices import integrals, products, slopes
@@ -23,7 +22,7 @@ from nmm.diffusion.problem import (
     VolumeSource,
     field_solver,
 )
-from nmm.effects.base import Setup, factor_of
+from nmm.effects.base import Setup
 from nmm.errors import Fault, SceneError
 
 JOINTS = "joints"
@@ -56,8 +55,7 @@ class Given:
     @property
     def factor(self) -> Factor:
         """From a time (s) to a factor."""
-        history = self.item.history
-        return steadily if history is None else partial(factor_of, history)
+        return of_history(self.item.history)
 
 
 @dataclass(frozen=True)
@@ -118,9 +116,16 @@ def field_problem(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Diff
     return found
 
 
-def of_elements(setup: Setup, key: str) -> Floats:
-    """Return a constant (E,) of the elements' materials, zero where none is given."""
-    values = [getattr(item, key) or 0.0 for item in setup.scene.materials.values()]
+def sloping(item: Any, value: float, points: Floats) -> Floats:
+    """Values (m,) at points (m, 2): ``value`` where ``item`` is about, and its gradient."""
+    slope = (points - np.array(item.about)) @ np.array(item.gradient)
+    return np.asarray(value + slope)
+
+
+def of_elements(setup: Setup, key: str, missing: float = 0.0) -> Floats:
+    """Return a constant (E,) of the elements' materials, ``missing`` where none is given."""
+    given = [getattr(item, key) for item in setup.scene.materials.values()]
+    values = [missing if value is None else value for value in given]
     region = setup.model.manifold.element_region
     return np.array(values)[np.asarray(setup.region_material)[region]]
 

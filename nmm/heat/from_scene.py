@@ -1,13 +1,12 @@
 """What a scene says of temperature, counted from the reference."""
 
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
-from nmm.diffusion.from_scene import FieldTables, Given, field_problem, of_elements
+from nmm.diffusion.from_scene import FieldTables, Given, field_problem, of_elements, sloping
 from nmm.diffusion.problem import DiffusionProblem
 from nmm.effects.base import Setup
 
@@ -28,11 +27,11 @@ def heat_problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
     if scene.heat.transient:
         stored = of_elements(setup, "density") * of_elements(setup, "heat_capacity")
     held = [
-        Given("temperatures", i, one, partial(_rise, one, reference=reference))
+        Given("temperatures", i, one, partial(sloping, one, one.temperature - reference))
         for i, one in enumerate(scene.temperatures)
     ]
     around = [
-        Given("convections", i, one, partial(_even, one, reference=reference), one.coefficient)
+        Given("convections", i, one, partial(_even, one.temperature - reference), one.coefficient)
         for i, one in enumerate(scene.convections)
     ]
     fluxes = enumerate(scene.heat_fluxes)
@@ -51,12 +50,6 @@ def heat_problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
     return field_problem(setup, space, tables)
 
 
-def _rise(item: Any, points: Floats, reference: float) -> Floats:
-    """What a given temperature is above the reference at points (m, 2)."""
-    slope = (points - np.array(item.about)) @ np.array(item.gradient)
-    return np.asarray(item.temperature - reference + slope)
-
-
-def _even(item: Any, points: Floats, reference: float) -> Floats:
-    """The same of surroundings."""
-    return np.full(len(points), item.temperature - reference)
+def _even(value: float, points: Floats) -> Floats:
+    """One value at points (m, 2)."""
+    return np.full(len(points), value)

@@ -15,10 +15,8 @@ from scipy.sparse import csc_array
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.diffusion.field_stress import FieldStress
+from nmm.diffusion.field_stress import EVEN, FieldStress
 from nmm.diffusion.matrices import products
-
-EVEN = np.array([1.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True)

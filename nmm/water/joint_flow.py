@@ -6,7 +6,6 @@ moves any more: a fixed point of apertures and heads.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
 from typing import Self
 
 import numpy as np
@@ -14,8 +13,8 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import State
 from nmm.constraints.shared_edges import shared_edges
-from nmm.diffusion.edges import Factor, steadily
-from nmm.effects.base import Effect, Instant, Setup, factor_of
+from nmm.diffusion.edges import Factor, of_history, steadily
+from nmm.effects.base import Effect, Instant, Setup
 from nmm.errors import Fault, SceneError, SolveError
 from nmm.quantity import Quantity
 from nmm.water.network import JointNetwork
@@ -210,9 +209,8 @@ def _held(setup: Setup, sites: WetJoints) -> list[HeldHead]:
             place = setup.scene.source.place("joint_heads", number)
             shown, expected = str(item.segment or item.point), "a place where a joint ends"
             raise SceneError(Fault(place, shown, expected, "move it to the end of a joint"))
-        factor = steadily if item.history is None else partial(factor_of, item.history)
         head = np.full(len(nodes), item.head - setup.origin[1])
-        found.append(HeldHead(item.name, nodes, head, factor))
+        found.append(HeldHead(item.name, nodes, head, of_history(item.history)))
     return found
 
 

@@ -7,7 +7,7 @@ With Darcy's law the head ``h`` obeys ``S dh/dt = div (k grad h)``; the pressure
 
 from collections.abc import Mapping
 from functools import partial
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
@@ -16,13 +16,12 @@ from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
 from nmm.diffusion.course import Course
 from nmm.diffusion.field_effect import FieldEffect, course_of
-from nmm.diffusion.field_stress import FieldStress
-from nmm.diffusion.from_scene import FieldTables, Given, field_problem, fitted, of_elements
+from nmm.diffusion.field_stress import EVEN, FieldStress
+from nmm.diffusion.from_scene import FieldTables, Given, field_problem, fitted, of_elements, sloping
 from nmm.diffusion.problem import DiffusionProblem
 from nmm.effects.base import Instant, Setup
 from nmm.quantity import Quantity
 
-EVEN = np.array([1.0, 1.0, 0.0])
 LOOSE = ("seepage", "head", "add [[heads]], or transient = true")
 
 
@@ -55,7 +54,8 @@ class Seepage(FieldEffect):
             initial = (table.initial - setup.origin[1]) * space.one
         everything: Bools = np.ones(space.n, dtype=bool)
         ground = fitted(setup, space, everything, lambda points: points[:, 1])
-        stress = FieldStress(space, setup.model, _biot(setup)[:, None] * EVEN)
+        biot = of_elements(setup, "biot", missing=1.0)
+        stress = FieldStress(space, setup.model, biot[:, None] * EVEN)
         course = course_of(setup, problem, initial, second)
         conductivity = of_elements(setup, "hydraulic_conductivity")
         return cls(course, stress, conductivity, ground, table.unit_weight, second)
@@ -84,20 +84,16 @@ class Seepage(FieldEffect):
         return {**extremes, **self.amounts(state)}
 
 
-def _biot(setup: Setup) -> Floats:
-    """Biot's coefficient (E,) of the elements; 1 where none is given."""
-    values = [1.0 if m.biot is None else m.biot for m in setup.scene.materials.values()]
-    region = setup.model.manifold.element_region
-    return np.array(values)[np.asarray(setup.region_material)[region]]
-
-
 def _problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
     """Return the equations of the head, counted from the height of the model's axes."""
     scene = setup.scene
     assert scene.seepage is not None
     stored = of_elements(setup, "specific_storage") if scene.seepage.transient else None
     low = float(setup.origin[1])
-    held = [Given("heads", i, one, partial(_head, one, low)) for i, one in enumerate(scene.heads)]
+    held = [
+        Given("heads", i, one, partial(sloping, one, one.head - low))
+        for i, one in enumerate(scene.heads)
+    ]
     inflows = [Given("inflows", i, one, amount=one.velocity) for i, one in enumerate(scene.inflows)]
     tables = FieldTables(
         conductivity=of_elements(setup, "hydraulic_conductivity"),
@@ -111,8 +107,3 @@ def _problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
         what=LOOSE,
     )
     return field_problem(setup, space, tables)
-
-
-def _head(item: Any, low: float, points: Floats) -> Floats:
-    slope = (points - np.array(item.about)) @ np.array(item.gradient)
-    return np.asarray(item.head - low + slope)
