@@ -38,7 +38,7 @@ class Auxiliary:
         return np.asarray(unit * singular_fields(self.tip, points, bearing)[1])
 
     def cutoff(self, points: Floats, radius: float) -> tuple[Floats, Floats]:
-        """``q`` (m,) and its gradient (m, 2)."""
+        """Return the cut-off ``q`` (m,), smooth to second derivatives, and its gradient (m, 2)."""
         away = points - self.tip.point
         r = np.maximum(np.hypot(*away.T), 1e-300)
         s = np.clip((r / radius - INNER) / (1 - INNER), 0.0, 1.0)

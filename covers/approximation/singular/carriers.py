@@ -4,12 +4,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from covers.approximation.singular.branches import branches
 from covers.approximation.singular.enrichment import Enrichment
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats, Ints
 
+# A vertex this near to a point, in sizes of the domain, is the point.
 NEAR = 1e-9
 
 
@@ -57,18 +59,9 @@ def carriers(cut: CutCells, patch_centre: Floats, enrichments: Sequence[Enrichme
     must; covers within a radius those of the nearest one besides. A point about which a cover has
     no continuous angle, as about the tip of a crack within one cover, is carried by none.
     """
-    n = cut.n_covers
-    centre = patch_centre[cut.cover_patch]
-    distance = np.array([np.hypot(*(centre - item.point).T) for item in enrichments])
-    within = np.array([item.radius for item in enrichments])[:, None] > distance
-    nearest = np.argmin(np.where(within, distance, np.inf), axis=0)
-    chosen = within & (nearest == np.arange(len(enrichments))[:, None])
-    for number, item in enumerate(enrichments):  # a handful of singular points
-        chosen[number, touching_covers(cut, item.point)] = True
-        if item.body is not None:
-            chosen[number] &= cut.cover_body == item.body
+    n, chosen = cut.n_covers, _chosen(cut, patch_centre, enrichments)
     places, carried = [], np.ones(len(enrichments), dtype=bool)
-    for number, item in enumerate(enrichments):
+    for number, item in enumerate(enrichments):  # a handful of singular points
         held = np.append(chosen[number], False)[cut.covers]
         element, slot = np.nonzero(held)
         cover = cut.covers[element, slot]
@@ -87,6 +80,20 @@ def carriers(cut: CutCells, patch_centre: Floats, enrichments: Sequence[Enrichme
     return Carriers(points, key, point, bearing, carried)
 
 
+def _chosen(cut: CutCells, patch_centre: Floats, enrichments: Sequence[Enrichment]) -> Bools:
+    """Which covers (N, C) are to carry each point: those that touch it, and near ones."""
+    centre = patch_centre[cut.cover_patch]
+    distance = np.array([np.hypot(*(centre - item.point).T) for item in enrichments])
+    within = np.array([item.radius for item in enrichments])[:, None] > distance
+    nearest = np.argmin(np.where(within, distance, np.inf), axis=0)
+    chosen = within & (nearest == np.arange(len(enrichments))[:, None])
+    for number, item in enumerate(enrichments):  # a handful of singular points
+        chosen[number, touching_covers(cut, item.point)] = True
+        if item.body is not None:
+            chosen[number] &= cut.cover_body == item.body
+    return np.asarray(chosen)
+
+
 def _rows(chosen: Bools) -> Ints:
     """Numbers of the rows of a table (N, C) that are chosen for each column, filled up by -1."""
     most = int(chosen.sum(axis=0).max(initial=0))
@@ -102,9 +109,7 @@ def no_carriers(cut: CutCells) -> Carriers:
 
 
 def touching_covers(cut: CutCells, point: Floats) -> Ints:
-    """Covers of the elements that hold the point in their boxes grown by rounding, and inside."""
-    import shapely
-
+    """Covers of the elements with a vertex at the point; else of those that it lies in."""
     owner = cut.elements.polygon_of_point
     away = np.hypot(*(cut.elements.points - point).T)
     size = np.hypot(*np.ptp(cut.elements.points, axis=0))

@@ -21,7 +21,7 @@ SINGULAR, FRACTIONAL = 8, 8
 def singular_rule(
     polygons: Polygons, enrichments: Sequence[Enrichment], which: Ints, degree: int
 ) -> PointRule:
-    """About the singular points that are near, by Gauss points elsewhere.
+    """Return point rules: graded about singular points that are near, Gauss points elsewhere.
 
     An element near several points is parted between them, each part nearest to one.
 
@@ -85,6 +85,7 @@ def _nearest(whole: shapely.Polygon, one: Floats, others: Floats) -> BaseGeometr
 
 
 def _joined(first: PointRule, its: Ints, second: PointRule, others: Ints) -> PointRule:
+    """One rule of both, by element: ``its`` and ``others`` are the elements of their polygons."""
     owner = np.concatenate([its[first.owner], others[second.owner]])
     order = np.argsort(owner, kind="stable")
     points = np.concatenate([first.points, second.points])[order]
