@@ -11,10 +11,10 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
-from nmm.errors import Fault, FormulationError, SceneError
 from nmm.fracture.criteria.base import Kink
 from nmm.fracture.growth.advance import advanced
 from nmm.fracture.growth.fronts import CrackFronts
+from nmm.fracture.growth.refusals import refuse
 from nmm.fracture.growth.rule import GrowthRule
 from nmm.fracture.stress_intensity import stress_intensity
 from nmm.fracture.surroundings import domain_radius
@@ -77,14 +77,12 @@ class CrackGrowth(Effect):
 
         Raises
         ------
-        SceneError
-            No crack that ends inside a block.
-        FormulationError
-            A cover whose tips carry no functions, or matter that is not linear.
+        SceneError, FormulationError
+            See `refuse`.
         """
         names = [crack.name for crack in setup.scene.cracks]
         made = cls(setup, CrackFronts.of(names), GrownSoFar(np.zeros(2 * len(names)), 0.0))
-        _refuse(setup, made._tips)
+        refuse(setup, made._tips)
         return made
 
     @property
@@ -199,28 +197,3 @@ def _stiff(model: Model, element: Ints) -> tuple[Floats, Floats]:
 def _even(force: Floats) -> Callable[[Floats], Floats]:
     """Return a force density that is the same everywhere."""
     return lambda points: np.tile(force, (len(points), 1))
-
-
-def _refuse(setup: Setup, tips: Ints) -> None:
-    """Refuse scenes without anything to grow, and what cannot carry the growth."""
-    scene, model = setup.scene, setup.model
-    place = scene.source.place("fracture")
-    if not (tips >= 0).any():
-        remedy = "let one of [[cracks]] end inside a block, or remove [fracture]"
-        raise SceneError(Fault(place, "no crack tip", "a crack that can grow", remedy))
-    singular = model.manifold.singular
-    for point in model.cut.tips.point[tips[tips >= 0]]:  # a handful of tips
-        if not (singular == point).all(axis=1).any():
-            value = f"the tip at {point.tolist()} carries no tip functions"
-            expected = "a mesh of monomials, with cells of less than a third of the crack's length"
-            remedy = "correct functions or size of [cover], or tips of [cover.enrichment]"
-            raise FormulationError(Fault(place, value, expected, remedy))
-    table, update = scene.fracture, setup.formulation.rotation.update
-    if table is not None and table.control == "toughness" and update not in ("auto", "small"):
-        place = setup.formulation.source.place("rotation", "update")
-        value, expected = f'"{update}" with control = "toughness"', "answers that a factor scales"
-        remedy = 'leave it out, or use control = "loads" in [fracture]'
-        raise FormulationError(Fault(place, value, expected, remedy))
-    if model.matter is not None:
-        remedy = "use elastic materials, or remove [fracture]"
-        raise FormulationError(Fault(place, "matter that is not linear", "elastic matter", remedy))
