@@ -32,20 +32,26 @@ class ControlTable(Frozen):
     )
     direction: tuple[Number, Number] = Field(
         default=(1.0, 0.0),
-        description="a direction [x, y], not zero: along it displacements and openings grow",
+        description="a direction [x, y], not zero, along which displacement or opening counts",
         examples=[[0, -1]],
     )
     increment: Length | None = Field(
-        default=None, gt=0, description="a largest step in m, > 0", examples=["2 um"]
+        default=None,
+        gt=0,
+        description="a largest step in m, > 0; a displacement or opening needs one",
+        examples=["2 um"],
     )
     end: Length | None = Field(
         default=None, gt=0, description="a displacement or opening in m at which to stop, > 0"
     )
     energy: Energy | None = Field(
-        default=None, gt=0, description="energy in J that a step dissipates at most, > 0"
+        default=None,
+        gt=0,
+        description="an energy in J, > 0, that a step dissipates at most; a dissipation needs one",
+        examples=["1 mJ"],
     )
     end_energy: Energy | None = Field(
-        default=None, gt=0, description="energy in J dissipated at which to stop, > 0"
+        default=None, gt=0, description="a dissipated energy in J, > 0, at which to stop"
     )
     fall: Number = Field(
         default=0.0,
@@ -65,8 +71,9 @@ class ControlTable(Frozen):
             if getattr(self, key) is None:
                 raise fault(f'type = "{self.type}" without {key}', key, f"add {key}")
         if len(self.monitors) != count:
-            expected = f"{count} monitors"
-            raise fault(f"{len(self.monitors)} monitors", expected, "correct their number")
+            value = f'type = "{self.type}" with {len(self.monitors)} monitors'
+            remedy = "correct their number in monitors"
+            raise fault(value, f"names of monitors, {count} of them", remedy)
         if not any(self.direction):
             raise fault("direction [0, 0]", "a direction that is not zero", "correct it")
         return self
