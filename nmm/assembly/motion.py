@@ -138,6 +138,11 @@ class MaterialPoints:
             local = local + frames.tilt[self.body, None] * across
         return frames.centre[self.body] + frames.to_global(self.body, local)
 
+    def way(self, before: State, after: State) -> Floats:
+        """Return the way (m, 2) from one state to another (m)."""
+        start = self.place(before.frames, before.deformation)
+        return self.place(after.frames, after.deformation) - start
+
     def moved(self, frames: Frames, deformation: Floats) -> Floats:
         """Return the way (m, 2) from the reference place, to the rounding of the way itself."""
         assert frames.way is not None

@@ -80,10 +80,7 @@ class Loads(Effect):
         end = Instant(after.time, after.load_factor)
         total = 0.0
         for load in self.loads:
-            points = load.place.points
-            way = points.place(after.frames, after.deformation) - points.place(
-                before.frames, before.deformation
-            )
+            way = load.place.points.way(before, after)
             mean = (load.factor(start) + load.factor(end)) / 2
             total += mean * float(np.sum(load.force * way))
         return total

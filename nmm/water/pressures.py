@@ -92,10 +92,8 @@ class WaterPressures(Effect):
         ends = [(one, Instant(one.time, one.load_factor)) for one in (before, after)]
         total = 0.0
         for one in self.given:  # a handful
-            points = one.place.points
             first, last = (one.forces(state, now) for state, now in ends)
-            start, end = (points.place(state.frames, state.deformation) for state, _ in ends)
-            total += float(np.sum((first + last) / 2 * (end - start)))
+            total += float(np.sum((first + last) / 2 * one.place.points.way(before, after)))
         return total
 
     def history(self, state: State) -> Mapping[str, float]:

@@ -108,8 +108,7 @@ class FieldLoads(Effect):
         total = 0.0
         for load in self.loads:
             mean = (load.forces(ends[0]) + load.forces(ends[1])) / 2
-            places = [load.points.place(one.frames, one.deformation) for one in (before, after)]
-            total += float(np.sum(mean * (places[1] - places[0])))
+            total += float(np.sum(mean * load.points.way(before, after)))
         return total
 
 

@@ -107,8 +107,7 @@ class MovingLoads(Effect):
         total = 0.0
         for one in (before, after):
             for points, forces in self._acting(Instant(one.time, one.load_factor)):
-                places = [points.place(s.frames, s.deformation) for s in (before, after)]
-                total += float(np.sum(forces * (places[1] - places[0]))) / 2
+                total += float(np.sum(forces * points.way(before, after))) / 2
         return total
 
     def forget(self) -> None:

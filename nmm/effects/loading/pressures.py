@@ -125,10 +125,8 @@ class SurfacePressures(Effect):
         ends = [(one, Instant(one.time, one.load_factor)) for one in (before, after)]
         total = 0.0
         for one in self.pressures:
-            points = one.place.points
             first, last = (one.forces(state, now) for state, now in ends)
-            places = [points.place(state.frames, state.deformation) for state, _ in ends]
-            total += float(np.sum((first + last) / 2 * (places[1] - places[0])))
+            total += float(np.sum((first + last) / 2 * one.place.points.way(before, after)))
         return total
 
 

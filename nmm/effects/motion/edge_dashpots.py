@@ -70,9 +70,7 @@ class EdgeDashpots:
 
     def work(self, before: State, after: State, traction: Floats) -> float:
         """Work (J) of tractions (m, 2) in Pa that are the mean of a step."""
-        points = self.place.points
-        first = points.place(before.frames, before.deformation)
-        way = points.place(after.frames, after.deformation) - first
+        way = self.place.points.way(before, after)
         return float(np.sum(self.area[:, None] * traction * way))
 
 
