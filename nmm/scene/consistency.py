@@ -7,7 +7,6 @@ values.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
 
 from pydantic import BaseModel
 
@@ -23,9 +22,8 @@ from nmm.scene.tables.splitting import splitting_contradictions
 from nmm.scene.tables.strength_reduction import reduction_contradictions
 from nmm.scene.tables.water_rules import PLACED as WATER
 from nmm.scene.tables.water_rules import seepage_contradictions, water_contradictions
+from nmm.scene.unread_rows import Finding, Tables, rows
 
-Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
-Tables = Mapping[str, Any]
 Rule = Callable[[Tables], Iterator[Finding]]
 
 _SOLIDS = ("blocks", "tessellations")
@@ -72,14 +70,6 @@ def _table(data: Tables, key: str) -> Tables:
     return value if isinstance(value, Mapping) else {}
 
 
-def _rows(data: Tables, *keys: str) -> Iterator[tuple[Path, Tables]]:
-    for key in keys:
-        value = data.get(key)
-        for index, row in enumerate(value if isinstance(value, list | tuple) else ()):
-            if isinstance(row, Mapping):
-                yield (key, index), row
-
-
 def _solids(data: Tables) -> Iterator[Finding]:
     if not any(data.get(key) for key in _SOLIDS):
         yield ("blocks",), "no block", "at least one block", "add [[blocks]] or [[tessellations]]"
@@ -88,7 +78,7 @@ def _solids(data: Tables) -> Iterator[Finding]:
 def _names(data: Tables) -> Iterator[Finding]:
     for keys in (_SOLIDS, *((key,) for key in _NAMED)):
         seen: dict[str, Path] = {}
-        for path, row in _rows(data, *keys):
+        for path, row in rows(data, *keys):
             name = row.get("name")
             if not isinstance(name, str):
                 continue
@@ -102,7 +92,7 @@ def _names(data: Tables) -> Iterator[Finding]:
 
 def _materials(data: Tables) -> Iterator[Finding]:
     known = list(_table(data, "materials"))
-    for path, row in _rows(data, *_SOLIDS):
+    for path, row in rows(data, *_SOLIDS):
         name = row.get("material")
         if isinstance(name, str) and name not in known:
             expected = "the name of a material"
@@ -140,8 +130,8 @@ def _interfaces(data: Tables) -> Iterator[Finding]:
 
 
 def _block_names(data: Tables) -> Iterator[Finding]:
-    known = [row["name"] for _, row in _rows(data, *_SOLIDS) if isinstance(row.get("name"), str)]
-    for path, row in _rows(data, *_AT_BLOCKS, *_ON_BLOCKS):
+    known = [row["name"] for _, row in rows(data, *_SOLIDS) if isinstance(row.get("name"), str)]
+    for path, row in rows(data, *_AT_BLOCKS, *_ON_BLOCKS):
         name = row.get("block")
         if not isinstance(name, str) or name.split(".")[0] in known:
             continue
@@ -153,7 +143,7 @@ def _block_names(data: Tables) -> Iterator[Finding]:
 def _densities(data: Tables) -> Iterator[Finding]:
     needs = [f"[{key}]" for key in ("gravity", "inertia") if key in data]
     needs += ["motion_after_failure"] if "motion_after_failure" in _table(data, "loading") else []
-    used = [row.get("material") for _, row in _rows(data, *_SOLIDS)]
+    used = [row.get("material") for _, row in rows(data, *_SOLIDS)]
     for name, row in _table(data, "materials").items():
         if needs and name in used and isinstance(row, Mapping) and "density" not in row:
             expected = f"a density in kg/m3, as {needs[0]} is named"
@@ -220,7 +210,7 @@ def _control(data: Tables) -> Iterator[Finding]:
         if table.get(key):
             remedy = f"remove {key}, or [loading.control]"
             yield ("loading", "control"), f"{key} besides", f"a path without {key}", remedy
-    known = [row["name"] for _, row in _rows(data, "monitors") if isinstance(row.get("name"), str)]
+    known = [row["name"] for _, row in rows(data, "monitors") if isinstance(row.get("name"), str)]
     named = control.get("monitors", ())
     for number, name in enumerate(named if isinstance(named, list | tuple) else ()):
         if isinstance(name, str) and name not in known:
@@ -229,16 +219,16 @@ def _control(data: Tables) -> Iterator[Finding]:
 
 
 def _scaled_loads(data: Tables) -> Iterator[Finding]:
-    supports = [row for _, row in _rows(data, "supports")]
+    supports = [row for _, row in rows(data, "supports")]
     driven = [row for row in supports if row.get("displacement") or row.get("field")]
-    rows = [row for _, row in _rows(data, "loads", "water_pressures")] + driven
-    known = [row["name"] for row in rows if isinstance(row.get("name"), str)]
+    loads = [row for _, row in rows(data, "loads", "water_pressures")] + driven
+    known = [row["name"] for row in loads if isinstance(row.get("name"), str)]
     scaled = _table(data, "loading").get("scaled", "all")
     for name in scaled if isinstance(scaled, list | tuple) else ():
         if isinstance(name, str) and name not in known:
             path: Path = ("loading", "scaled")
             expected = "the name of a load, or of a support with a displacement"
             yield path, f'"{name}"', expected, suggestion(name, known)
-    if "loading" in data and not rows:
+    if "loading" in data and not loads:
         remedy = "add [[loads]] or the displacement of a support, or remove [loading]"
         yield ("loading",), "no load", "at least one load to scale", remedy

@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
-from nmm.scene.lines import Path
-from nmm.scene.tables.water_rules import lacking
-
-Finding = tuple[Path, str, str, str]
-Tables = Mapping[str, Any]
+from nmm.scene.tables.field_rules import durations, lacking
+from nmm.scene.unread_rows import Finding, Tables
 
 PARTS = ("temperatures", "heat_fluxes", "heat_sources", "convections")
 
@@ -21,19 +17,8 @@ def heat_contradictions(data: Tables) -> Iterator[Finding]:
             if data.get(key):
                 yield (key,), "no [heat]", "a scene with heat", f"add [heat], or remove [[{key}]]"
         return
-    yield from _durations(data)
+    yield from durations(data, "heat")
     yield from _constants(data)
-
-
-def _durations(data: Tables) -> Iterator[Finding]:
-    heat = data["heat"] if isinstance(data["heat"], Mapping) else {}
-    path: Path = ("heat", "duration")
-    if "inertia" in data and "duration" in heat:
-        remedy = "remove it: heat has the time of the run"
-        yield path, "duration with [inertia]", "the duration of the scene", remedy
-    if "inertia" not in data and heat.get("transient") is True and "duration" not in heat:
-        remedy = 'add duration = "1 h", or [inertia]'
-        yield ("heat", "transient"), "duration missing", "a duration", remedy
 
 
 def _constants(data: Tables) -> Iterator[Finding]:

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
 from nmm.scene.faults import suggestion
 from nmm.scene.lines import Path
 from nmm.scene.tables.members import GROUND, MEMBERS
-
-Finding = tuple[Path, str, str, str]
-Tables = Mapping[str, Any]
+from nmm.scene.unread_rows import Finding, Tables, rows
 
 
 def member_contradictions(data: Tables) -> Iterator[Finding]:
     """Yield names that two members have, blocks that do not exist, effects that members need."""
     seen: dict[str, str] = {}
-    solids = [row.get("name") for key in ("blocks", "tessellations") for _, row in _rows(data, key)]
+    solids = [row.get("name") for key in ("blocks", "tessellations") for _, row in rows(data, key)]
     known = [name for name in solids if isinstance(name, str)]
     for key in MEMBERS:
-        for path, row in _rows(data, key):
+        for path, row in rows(data, key):
             name = row.get("name")
             if isinstance(name, str):
                 if name in seen:
@@ -31,7 +28,7 @@ def member_contradictions(data: Tables) -> Iterator[Finding]:
     if data.get("masses") and not {"inertia", "gravity"} & set(data):
         remedy = "add one of them, or remove the masses"
         yield ("masses",), "neither [gravity] nor [inertia]", "what acts on a mass", remedy
-    for path, row in _rows(data, "stages"):
+    for path, row in rows(data, "stages"):
         for name in _texts(row.get("members")):
             if name not in seen:
                 expected, remedy = "the name of a member", suggestion(name, list(seen))
@@ -47,13 +44,6 @@ def _blocks(path: Path, row: Tables, known: list[str]) -> Iterator[Finding]:
             continue
         wanted = f'the name of a block, or "{GROUND}"' if key == "blocks" else "the name of a block"
         yield (*path, key), f'"{name}"', wanted, suggestion(name, known)
-
-
-def _rows(data: Tables, key: str) -> Iterator[tuple[Path, Tables]]:
-    value = data.get(key)
-    for index, row in enumerate(value if isinstance(value, list | tuple) else ()):
-        if isinstance(row, Mapping):
-            yield (key, index), row
 
 
 def _texts(value: object) -> list[str]:

@@ -6,13 +6,10 @@ Works on unvalidated tables as `nmm.scene.consistency` does.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 from nmm.scene.faults import suggestion
 from nmm.scene.lines import Path
-
-Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
-Tables = Mapping[str, Any]
+from nmm.scene.unread_rows import Finding, Tables, rows
 
 EDGES = ("viscous_boundaries", "free_fields")
 
@@ -22,12 +19,12 @@ def motion_contradictions(data: Tables) -> Iterator[Finding]:
     if "damping" in data and "inertia" not in data:
         yield ("damping",), "no [inertia]", "a dynamic scene", "add [inertia], or remove [damping]"
     yield from _moving_ground(data)
-    for path, row in _rows(data, "supports"):
+    for path, row in rows(data, "supports"):
         yield from _named_records(data, (*path, "motion"), row.get("motion"))
         if row.get("motion") and "inertia" not in data:
             remedy = "add [inertia], or give displacement with a history"
             yield (*path, "motion"), "no [inertia]", "a dynamic scene", remedy
-    for path, row in _rows(data, "viscous_boundaries"):
+    for path, row in rows(data, "viscous_boundaries"):
         yield from _named_records(data, (*path, "incoming"), row.get("incoming"))
     for key in EDGES:
         if data.get(key) and "inertia" not in data:
@@ -40,7 +37,7 @@ def _moving_ground(data: Tables) -> Iterator[Finding]:
     """Yield the ground of damping that is no moving support."""
     damping = data.get("damping")
     name = damping.get("ground") if isinstance(damping, Mapping) else None
-    moving = [row.get("name") for _, row in _rows(data, "supports") if row.get("motion")]
+    moving = [row.get("name") for _, row in rows(data, "supports") if row.get("motion")]
     if isinstance(name, str) and name not in moving:
         known = [one for one in moving if isinstance(one, str)]
         expected = "the name of a support with a motion"
@@ -49,9 +46,9 @@ def _moving_ground(data: Tables) -> Iterator[Finding]:
 
 def _bases(data: Tables) -> Iterator[Finding]:
     """Yield bases of free fields that are no boundary and no moving support."""
-    bases = [row.get("name") for _, row in _rows(data, "viscous_boundaries")]
-    bases += [row.get("name") for _, row in _rows(data, "supports") if row.get("motion")]
-    for path, row in _rows(data, "free_fields"):
+    bases = [row.get("name") for _, row in rows(data, "viscous_boundaries")]
+    bases += [row.get("name") for _, row in rows(data, "supports") if row.get("motion")]
+    for path, row in rows(data, "free_fields"):
         name = row.get("base")
         if isinstance(name, str) and name not in bases:
             expected = "the name of a viscous boundary or of a support with a motion"
@@ -64,7 +61,7 @@ def _fields(data: Tables) -> Iterator[Finding]:
     known = data.get("fields")
     names = list(known) if isinstance(known, Mapping) else []
     for key in ("loads", "supports"):
-        for path, row in _rows(data, key):
+        for path, row in rows(data, key):
             name = row.get("field")
             if isinstance(name, str) and name not in names:
                 expected = "the name of one of [fields.NAME], or two expressions"
@@ -81,10 +78,3 @@ def _named_records(data: Tables, path: Path, motion: object) -> Iterator[Finding
         if isinstance(name, str) and name not in names:
             expected = "the name of one of [records.NAME]"
             yield (*path, axis), f'"{name}"', expected, suggestion(name, names)
-
-
-def _rows(data: Tables, key: str) -> Iterator[tuple[Path, Tables]]:
-    value = data.get(key)
-    for index, row in enumerate(value if isinstance(value, list | tuple) else ()):
-        if isinstance(row, Mapping):
-            yield (key, index), row

@@ -1,0 +1,22 @@
+"""Rows of tables that are not validated yet, which may be anything."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from nmm.scene.lines import Path
+
+Finding = tuple[Path, str, str, str]
+"""What a rule finds: where, the value, what was expected, what to do."""
+
+Tables = Mapping[str, Any]
+
+
+def rows(data: Tables, *keys: str) -> Iterator[tuple[Path, Tables]]:
+    """Yield the rows of ``[[key]]``, key after key, each with its path."""
+    for key in keys:
+        value = data.get(key)
+        for index, row in enumerate(value if isinstance(value, list | tuple) else ()):
+            if isinstance(row, Mapping):
+                yield (key, index), row
