@@ -21,13 +21,14 @@ if TYPE_CHECKING:
 REFINEMENTS = 20
 
 
-def solver_for(manifold: "Manifold", solver: "Solver") -> LinearSolver:
+def solver_for(manifold: "Manifold", solver: "Solver", contact: bool = False) -> LinearSolver:
     """Return the linear solver, with a shift when functions of the cover are dependent.
 
     The shift adds 1e-10 of the diagonal to the decomposition and refinement removes it again; the
-    displacements are unique whatever the shift (Duarte, Babuska and Oden 2000).
+    displacements are unique whatever the shift (Duarte, Babuska and Oden 2000). Runs with
+    ``contact`` need compiled code in any case.
     """
-    made = make_solver(solver.type, solver.options)
+    made = make_solver(solver.type, solver.options).beside(contact)
     if not manifold.dependent or made.shift:
         return made
     return replace(made.deflated(), refinements=max(made.refinements, REFINEMENTS))

@@ -1,7 +1,6 @@
-"""The solver that costs least: chosen by size and by what is imported already."""
+"""The solver that costs least: chosen by size and by what a run needs anyway."""
 
-import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from scipy.sparse import csc_array
@@ -20,9 +19,20 @@ class Auto(DefiniteSolver):
     """Cholesky's factorisation where compiled code is at hand or pays its import, else SuperLU.
 
     The least matrices are factorised in full.
+
+    Attributes
+    ----------
+    compiled
+        Whether the run imports compiled code whatever its solver. What else the process has
+        imported must not choose: a run that is gone on with elsewhere has the same digits.
     """
 
     name: ClassVar[str] = "auto"
+    compiled: bool = False
+
+    def beside(self, compiled: bool) -> "Auto":
+        """See `LinearSolver.beside`."""
+        return replace(self, compiled=compiled)
 
     def decompose(self, matrix: csc_array) -> Decomposition:
         """Factorise a scaled matrix; `RankDeficientError` at a zero pivot."""
@@ -34,12 +44,12 @@ class Auto(DefiniteSolver):
 
     def unsymmetric(self) -> "AutoLU":
         """LU on the fronts of Cholesky's factorisation where that is taken, refined twice."""
-        return AutoLU(max(self.refinements, 2), self.shift)
+        return AutoLU(max(self.refinements, 2), self.shift, self.compiled)
 
     def _chosen(self, unknowns: int) -> LinearSolver:
         if unknowns < FEW:
             return Dense(self.refinements, self.shift)
-        if not _compiled(unknowns):
+        if not (self.compiled or unknowns >= MANY):
             return SuperLU(self.refinements, self.shift)
         from nmm.solvers.frontal.cholesky import Cholesky
 
@@ -53,12 +63,8 @@ class AutoLU(Auto):
     def _chosen(self, unknowns: int) -> LinearSolver:
         if unknowns < FEW:
             return Dense(self.refinements, self.shift)
-        if not _compiled(unknowns):
+        if not (self.compiled or unknowns >= MANY):
             return SuperLU(self.refinements, self.shift).unsymmetric()
         from nmm.solvers.frontal.lu import FrontalLU
 
         return FrontalLU(self.refinements, self.shift)
-
-
-def _compiled(unknowns: int) -> bool:
-    return unknowns >= MANY or "numba" in sys.modules

@@ -63,6 +63,10 @@ class LinearSolver(ABC):
         """Return the solver with settings for nearly symmetric matrices with good pivots."""
         return self.indefinite()
 
+    def beside(self, compiled: bool) -> "LinearSolver":
+        """Return the solver for runs that import compiled code anyway, or do not."""
+        return self
+
     def scaling(self, matrix: csc_array) -> Floats:
         """(n,) factors that bring the matrix to entries of about one."""
         return jacobi_scale(matrix)

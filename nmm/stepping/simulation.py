@@ -461,7 +461,7 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     stepper = Stepper(
         discretisation,
         make_integrator(formulation.integrator),
-        solver_for(model.manifold, formulation.solver),
+        solver_for(model.manifold, formulation.solver, plan.contact is not None),
         small=small_motion(scene, formulation),
         lay=_lay(formulation, model, plan),
     )

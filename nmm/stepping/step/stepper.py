@@ -289,7 +289,8 @@ class Stepper:
         ``integrator`` is another one if the change asks for it.
         """
         self.follow(change, self.discretisation.after(change))
-        solver = solver_for(change.new.manifold, change.setup.formulation.solver)
+        chosen, contact = change.setup.formulation.solver, self.plan.contact is not None
+        solver = solver_for(change.new.manifold, chosen, contact)
         if integrator is not None:
             self._integrator = self._ruling(integrator)
         self.solver = solver
