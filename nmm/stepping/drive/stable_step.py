@@ -16,9 +16,9 @@ FEW = 200
 
 def singular_mass(stepper: "Stepper") -> bool:
     """Whether an explicit integrator meets a mass of dependent functions, which has no inverse."""
-    model = stepper.model
-    explicit = not np.isinf(stepper.integrator.limit)
-    return explicit and not model.lumped and bool(model.manifold.dependent)
+    if np.isinf(stepper.integrator.limit):
+        return False
+    return not stepper.model.lumped and bool(stepper.model.manifold.dependent)
 
 
 def longest_step(stepper: "Stepper", state: State) -> float:
@@ -28,9 +28,10 @@ def longest_step(stepper: "Stepper", state: State) -> float:
     multipliers only lower it. A damper of the ratio ``z`` shortens the step by ``sqrt(1 + z^2) -
     z``.
     """
-    limit, plan = stepper.integrator.limit, stepper.plan
-    if np.isinf(limit) or plan.inertia is None:
+    limit = stepper.integrator.limit
+    if np.isinf(limit) or stepper.plan.inertia is None:
         return np.inf
+    plan = stepper.plan
     stiffness = plan.matrix(state, stepper.model.tangent(state))
     square, mode = _highest(stiffness, plan.inertia.mass)
     omega, heavy = np.sqrt(square), float(mode @ (plan.inertia.mass @ mode))

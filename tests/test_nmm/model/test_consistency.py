@@ -21,6 +21,9 @@ STEP = "[formulation.integrator]\nstep = {}\n"
 class Clockwork:
     """A stepper whose every step is solved, and a recorder that keeps the times."""
 
+    integrator = SimpleNamespace(limit=np.inf)
+    stepper = SimpleNamespace(plan=SimpleNamespace(askers=()))
+
     def __init__(self):
         self.times = []
 

@@ -29,13 +29,7 @@ def dropping(self, attempt, accept=Stepper.accept):
     return found
 
 
-# Springs of the wall under Shi's integrator are not settled from nowhere in one of twenty steps,
-# which is cut; from the last steps' unknowns they are. Answers differ by that, by no digit lost.
-CUT = pytest.mark.xfail(reason="a step that starts from nowhere is cut", strict=False)
-NAMES = [pytest.param(one, marks=CUT) if one == "wall" else one for one in scenes.SCENES]
-
-
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", scenes.SCENES)
 def test_a_workspace_dropped_after_every_step_changes_no_digit_that_counts(name, monkeypatch):
     kept = nmm.run(nmm.parse_scene(scenes.scene_of(name), name))
     monkeypatch.setattr(Stepper, "accept", dropping)
