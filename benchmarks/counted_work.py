@@ -3,13 +3,17 @@
 Passes are linear systems solved in contact, as the history has them; factorisations, sparse
 matrices made and Python calls are counted by the profiler of Python's standard library.
 
-python benchmarks/counted_work.py  # records the small races anew, for `tests/test_counted_work.py`
+python benchmarks/counted_work.py --record  # the small races anew, for `tests/test_counted_work.py`
+
+Without it they are printed. What a process has run before changes its calls: counts are those of a
+process of its own.
 """
 
 import cProfile
 import json
 import platform
 import pstats
+import sys
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from importlib import metadata
@@ -106,9 +110,9 @@ class Recorded:
         return self.made_with == made_with()
 
 
-def recorded() -> Recorded:
-    """Return what is on file."""
-    found = json.loads(RECORD.read_text())
+def recorded(text: str | None = None) -> Recorded:
+    """Return what is on file, or in the text that `counts` made."""
+    found = json.loads(RECORD.read_text() if text is None else text)
     return Recorded(found["made_with"], {name: Work(**row) for name, row in found["work"].items()})
 
 
@@ -118,14 +122,14 @@ def made_with() -> dict[str, str]:
     return found | {name: metadata.version(name) for name in LIBRARIES}
 
 
-def record() -> None:
-    """Count the small races, each the second time it runs, and put them on file."""
+def counts() -> str:
+    """Count the small races, each the second time it runs; return them as they stand on file."""
     work = {}
     for name, race in SMALL.items():
         raced(race)
         work[name] = asdict(raced(race).work)
     rounded = {name: {key: round(v, 3) for key, v in row.items()} for name, row in work.items()}
-    RECORD.write_text(json.dumps({"made_with": made_with(), "work": rounded}, indent=1) + "\n")
+    return json.dumps({"made_with": made_with(), "work": rounded}, indent=1) + "\n"
 
 
 def _is(path: str, file: str) -> bool:
@@ -133,4 +137,7 @@ def _is(path: str, file: str) -> bool:
 
 
 if __name__ == "__main__":
-    record()
+    if "--record" in sys.argv:
+        RECORD.write_text(counts())
+    else:
+        print(counts(), end="")

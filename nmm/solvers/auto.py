@@ -23,8 +23,9 @@ class Auto(DefiniteSolver):
     Attributes
     ----------
     compiled
-        Whether the run imports compiled code whatever its solver. What else the process has
-        imported must not choose: a run that is gone on with elsewhere has the same digits.
+        Whether compiled code is taken from `FEW` unknowns on, as it is where contact imports it
+        anyway. What else the process has imported must not choose: a run that is gone on with
+        elsewhere has the same digits.
     """
 
     name: ClassVar[str] = "auto"
@@ -32,7 +33,7 @@ class Auto(DefiniteSolver):
 
     def beside(self, compiled: bool) -> "Auto":
         """See `LinearSolver.beside`."""
-        return replace(self, compiled=compiled)
+        return replace(self, compiled=self.compiled or compiled)
 
     def decompose(self, matrix: csc_array) -> Decomposition:
         """Factorise a scaled matrix; `RankDeficientError` at a zero pivot."""

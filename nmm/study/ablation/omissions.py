@@ -26,6 +26,7 @@ TABLES = {
     "heat": ("heat", "temperatures", "heat_fluxes", "heat_sources", "convections"),
     "seepage": ("seepage", "heads", "inflows"),
     "water pressures": ("water_pressures",),
+    "joint flow": ("joint_flow", "joint_heads"),
 }
 """Keys of a scene that go with an effect that is left out."""
 
