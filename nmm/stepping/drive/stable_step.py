@@ -29,9 +29,11 @@ def longest_step(stepper: "Stepper", state: State) -> float:
     z``.
     """
     limit = stepper.integrator.limit
-    if np.isinf(limit) or stepper.plan.inertia is None:
+    if np.isinf(limit):
         return np.inf
     plan = stepper.plan
+    if plan.inertia is None:
+        return np.inf
     stiffness = plan.matrix(state, stepper.model.tangent(state))
     square, mode = _highest(stiffness, plan.inertia.mass)
     omega, heavy = np.sqrt(square), float(mode @ (plan.inertia.mass @ mode))
