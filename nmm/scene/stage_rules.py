@@ -7,9 +7,7 @@ from typing import Any
 
 from nmm.scene.faults import suggestion
 from nmm.scene.lines import Path
-
-Finding = tuple[Path, str, str, str]
-Tables = Mapping[str, Any]
+from nmm.scene.unread_rows import Finding, Tables
 
 BLOCKS = ("blocks", "remove", "add")
 

@@ -9,9 +9,7 @@ from pydantic import Field, model_validator
 
 from nmm.scene.faults import suggestion
 from nmm.scene.fields import Angle, Count, Frozen, Length, Options, PartName, Stress, fault
-from nmm.scene.lines import Path
-
-Finding = tuple[Path, str, str, str]
+from nmm.scene.unread_rows import Finding
 
 
 class SplittingTable(Frozen):

@@ -9,8 +9,8 @@ from pydantic import Field, model_validator
 
 from nmm.scene.fields import Frozen, Number, fault
 from nmm.scene.lines import Path
+from nmm.scene.unread_rows import Finding
 
-Finding = tuple[Path, str, str, str]
 # What a run that is repeated with other strengths cannot be besides.
 OTHERS = ("inertia", "duration", "loading", "stages", "fracture", "splitting")
 STRENGTHS = ("cohesion", "friction_angle", "tensile_strength", "yield_stress")

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 from nmm.scene.lines import Path
-
-Finding = tuple[Path, str, str, str]  # path, value, expected, remedy
-Tables = Mapping[str, Any]
+from nmm.scene.unread_rows import Finding, Tables
 
 # Tables whose stress the intensities do not know, and those in which growth is not defined yet.
 UNKNOWN = ("heat", "initial_stresses")
