@@ -12,7 +12,9 @@ from nmm.scene.lines import Path
 from nmm.scene.unread_rows import Finding
 
 # What a run that is repeated with other strengths cannot be besides.
-OTHERS = ("inertia", "duration", "loading", "stages", "fracture", "splitting")
+OTHERS = ("inertia", "duration", "loading", "fracture")
+# The same of tables that are several, and none where the list is empty.
+SEVERAL = ("stages", "splitting")
 STRENGTHS = ("cohesion", "friction_angle", "tensile_strength", "yield_stress")
 
 
@@ -48,10 +50,10 @@ def reduction_contradictions(data: Mapping[str, Any]) -> Iterator[Finding]:
     if "strength_reduction" not in data:
         return
     place: Path = ("strength_reduction",)
-    for key in OTHERS:
-        if data.get(key) is not None and data.get(key) != ():
-            remedy = f"remove {key}, or [strength_reduction]"
-            yield place, f"[strength_reduction] with {key}", "statics under full load", remedy
+    named = [key for key in OTHERS if data.get(key) is not None]
+    for key in [*named, *(key for key in SEVERAL if data.get(key))]:
+        remedy = f"remove {key}, or [strength_reduction]"
+        yield place, f"[strength_reduction] with {key}", "statics under full load", remedy
     output = data.get("output")
     if isinstance(output, Mapping) and "checkpoint" in output:
         remedy = "remove it: its runs are not stored"
