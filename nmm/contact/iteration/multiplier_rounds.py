@@ -17,6 +17,8 @@ from nmm.solvers.linear import LinearSolver
 
 UNHELD = 1e13
 """Compliance times stiffness of a contact from which an unknown is held by rounding alone."""
+UNKNOWN = 1e-15
+"""Share of the motion of a contact below which a gap is rounding: bodies that fall side by side."""
 
 
 @dataclass(frozen=True)
@@ -133,17 +135,27 @@ def multiplier_round(
 
 
 def measured(found: IterationResult, count: int) -> MultiplierIterate:
-    """Iterate whose springs are in balance, with what its multipliers lack."""
+    """Iterate whose springs are in balance, with what its multipliers lack beyond rounding."""
     springs = found.springs
     forces = np.stack(springs.forces(found.increment))
     shifts = np.stack([springs.normal_shift, springs.shear_shift])
     jump = np.abs(np.where(springs.problem.own_stiffness, 0.0, forces - shifts))
     gap = jump / np.stack([springs.normal_stiffness, springs.shear_stiffness])
+    problem = springs.problem
+    rows = problem.normal_rows, problem.tangent_rows
+    known = UNKNOWN * np.stack([_moved(row, np.abs(found.increment)) for row in rows])
+    jump, gap = np.where(gap > known, jump, 0.0), np.where(gap > known, gap, 0.0)
     part = gap / np.stack(compliances(springs.problem))
     size = float(np.abs(forces).max(initial=0.0))
     largest = [float(quantity.max(initial=0.0)) for quantity in (jump, gap, part)]
     over = 1.0 / size if size > 0 else 0.0
     return MultiplierIterate(found, count, largest[0] * over, largest[1], largest[2] * over)
+
+
+def _moved(rows: csr_array, far: Floats) -> Floats:
+    """Sums (m,) of the sizes of all terms of ``rows @ increment``, ``far`` its entries' sizes."""
+    terms = np.concatenate([[0.0], np.cumsum(np.abs(rows.data) * far[rows.indices])])
+    return np.asarray(terms[rows.indptr[1:]] - terms[rows.indptr[:-1]])
 
 
 def updated(last: MultiplierIterate, growth: float = 1.0) -> MultiplierIterate:
