@@ -1,5 +1,6 @@
 """The page of the manual that shows the hard matrix: every class, every part, every miss."""
 
+import re
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
@@ -114,5 +115,5 @@ def _excess(error: float) -> float:
 
 
 def _short(words: str) -> str:
-    """One line without what would end a cell of a table."""
-    return " ".join(words.split()).replace("|", "/")[:110]
+    """One line without the line of a generated file, nor what would end a cell of a table."""
+    return re.sub(r"^hard case:\d+: ", "", " ".join(words.split())).replace("|", "/")[:110]
