@@ -13,8 +13,6 @@ from nmm.verification.reading import converged, last_way
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
 
-SECTION = np.pi * 0.016**2 / 4
-STEEL = 200e9
 
 PULL = """
 [[bars]]

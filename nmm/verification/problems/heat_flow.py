@@ -19,7 +19,7 @@ from nmm.materials.elastic import Elastic
 from nmm.study.samples import elements_at, fields
 from nmm.verification import text
 from nmm.verification.base import Case, Check, Checks, SceneCase, limit, order
-from nmm.verification.continuum import polygon
+from nmm.verification.continuum import polygon, quarter
 from nmm.verification.formulations import chosen
 from nmm.verification.problems.cylinders import polar
 from nmm.verification.problems.heat_strain import finer, pinned, rollers, warm
@@ -56,9 +56,7 @@ class HeatedCylinder(SceneCase):
 
     def scene(self) -> str:
         """Return a quarter, 100 K at the inner face, 0 at the outer one."""
-        angle = np.linspace(0, np.pi / 2, self.chords + 1)
-        arc = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        arc[-1, 0] = 0.0
+        arc = quarter(1.0, self.chords)[::-1]
         faces = [
             edge(f"{name} {i}", radius * a, radius * b, value)
             for name, radius, value in (("inner", 1.0, 100.0), ("outer", 2.0, 0.0))

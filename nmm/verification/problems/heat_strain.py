@@ -9,6 +9,7 @@ import numpy as np
 from nmm.study.samples import fields
 from nmm.verification import text
 from nmm.verification.base import MESHES, Check, Checks, SceneCase, limit
+from nmm.verification.continuum import quarter
 from nmm.verification.reading import last_way, mean_stress
 
 if TYPE_CHECKING:
@@ -208,9 +209,7 @@ class HotCore(SceneCase):
 
     def scene(self) -> str:
         """Return a quarter: 60 K in the core."""
-        angle = np.linspace(0, np.pi / 2, 49)
-        arc = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        arc[-1, 0] = 0.0
+        arc = quarter(1.0, 48)[::-1]
         head = f'title = "Core"\nplane = "{self.plane}"\n[heat]\n'
         return text.scene(
             head,

@@ -11,6 +11,7 @@ from integration.arrays import Floats
 from nmm.study.samples import elements_at, fields
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
+from nmm.verification.continuum import quarter
 from nmm.verification.problems.cylinders import polar
 from nmm.verification.problems.heat_strain import finer, pinned, rollers
 from nmm.verification.problems.water import water
@@ -111,9 +112,7 @@ class PorousCylinder(SceneCase):
 
     def scene(self) -> str:
         """Return a quarter between 1 MPa inside and none outside, radii 1 m and 2 m."""
-        angle = np.linspace(0, np.pi / 2, self.chords + 1)
-        arc = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        arc[-1, 0] = 0.0
+        arc = quarter(1.0, self.chords)[::-1]
         even = "gradient = [0.0, 1.0]\n"  # of head: a pressure that does not grow with depth
         faces = []
         for i, (a, b) in enumerate(pairwise(arc)):
