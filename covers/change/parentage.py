@@ -77,7 +77,7 @@ class Parentage:
     @cached_property
     def _overlaps(self) -> tuple[Relation, Polygons]:
         old, new = self.old, self.new
-        if self.same or _same_elements(old, new):
+        if self.same or same_elements(old, new):
             return identity(new.elements.areas), new.elements
         return _overlaps(old, new)
 
@@ -87,7 +87,8 @@ class Parentage:
         return self.bodies.main < 0
 
 
-def _same_elements(old: Manifold, new: Manifold) -> bool:
+def same_elements(old: Manifold, new: Manifold) -> bool:
+    """Say whether the elements of two manifolds are one by one the same, where they lie too."""
     a, b = old.elements, new.elements
     return np.array_equal(old.element_region, new.element_region) and all(
         np.array_equal(getattr(a, name), getattr(b, name))

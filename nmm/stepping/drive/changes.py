@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from covers.change.parentage import same_elements
 from nmm.assembly.motion import State
 from nmm.errors import Fault, SceneError
 from nmm.results.frame import Topology
@@ -92,7 +93,7 @@ def follow(recorder: Recorder, change: "Change") -> None:
     stepper, totals = recorder.stepper, recorder.totals
     ledger = totals.ledger.changed(stepper.plan, stepper.model, change.state)
     recorder.totals = with_parts(totals, ledger=ledger, since=change.state)
-    if not same_elements(change):
+    if not same_elements(change.old.manifold, change.new.manifold):
         recorder.sink.begin(topology(change.setup))
 
 
@@ -105,16 +106,6 @@ def topology(setup: "Setup") -> Topology:
         region_material=np.asarray(setup.region_material, dtype=np.int64),
         material_names=tuple(setup.scene.materials),
         region_names=setup.region_name,
-    )
-
-
-def same_elements(change: "Change") -> bool:
-    """Whether a change has left the elements as they were."""
-    old, new = change.old.manifold, change.new.manifold
-    return (
-        np.array_equal(old.elements.points, new.elements.points)
-        and np.array_equal(old.elements.ring_offsets, new.elements.ring_offsets)
-        and np.array_equal(old.element_region, new.element_region)
     )
 
 
