@@ -5,7 +5,7 @@ more over the last few; modified Newton is quick where most states are right, an
 Which of them goes first follows from what both cost in the last steps (`ways`).
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,107 +42,95 @@ def solve_springs(
     given = near if start is None else start
     small = len(springs.problem.force) <= SMALL
     increment = start_from(springs, memory.found, memory.moving) if given is None else given
+    ways = _WaysToForces(springs, linear, memory, tolerance, options)
     if small or (near is not None and springs.problem.n_contacts <= options.springs.few):
-        quick = _polished(springs, linear, memory, increment, options)
+        quick = ways.polished(increment)
         if quick.size <= tolerance:
             return _kept(quick, memory)
     # In statics no step is like the last: what goes first is thorough.
-    way = (_by_cost if memory.moving else _in_order) if budget.interior else _alternated
-    found = way(springs, linear, memory, tolerance, increment, budget, options)
+    thorough = ways.by_cost if memory.moving else ways.in_order
+    found = (thorough if budget.interior else ways.alternated)(increment, budget)
     if small and found.size <= tolerance:
-        end = _polished(springs, linear, memory, found.increment, options)
+        end = ways.polished(found.increment)
         found = replace(found, increment=end.increment, size=end.size)
     return _kept(found, memory)
 
 
-def _by_cost(
-    springs: CutSprings,
-    linear: LinearSolver,
-    memory: Memory,
-    tolerance: float,
-    increment: Floats,
-    budget: IterationBudget,
-    options: IterationOptions,
-) -> IterationResult:
-    """Best of both ways; the one that cost less in the last steps goes first."""
-    ways, size = memory.ways, springs.residual(increment).size
-    near = size <= options.ways.nearness
-    found = IterationResult(springs, increment, size, 0, 0, "")
-    first = ways.budget(budget, near, options.ways)
-    if first is not None:
-        found = _alternated(springs, linear, memory, tolerance, increment, first, options)
-    if found.size <= tolerance:
+@dataclass(frozen=True)
+class _WaysToForces:
+    """The ways from unknowns to those at which cut springs balance the step."""
+
+    springs: CutSprings
+    linear: LinearSolver
+    memory: Memory
+    tolerance: float
+    options: IterationOptions
+
+    def by_cost(self, increment: Floats, budget: IterationBudget) -> IterationResult:
+        """Best of both ways; the one that cost less in the last steps goes first."""
+        ways, options = self.memory.ways, self.options
+        size = self.springs.residual(increment).size
+        near = size <= options.ways.nearness
+        found = IterationResult(self.springs, increment, size, 0, 0, "")
+        first = ways.budget(budget, near, options.ways)
+        if first is not None:
+            found = self.alternated(increment, first)
+        if found.size <= self.tolerance:
+            if not near:
+                ways.alternation_met()
+            return found
+        finishes = ways.finishes
+        goals = (options.springs.loose, self.tolerance) if finishes else (self.tolerance,)
+        rest = replace(budget, factors=options.springs.first, cost=options.ways.finish)
+        ended = self.inside(found, goals, rest)
+        if not ended.size <= self.tolerance:
+            return _joined(ended, self.in_order(increment, budget))
         if not near:
-            ways.alternation_met()
-        return found
-    goals = (options.springs.loose, tolerance) if ways.finishes else (tolerance,)
-    rest = replace(budget, factors=options.springs.first, cost=options.ways.finish)
-    ended = _inside(found, linear, memory, goals, rest, options)
-    if not ended.size <= tolerance:
-        more = _in_order(springs, linear, memory, tolerance, increment, budget, options)
-        return _joined(ended, more)
-    if not near:
-        ways.interior_took(_less(ended, found), options.ways)
-    return ended
+            ways.interior_took(_less(ended, found), options.ways)
+        return ended
 
+    def in_order(self, increment: Floats, budget: IterationBudget) -> IterationResult:
+        """Best of the alternation and, where it has not met the tolerance, of all there is."""
+        first = replace(budget, factors=min(budget.factors, self.options.springs.first))
+        found = self.alternated(increment, first)
+        if found.size <= self.tolerance:
+            return found
+        return self.inside(found, (self.options.springs.loose, self.tolerance), first)
 
-def _in_order(
-    springs: CutSprings,
-    linear: LinearSolver,
-    memory: Memory,
-    tolerance: float,
-    increment: Floats,
-    budget: IterationBudget,
-    options: IterationOptions,
-) -> IterationResult:
-    """Best of the alternation and, where it has not met the tolerance, of all there is."""
-    first = replace(budget, factors=min(budget.factors, options.springs.first))
-    found = _alternated(springs, linear, memory, tolerance, increment, first, options)
-    if found.size <= tolerance:
-        return found
-    goals = options.springs.loose, tolerance
-    return _inside(found, linear, memory, goals, first, options)
+    def alternated(self, increment: Floats, budget: IterationBudget) -> IterationResult:
+        """Best of modified Newton steps with two factors."""
+        given = self.springs, self.linear, self.memory, self.tolerance
+        return Alternation(*given, increment, self.options).run(budget)
 
+    def inside(
+        self, found: IterationResult, goals: tuple[float, ...], rest: IterationBudget
+    ) -> IterationResult:
+        """Best of the interior point; at each of the ``goals`` alternation may spend ``rest``."""
+        springs, problem, best = self.springs, self.springs.problem, found
+        memory, options = self.memory, self.options
+        stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
+        sides = Complementarity.of(springs, np.zeros(problem.n_contacts, dtype=bool), 1 / stiffness)
+        start = inside_start(sides, self.linear, memory, options)
+        for balance in goals:
+            pattern = memory.pattern_of(problem)
+            method = InteriorPoint(sides, pattern, self.linear, options.interior)
+            if best.size > balance:
+                goal = Goal(max(balance, self.tolerance))
+                best = _joined(best, method.run(start, rest.interior, goal))
+                start = method.reached if best.size <= balance else start
+            if best.size <= self.tolerance:
+                break
+            best = _joined(best, self.alternated(best.increment, rest))
+            memory.ways.finishes = best.size <= self.tolerance
+            if best.size <= self.tolerance:
+                break
+        return best
 
-def _alternated(
-    springs: CutSprings,
-    linear: LinearSolver,
-    memory: Memory,
-    tolerance: float,
-    increment: Floats,
-    budget: IterationBudget,
-    options: IterationOptions,
-) -> IterationResult:
-    return Alternation(springs, linear, memory, tolerance, increment, options).run(budget)
-
-
-def _inside(
-    found: IterationResult,
-    linear: LinearSolver,
-    memory: Memory,
-    goals: tuple[float, ...],
-    rest: IterationBudget,
-    options: IterationOptions,
-) -> IterationResult:
-    """Best of the interior point; at each of its ``goals`` the alternation may spend ``rest``."""
-    springs, problem, best = found.springs, found.springs.problem, found
-    stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
-    sides = Complementarity.of(springs, np.zeros(problem.n_contacts, dtype=bool), 1 / stiffness)
-    start = inside_start(sides, linear, memory, options)
-    tolerance = goals[-1]
-    for balance in goals:
-        method = InteriorPoint(sides, memory.pattern_of(problem), linear, options.interior)
-        if best.size > balance:
-            best = _joined(best, method.run(start, rest.interior, Goal(max(balance, tolerance))))
-            start = method.reached if best.size <= balance else start
-        if best.size <= tolerance:
-            break
-        more = _alternated(springs, linear, memory, tolerance, best.increment, rest, options)
-        best = _joined(best, more)
-        memory.ways.finishes = best.size <= tolerance
-        if best.size <= tolerance:
-            break
-    return best
+    def polished(self, increment: Floats) -> IterationResult:
+        """End of Newton's method on the springs that act."""
+        pattern = self.memory.pattern_of(self.springs.problem)
+        linear = self.linear.unsymmetric()
+        return polish(self.springs, pattern, linear, increment, self.options.springs.fine)
 
 
 def inside_start(
@@ -185,17 +173,6 @@ def _less(whole: IterationResult, part: IterationResult) -> IterationResult:
         solves=whole.solves - part.solves,
         factorisations=whole.factorisations - part.factorisations,
     )
-
-
-def _polished(
-    springs: CutSprings,
-    linear: LinearSolver,
-    memory: Memory,
-    increment: Floats,
-    options: IterationOptions,
-) -> IterationResult:
-    pattern = memory.pattern_of(springs.problem)
-    return polish(springs, pattern, linear.unsymmetric(), increment, options.springs.fine)
 
 
 def _kept(found: IterationResult, memory: Memory) -> IterationResult:
