@@ -12,6 +12,7 @@ from nmm.contact.iteration.interior_point import Goal
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.options import DEFAULT, SMALL, IterationBudget, IterationOptions
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
+from nmm.contact.problem.row_products import terms_of_stretches
 from nmm.contact.problem.step_problem import StepProblem, Verdict
 from nmm.solvers.linear import LinearSolver
 
@@ -143,19 +144,13 @@ def measured(found: IterationResult, count: int) -> MultiplierIterate:
     gap = jump / np.stack([springs.normal_stiffness, springs.shear_stiffness])
     problem = springs.problem
     rows = problem.normal_rows, problem.tangent_rows
-    known = UNKNOWN * np.stack([_moved(row, np.abs(found.increment)) for row in rows])
-    jump, gap = np.where(gap > known, jump, 0.0), np.where(gap > known, gap, 0.0)
+    counts = gap > UNKNOWN * terms_of_stretches(*rows, found.increment)
+    jump, gap = np.where(counts, jump, 0.0), np.where(counts, gap, 0.0)
     part = gap / np.stack(compliances(springs.problem))
     size = float(np.abs(forces).max(initial=0.0))
     largest = [float(quantity.max(initial=0.0)) for quantity in (jump, gap, part)]
     over = 1.0 / size if size > 0 else 0.0
     return MultiplierIterate(found, count, largest[0] * over, largest[1], largest[2] * over)
-
-
-def _moved(rows: csr_array, far: Floats) -> Floats:
-    """Sums (m,) of the sizes of all terms of ``rows @ increment``, ``far`` its entries' sizes."""
-    terms = np.concatenate([[0.0], np.cumsum(np.abs(rows.data) * far[rows.indices])])
-    return np.asarray(terms[rows.indptr[1:]] - terms[rows.indptr[:-1]])
 
 
 def updated(last: MultiplierIterate, growth: float = 1.0) -> MultiplierIterate:

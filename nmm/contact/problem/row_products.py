@@ -20,6 +20,17 @@ def stretched(normal_rows: csr_array, tangent_rows: csr_array, increment: Floats
     return moved
 
 
+def terms_of_stretches(
+    normal_rows: csr_array, tangent_rows: csr_array, increment: Floats
+) -> Floats:
+    """(2, m) sums of the sizes of the terms of which `stretched` is made (m): what it rounds."""
+    sizes, found = np.abs(increment), np.empty((2, normal_rows.shape[0]))
+    # Not abs(rows): scipy merges and sorts the entries of what it is asked of.
+    for rows, one in zip((normal_rows, tangent_rows), found, strict=True):
+        _along(rows.indptr, rows.indices, np.abs(rows.data), sizes, one)
+    return found
+
+
 def along(rows: csr_array, increment: Floats) -> Floats:
     """(m,) ``rows @ increment``."""
     found = np.empty(rows.shape[0])
