@@ -94,10 +94,9 @@ class GroundDamping(ViscousDamping):
 
     def _velocity(self, time: float) -> Floats:
         """Velocity (2,) of the ground (m/s)."""
-        found = np.zeros(2)
-        for axis, motion in self._motions.items():
-            found[axis] = motion.velocity_at(time)
-        return found
+        from nmm.effects.motion.record import velocity_of
+
+        return velocity_of(self._motions, time)
 
     def _density(self, velocity: Floats) -> Floats:
         """Force (E, 2) on the volume of elements (N/m3)."""

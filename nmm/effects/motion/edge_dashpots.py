@@ -63,15 +63,11 @@ class EdgeDashpots:
 
     def push(self, state: State, traction: Floats) -> Floats:
         """Force (n,) on the unknowns of tractions (m, 2) in global axes."""
-        points = self.place.points
-        local = points.along(state.frames, self.area[:, None] * traction)
-        unknowns = points.rows.unknowns.ravel()
-        return np.bincount(unknowns, local.ravel(), minlength=len(state.deformation)).astype(float)
+        return self.place.points.push(state, self.area[:, None] * traction)
 
     def work(self, before: State, after: State, traction: Floats) -> float:
         """Work (J) of tractions (m, 2) in Pa that are the mean of a step."""
-        way = self.place.points.way(before, after)
-        return float(np.sum(self.area[:, None] * traction * way))
+        return self.place.points.work(before, after, self.area[:, None] * traction)
 
 
 def impedances(model: Model, place: Place) -> Floats:

@@ -4,13 +4,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
 from nmm.assembly.places import Place
 from nmm.effects.acting_place import edge_place
-from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.base import Setup
+from nmm.effects.motion.driven_edges import DrivenEdges
 from nmm.effects.motion.edge_dashpots import EdgeDashpots, ground_of
 from nmm.effects.motion.ground_column import Drive, GroundColumn
 from nmm.effects.motion.record import motions_of
@@ -42,6 +41,11 @@ class FreeField:
     columns: tuple[GroundColumn, GroundColumn]
     lateral: Floats
 
+    @property
+    def driven(self) -> bool:
+        """A free field moves as its base does."""
+        return True
+
     def traction(self, time: float) -> Floats:
         """Tractions (m, 2) of the free field on the edge: its stress, and its dashpots' pull."""
         height, level = self.columns[0].height, self.dashpots.place.position[:, 1]
@@ -55,15 +59,14 @@ class FreeField:
         return stress + self.dashpots.tractions(np.stack(velocity, axis=1))
 
 
-class FreeFields(Effect):
+class FreeFields(DrivenEdges):
     """Sides of a model that goes on beyond them as level ground."""
 
     name = "free fields"
 
     def __init__(self, sides: list[FreeField], n_unknowns: int) -> None:
-        self.sides, self._n = sides, n_unknowns
-        none = csc_array((n_unknowns, n_unknowns))
-        self._matrix = sum((one.dashpots.matrix(n_unknowns) for one in sides), start=none)
+        super().__init__(sides, n_unknowns)
+        self.sides = sides
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -76,31 +79,6 @@ class FreeFields(Effect):
         """See `Effect.about`."""
         counts = [len(one.columns[0].modulus) for one in self.sides]
         return f"columns of {' and '.join(map(str, counts))} elements"
-
-    @property
-    def steady(self) -> bool:
-        """See `Effect.steady`."""
-        return False
-
-    def damping(self, state: State) -> csc_array:
-        """See `Effect.damping`; always the same object."""
-        return self._matrix
-
-    def force(self, state: State, end: Instant) -> Floats:
-        """Return what the free field does on the sides, but for their own velocity."""
-        total = np.zeros(self._n)
-        for side in self.sides:
-            total += side.dashpots.push(state, side.traction(end.time))
-        return total
-
-    def work(self, before: State, after: State) -> float:
-        """Mean force of the free field times the motion of the sides."""
-        return sum(
-            one.dashpots.work(
-                before, after, (one.traction(before.time) + one.traction(after.time)) / 2
-            )
-            for one in self.sides
-        )
 
 
 def _side(setup: Setup, table: "FreeFieldTable") -> FreeField:

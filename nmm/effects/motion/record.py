@@ -101,6 +101,14 @@ def motions_of(scene: "Scene", named: Mapping[Axis, str]) -> dict[int, GroundMot
     return {"xy".index(axis): GroundMotion.of(scene.records[name]) for axis, name in named.items()}
 
 
+def velocity_of(motions: Mapping[int, GroundMotion], time: float) -> Floats:
+    """Velocity (2,) of motions along x (0) and y (1), zero along others (m/s)."""
+    found = np.zeros(2)
+    for axis, motion in motions.items():
+        found[axis] = motion.velocity_at(time)
+    return found
+
+
 def corrected(times: Floats, values: Floats, baseline: str) -> Floats:
     """Return accelerations (k,) less a constant or a line, so that the motion ends at rest.
 
