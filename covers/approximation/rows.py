@@ -37,6 +37,12 @@ class Rows:
         """Rows (m, L) of the displacement along one direction (m, 2) a point."""
         return np.asarray(np.einsum("mcl,mc->ml", self.values, directions))
 
+    def spread(self, directions: Floats, n_unknowns: int) -> Floats:
+        """Return the sums (n,) over the points of what vectors (m, 2) do on each unknown."""
+        terms = self.along(directions)
+        found = np.bincount(self.unknowns.ravel(), terms.ravel(), minlength=n_unknowns)
+        return np.asarray(found, dtype=np.float64)
+
     def take(self, index: Ints) -> "Rows":
         """Return the rows of some points."""
         return Rows(self.unknowns[index], self.values[index])

@@ -159,6 +159,15 @@ class MaterialPoints:
         """Rows (m, L) of the motion along global directions (m, 2)."""
         return self.rows.along(frames.to_body(self.body, directions))
 
+    def push(self, state: State, forces: Floats) -> Floats:
+        """Return what forces (m, 2) in global axes (N) do on the unknowns (n,)."""
+        local = state.frames.to_body(self.body, forces)
+        return self.rows.spread(local, len(state.deformation))
+
+    def work(self, before: State, after: State, force: Floats) -> float:
+        """Return the work (J) of mean forces (m, 2) of a step in global axes (N)."""
+        return float(np.sum(force * self.way(before, after)))
+
     def take(self, index: Ints) -> "MaterialPoints":
         """Return some of the points."""
         return MaterialPoints(self.body[index], self.arm[index], self.rows.take(index))

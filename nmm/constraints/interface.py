@@ -83,9 +83,7 @@ class Interface:
         """Return what forces (m, 2) in N on the first side, against the second, do on unknowns."""
         total = np.zeros(len(state.deformation))
         for sign, side in zip((1.0, -1.0), self.sides, strict=False):
-            local = side.points.along(state.frames, sign * self.held * forces)
-            unknowns = side.points.rows.unknowns.ravel()
-            total += np.bincount(unknowns, local.ravel(), minlength=len(total))
+            total += side.points.push(state, sign * self.held * forces)
         return total
 
     def normal(self, state: State) -> Floats:

@@ -12,10 +12,10 @@ from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
 from nmm.constraints.nitsche import Nitsche
-from nmm.constraints.tied_interfaces import TiedInterfaces, instant_of
+from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.constraints.volume_lift import sharing
 from nmm.effects.acting_place import acting_place
-from nmm.effects.base import Setup
+from nmm.effects.base import Instant, Setup
 from nmm.effects.motion.ground import Ground
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ class Supports(TiedInterfaces):
 
     def reactions(self, state: State) -> dict[str, Floats]:
         """Return the force (2,) in N that each support exerts on the bodies."""
-        now = instant_of(state)
+        now = Instant.of(state)
         return {
             tie.interface.name: self._with_added(tie.point_forces(state, jump), tie, state).sum(
                 axis=0
@@ -124,11 +124,11 @@ class Supports(TiedInterfaces):
         """Forces (m, 2) in N with those of stresses that other effects add."""
         if not self._stresses:
             return forces
-        return forces + tie.interface.held * self._added(tie, state, instant_of(state))
+        return forces + tie.interface.held * self._added(tie, state, Instant.of(state))
 
     def _driven(self, before: State, after: State) -> Iterator[tuple[int, Floats, Floats]]:
         """Number of each support and its displacements, (2,) or (m, 2), at both ends of a step."""
-        start, end = instant_of(before), instant_of(after)
+        start, end = Instant.of(before), Instant.of(after)
         for number, tie in enumerate(self.ties):
             driven = tie.interface.displacement
             yield number, driven(start), driven(end)
@@ -139,11 +139,11 @@ class Supports(TiedInterfaces):
         In time a multiplier is the mean force of its step, in statics the force at its end.
         """
         tie = self.ties[number]
-        jump = self._jumps(after, instant_of(after))[number]
+        jump = self._jumps(after, Instant.of(after))[number]
         last = self._with_added(tie.point_forces(after, jump), tie, after)
         if tie.shared is not None and self._in_time:
             return last, last
-        jump = self._jumps(before, instant_of(before))[number]
+        jump = self._jumps(before, Instant.of(before))[number]
         return self._with_added(tie.earlier_forces(before, jump), tie, before), last
 
 

@@ -116,31 +116,31 @@ class TiedInterfaces(Effect):
 
     def energy(self, state: State) -> float:
         """Energy (J) stored in ``state``, with places of its own instant."""
-        now = instant_of(state)
+        now = Instant.of(state)
         pairs = list(zip(self.ties, self._jumps(state, now), strict=True))
         return sum(tie.energy(state, jump) for tie, jump in pairs) + self.felt_energy(state)
 
     def felt_energy(self, state: State) -> float:
         """See `Effect.felt_energy`: minus the tractions of these stresses times the jumps."""
-        return -self._felt(state, instant_of(state)) if self._stresses else 0.0
+        return -self._felt(state, Instant.of(state)) if self._stresses else 0.0
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of these stresses as they change, on the mean jump of both ends of the step."""
         if not self._stresses:
             return 0.0
-        start, end = instant_of(before), instant_of(after)
+        start, end = Instant.of(before), Instant.of(after)
         rise = (self._felt(state, end) - self._felt(state, start) for state in (before, after))
         return -sum(rise) / 2
 
     def _felt(self, state: State, at: Instant) -> float:
         """Tractions of stresses at an instant times the jumps of a state (J)."""
-        pairs = zip(self.ties, self._jumps(state, instant_of(state)), strict=True)
+        pairs = zip(self.ties, self._jumps(state, Instant.of(state)), strict=True)
         return sum(float(np.sum(jump * self._added(tie, state, at))) for tie, jump in pairs)
 
     def gap_volume(self, state: State, k: int) -> Floats:
         """See `Effect.gap_volume`."""
         total = np.zeros(k)
-        for tie, jump in zip(self.ties, self._jumps(state, instant_of(state)), strict=True):
+        for tie, jump in zip(self.ties, self._jumps(state, Instant.of(state)), strict=True):
             total += tie.gap_volume(state, jump, k)
         return total
 
@@ -164,8 +164,3 @@ class TiedInterfaces(Effect):
 
 
 _NOTHING = (np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))
-
-
-def instant_of(state: State) -> Instant:
-    """Return the instant at which a state stands."""
-    return Instant(state.time, state.load_factor)

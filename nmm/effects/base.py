@@ -38,6 +38,11 @@ class Instant:
     time: float
     load_factor: float
 
+    @classmethod
+    def of(cls, state: State) -> Self:
+        """Return the instant at which a state stands."""
+        return cls(state.time, state.load_factor)
+
 
 @dataclass(frozen=True)
 class Span:

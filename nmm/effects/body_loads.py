@@ -53,7 +53,7 @@ class BodyLoads(Effect):
 
     def work(self, before: State, after: State) -> float:
         """Mean load of both ends of the step times the motion of the volume."""
-        ends = (Instant(s.time, s.load_factor) for s in (before, after))
+        ends = (Instant.of(state) for state in (before, after))
         mean = np.asarray(sum(self._density(end) for end in ends) / 2)
         pushed = self._push(before, mean), self._push(after, mean)
         return DeadLoad(self._model, mean).work(before, after, pushed)

@@ -47,5 +47,5 @@ class Gravity(Effect):
 
     def work(self, before: State, after: State) -> float:
         """Weight times the motion of the mass, be it in frames or in the unknowns."""
-        here = Instant(after.time, after.load_factor)
+        here = Instant.of(after)
         return self._volume.work(before, after, (self.force(before, here), self.force(after, here)))

@@ -69,20 +69,16 @@ class Loads(Effect):
         """Return the loads in the bodies' axes."""
         total = np.zeros(self._n)
         for load in self.loads:  # a handful of loads
-            points = load.place.points
-            local = points.along(state.frames, load.factor(end) * load.force)
-            total += np.bincount(points.rows.unknowns.ravel(), local.ravel(), minlength=self._n)
+            total += load.place.points.push(state, load.factor(end) * load.force)
         return total
 
     def work(self, before: State, after: State) -> float:
         """Mean of the loads at both ends of the step times the motion of their points."""
-        start = Instant(before.time, before.load_factor)
-        end = Instant(after.time, after.load_factor)
+        start, end = Instant.of(before), Instant.of(after)
         total = 0.0
         for load in self.loads:
-            way = load.place.points.way(before, after)
             mean = (load.factor(start) + load.factor(end)) / 2
-            total += mean * float(np.sum(load.force * way))
+            total += mean * load.place.points.work(before, after, load.force)
         return total
 
     @property

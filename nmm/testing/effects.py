@@ -118,22 +118,18 @@ def _ways(model: Model, seed: int) -> list[Floats]:
     return [share * size / moved * way for share in WAYS]
 
 
-def _now(state: State) -> Instant:
-    return Instant(state.time, state.load_factor)
-
-
 def _force(effect: Effect, name: str, state: State, n: int) -> None:
-    force = np.asarray(effect.force(state, _now(state)))
+    force = np.asarray(effect.force(state, Instant.of(state)))
     claim(force.shape == (n,), f"{name}: force of shape {force.shape}, expected {(n,)}")
     finite(f"{name}: force", force)
-    again = effect.force(state, _now(state))
+    again = effect.force(state, Instant.of(state))
     claim(np.array_equal(force, again), f"{name}: the force differs when it is asked for again")
 
 
 def _work(effect: Effect, name: str, model: Model, state: State, way: Floats) -> None:
     """Compare work less stored energy with the mean force times the way, about the state."""
     before, after = (strain_only(model, state, sign * way) for sign in (-0.5, 0.5))
-    forces = [effect.force(one, _now(one)) for one in (before, after)]
+    forces = [effect.force(one, Instant.of(one)) for one in (before, after)]
     mean = (forces[0] + forces[1]) / 2
     expected = float(mean @ way)
     done = effect.work(before, after) if defines(effect, "work") else 0.0
@@ -158,7 +154,7 @@ def _matrix(effect: Effect, name: str, model: Model, state: State, ways: list[Fl
         return
     for way in ways:
         ends = [strain_only(model, state, sign * way) for sign in (0.5, -0.5)]
-        change = effect.force(ends[0], _now(state)) - effect.force(ends[1], _now(state))
+        change = effect.force(ends[0], Instant.of(state)) - effect.force(ends[1], Instant.of(state))
         expected = -(matrix @ way)
         unit = float(np.abs(expected).max()) or 1.0
         what = f"{name}: change of the force with the motion against the matrix"
@@ -182,7 +178,7 @@ def _carried(effect: Effect, name: str, state: State) -> None:
     forces = []
     for _ in range(2):
         if defines(effect, "force"):
-            forces.append(np.array(effect.force(state, _now(state))))
+            forces.append(np.array(effect.force(state, Instant.of(state))))
         effect.carry(effect.carried())
     same = all(np.array_equal(forces[0], one) for one in forces)
     claim(same, f"{name}: the force differs after carry(carried())")

@@ -89,16 +89,15 @@ class WaterPressures(Effect):
 
     def work(self, before: State, after: State) -> float:
         """Mean of the forces at both ends of the step times the motion of their points."""
-        ends = [(one, Instant(one.time, one.load_factor)) for one in (before, after)]
         total = 0.0
         for one in self.given:  # a handful
-            first, last = (one.forces(state, now) for state, now in ends)
-            total += float(np.sum((first + last) / 2 * one.place.points.way(before, after)))
+            first, last = (one.forces(state, Instant.of(state)) for state in (before, after))
+            total += one.place.points.work(before, after, (first + last) / 2)
         return total
 
     def history(self, state: State) -> Mapping[str, float]:
         """Return the resultant (N) of each on all that it presses on."""
-        now, found = Instant(state.time, state.load_factor), {}
+        now, found = Instant.of(state), {}
         for one in self.given:  # a handful
             total = one.forces(state, now).sum(axis=0)
             found[f"{one.name}:x"], found[f"{one.name}:y"] = float(total[0]), float(total[1])
@@ -115,10 +114,8 @@ def _water(setup: Setup, number: int, item: "WaterPressureTable") -> WaterOnEdge
     place = on_parts(manifold, edge, start, end, manifold.degree + 1)
     assert place.normal is not None
     size = pressure.pressure(place.position) * place.weight * setup.model.thickness
-    force, rows = -size[:, None] * place.normal, place.points.rows
-    local = rows.along(force)
-    spread = np.bincount(rows.unknowns.ravel(), local.ravel(), minlength=manifold.n_unknowns)
-    unknown = np.asarray(spread, dtype=np.float64)
+    force = -size[:, None] * place.normal
+    unknown = place.points.rows.spread(force, manifold.n_unknowns)
     factor = load_factor(setup, item)
     return WaterOnEdges(item.name, place, force, unknown, factor, item.history is None)
 

@@ -66,7 +66,7 @@ class Seepage(FieldEffect):
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of the pressure on the strain of the blocks, by the mean of both ends."""
-        ends = (self.force(one, Instant(one.time, one.load_factor)) for one in (before, after))
+        ends = (self.force(one, Instant.of(one)) for one in (before, after))
         return float(sum(ends) @ (after.deformation - before.deformation)) / 2
 
     def outputs(self, state: State) -> Mapping[str, Quantity]:

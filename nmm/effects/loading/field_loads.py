@@ -97,18 +97,15 @@ class FieldLoads(Effect):
         """Return the loads in the bodies' axes."""
         total = np.zeros(self._n)
         for load in self.loads:  # a handful of loads
-            local = load.points.along(state.frames, load.forces(end))
-            unknowns = load.points.rows.unknowns.ravel()
-            total += np.bincount(unknowns, local.ravel(), minlength=self._n)
+            total += load.points.push(state, load.forces(end))
         return total
 
     def work(self, before: State, after: State) -> float:
         """Mean of the loads at both ends of the step times the motion of their points."""
-        ends = (Instant(before.time, before.load_factor), Instant(after.time, after.load_factor))
         total = 0.0
         for load in self.loads:
-            mean = (load.forces(ends[0]) + load.forces(ends[1])) / 2
-            total += float(np.sum(mean * load.points.way(before, after)))
+            first, last = (load.forces(Instant.of(state)) for state in (before, after))
+            total += load.points.work(before, after, (first + last) / 2)
         return total
 
 

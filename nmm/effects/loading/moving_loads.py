@@ -95,19 +95,17 @@ class MovingLoads(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the forces at the end of the step, in the bodies' axes."""
-        n = len(state.deformation)
-        total = np.zeros(n)
+        total = np.zeros(len(state.deformation))
         for points, forces in self._acting(end):
-            local = points.along(state.frames, forces)
-            total += np.bincount(points.rows.unknowns.ravel(), local.ravel(), minlength=n)
+            total += points.push(state, forces)
         return total
 
     def work(self, before: State, after: State) -> float:
         """Half of the forces of each end times the motion of the points that feel them then."""
         total = 0.0
         for one in (before, after):
-            for points, forces in self._acting(Instant(one.time, one.load_factor)):
-                total += float(np.sum(forces * points.way(before, after))) / 2
+            for points, forces in self._acting(Instant.of(one)):
+                total += points.work(before, after, forces) / 2
         return total
 
     def forget(self) -> None:

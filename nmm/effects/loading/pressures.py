@@ -101,14 +101,12 @@ class SurfacePressures(Effect):
         """Return the pressures on the surfaces as they are, in the bodies' axes."""
         total = np.zeros(self._n)
         for one in self.pressures:  # a handful
-            points = one.place.points
-            local = points.along(state.frames, one.forces(state, end))
-            total += np.bincount(points.rows.unknowns.ravel(), local.ravel(), minlength=self._n)
+            total += one.place.points.push(state, one.forces(state, end))
         return total
 
     def matrix(self, state: State) -> csc_array:
         """Return how the forces fall with the motion; the same object while the factors stay."""
-        now = Instant(state.time, state.load_factor)
+        now = Instant.of(state)
         factors = tuple(one.factor(now) for one in self.pressures)
         if self._kept is None or self._kept[0] != factors:
             none = csc_array((self._n, self._n))
@@ -122,11 +120,10 @@ class SurfacePressures(Effect):
 
     def work(self, before: State, after: State) -> float:
         """Mean of the forces at both ends times the way: exact, as they are linear in the place."""
-        ends = [(one, Instant(one.time, one.load_factor)) for one in (before, after)]
         total = 0.0
         for one in self.pressures:
-            first, last = (one.forces(state, now) for state, now in ends)
-            total += float(np.sum((first + last) / 2 * one.place.points.way(before, after)))
+            first, last = (one.forces(state, Instant.of(state)) for state in (before, after))
+            total += one.place.points.work(before, after, (first + last) / 2)
         return total
 
 

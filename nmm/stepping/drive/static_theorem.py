@@ -159,7 +159,7 @@ def _directions(stepper: "Stepper", state: State) -> csr_array:
     size[np.arange(len(size)) % 3 != 2] = 1.0
     modes = csr_array(manifold.rigid_modes @ diags_array(1 / size))
     held = csr_array(modes.T @ (plan.matrix(state, csc_array((n, n))) @ modes))
-    border = plan.border(state, Instant(state.time, state.load_factor))
+    border = plan.border(state, Instant.of(state))
     if border is not None:
         rows = border[0] @ modes
         held = csr_array(held / (abs(held).max() or 1.0) + rows.T @ rows / abs(rows).max() ** 2)

@@ -162,7 +162,7 @@ class Assembly:
         weight, force, gain, mass = rule.end_weight, static.force, None, plan.inertia.mass
         steady = plan.steady and linear
         if weight < 1 or not steady:
-            earlier = plan.force(state, Instant(state.time, state.load_factor)) - line.start
+            earlier = plan.force(state, Instant.of(state)) - line.start
             gain = None if steady else force - earlier
             force = force if weight == 1 else weight * force + (1 - weight) * earlier
         velocity = rule.kinetic_factor * state.velocity

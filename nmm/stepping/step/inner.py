@@ -128,7 +128,7 @@ class Inner:
     def _line(self, name: str) -> tuple[Floats, csc_array]:
         """Force (n,) and matrix (n, n) of an effect in the equations of the step."""
         effect, n = self._plan.bent[name], len(self.start)
-        here = Instant(self._state.time, self._state.load_factor)
+        here = Instant.of(self._state)
         force = effect.force(self._state, here) if defines(effect, "force") else np.zeros(n)
         matrix = effect.matrix(self._state) if defines(effect, "matrix") else csc_array((n, n))
         return force, matrix

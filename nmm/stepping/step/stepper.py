@@ -217,7 +217,7 @@ class Stepper:
         self.budget.check()
         assert self._touching is not None
         with self._clock.phase("path"):
-            still = Instant(state.time, state.load_factor)
+            still = Instant.of(state)
             equations = self._assembly.of(state, still, None, self._rule, anchored=False)
             try:
                 return self._touching.along(equations, path, self._carried.reach)
