@@ -1,6 +1,6 @@
 """Material points: where elements ask a law for stress, and how it acts on the unknowns."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Self
 
@@ -12,6 +12,9 @@ from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import PointRule
 from nmm.assembly.blocks import Part, assemble
+
+StressAt = Callable[[Ints, Floats, float], Floats]
+"""Stress (m, 3) in Pa in body axes from elements, their reference points (m, 2) and a time (s)."""
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,9 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+from nmm.assembly.stress_points import StressAt
 from nmm.constraints.interface import Interface, Triplets
-from nmm.effects.base import Instant, StressAt
+from nmm.effects.base import Instant
 from nmm.errors import FormulationError
 from nmm.formulation import GHOST
 from nmm.registry import Registry

@@ -16,13 +16,13 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.donors import Flux
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, Triplets, joined, product
 from nmm.constraints.linear_matter import check_linear
 from nmm.constraints.nitsche_terms import against_ground, between_bodies
 from nmm.constraints.volume_lift import Lift
-from nmm.effects.base import StressAt
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,10 @@ from scipy.sparse import csc_array, csr_array, vstack
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
+from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import joined
-from nmm.effects.base import Effect, Instant, StressAt
+from nmm.effects.base import Effect, Instant
 
 # Multipliers (k,) of each space as found last and as the step began (Pa).
 LastMultipliers = tuple[tuple[Floats | None, Floats | None], ...]

@@ -11,6 +11,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.assembly.stress_points import StressAt
 from nmm.geometry.geometry import Geometry
 from nmm.quantity import MemberSegments, Quantity
 from nmm.scene.fields import Frozen
@@ -141,10 +142,6 @@ class Setup:
         if name is None or name == "all":
             return None
         return np.array([one == name or one.startswith(f"{name}.") for one in self.region_name])
-
-
-StressAt = Callable[[Ints, Floats, float], Floats]
-"""From elements, points and a time to stresses (m, 3) in body axes: see `Effect.stress_at`."""
 
 
 class Effect(ABC):

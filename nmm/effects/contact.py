@@ -13,6 +13,7 @@ from scipy.sparse import csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.assembly.stress_points import StressAt
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.candidates.candidates import Candidates
@@ -32,7 +33,7 @@ from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.momentum import Momentum
 from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
 from nmm.contact.solution.request import StepRequest
-from nmm.effects.base import Effect, Setup, StressAt
+from nmm.effects.base import Effect, Setup
 from nmm.effects.contact_parts import ContactParts, contact_parts
 
 if TYPE_CHECKING:

@@ -14,13 +14,13 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
+from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import (
     Effect,
     Instant,
     Setup,
     Span,
     StepForce,
-    StressAt,
     defines,
 )
 from nmm.errors import SolveError

@@ -6,7 +6,7 @@ meets the criterion the bond passes to its cohesive or brittle law (Mergheim, Ku
 2004; Noels and Radovitzky 2008).
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Self
 
@@ -16,15 +16,13 @@ from scipy.sparse import csr_array
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames
+from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.average import AverageTraction
 from nmm.assembly.tractions.donors import Flux
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.errors import FormulationError
-
-StressAt = Callable[[Ints, Floats, float], Floats]
-"""Stress (m, 3) in Pa in body axes that an effect adds in elements, at points, at a time."""
 
 # Multiples of the least penalty with which the form is positive, as between bodies that are glued.
 SAFETY = 1.5

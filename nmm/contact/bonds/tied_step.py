@@ -19,7 +19,8 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import State
-from nmm.contact.bonds.consistent_bonds import ConsistentBonds, StressAt
+from nmm.assembly.stress_points import StressAt
+from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.problem.step_problem import BONDED, Limits, StepAnswer, StepProblem
