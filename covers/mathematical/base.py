@@ -5,9 +5,10 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from covers.concatenate import numbers
 from covers.mathematical.mesh_edges import MeshEdges, mesh_edges
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
     from covers.cutting.cut_cells import CutCells
 
     Recut = Callable[["Cover"], CutCells]
+
+# Cells along a side that are told apart when they are counted.
+MOST_ALONG = 1e6
 
 
 class CoverType:
@@ -54,13 +58,10 @@ class Cover(CoverType, ABC):
         length that scales coordinates about the centre to at most about one in the patch, m.
     cell_shape : (C,)
         cells of one number are translations of one another; -1 where nothing is known.
-    even
-        Whether all cells are of about the size that ``regular`` is given.
     overlap
         How many times the entries of a mesh's rows those of the cover have.
     """
 
-    even: ClassVar[bool] = True
     overlap: ClassVar[float] = 1.0
     vertices: Floats
     cell_vertices: Ints = field(metadata=numbers("vertex"))
@@ -68,6 +69,21 @@ class Cover(CoverType, ABC):
     patch_centre: Floats
     patch_size: Floats
     cell_shape: Ints = field(metadata=numbers("shape"))
+
+    @classmethod
+    def foreseen(cls, bounds: npt.ArrayLike, size: float, **options: Any) -> float:
+        """Return about how many cells ``regular`` would lay over a box, before it lays any.
+
+        Here one for each square of ``size``; a cover whose cells differ counts them. Of more than
+        a million along a side the number is no longer exact.
+
+        Raises
+        ------
+        ValueError, TypeError
+            Where ``regular`` would raise it.
+        """
+        low, high = np.array(bounds, dtype=float).reshape(2, 2)
+        return float(np.prod(np.minimum(high - low, MOST_ALONG * size) / size + 1))
 
     @property
     @abstractmethod

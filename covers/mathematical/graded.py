@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
 
-from covers.mathematical.regular_grids import grid_cells, regular_net
+from covers.mathematical.regular_grids import Net, grid_cells, regular_net
 from covers.mathematical.stars import star_sizes
 from covers.mathematical.triangles import Triangles
 from integration.arrays import Floats
@@ -25,7 +25,12 @@ class Graded(Triangles):
     """
 
     coordinates: ClassVar[tuple[str, ...]] = ("focus",)
-    even: ClassVar[bool] = False
+
+    @classmethod
+    def foreseen(cls, bounds: npt.ArrayLike, size: float, **options: Any) -> float:
+        """See `Cover.foreseen`; lines are drawn and no cells."""
+        _, x, y = _net(bounds, size, **options)
+        return 2.0 * (len(x) - 1) * (len(y) - 1)
 
     @classmethod
     def regular(
@@ -64,28 +69,43 @@ class Graded(Triangles):
         ValueError
             Sizes that cannot be, or more than 20 000 lines.
         """
-        net = regular_net(bounds, (size, size), angle, shift)
-        if not (growth >= 0 and radius >= 0 and (coarsest is None or coarsest >= size)):
-            raise ValueError(
-                f"growth {growth}, radius {radius}, coarsest {coarsest}: numbers >= 0 and a "
-                f"coarsest size of at least {size} expected: correct the options of the cover"
-            )
-        frame = net.axes / size
-        points = np.array(focus, dtype=float).reshape(-1, 2)
-        at = (points - net.origin) @ frame.T
-        most = np.inf if coarsest is None else coarsest
-        x, y = (
-            _lines(steps * size, at[:, axis], (size, most), radius, growth)
-            for axis, steps in enumerate((net.columns, net.rows))
-        )
+        net, x, y = _net(bounds, size, angle, shift, focus, radius, growth, coarsest)
         grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
         a, b, c, d = grid_cells(len(x) - 1, len(y) - 1).T
         cells = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
-        vertices = net.origin + grid @ frame
+        vertices = net.origin + grid @ (net.axes / size)
         # Without foci the cells are translations of two.
         half = np.repeat(np.arange(2), len(a))
-        shapes = np.full_like(half, -1) if len(points) else half
+        shapes = np.full_like(half, -1) if len(focus) else half
         return cls._of(vertices, cells, star_sizes(vertices, cells), shapes)
+
+
+def _net(
+    bounds: npt.ArrayLike,
+    size: float,
+    angle: float = 0.0,
+    shift: tuple[float, float] = (0.0, 0.0),
+    focus: Sequence[Sequence[float]] = (),
+    radius: float = 0.0,
+    growth: float = 0.2,
+    coarsest: float | None = None,
+) -> tuple[Net, Floats, Floats]:
+    """Return the even net, and the places (m) of the lines across its two axes."""
+    net = regular_net(bounds, (size, size), angle, shift)
+    if not (growth >= 0 and radius >= 0 and (coarsest is None or coarsest >= size)):
+        raise ValueError(
+            f"growth {growth}, radius {radius}, coarsest {coarsest}: numbers >= 0 and a "
+            f"coarsest size of at least {size} expected: correct the options of the cover"
+        )
+    frame = net.axes / size
+    points = np.array(focus, dtype=float).reshape(-1, 2)
+    at = (points - net.origin) @ frame.T
+    most = np.inf if coarsest is None else coarsest
+    x, y = (
+        _lines(steps * size, at[:, axis], (size, most), radius, growth)
+        for axis, steps in enumerate((net.columns, net.rows))
+    )
+    return net, x, y
 
 
 def _lines(

@@ -30,12 +30,17 @@ def placed(scene: "Scene", formulation: "Formulation") -> Iterator[None]:
 
 def _placed(fault: Fault | str, scene: "Scene", formulation: "Formulation") -> Fault | str:
     text = str(fault)
-    if text.startswith((scene.source.name, formulation.source.name)):
+    usual = not formulation.model_fields_set  # what does not go with it stands in the scene
+    if usual:
+        text = text.removeprefix(f"{formulation.source.name}: ")
+    elif text.startswith(formulation.source.name):
+        return fault
+    if text.startswith(scene.source.name):
         return fault
     match = TABLE.match(text)
     path = match[1].split(".") if match is not None else []
     method = bool(path) and path[0] in type(formulation).model_fields and not _of_scene(path[0])
-    source = formulation.source if method else scene.source
+    source = formulation.source if method and not usual else scene.source
     if not source.text:  # made by a program
         return fault
     where = source.place(*path) if path and source.line(*path) else source.name

@@ -1,6 +1,6 @@
 """Rectangles between the lines of graded triangles: a net for benchmarks on quads."""
 
-from typing import Any, ClassVar, Self, cast
+from typing import Any, Self, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,10 @@ from covers.mathematical.quads import Quads
 class GradedQuads(Quads):
     """`covers.mathematical.graded.Graded` without the diagonals of its rectangles."""
 
-    even: ClassVar[bool] = False
+    @classmethod
+    def foreseen(cls, bounds: npt.ArrayLike, size: float, **options: Any) -> float:
+        """See `covers.mathematical.base.Cover.foreseen`: one for two triangles."""
+        return Graded.foreseen(bounds, size, **options) / 2
 
     @classmethod
     def regular(cls, bounds: npt.ArrayLike, size: Any, **options: Any) -> Self:

@@ -1,15 +1,26 @@
 """Spoilt files: every one of thousands is refused by line or prepared as it stands, in time."""
 
+import tomllib
+
 import pytest
 
 import nmm
 from nmm.formulation import parse_formulation
 from nmm.scene import Scene, parse_scene
 from nmm.verification.hard.oracles.echoes import lost
-from nmm.verification.hard.spoilt.mutations import bases, shrunk, spoilt, verdict
+from nmm.verification.hard.spoilt.mutations import bases, shrunk, sound_files, spoilt, verdict
+from nmm.verification.hard.spoilt.mutators import keys_of
 from nmm.verification.hard.spoilt.sound_texts import DYNAMIC, STATIC
 
 FEW, MANY = 30, 50_000
+
+
+def _keys(table):
+    """All keys of a file's tables, those of tables in tables too."""
+    for key, value in table.items() if isinstance(table, dict) else ():
+        yield key
+        for inner in value if isinstance(value, list) else [value]:
+            yield from _keys(inner)
 
 
 def faults(base, seed, numbers):
@@ -31,13 +42,28 @@ def test_a_spoilt_file_is_refused_by_line_or_prepared_as_it_stands(base):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("base", bases(fast=False))
+def test_files_that_are_spoilt_are_sound_before(base):
+    kind, text = sound_files()[base]
+    assert verdict(text, kind).outcome == "sound"
+
+
+@pytest.mark.slow
+def test_every_key_of_a_scene_stands_in_a_file_that_is_spoilt():
+    said = {key for _, text in sound_files().values() for key in _keys(tomllib.loads(text))}
+    # Tables of one's own and files beside the scene are refused before anything else is read.
+    assert set(keys_of(Scene)) - said <= {"effects", "file"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("base", bases(fast=False))
 def test_fifty_thousand_spoilt_files_hold_no_silent_fault(base):
     assert not faults(base, 1, range(-(-MANY // len(bases(fast=False)))))
 
 
 def test_the_sound_files_are_sound():
     small = [name for name in bases() if name != "formulation method"]
-    from nmm.verification.hard.spoilt.sound_texts import METHOD, minimal
+    from nmm.verification.hard.spoilt.sound_files import minimal
+    from nmm.verification.hard.spoilt.sound_texts import METHOD
 
     assert [verdict(minimal()[name]).outcome for name in small] == ["sound"] * len(small)
     assert verdict(METHOD, "formulation").outcome == "sound"
@@ -110,6 +136,7 @@ def test_a_spoilt_text_is_reduced_to_the_lines_that_it_takes(monkeypatch):
     [
         ('[formulation.cover]\ntype = "quads"\nsize = 5e8\n', "check its unit"),
         ('[formulation.cover]\ntype = "graded"\nsize = 1e-30\n', "expected: take a larger size"),
+        ('[formulation.cover]\ntype = "graded"\nsize = 0.005\ndegree = 0\n', "80,000 cells"),
         (
             '[formulation.cover]\ntype = "triangles"\nsize = 0.3\n[formulation.cover.enrichment]\n'
             "corners = [[0, 0]]\n",
@@ -124,6 +151,8 @@ def test_a_spoilt_text_is_reduced_to_the_lines_that_it_takes(monkeypatch):
             '[[joint_sets]]\nname = "j"\ndip = 0.3\nspacing = 0.4\norigin = [5e8, 0.5]\n',
             "move it nearer",
         ),
+        ('[heat]\n[[temperatures]]\nname = "t"\nblock = { a = 1 }\ntemperature = 1\n', "name"),
+        ('[[cracks]]\nname = "k"\npoints = [[0.5, 0.2], [0.5, 0.8]]\n', "file.toml: [cover] type"),
     ],
 )
 def test_what_was_a_traceback_is_a_line(more, said):

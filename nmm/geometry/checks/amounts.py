@@ -43,10 +43,7 @@ def refuse_many_blocks(scene: Scene, outlines: Polygons) -> None:
 
 
 def refuse_many_cells(regions: Regions, cover: CoverTable, place: str) -> None:
-    """Refuse nets whose cells take more memory than there is.
-
-    Cells that are not `Cover.even`, as of a graded net that grow away from its foci, are counted
-    where they are laid.
+    """Refuse nets whose cells take more memory than there is, before one is laid.
 
     Raises
     ------
@@ -73,19 +70,21 @@ def _refuse_cells(
     place: str,
 ) -> None:
     """A regular net is laid over the box of the material before it is cut by it."""
-    kind, box = COVER_TYPES.load(cover.type), np.ptp(points, axis=0)
+    kind, bounds = COVER_TYPES.load(cover.type), np.stack([points.min(axis=0), points.max(axis=0)])
+    box = bounds[1] - bounds[0]
     if size > COARSEST * box.max():
         value = f"{size:g} m, for blocks of {box.max():g} m"
         expected = "a size nearer to that of the blocks"
         raise FormulationError(Fault(place, value, expected, "check its unit"))
-    if issubclass(kind, Cover) and not kind.even:
-        return
-    longest = size * 1e6  # cells along a side: beyond it their number is no longer exact
-    cells = float(np.prod(np.minimum(box, longest) / size + 1))
     if issubclass(kind, Cover):
+        try:
+            cells = kind.foreseen(bounds, size, **cover.options)
+        except (ValueError, TypeError):  # the net says what is wrong with its options when laid
+            return
         amount = cells * capacity.CELL * kind.overlap * (1 + cover.highest_degree) ** 2
     else:
-        amount = float(areas.sum()) / size**2 * capacity.BLOCK
+        cells = float(areas.sum()) / size**2
+        amount = cells * capacity.BLOCK
     what = f"size {size:g} m over {box[0]:g} m by {box[1]:g} m: {cells:,.0f} cells"
     capacity.refuse(place, what, amount, "take a larger size")
 

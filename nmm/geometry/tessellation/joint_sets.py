@@ -17,6 +17,8 @@ from nmm.errors import Fault, GeometryError
 # Smaller steps and traces would only be made by the tail of a wide normal distribution.
 _LEAST = 0.05  # of the mean
 _MOST_LINES = 100_000
+# Of the reach of a line: longer gaps leave it as empty, and the longest are beyond all numbers.
+_LONGEST_GAP = 1e6
 
 
 @dataclass(frozen=True)
@@ -107,7 +109,7 @@ class JointSetGeometry:
 
     def _traces(self, reach: float, trace: float, generator: np.random.Generator) -> Floats:
         """Begin and end (k, 2) of the traces on a line from -reach to reach."""
-        gap = trace * (1 - self.persistence) / self.persistence
+        gap = min(trace * (1 - self.persistence) / self.persistence, _LONGEST_GAP * reach)
         count = int(np.ceil(2 * reach / (trace + gap) / (1 - _LEAST))) + 2
         traces = _positive(trace, self.trace_scatter, (2 * count,), generator)
         gaps = traces * (gap / trace)

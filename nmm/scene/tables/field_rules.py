@@ -23,7 +23,8 @@ def lacking(data: Tables, given: str, needs: list[str], expected: str) -> Iterat
 
     ``given`` are the tables that may give it in whole blocks.
     """
-    known = {row.get("block") for _, row in rows(data, given) if "segment" not in row}
+    # A list, as what stands for a name may be a list or a table yet.
+    known = [row.get("block") for _, row in rows(data, given) if "segment" not in row]
     solved = [
         row.get("material")
         for _, row in rows(data, "blocks", "tessellations")

@@ -233,6 +233,20 @@ def test_a_graded_net_is_fine_at_its_foci_and_grows_no_faster_than_asked():
             assert steps.max() == pytest.approx(0.15, rel=0.2)
 
 
+@pytest.mark.parametrize(
+    "options", [{}, TURNED, {"focus": [[0.5, 0.2], [1.7, 0.9]], "growth": 0.3, "coarsest": 0.15}]
+)
+def test_the_cells_of_a_graded_net_are_foreseen(options):
+    laid = Graded.regular(BOUNDS, 0.02, **options)
+    assert Graded.foreseen(BOUNDS, 0.02, **options) == len(laid.cell_vertices)
+
+
+@pytest.mark.parametrize("name", [name for name in COVERS if name != "graded"])
+def test_the_cells_of_a_regular_net_are_foreseen_to_a_factor_of_two(name):
+    laid = cover_class(name).regular(BOUNDS, 0.05)
+    assert 0.5 <= len(laid.cell_vertices) / cover_class(name).foreseen(BOUNDS, 0.05) <= 2
+
+
 def test_a_graded_net_without_focus_is_even():
     lines = np.unique(Graded.regular(BOUNDS, 0.25).vertices[:, 0])
     assert lines == pytest.approx(np.linspace(0, 2, 9), abs=1e-12)

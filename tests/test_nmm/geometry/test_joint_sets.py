@@ -44,6 +44,11 @@ def test_neighbours_share_vertices_at_crossings_bit_by_bit() -> None:
     assert np.hypot(*(outer[:, 2:] - outer[:, :2]).T).sum() == pytest.approx(4.0, rel=1e-12)
 
 
+def test_a_persistence_of_next_to_nothing_leaves_no_joint() -> None:
+    joints = JointSetGeometry(0.3, 0.5, persistence=1e-320, trace=2.0, origin=(0.0, 0.0))
+    assert joints.segments(LOW, HIGH).shape == (0, 2, 2)
+
+
 def test_spacing_dip_and_persistence_are_those_asked_for() -> None:
     joints = JointSetGeometry(
         math.radians(30),

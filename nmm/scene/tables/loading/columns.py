@@ -7,7 +7,6 @@ ones, and words at the head are passed over; words further down are faults.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
@@ -145,9 +144,3 @@ def _line(path: Path, line: int, value: str, expected: str, remedy: str) -> Faul
 
 def _fault(path: Path, line: int, value: str, expected: str, remedy: str) -> SceneError:
     return SceneError(_line(path, line, value, expected, remedy))
-
-
-def all_faults(errors: list[SceneError]) -> Iterator[Fault | str]:
-    """Yield the faults of several files."""
-    for error in errors:
-        yield from error.faults

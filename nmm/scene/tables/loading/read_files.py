@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 from pydantic_core import PydanticCustomError
 
 from nmm.errors import Fault, SceneError
-from nmm.scene.tables.loading.columns import all_faults, record_of, rows_of
+from nmm.scene.tables.loading.columns import record_of, rows_of
 from nmm.scene.tables.loading.fields import check_rows
 
 if TYPE_CHECKING:
@@ -30,30 +30,32 @@ def with_files(scene: Scene, source: Source) -> Scene:
     Raises
     ------
     SceneError
-        Every fault of every file, by its line.
+        Every fault of every file, by its line and that of the scene that names the file.
     """
-    folder, errors = Path(source.name).parent, list[SceneError]()
-    records = _all(scene.records, _record, folder, errors)
-    fields = _all(scene.fields, _field, folder, errors)
-    if errors:
-        raise SceneError(*all_faults(errors))
+    faults: list[Fault | str] = []
+    records = _all("records", scene.records, _record, source, faults)
+    fields = _all("fields", scene.fields, _field, source, faults)
+    if faults:
+        raise SceneError(*faults)
     return scene.model_copy(update={"records": records, "fields": fields})
 
 
 def _all(
+    kind: str,
     tables: Mapping[str, Table],
     read: Callable[[Table, Path], Table],
-    folder: Path,
-    errors: list[SceneError],
+    source: Source,
+    faults: list[Fault | str],
 ) -> dict[str, Table]:
     """Read the files of tables; gather what is wrong."""
-    found = dict(tables)
+    found, folder = dict(tables), Path(source.name).parent
     for name, table in tables.items():
         if table.file is not None:
             try:
                 found[name] = read(table, folder / table.file)
             except SceneError as error:
-                errors.append(error)
+                place = source.place(kind, name, "file")
+                faults += [f"{place}: {fault}" for fault in error.faults]
     return found
 
 

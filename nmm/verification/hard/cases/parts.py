@@ -4,9 +4,13 @@ from collections.abc import Iterator, Mapping
 from copy import deepcopy
 from typing import Any
 
+import numpy as np
+from scipy.sparse import csc_array
+
 from covers.mathematical.registry import COVERS
 from nmm.constraints.imposition import IMPOSITIONS
 from nmm.contact.enforcement.base import ENFORCEMENTS
+from nmm.errors import NmmError
 from nmm.integrators.base import INTEGRATORS
 from nmm.solvers.linear import SOLVERS
 from nmm.verification.hard.cases.base import Document, HardCase, Judge
@@ -29,9 +33,30 @@ def integrators() -> list[str]:
     return list(INTEGRATORS.table)
 
 
+def integrators_of_contact() -> list[str]:
+    """Names of the time integrators that go with contact; the others refuse it before a run."""
+    return [name for name in integrators() if _goes_with_contact(name)]
+
+
+def _goes_with_contact(name: str) -> bool:
+    try:
+        INTEGRATORS.make(name).among_contacts  # noqa: B018  # asked for its refusal
+    except NmmError:
+        return False
+    return True
+
+
 def solvers() -> list[str]:
-    """Names of the linear solvers."""
-    return list(SOLVERS.table)
+    """Names of the linear solvers that are installed here: what misses says so when it solves."""
+    return [name for name in SOLVERS.table if _solves(name)]
+
+
+def _solves(name: str) -> bool:
+    try:
+        SOLVERS.make(name).decompose(csc_array(np.eye(2)))
+    except NmmError:
+        return False
+    return True
 
 
 def support_methods() -> list[str]:
@@ -83,7 +108,7 @@ def moving_parts() -> Iterator[dict[str, str]]:
 
     The whole product follows with the seeds of a class, which draw the rest.
     """
-    forces, times = enforcements(), integrators()
+    forces, times = enforcements(), integrators_of_contact()
     for name in forces:
         yield {"enforcement": name, "integrator": times[0]}
     for name in times[1:]:

@@ -10,7 +10,7 @@ from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.cases.parts import (
     BLOCKS,
     enforcements,
-    integrators,
+    integrators_of_contact,
     meshes,
     solvers,
     with_parts,
@@ -55,7 +55,7 @@ class Motions(HardClass):
         random = np.random.default_rng([seed, 71])
         scene, size = thrown(random)
         covers = {**BLOCKS, **meshes(0.45 * size, (0, 1))}
-        names, forces, times = list(covers), enforcements(), integrators()
+        names, forces, times = list(covers), enforcements(), integrators_of_contact()
         lists = [name for name in solvers() if name != "qdldl"]
         for number in range(max(len(forces), 4)):
             cover = names[(seed * 5 + number) % len(names)] if number else names[seed % 3]

@@ -21,7 +21,8 @@ from nmm.verification.base import Check, Checks, limit
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.oracles.echoes import lost
 from nmm.verification.hard.spoilt.mutators import keys_of, mutated
-from nmm.verification.hard.spoilt.sound_texts import DYNAMIC, examples, formulations, minimal
+from nmm.verification.hard.spoilt.sound_files import examples, formulations, minimal
+from nmm.verification.hard.spoilt.sound_texts import DYNAMIC
 
 PLACE = "file.toml"
 # Processor seconds that a file may take to be refused or prepared, and bytes that it may ask for.
@@ -137,13 +138,14 @@ def spoilt(base: str, seed: int, number: int) -> tuple[str, str]:
 
     The same three always give the same text.
     """
-    kind, text = _sound()[base]
+    kind, text = sound_files()[base]
     keys = keys_of(Scene if kind == "scene" else Formulation)
     return mutated(text, Random(f"{base} {seed} {number}"), keys), kind
 
 
 @cache
-def _sound() -> Mapping[str, tuple[str, str]]:
+def sound_files() -> Mapping[str, tuple[str, str]]:
+    """Return the kind and the text of every file that is spoilt, by name."""
     scenes = {**minimal(), **examples()}
     return {
         **{name: ("scene", text) for name, text in scenes.items()},
@@ -154,7 +156,7 @@ def _sound() -> Mapping[str, tuple[str, str]]:
 def bases(fast: bool = True) -> list[str]:
     """Return names of sound files; not those of examples that take a second or more if ``fast``."""
     small = [*minimal(), "formulation method"]
-    return small if fast else [*small, *(name for name in _sound() if name not in small)]
+    return small if fast else [*small, *(name for name in sound_files() if name not in small)]
 
 
 def shrunk(text: str, kind: str, outcome: str, longest: float = LONGEST) -> str:

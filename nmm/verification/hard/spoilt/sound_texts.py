@@ -1,8 +1,4 @@
-"""Sound files of scenes and formulations, from which spoilt ones are made."""
-
-from pathlib import Path
-
-from nmm.shipped import PACKAGE
+"""Sound texts of what most scenes have: blocks, supports, loads, contact, covers, a formulation."""
 
 HEAD = """plane = "strain"
 [materials.m]
@@ -174,40 +170,3 @@ tolerance = 0.01
 [solver]
 type = "lu"
 """
-
-
-def minimal() -> dict[str, str]:
-    """Return small scenes that have all tables between them, by name."""
-    scenes = {
-        **{"static": STATIC, "dynamic": DYNAMIC, "jointed": JOINTED},
-        **{"cracked": CRACKED, "nets": NETS},
-    }
-    covers = {name: f"{STATIC}[formulation.cover]\n{text}" for name, text in COVERS.items()}
-    return {**scenes, **covers}
-
-
-def formulations() -> dict[str, str]:
-    """Return formulation files by name: one of all tables, and those of the examples."""
-    return {"method": METHOD, **_examples(scenes=False)}
-
-
-def examples() -> dict[str, str]:
-    """Return the scene files of the examples by name."""
-    return _examples(scenes=True)
-
-
-def _examples(scenes: bool) -> dict[str, str]:
-    folders = (PACKAGE / "examples", PACKAGE.parent / "examples")
-    folder = next(one for one in folders if one.is_dir())
-    found = {}
-    for path in sorted(folder.rglob("*.toml")):
-        text = path.read_text(encoding="utf-8")
-        is_scene = "plane =" in text
-        is_formulation = "[cover]" in text and not is_scene
-        if is_scene if scenes else is_formulation:
-            found[_name(folder, path)] = text
-    return found
-
-
-def _name(folder: Path, path: Path) -> str:
-    return path.relative_to(folder).with_suffix("").as_posix()

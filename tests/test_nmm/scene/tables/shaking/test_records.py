@@ -107,6 +107,17 @@ def test_wrong_records_are_told_by_line(tmp_path, keys, files, said):
     assert said in told(tmp_path, keys, **files)
 
 
+def test_faults_of_a_file_are_told_with_the_line_of_the_scene_that_names_it(tmp_path):
+    said = told(tmp_path, 'file = "a.txt"', a__txt="0 1\n0.1 x\n0.2 y\n").splitlines()
+    line = next(
+        number
+        for number, one in enumerate(SCENE.format(keys='file = "a.txt"').splitlines(), 1)
+        if one.startswith("file")
+    )
+    assert len(said) == 2
+    assert all(f".toml:{line}: records.quake.file: " in one for one in said)
+
+
 def test_a_motion_needs_its_record_and_time(tmp_path):
     keys = "values = [1, 2]\nstep = 1"
     text = SCENE.format(keys=keys).replace("records.quake", "records.quak")
