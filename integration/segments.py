@@ -17,3 +17,21 @@ def segment_rule(start: Floats, end: Floats, order: int) -> tuple[Floats, Floats
     along = end - start
     points = start[:, None, :] + nodes[:, None] * along[:, None, :]
     return points, np.hypot(*along.T)[:, None] * weights
+
+
+def graded_rule(start: Floats, end: Floats, about: Floats, order: int) -> tuple[Floats, Floats]:
+    """Points (S, q, 2) and weights (S, q) for integrands smooth in the root of the distance.
+
+    Parameters
+    ----------
+    start, end
+        (S, 2) ends of the segments, at different distances from ``about`` (2,) or (S, 2), on whose
+        rays they lie.
+    """
+    one, two = start - about, end - about
+    a, b = (np.sqrt(np.hypot(*ends.T))[:, None] for ends in (one, two))
+    nodes, weights = gauss.interval(order // 2 + 1)
+    u, span = a + (b - a) * nodes, b**2 - a**2
+    points = start[:, None] + ((u**2 - a**2) / span)[..., None] * (end - start)[:, None]
+    length = np.hypot(*(end - start).T)[:, None]
+    return points, length * 2 * u * (b - a) / span * weights

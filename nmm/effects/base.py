@@ -298,6 +298,13 @@ class Effect(ABC):
         """Volumes (k,) left open at edges that the effect holds, for a model's k pressures (m2)."""
         raise NotImplementedError
 
+    def accepted(self, state: State) -> None:
+        """Take the end of an accepted step, before events are asked for.
+
+        What the effect remembers of it it hands over by `carried`.
+        """
+        raise NotImplementedError
+
     def event(self, view: "View") -> "Event | None":
         """Return the change that an accepted state calls for; None where all stays as it is.
 

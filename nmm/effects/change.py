@@ -22,12 +22,15 @@ class Change:
         Which elements, bodies, edges and covers come from which.
     state
         The last state, carried over to the new model; its effects are built for it.
+    former
+        The same on the old model.
     """
 
     before: Setup
     setup: Setup
     parentage: Parentage
     state: State
+    former: State
 
     @property
     def old(self) -> Model:

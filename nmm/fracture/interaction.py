@@ -9,7 +9,7 @@ import numpy as np
 from covers.approximation.singular.branches import branches
 from integration.arrays import Floats, Ints
 from integration.rules import polygon_rule
-from integration.segments import segment_rule
+from integration.segments import graded_rule, segment_rule
 from integration.singular import tip_rule
 from nmm.assembly.model import Model
 from nmm.fracture.auxiliary import Auxiliary, stresses_of
@@ -40,6 +40,8 @@ class Interaction:
         In which the tip lies.
     pressure
         (k,) on the patches of projected volumes; None without.
+    acceleration
+        (n,) of the unknowns, which acts as a force on the volume; None without.
     """
 
     model: Model
@@ -48,6 +50,7 @@ class Interaction:
     radius: float
     body: int
     pressure: Floats | None
+    acceleration: Floats | None = None
 
     @cached_property
     def _elements(self) -> Ints:
@@ -89,15 +92,25 @@ class Interaction:
         q, dq = self.fields.cutoff(points, self.radius)
         gradient, ahead = self._gradients(owner, points), self.fields.tip.direction
         stress, u1 = self._stress(owner, points, gradient), gradient @ ahead
+        pull = self._pull(owner, points, body_force)
         found = np.empty((len(points), 2))
         for mode, v in enumerate(self._auxiliary(owner, points)):
             of_v, v1 = stresses_of(self.model.elasticity[owner], v), v @ ahead
             flow = np.einsum("mij,mi,mj->m", stress, v1, dq)
             flow += np.einsum("mij,mi,mj->m", of_v, u1, dq)
             found[:, mode] = flow - np.einsum("mij,mij->m", stress, v) * (dq @ ahead)
-            if body_force is not None:
-                found[:, mode] -= np.einsum("mi,mi->m", body_force(points), v1) * q
+            if pull is not None:
+                found[:, mode] -= np.einsum("mi,mi->m", pull, v1) * q
         return found
+
+    def _pull(self, owner: Ints, points: Floats, body_force: Field | None) -> Floats | None:
+        """Force on the volume (m, 2) at points, that of inertia with it (N/m3); None without."""
+        pull = None if body_force is None else body_force(points)
+        if self.acceleration is None:
+            return pull
+        rate = self.model.manifold.rows(owner, points).apply(self.acceleration)
+        inert = -self.model.density[owner, None] * rate
+        return inert if pull is None else pull + inert
 
     def over_faces(self, traction: Traction | None) -> Floats:
         """Return the parts (2,) of the integral over faces of cracks and over the boundary.
@@ -126,17 +139,10 @@ class Interaction:
     def _straight(self, edges: Ints, traction: Traction) -> Floats:
         """Edges behind the tip; graded towards it, for in ``sqrt(r)`` the integrand is smooth."""
         boundary, point = self.model.cut.boundary, self.fields.tip.point
-        start, end = boundary.start[edges] - point, boundary.end[edges] - point
-        a, b = np.sqrt(np.hypot(*start.T)), np.sqrt(np.hypot(*end.T))
-        nodes, weights = segment_rule(np.zeros((1, 2)), np.array([[1.0, 0.0]]), ORDER)
-        t, w = nodes[0, :, 0], weights[0]
-        u = a[:, None] + (b - a)[:, None] * t
-        share = (u**2 - a[:, None] ** 2) / (b**2 - a**2)[:, None]
-        points = point + start[:, None] + share[..., None] * (end - start)[:, None]
-        length = np.hypot(*(end - start).T)
-        scale = length[:, None] * 2 * u * (b - a)[:, None] / (b**2 - a**2)[:, None] * w
-        flat, owner = points.reshape(-1, 2), np.repeat(boundary.element[edges], len(t))
-        pull = traction(flat, np.repeat(_normals(start, end), len(t), axis=0))
+        start, end = boundary.start[edges], boundary.end[edges]
+        points, scale = graded_rule(start, end, point, ORDER)
+        flat, owner = points.reshape(-1, 2), np.repeat(boundary.element[edges], scale.shape[1])
+        pull = traction(flat, np.repeat(_normals(start, end), scale.shape[1], axis=0))
         q, _ = self.fields.cutoff(flat, self.radius)
         ahead = self.fields.tip.direction
         work = [np.einsum("mi,mi->m", pull, v @ ahead) * q for v in self._auxiliary(owner, flat)]

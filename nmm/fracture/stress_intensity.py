@@ -11,7 +11,7 @@ Moran and Shih 1987; Shih and Asaro 1988)
 auxiliary displacement ``v``, ``t`` the traction on the faces, ``m`` their normal out of the
 material. Where a crack is kinked or curved the angle of ``v`` jumps across the crack itself, so
 that ``v`` leaves tractions there, which the last two terms take out; straight behind the tip they
-vanish. With them a domain may hold kinks, other cracks and parts of the boundary: all but other
+vanish. In motion ``b`` is less by density times acceleration. With them a domain may hold kinks, other cracks and parts of the boundary: all but other
 tips.
 """
 
@@ -60,6 +60,7 @@ def stress_intensity(
     body_force: Field | None = None,
     face_traction: Traction | None = None,
     pressure: Floats | None = None,
+    acceleration: Floats | None = None,
 ) -> StressIntensity:
     """Return the stress intensity factors at a tip of the model's cracks.
 
@@ -77,6 +78,8 @@ def stress_intensity(
         Functions of points, and of points and outward normals, as loaded; None is none.
     pressure
         (k,) on the patches of projected volumes, see `nmm.assembly.errors.stresses`.
+    acceleration
+        (n,) of the unknowns, in motion.
 
     Raises
     ------
@@ -94,7 +97,7 @@ def stress_intensity(
     held = model.pressure(unknowns) if pressure is None else pressure
     fields = Auxiliary.of(point, ahead, kappa, shear)
     body = int(model.manifold.element_body[tips.element[tip]])
-    about = Interaction(model, unknowns, fields, radius, body, held)
+    about = Interaction(model, unknowns, fields, radius, body, held, acceleration)
     total = about.over_elements(body_force) - about.over_faces(face_traction)
     stiff = 8 * shear / (kappa + 1)  # E'
     opening, sliding = (stiff / 2 * total).tolist()

@@ -59,7 +59,8 @@ class Discretisation:
             from nmm.effects.initial_velocity import InitialVelocity
 
             declared = InitialVelocity.from_setup(setup).begin(declared)
-        return Change(self.setup, setup, kin, carried(old, new, kin, state, declared))
+        after = carried(old, new, kin, state, declared)
+        return Change(self.setup, setup, kin, after, former=state)
 
     def joined(self, effect: Effect) -> "Discretisation":
         """Return the same with one effect more, for a motion that is no result."""

@@ -49,6 +49,7 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "masses": "nmm.effects.members.masses:PointMasses",
         "contact": "nmm.effects.contact:Contact",
         "fracture": "nmm.fracture.growth.crack_growth:CrackGrowth",
+        "fracture in time": "nmm.fracture.growth.in_time:GrowthInTime",
         "splitting": "nmm.splitting.splitting:Splitting",
         "artificial joints": "nmm.constraints.artificial_joints:ArtificialJoints",
     },
@@ -88,7 +89,8 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
     "foundations": lambda s: bool(s.foundations),
     "masses": lambda s: bool(s.masses),
     "contact": lambda s: s.contact is not None,
-    "fracture": lambda s: s.fracture is not None,
+    "fracture": lambda s: s.fracture is not None and s.inertia is None,
+    "fracture in time": lambda s: s.fracture is not None and s.inertia is not None,
     "splitting": lambda s: bool(s.splitting),
 }
 """When a scene calls for a built-in effect, in the order in which they act."""

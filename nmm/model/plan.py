@@ -268,6 +268,15 @@ class Plan:
         """Names of the effects that may ask for another geometry."""
         return tuple(name for name, _ in self._named("event"))
 
+    def accepted(self, state: State) -> None:
+        """Tell the effects that ask where an accepted step has ended."""
+        for name, effect in self._followers:
+            self._timed(name, partial(effect.accepted, state))
+
+    @cached_property
+    def _followers(self) -> list[tuple[str, Effect]]:
+        return self._named("accepted")
+
     def event(self, name: str, view: "View") -> "Event | None":
         """Return the event that a state calls for by one of the `askers`."""
         return self._timed(name, partial(self.effects[name].event, view))

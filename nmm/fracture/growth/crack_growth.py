@@ -100,8 +100,7 @@ class CrackGrowth(Effect):
         model, front = self._setup.model, np.flatnonzero(self._tips >= 0)
         tip = self._tips[front]
         element = model.cut.tips.element[tip]
-        kappa, stiff = _stiff(model, element)
-        weight = self._weight()
+        kappa, stiff = tip_moduli(model, element)
         about = [
             stress_intensity(
                 model,
@@ -109,7 +108,8 @@ class CrackGrowth(Effect):
                 int(one),
                 domain_radius(model.cut, int(one), self._radius()),
                 kappa=float(k),
-                body_force=None if weight is None else _even(weight * model.density[at]),
+                body_force=self._weight(state, at),
+                acceleration=self._acceleration(state),
             )
             for one, k, at in zip(tip, kappa, element, strict=True)  # a handful of tips
         ]
@@ -124,18 +124,31 @@ class CrackGrowth(Effect):
         assert size is not None  # of meshes
         return 3 * size if self._table.radius is None else self._table.radius
 
-    def _weight(self) -> Floats | None:
-        gravity = self._setup.scene.gravity
-        return None if gravity is None else np.array(gravity.acceleration)
+    def _weight(self, state: State, element: int) -> Callable[[Floats], Floats] | None:
+        """Weight of the material of an element, in the axes of its body; None without."""
+        gravity, model = self._setup.scene.gravity, self._setup.model
+        if gravity is None:
+            return None
+        body = model.manifold.element_body[[element]]
+        down = state.frames.to_body(body, np.array([gravity.acceleration]))[0]
+        return _even(model.density[element] * down)
+
+    def _acceleration(self, state: State) -> Floats | None:
+        """Acceleration (n,) of the unknowns; None in statics."""
+        return None
 
     def free(self, found: Intensities) -> Bools:
         """Which fronts (k,) with a tip have not grown as far as they may."""
         return self.rule.free(self._sofar.length[found.front])
 
+    def _growing(self, found: Intensities) -> Bools:
+        """Which fronts (k,) with a tip grow in a state."""
+        return self.rule.growing(found.share, self._sofar.length[found.front])
+
     def event(self, view: "View") -> Event | None:
         """Ask for new pieces where tips have reached their toughness."""
         found = self.intensities(view.state)
-        rows = np.flatnonzero(self.rule.growing(found.share, self._sofar.length[found.front]))
+        rows = np.flatnonzero(self._growing(found))
         if not len(rows):
             return None
         geometry, cut = self._setup.geometry, self._setup.model.cut
@@ -153,12 +166,14 @@ class CrackGrowth(Effect):
 
     def follow(self, change: "Change") -> "CrackGrowth":
         """Return the effect on the new geometry, with what its fronts have gained."""
+        return CrackGrowth(change.setup, self._fronts, self._grown_so_far(change))
+
+    def _grown_so_far(self, change: "Change") -> GrownSoFar:
         gained = self._fronts.gained(self._setup.geometry.cracks, change.setup.geometry.cracks)
         model, front = self._setup.model, np.flatnonzero(self._tips >= 0)
-        stiff = _stiff(model, model.cut.tips.element[self._tips[front]])[1]
+        stiff = tip_moduli(model, model.cut.tips.element[self._tips[front]])[1]
         energy = model.thickness * gained[front] @ self.rule.toughness.energies(stiff)
-        sofar = GrownSoFar(self._sofar.length + gained, self._sofar.energy + float(energy))
-        return CrackGrowth(change.setup, self._fronts, sofar)
+        return GrownSoFar(self._sofar.length + gained, self._sofar.energy + float(energy))
 
     def history(self, state: State) -> Mapping[str, float]:
         """Place, growth and intensities of every front, and the energy that growth took (J)."""
@@ -187,7 +202,7 @@ class CrackGrowth(Effect):
         self._known = None
 
 
-def _stiff(model: Model, element: Ints) -> tuple[Floats, Floats]:
+def tip_moduli(model: Model, element: Ints) -> tuple[Floats, Floats]:
     """Kolosov's constant and E' (Pa) of the material of elements (n,)."""
     number = np.zeros(len(element), dtype=np.int64) if model.law is None else model.law[element]
     kappa = np.array([law.kolosov(model.plane) for law in model.laws])[number]

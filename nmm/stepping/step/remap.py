@@ -41,6 +41,7 @@ def remapped(
         setup=replace(discretisation.setup, model=replace(model, manifold=manifold)),
         parentage=Parentage(model.manifold, manifold, same=True),
         state=replace(state, frames=frames, deformation=rest),
+        former=state,
     )
 
 

@@ -245,6 +245,7 @@ class Stepper:
         state, contact, contacts = attempt.state, self.plan.contact, None
         if contact is not None and attempt.solved is not None:
             contacts = contact.commit(attempt.solved, state)
+        self.plan.accepted(state)
         if self._lay is not None:
             state = self._remapped(self._lay, state, attempt.increment)
         return state, contacts

@@ -12,7 +12,7 @@ Intensity = Annotated[float, quantity("Pa m^0.5", 1e-30)]
 
 
 class FractureTable(Frozen):
-    """Cracks of the scene grow where their tips reach the toughness of the material; in statics.
+    """Cracks of the scene grow where their tips reach the toughness of the material.
 
     A new piece is straight, in the direction of the criterion. One that would meet the boundary, a
     hole or another crack, or end less than a quarter of its length short of it, ends there.
@@ -45,6 +45,12 @@ class FractureTable(Frozen):
         "the load factor is that at which the most critical tip is at its toughness, piece by "
         "piece",
         examples=["toughness"],
+    )
+    speed: Literal["freund", "rayleigh"] | None = Field(
+        default=None,
+        description="in motion: \"freund\", the default, c_R (1 - G_c / G); \"rayleigh\": c_R, the "
+        "speed of Rayleigh's wave, as soon as a tip is critical",
+        examples=["rayleigh"],
     )
     together: Number = Field(
         default=0.02,

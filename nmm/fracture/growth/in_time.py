@@ -1,0 +1,90 @@
+"""Cracks that grow in time: tips run through their pieces at a speed that the intensities give.
+
+Within the first half of a piece a tip is seen at its beginning: it waits there until its speed,
+summed over the steps, has brought it half way. Then the piece is cut, and what held its faces is
+withdrawn over the time that the other half takes at the speed that was reached. So a tip is never
+further from where it is seen than half a piece.
+"""
+
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from integration.arrays import Bools, Floats
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant, Setup
+from nmm.fracture.growth.crack_growth import CrackGrowth, GrownSoFar, Intensities, tip_moduli
+from nmm.fracture.growth.fronts import CrackFronts
+from nmm.fracture.growth.held_faces import HeldFaces, newly_held
+from nmm.fracture.growth.running import Running
+from nmm.fracture.growth.speed import SPEEDS, rayleigh_speeds
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+
+
+class GrowthInTime(CrackGrowth):
+    """Cracks that grow in scenes with inertia; what growth takes is the work on faces that open."""
+
+    def __init__(self, setup: Setup, fronts: CrackFronts, sofar: GrownSoFar) -> None:
+        super().__init__(setup, fronts, sofar)
+        self._law = SPEEDS[self._table.speed or "freund"]
+        self._running = Running.at_rest(len(fronts), setup.start.time)
+        self._held = HeldFaces.none(setup.model)
+
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        return f"{super().about}, speed by {self._table.speed or 'freund'}"
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`: what holds new faces falls with time."""
+        return False
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return what holds faces that tips are running through, at the end of the step."""
+        return self._held.push(state, end.time)
+
+    def loss(self, before: State, after: State) -> float:
+        """Work of opening faces against what holds them."""
+        return self._held.taken(before, after)
+
+    def accepted(self, state: State) -> None:
+        """Let tips run on by what a step brings them."""
+        found, model = self.intensities(state), self._setup.model
+        element = model.cut.tips.element[found.tip]
+        speed = np.zeros(len(self._fronts))
+        bound = rayleigh_speeds(model, element, tip_moduli(model, element)[0])
+        speed[found.front] = bound * self._law(found.share) * self.free(found)
+        self._running = self._running.advanced(state.time, speed)
+
+    def follow(self, change: "Change") -> "GrowthInTime":
+        """Return the effect on the new geometry, with faces held where tips have gone on."""
+        before, after = self._setup.geometry.cracks, change.setup.geometry.cracks
+        length = self._fronts.gained(before, after)
+        grown = np.flatnonzero(length > 0)
+        new = GrowthInTime(change.setup, self._fronts, self._grown_so_far(change))
+        new._running, span = self._running.cut(grown, length[grown])
+        held = newly_held(change, self._fronts.points(before)[grown], span)
+        new._held = self._held.followed(change).joined(held)
+        return new
+
+    def carried(self) -> tuple[Any, ...]:
+        """See `CrackGrowth.carried`; and how far tips are, and what holds faces."""
+        return (*super().carried(), self._running.arrays, self._held.arrays)
+
+    def carry(self, carried: tuple[Any, ...]) -> None:
+        """See `Effect.carry`."""
+        length, energy, running, held = carried
+        super().carry((length, energy))
+        self._running = Running(*running)
+        self._held = HeldFaces.of_arrays(self._setup.model, held)
+
+    def _growing(self, found: Intensities) -> Bools:
+        """Which fronts (k,) with a tip have come half way through their next piece."""
+        half = self.rule.increment / 2
+        return self.free(found) & (self._running.way[found.front] >= half)
+
+    def _acceleration(self, state: State) -> Floats | None:
+        return state.acceleration if state.acceleration.any() else None

@@ -1,0 +1,61 @@
+"""How far tips have run into their next pieces, and until when they run through the last ones."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+
+
+@dataclass(frozen=True)
+class Running:
+    """Tips on their way, (n,) fronts.
+
+    Attributes
+    ----------
+    time
+        To which the ways are known (s).
+    way
+        How far each has come in the piece that is not cut yet (m).
+    speed
+        At that time (m/s); zero where a tip still runs through its last piece.
+    until
+        When each has run through its last piece (s).
+    """
+
+    time: float
+    way: Floats
+    speed: Floats
+    until: Floats
+
+    @classmethod
+    def at_rest(cls, number: int, time: float) -> "Running":
+        """Return tips that have not begun to run."""
+        return cls(time, np.zeros(number), np.zeros(number), np.full(number, -np.inf))
+
+    @property
+    def arrays(self) -> tuple[float, Floats, Floats, Floats]:
+        """All of it."""
+        return self.time, self.way, self.speed, self.until
+
+    def advanced(self, time: float, speed: Floats) -> "Running":
+        """Return the tips at a later time at which their speeds (n,) would be so much (m/s)."""
+        # A tip that is through its piece within the step has the rest of it.
+        rest = np.clip(time - np.maximum(self.time, self.until), 0.0, None)
+        mean = (speed + np.where(self.until > self.time, speed, self.speed)) / 2
+        there = self.until <= time
+        return replace(
+            self, time=time, way=self.way + mean * rest, speed=np.where(there, speed, 0.0)
+        )
+
+    def cut(self, front: Ints, length: Floats) -> tuple["Running", Floats]:
+        """Return the tips where pieces (k,) of a length were cut; and how long each still takes.
+
+        What a tip has come beyond the middle is taken off that time, of short pieces up to half.
+        """
+        way, speed, until = self.way.copy(), self.speed.copy(), self.until.copy()
+        fast = np.maximum(speed[front], 1e-300)
+        span = np.maximum(length - way[front], length / 4) / fast
+        way[front] = speed[front] = 0.0
+        until[front] = self.time + span
+        return replace(self, way=way, speed=speed, until=until), span
