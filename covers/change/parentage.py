@@ -79,7 +79,15 @@ class Parentage:
         old, new = self.old, self.new
         if self.same or same_elements(old, new):
             return identity(new.elements.areas), new.elements
-        return _overlaps(old, new)
+        return _overlaps(old, new, self.kept)
+
+    @cached_property
+    def kept(self) -> tuple[Ints, Ints]:
+        """Old and new numbers (k,) of the elements that the change has left as they were."""
+        if same_elements(self.old, self.new):
+            every = np.arange(len(self.new.elements), dtype=np.int64)
+            return every, every
+        return _kept(self.old, self.new)
 
     @cached_property
     def new_bodies(self) -> Bools:
@@ -101,9 +109,9 @@ def _same_edges(old: BoundaryEdges, new: BoundaryEdges) -> bool:
     return all(np.array_equal(getattr(old, name), getattr(new, name)) for name in names)
 
 
-def _overlaps(old: Manifold, new: Manifold) -> tuple[Relation, Polygons]:
-    """Overlay elements of the same region; those that are as they were are their own parts."""
-    kept_old, kept_new = _kept(old, new)
+def _overlaps(old: Manifold, new: Manifold, kept: tuple[Ints, Ints]) -> tuple[Relation, Polygons]:
+    """Overlay elements of the same region; those that were ``kept`` are their own parts."""
+    kept_old, kept_new = kept
     mine, others = (
         np.setdiff1d(np.arange(len(side.elements)), kept)
         for side, kept in ((old, kept_old), (new, kept_new))

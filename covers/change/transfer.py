@@ -5,21 +5,24 @@ so that integrals of products of polynomials are exact whatever the cells. Rates
 nearest in the mean square. Displacements have the strains nearest in energy, and the mean rigid
 motion of the old ones: stress of the new field balances the same loads on the new functions, no
 energy is made, and a rigid motion or a field that the new functions hold is carried exactly.
+Unknowns that are inherited stay, and fields are solved for where there are others.
 """
 
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array, csr_array
+from scipy.sparse import coo_array, csc_array, csr_array, diags_array
 
 from covers.approximation.manifold import Manifold
 from covers.approximation.rows import Rows
 from covers.change.normal_equations import NormalEquations
 from covers.change.parentage import Parentage
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.rules import polygon_rule
 
+# Degree to which fields are integrated on elements with singular functions.
+SINGULAR = 12
 # Share of the mass, in units of the stiffness, that makes rigid motions unique where strains are
 # matched; it is taken out again.
 HELD = 1e-8
@@ -41,6 +44,9 @@ class Transfer:
         (Q,) share of each point (m2).
     weight
         (Q,) the same times the density of the old element.
+    inherited
+        (n,) old unknown that each new one takes over, -1 for those that are solved for; points
+        lie where there are such.
     """
 
     kin: Parentage
@@ -48,15 +54,22 @@ class Transfer:
     points: Floats
     area: Floats
     weight: Floats
+    inherited: Ints
 
     @classmethod
-    def of(cls, kin: Parentage, density: Floats) -> "Transfer":
-        """Lay the points; ``density`` (E,) of the old elements weighs the mean square."""
+    def of(cls, kin: Parentage, density: Floats, inherited: Ints | None = None) -> "Transfer":
+        """Lay the points; ``density`` (E,) of the old elements weighs the mean square.
+
+        All unknowns are solved for unless some are ``inherited`` (n,).
+        """
+        taken = np.full(kin.new.n_unknowns, -1) if inherited is None else inherited
+        wanted = _holding(kin.new, taken < 0)[kin.elements.child]
+        rough = _rough(kin.old)[kin.elements.parent] | _rough(kin.new)[kin.elements.child]
         order = 2 * max(kin.old.degree, kin.new.degree)
-        rule, found = polygon_rule(kin.pieces, order), kin.elements
-        elements = np.stack([found.parent[rule.owner], found.child[rule.owner]])
-        mass = rule.weights * density[elements[0]]
-        return cls(kin, elements, rule.points, rule.weights, mass)
+        smooth = _rule(kin, np.flatnonzero(wanted & ~rough), order)
+        sharp = _rule(kin, np.flatnonzero(wanted & rough), max(order, SINGULAR))
+        pairs, points, area = (np.concatenate(both) for both in zip(smooth, sharp, strict=True))
+        return cls(kin, pairs.T, points, area, area * density[pairs[:, 0]], taken)
 
     @cached_property
     def old(self) -> Rows:
@@ -70,25 +83,56 @@ class Transfer:
 
     def rates(self, unknowns: Floats) -> Floats:
         """Unknowns (n,) of the new field nearest to the old one in the mean square."""
-        found = (self.weight[:, None] * self.old.apply(unknowns)).ravel()
-        return self._mass.solve(self._values.T @ found)
+        found = self._given(unknowns)
+        if not self._free.any():
+            return found
+        rest = self.old.apply(unknowns) - self.new.apply(found)
+        side = self._values.T @ (self.weight[:, None] * rest).ravel()
+        found[self._free] = NormalEquations(self._among(self._mass)).solve(side[self._free])
+        return found
+
+    def _given(self, unknowns: Floats) -> Floats:
+        """Return what is inherited (n,), zero elsewhere."""
+        return np.where(self._free, 0.0, unknowns[np.maximum(self.inherited, 0)])
+
+    @cached_property
+    def _free(self) -> Bools:
+        """(n,) unknowns that are solved for."""
+        return self.inherited < 0
+
+    @cached_property
+    def loose(self) -> Bools:
+        """(B,) bodies that inherit nothing: their place is known by their mean motion alone."""
+        body = np.repeat(self.kin.new.cover_body, np.diff(self.kin.new.cover_offset))
+        n = self.kin.new.n_bodies
+        return np.bincount(body[~self._free], minlength=n) == 0
+
+    def _among(self, matrix: csc_array) -> csc_array:
+        """Rows and columns of a matrix (n, n) of the unknowns that are solved for."""
+        return csc_array(matrix[self._free][:, self._free])
 
     def deformation(self, unknowns: Floats, elasticity: Floats) -> Floats:
         """Unknowns (n,) of the new field with the nearest strains and the same rigid motion.
 
         ``elasticity`` (E, 3, 3) of the old elements says what is near.
         """
-        found = self.rates(unknowns)
+        found, free = self.rates(unknowns), self._free
+        if not free.any():
+            return found
         n, old, new = self.kin.new.n_unknowns, self._strain_rows(0), self._strain_rows(1)
         weighed = self.area[:, None, None] * elasticity[self.elements[0]]
         stress = np.einsum("qij,qjl,ql->qi", weighed, old.values, unknowns[old.unknowns])
         strain = new.matrix(n)
-        matrix = csc_array(strain.T @ new.times(weighed).matrix(n))
-        size = matrix.diagonal().sum() / self._mass.matrix.diagonal().sum()
+        weighty = csc_array(strain.T @ new.times(weighed).matrix(n))
+        side = strain.T @ stress.ravel() - weighty @ np.where(free, 0.0, found)
+        matrix, mass = self._among(weighty), self._among(self._mass)
+        size = matrix.diagonal().sum() / mass.diagonal().sum()
         if not size > 0:
             return found
-        held = NormalEquations(csc_array(matrix + HELD * size * self._mass.matrix))
-        return held.iterated(matrix, strain.T @ stress.ravel(), found, self._without_rigid)
+        held = NormalEquations(csc_array(matrix + HELD * size * mass))
+        start = found[free]
+        found[free] = held.iterated(matrix, side[free], start, self._without_rigid)
+        return found
 
     def sums(self, values: Floats) -> Floats:
         """Sums (B, ...) of values (Q, ...) at the points over the new bodies, by weight."""
@@ -107,15 +151,20 @@ class Transfer:
         return self.new.matrix(self.kin.new.n_unknowns)
 
     @cached_property
-    def _mass(self) -> NormalEquations:
+    def _mass(self) -> csc_array:
         weight = np.repeat(self.weight, 2)
-        return NormalEquations(csc_array(self._values.T @ _scaled(self._values, weight)))
+        return csc_array(self._values.T @ _scaled(self._values, weight))
 
-    def _without_rigid(self, unknowns: Floats) -> Floats:
-        """Take the mean rigid motion of every body out of a field."""
-        modes = self.kin.new.rigid_modes
-        weighed = csr_array((self._mass.matrix @ modes).T)
-        return np.asarray(unknowns - modes @ by_body(weighed @ modes, weighed @ unknowns))
+    def _without_rigid(self, free: Floats) -> Floats:
+        """Take the mean rigid motion of every loose body out of what is solved for."""
+        if not self.loose.any():
+            return free
+        unknowns = np.zeros(len(self._free))
+        unknowns[self._free] = free
+        modes = csc_array(self.kin.new.rigid_modes @ diags_array(np.repeat(self.loose, 3) * 1.0))
+        weighed = csr_array((self._mass @ modes).T)
+        motion = by_body(csr_array(weighed @ modes), weighed @ unknowns)
+        return np.asarray((unknowns - modes @ motion)[self._free])
 
     def _strain_rows(self, side: int) -> "_StrainRows":
         """Strains (xx, yy, 2 xy) at the points by the unknowns of one manifold."""
@@ -141,6 +190,30 @@ class _StrainRows:
         columns = np.repeat(self.unknowns[:, None, :], rows, axis=1).ravel()
         offsets = np.arange(rows * q + 1) * length
         return csr_array((self.values.ravel(), columns, offsets), shape=(rows * q, n_unknowns))
+
+
+def _rule(kin: Parentage, parts: Ints, order: int) -> tuple[Ints, Floats, Floats]:
+    """Old and new elements (Q, 2), points (Q, 2) and areas (Q,) on some of the common parts."""
+    rule = polygon_rule(kin.pieces.take(parts), order)
+    owner = parts[rule.owner]
+    pair = np.stack([kin.elements.parent[owner], kin.elements.child[owner]], axis=1)
+    return pair, rule.points, rule.weights
+
+
+def _holding(manifold: Manifold, unknowns: Bools) -> Bools:
+    """Elements (E,) with functions of any of some unknowns (n,)."""
+    found = np.zeros(len(manifold.elements), dtype=bool)
+    for group in manifold.groups:  # a handful of groups
+        found[group.elements] = unknowns[group.unknowns].any(axis=1)
+    return found
+
+
+def _rough(manifold: Manifold) -> Bools:
+    """Elements (E,) with singular functions."""
+    found = np.zeros(len(manifold.elements), dtype=bool)
+    for group in manifold.groups:  # a handful of groups
+        found[group.elements] = (group.slots < 0).any()
+    return found
 
 
 def by_body(matrix: csr_array, sides: Floats) -> Floats:

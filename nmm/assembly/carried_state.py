@@ -13,6 +13,7 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array, csr_array
 
 from covers.approximation.own_rule import own_rule
+from covers.change.inheritance import inherited
 from covers.change.parentage import Parentage
 from covers.change.transfer import Transfer, by_body
 from integration.arrays import Bools, Floats
@@ -24,17 +25,19 @@ from nmm.assembly.motion import Frames, State
 def carried(old: Model, new: Model, kin: Parentage, state: State, declared: State) -> State:
     """Return the state on the new model; bodies without parents start as ``declared``."""
     density = old.density if (old.density > 0).all() else np.ones_like(old.density)
-    transfer = Transfer.of(kin, density)
+    transfer = Transfer.of(kin, density, inherited(kin))
     deformation = transfer.deformation(state.deformation, old.drained)
-    deformation = _without_rigid(old, new, kin, state.deformation, deformation)
-    moving = _Moving(old, new, transfer, state.deformation, deformation)
+    deformation = _without_rigid(old, new, transfer, state.deformation, deformation)
     known = ~kin.new_bodies[np.repeat(new.manifold.cover_body, np.diff(new.manifold.cover_offset))]
 
     def either(found: Floats, start: Floats) -> Floats:
         return np.where(known, found, start)
 
     frames = _frames(old, new, kin, state.frames, declared.frames)
-    frames, deformation = _centred(new, kin, frames, either(deformation, declared.deformation))
+    placed = either(deformation, declared.deformation)
+    shift = _mean_way(new, kin, placed)
+    frames, deformation = _centred(new, frames, placed, shift)
+    moving = _Moving(old, new, transfer, state.deformation, deformation, shift)
     velocity, acceleration = (
         moving.rates(rate) if rate.any() else np.zeros_like(deformation)
         for rate in (state.velocity, state.acceleration)
@@ -68,28 +71,40 @@ def _frames(old: Model, new: Model, kin: Parentage, frames: Frames, declared: Fr
     )
 
 
-def _centred(
-    new: Model, kin: Parentage, frames: Frames, deformation: Floats
-) -> tuple[Frames, Floats]:
-    """Let the frames of parts of divided bodies take over the mean way of their deformation."""
+def _mean_way(new: Model, kin: Parentage, deformation: Floats) -> Floats:
+    """Mean way (B, 2) of the deformation of parts of divided bodies; zero of the others."""
     parted = ~(_whole(kin) | kin.new_bodies)
     if not parted.any():
+        return np.zeros((len(parted), 2))
+    mean = np.asarray(new.rigid_projection @ deformation).reshape(-1, 3)[:, :2]
+    return np.where(parted[:, None], mean, 0.0)
+
+
+def _centred(new: Model, frames: Frames, deformation: Floats, way: Floats) -> tuple[Frames, Floats]:
+    """Let the frames take over a ``way`` (B, 2) of the deformation."""
+    if not way.any():
         return frames, deformation
-    mean = np.zeros((len(parted), 3))
-    mean[parted] = np.asarray(new.rigid_projection @ deformation).reshape(-1, 3)[parted]
-    mean[:, 2] = 0.0
-    shift = frames.to_global(np.arange(len(parted)), mean[:, :2])
+    shift = frames.to_global(np.arange(len(way)), way)
     far = None if frames.way is None else frames.way + shift
     moved = Frames(frames.centre + shift, frames.angle, frames.tilt, far)
-    return moved, np.asarray(deformation - new.manifold.rigid_modes @ mean.ravel())
+    rigid = np.column_stack([way, np.zeros(len(way))])
+    return moved, np.asarray(deformation - new.manifold.rigid_modes @ rigid.ravel())
 
 
-def _without_rigid(old: Model, new: Model, kin: Parentage, before: Floats, after: Floats) -> Floats:
-    """Give the displacement the mean rigid motion (3 B,) that it had by the old model's measure."""
+def _without_rigid(
+    old: Model, new: Model, transfer: Transfer, before: Floats, after: Floats
+) -> Floats:
+    """Give the displacement the mean rigid motion (3 B,) that it had by the old model's measure.
+
+    Bodies that inherit unknowns have it from these.
+    """
+    kin = transfer.kin
+    if not transfer.loose.any():
+        return after
     had = np.asarray(old.rigid_projection @ before).reshape(-1, 3)
     has = np.asarray(new.rigid_projection @ after).reshape(-1, 3)
     # Parts of a body that was divided keep the motion that they have of their own.
-    whole = _whole(kin)
+    whole = _whole(kin) & transfer.loose
     wrong = np.where(whole[:, None], had[np.maximum(kin.bodies.main, 0)] - has, 0.0)
     return np.asarray(after + new.manifold.rigid_modes @ wrong.ravel())
 
@@ -107,13 +122,17 @@ def _whole(kin: Parentage) -> Bools:
 
 @dataclass(frozen=True)
 class _Moving:
-    """What rates must keep: the momenta (3 B,) of bodies in their own axes."""
+    """What rates must keep: the momenta (3 B,) of bodies in their own axes.
+
+    Frames have taken over ``shift`` (B, 2) of what the bodies' displacements ``before`` were.
+    """
 
     old: Model
     new: Model
     transfer: Transfer
     before: Floats
     after: Floats
+    shift: Floats
 
     def rates(self, rate: Floats) -> Floats:
         """Project a rate (n,) and put its momenta right."""
@@ -125,24 +144,55 @@ class _Moving:
         """Momenta (3 B,) that the new bodies are to have."""
         kin = self.transfer.kin
         whole, main = _whole(kin), np.maximum(kin.bodies.main, 0)
-        had = (_momenta(self.old, self.before) @ rate).reshape(-1, 3)[main]
+        before = (_momenta(self.old, self.before) @ rate).reshape(-1, 3)
         if whole.all():
-            return np.asarray(had.ravel())
-        return np.where(whole[:, None], had, self._of_points(rate)).ravel()
+            return np.asarray(before[main].ravel())
+        parts = self._of_points(rate)
+        parts += self._missing(before, parts)
+        return np.where(whole[:, None], before[main], parts).ravel()
 
     def _of_points(self, rate: Floats) -> Floats:
-        """The same (B, 3) by the points of the projection, for bodies that were divided."""
-        transfer, kin = self.transfer, self.transfer.kin
+        """The same (B, 3) by points everywhere, for bodies that were divided."""
+        kin, heavy = self.transfer.kin, bool((self.old.density > 0).all())
+        transfer = Transfer.of(kin, self.old.density if heavy else np.ones_like(self.old.density))
         fast = transfer.old.apply(rate)
         body = kin.new.element_body[transfer.elements[1]]
-        arm = transfer.points - kin.new.body_centroid[body] + transfer.old.apply(self.before)
-        turning = arm[:, 0] * fast[:, 1] - arm[:, 1] * fast[:, 0]
-        thick = self.old.thickness if (self.old.density > 0).all() else 1.0
-        return thick * transfer.sums(np.column_stack([fast, turning]))
+        centre = (kin.new.body_centroid + self.shift)[body]
+        arm = transfer.points - centre + transfer.old.apply(self.before)
+        thick = self.old.thickness if heavy else 1.0
+        return thick * transfer.sums(np.column_stack([fast, _cross(arm, fast)]))
+
+    def _missing(self, before: Floats, parts: Floats) -> Floats:
+        """Share (B, 3) of each part in what parts lack of the momenta ``before`` (A, 3) of one.
+
+        Points do not integrate singular functions to the last digit. Bodies of several parents
+        lack nothing, nor do those that they share parents with.
+        """
+        kin, bodies = self.transfer.kin, self.transfer.kin.bodies
+        main, area = np.maximum(bodies.main, 0), kin.new.body_area
+        several = np.bincount(bodies.child, minlength=len(parts)) != 1
+        mixed = np.bincount(bodies.parent, several[bodies.child], minlength=len(before)) > 0
+        alone = ~several & ~mixed[main]
+
+        def lacking(axis: int, values: Floats) -> Floats:
+            sums = np.bincount(main, alone * values, minlength=len(before))
+            return np.asarray(share * (before[:, axis] - sums)[main])
+
+        share = alone * area / np.bincount(main, area, minlength=len(before))[main]
+        found = np.zeros_like(parts)
+        for axis in (0, 1):
+            found[:, axis] = lacking(axis, parts[:, axis])
+        arm = kin.new.body_centroid + self.shift - kin.old.body_centroid[main]
+        found[:, 2] = lacking(2, parts[:, 2] + _cross(arm, (parts + found)[:, :2]))
+        return found
 
     @cached_property
     def _rows(self) -> csr_array:
         return _momenta(self.new, self.after)
+
+
+def _cross(arm: Floats, way: Floats) -> Floats:
+    return np.asarray(arm[:, 0] * way[:, 1] - arm[:, 1] * way[:, 0])
 
 
 def _momenta(model: Model, deformation: Floats) -> csr_array:

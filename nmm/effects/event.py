@@ -15,7 +15,10 @@ class Event:
         Blocks and cracks from now on, in the reference place in which they are now.
     what
         What happens, for the summary: "2 blocks split".
+    held
+        Whether forces hold at first what is parted, so that accelerations go on as they were.
     """
 
     geometry: Geometry
     what: str
+    held: bool = False

@@ -1,6 +1,10 @@
-"""The interaction integral about a tip: over elements, and over the edges among them."""
+"""The interaction integral about a tip: over elements, and over the edges among them.
 
-from collections.abc import Callable
+It is linear in the displacement, so that places know by what its gradient there counts, whatever
+the displacement is.
+"""
+
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -25,32 +29,54 @@ STRAIGHT = 1e-6
 
 
 @dataclass(frozen=True)
-class Interaction:
-    """A displacement of a model, and the fields about a tip of it.
+class Weighed:
+    """By what displacements at places count in the integrals of both modes.
 
     Attributes
     ----------
-    model, unknowns
-        The model and its displacements.
+    owner, points
+        (m,) elements and (m, 2) places in them.
+    gradient
+        (m, 2 modes, 2, 2) factors of the gradient of the displacement, stress of pressures apart.
+    pressure
+        (m, 2) factors of the pressure.
+    """
+
+    owner: Ints
+    points: Floats
+    gradient: Floats
+    pressure: Floats
+
+
+@dataclass(frozen=True)
+class Pulled:
+    """By what forces on the volume count: factors (m, 2 modes, 2) at places in elements (m,)."""
+
+    owner: Ints
+    points: Floats
+    force: Floats
+
+
+@dataclass(frozen=True)
+class Interaction:
+    """Fields about a tip of a model.
+
+    Attributes
+    ----------
+    model
+        The model.
     fields
         About the tip.
     radius
         Of the domain (m).
     body
         In which the tip lies.
-    pressure
-        (k,) on the patches of projected volumes; None without.
-    acceleration
-        (n,) of the unknowns, which acts as a force on the volume; None without.
     """
 
     model: Model
-    unknowns: Floats
     fields: Auxiliary
     radius: float
     body: int
-    pressure: Floats | None
-    acceleration: Floats | None = None
 
     @cached_property
     def _elements(self) -> Ints:
@@ -69,13 +95,12 @@ class Interaction:
         found[elements] = branches(self.model.cut, self.fields.tip, elements, one_part).bearing
         return found
 
-    def over_elements(self, body_force: Field | None) -> Floats:
-        """Return the parts (2,) of the integral over the material."""
+    def over_elements(self) -> Iterator[tuple[Weighed, Pulled]]:
+        """Yield what counts over the material."""
         near, point = self._elements, self.fields.tip.point
         polygons = self.model.manifold.elements.take(near)
         reach = np.hypot(*(polygons.points - point).T)
         close = np.maximum.reduceat(reach, polygons.first_point) < 0.5 * self.radius
-        total = np.zeros(2)
         # About the tip fields are singular; further out the cut-off is what is not polynomial.
         for chosen, singular in ((close, True), (~close, False)):
             index = np.flatnonzero(chosen)
@@ -83,37 +108,24 @@ class Interaction:
                 continue
             part = polygons.take(index)
             rule = tip_rule(part, point, ORDER) if singular else polygon_rule(part, ORDER)
-            owner = near[index][rule.owner]
-            total += rule.weights @ self._density(owner, rule.points, body_force)
-        return total
+            yield self._density(near[index][rule.owner], rule.points, rule.weights)
 
-    def _density(self, owner: Ints, points: Floats, body_force: Field | None) -> Floats:
-        """Integrand (m, 2) of both modes at points of elements (m,)."""
+    def _density(self, owner: Ints, points: Floats, weights: Floats) -> tuple[Weighed, Pulled]:
+        """What counts at points (m, 2) of elements (m,) with areas (m,)."""
         q, dq = self.fields.cutoff(points, self.radius)
-        gradient, ahead = self._gradients(owner, points), self.fields.tip.direction
-        stress, u1 = self._stress(owner, points, gradient), gradient @ ahead
-        pull = self._pull(owner, points, body_force)
-        found = np.empty((len(points), 2))
-        for mode, v in enumerate(self._auxiliary(owner, points)):
+        ahead = self.fields.tip.direction
+        on_stress, on_gradient, on_force = [], [], []
+        for v in self._auxiliary(owner, points):
             of_v, v1 = stresses_of(self.model.elasticity[owner], v), v @ ahead
-            flow = np.einsum("mij,mi,mj->m", stress, v1, dq)
-            flow += np.einsum("mij,mi,mj->m", of_v, u1, dq)
-            found[:, mode] = flow - np.einsum("mij,mij->m", stress, v) * (dq @ ahead)
-            if pull is not None:
-                found[:, mode] -= np.einsum("mi,mi->m", pull, v1) * q
-        return found
+            on_stress.append(_outer(v1, dq) - (dq @ ahead)[:, None, None] * v)
+            on_gradient.append(_outer(np.einsum("mij,mj->mi", of_v, dq), ahead))
+            on_force.append(-q[:, None] * v1)
+        found = self._weighed(owner, points, weights, on_stress, on_gradient)
+        pulled = weights[:, None, None] * np.stack(on_force, axis=1)
+        return found, Pulled(owner, points, pulled)
 
-    def _pull(self, owner: Ints, points: Floats, body_force: Field | None) -> Floats | None:
-        """Force on the volume (m, 2) at points, that of inertia with it (N/m3); None without."""
-        pull = None if body_force is None else body_force(points)
-        if self.acceleration is None:
-            return pull
-        rate = self.model.manifold.rows(owner, points).apply(self.acceleration)
-        inert = -self.model.density[owner, None] * rate
-        return inert if pull is None else pull + inert
-
-    def over_faces(self, traction: Traction | None) -> Floats:
-        """Return the parts (2,) of the integral over faces of cracks and over the boundary.
+    def over_faces(self, traction: Traction | None) -> Iterator[Weighed | Floats]:
+        """Yield what counts over faces of cracks and over the boundary, and fixed parts (2,).
 
         Straight behind the tip nothing but a traction on the faces has a part in it, and elsewhere
         what the auxiliary fields leave on free faces too. The boundary carries what the stress
@@ -128,68 +140,82 @@ class Interaction:
         kinked, rim = (
             np.flatnonzero(near & bent & part) for part in (edges.crack >= 0, edges.crack < 0)
         )
-        total = np.zeros(2)
-        if traction is not None and len(behind):
-            total += self._straight(behind, traction)
-        for chosen, own in ((kinked, traction or _free), (rim, None)):
+        if traction is not None:
+            for chosen, rule in ((behind, self._graded), (kinked, self._even)):
+                if len(chosen):
+                    yield self._pushed(chosen, *rule(chosen), traction)
+        for chosen, held in ((kinked, False), (rim, True)):
             if len(chosen):
-                total += self._along(chosen, own)
-        return total
+                yield self._along(chosen, *self._even(chosen), held)
 
-    def _straight(self, edges: Ints, traction: Traction) -> Floats:
-        """Edges behind the tip; graded towards it, for in ``sqrt(r)`` the integrand is smooth."""
-        boundary, point = self.model.cut.boundary, self.fields.tip.point
-        start, end = boundary.start[edges], boundary.end[edges]
-        points, scale = graded_rule(start, end, point, ORDER)
-        flat, owner = points.reshape(-1, 2), np.repeat(boundary.element[edges], scale.shape[1])
-        pull = traction(flat, np.repeat(_normals(start, end), scale.shape[1], axis=0))
-        q, _ = self.fields.cutoff(flat, self.radius)
+    def _graded(self, edges: Ints) -> tuple[Floats, Floats]:
+        """Rule for edges behind the tip: in ``sqrt(r)`` the integrand is smooth."""
+        boundary = self.model.cut.boundary
+        return graded_rule(boundary.start[edges], boundary.end[edges], self.fields.tip.point, ORDER)
+
+    def _even(self, edges: Ints) -> tuple[Floats, Floats]:
+        boundary = self.model.cut.boundary
+        return segment_rule(boundary.start[edges], boundary.end[edges], ORDER)
+
+    def _pushed(self, edges: Ints, points: Floats, weights: Floats, traction: Traction) -> Floats:
+        """Part (2,) of a traction on edges."""
+        owner, flat, out = self._flat(edges, points)
+        pull, ahead = traction(flat, out), self.fields.tip.direction
+        share = -weights.ravel() * self.fields.cutoff(flat, self.radius)[0]
+        along = [np.einsum("mi,mi->m", pull, v @ ahead) for v in self._auxiliary(owner, flat)]
+        return np.asarray([share @ mode for mode in along])
+
+    def _along(self, edges: Ints, points: Floats, weights: Floats, held: bool) -> Weighed:
+        """What counts on any edges; with the traction of the stress where they are ``held``."""
+        owner, flat, out = self._flat(edges, points)
         ahead = self.fields.tip.direction
-        work = [np.einsum("mi,mi->m", pull, v @ ahead) * q for v in self._auxiliary(owner, flat)]
-        return np.asarray([scale.ravel() @ mode for mode in work])
+        on_stress, on_gradient = [], []
+        for v in self._auxiliary(owner, flat):
+            of_v, v1 = stresses_of(self.model.elasticity[owner], v), v @ ahead
+            pull = -(out @ ahead)[:, None, None] * v
+            on_stress.append(pull + _outer(v1, out) if held else pull)
+            on_gradient.append(_outer(np.einsum("mij,mj->mi", of_v, out), ahead))
+        share = -weights.ravel() * self.fields.cutoff(flat, self.radius)[0]
+        return self._weighed(owner, flat, share, on_stress, on_gradient)
 
-    def _along(self, edges: Ints, traction: Traction | None) -> Floats:
-        """Any edges: tractions given, or those of the stress."""
-        boundary, ahead = self.model.cut.boundary, self.fields.tip.direction
-        start, end = boundary.start[edges], boundary.end[edges]
-        nodes, weights = segment_rule(start, end, ORDER)
-        points, owner = nodes.reshape(-1, 2), np.repeat(boundary.element[edges], nodes.shape[1])
-        out = np.repeat(_normals(start, end), nodes.shape[1], axis=0)
-        gradient = self._gradients(owner, points)
-        stress, u1 = self._stress(owner, points, gradient), gradient @ ahead
-        pull = np.einsum("mij,mj->mi", stress, out) if traction is None else traction(points, out)
-        weight = weights.ravel() * self.fields.cutoff(points, self.radius)[0]
-        found = np.empty(2)
-        for mode, v in enumerate(self._auxiliary(owner, points)):
-            of_v = stresses_of(self.model.elasticity[owner], v)
-            flow = np.einsum("mi,mi->m", pull, v @ ahead)
-            flow += np.einsum("mij,mj,mi->m", of_v, out, u1)
-            found[mode] = weight @ (flow - np.einsum("mij,mij->m", stress, v) * (out @ ahead))
-        return found
+    def _flat(self, edges: Ints, points: Floats) -> tuple[Ints, Floats, Floats]:
+        """Elements (m,), points (m, 2) and normals (m, 2) of points (k, q, 2) on edges."""
+        boundary, q = self.model.cut.boundary, points.shape[1]
+        out = _normals(boundary.start[edges], boundary.end[edges])
+        return np.repeat(boundary.element[edges], q), points.reshape(-1, 2), np.repeat(out, q, 0)
+
+    def _weighed(
+        self,
+        owner: Ints,
+        points: Floats,
+        weights: Floats,
+        on_stress: list[Floats],
+        on_gradient: list[Floats],
+    ) -> Weighed:
+        """Gather factors (m, 2, 2) of stress and gradient of both modes, times weights (m,)."""
+        model = self.model
+        law = model.drained[owner] if model.projected else model.elasticity[owner]
+        parts = [
+            stresses_of(law, stress) + gradient
+            for stress, gradient in zip(on_stress, on_gradient, strict=True)  # two modes
+        ]
+        pressed = np.stack([np.trace(stress, axis1=1, axis2=2) for stress in on_stress], axis=1)
+        scale = weights[:, None]
+        return Weighed(
+            owner, points, scale[..., None, None] * np.stack(parts, axis=1), scale * pressed
+        )
 
     def _auxiliary(self, owner: Ints, points: Floats) -> Floats:
         """Gradients (2, m, 2, 2) of both modes at points of elements (m,)."""
         return np.swapaxes(self.fields.gradients(points, self._branch[owner]), 0, 1)
 
-    def _gradients(self, owner: Ints, points: Floats) -> Floats:
-        index, rows = self.model.manifold.gradient_rows(owner, points)
-        return np.asarray(np.einsum("mcjl,ml->mcj", rows, self.unknowns[index]))
 
-    def _stress(self, owner: Ints, points: Floats, gradient: Floats) -> Floats:
-        """Stress tensors (m, 2, 2) of the displacement, with the pressures on patches."""
-        model = self.model
-        if self.pressure is None:
-            return stresses_of(model.elasticity[owner], gradient)
-        assert model.pressures is not None
-        mean = model.pressures.rows(model.manifold, owner, points) @ self.pressure
-        return stresses_of(model.drained[owner], gradient) + mean[:, None, None] * np.eye(2)
+def _outer(a: Floats, b: Floats) -> Floats:
+    """Products (m, 2, 2) of vectors (m, 2) with vectors (m, 2) or one (2,)."""
+    return np.asarray(a[:, :, None] * (b[:, None, :] if b.ndim == 2 else b))
 
 
 def _normals(start: Floats, end: Floats) -> Floats:
     """Unit normals (n, 2) out of the material on the left of edges."""
     along = (end - start) / np.hypot(*(end - start).T)[:, None]
     return np.stack([along[:, 1], -along[:, 0]], axis=1)
-
-
-def _free(points: Floats, normals: Floats) -> Floats:
-    return np.zeros_like(points)

@@ -11,8 +11,8 @@ Moran and Shih 1987; Shih and Asaro 1988)
 auxiliary displacement ``v``, ``t`` the traction on the faces, ``m`` their normal out of the
 material. Where a crack is kinked or curved the angle of ``v`` jumps across the crack itself, so
 that ``v`` leaves tractions there, which the last two terms take out; straight behind the tip they
-vanish. In motion ``b`` is less by density times acceleration. With them a domain may hold kinks, other cracks and parts of the boundary: all but other
-tips.
+vanish. With them a domain may hold kinks, other cracks and parts of the boundary: all but other
+tips. In motion ``b`` is less by density times acceleration.
 """
 
 from dataclasses import dataclass
@@ -21,8 +21,8 @@ from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.errors import NmmError
-from nmm.fracture.auxiliary import Auxiliary
-from nmm.fracture.interaction import Field, Interaction, Traction
+from nmm.fracture.intensity_rows import IntensityRows
+from nmm.fracture.interaction import Field, Traction
 from nmm.fracture.surroundings import nearest_tip
 
 # Part of its radius by which a domain may touch what it must not hold.
@@ -90,22 +90,29 @@ def stress_intensity(
     count = len(model.cut.tips)
     if not 0 <= tip < count:
         raise NmmError(f"crack tip {tip}: {count} tips: expected a tip of a crack inside a block")
-    _check_domain(model.cut, tip, radius)
-    tips = model.cut.tips
-    point, ahead = tips.point[tip], tips.direction[tip]
-    shear = float(model.elasticity[tips.element[tip], 2, 2])
+    check_domain(model.cut, tip, radius)
+    rows = IntensityRows.of(model, tip, radius, kappa, face_traction)
     held = model.pressure(unknowns) if pressure is None else pressure
-    fields = Auxiliary.of(point, ahead, kappa, shear)
-    body = int(model.manifold.element_body[tips.element[tip]])
-    about = Interaction(model, unknowns, fields, radius, body, held, acceleration)
-    total = about.over_elements(body_force) - about.over_faces(face_traction)
-    stiff = 8 * shear / (kappa + 1)  # E'
-    opening, sliding = (stiff / 2 * total).tolist()
-    rate = (opening**2 + sliding**2) / stiff
-    return StressIntensity(opening, sliding, rate, point, ahead)
+    found = rows.intensities(unknowns, held)
+    if body_force is not None:
+        found = found + rows.of_forces(body_force)
+    if acceleration is not None:
+        found = found + rows.of_acceleration(acceleration)
+    opening, sliding = found.tolist()
+    rate = (opening**2 + sliding**2) / rows.stiff
+    return StressIntensity(
+        opening, sliding, rate, model.cut.tips.point[tip], model.cut.tips.direction[tip]
+    )
 
 
-def _check_domain(cut: CutCells, tip: int, radius: float) -> None:
+def check_domain(cut: CutCells, tip: int, radius: float) -> None:
+    """Refuse a domain that holds another tip.
+
+    Raises
+    ------
+    NmmError
+        See `stress_intensity`.
+    """
     away = nearest_tip(cut, tip)
     if not 0 < radius <= away * (1 + NEAR):
         x, y = cut.tips.point[tip]

@@ -1,8 +1,9 @@
 """The effect of ``[fracture]``: cracks that grow where their tips reach the toughness."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
@@ -16,7 +17,8 @@ from nmm.fracture.growth.advance import advanced
 from nmm.fracture.growth.fronts import CrackFronts
 from nmm.fracture.growth.refusals import refuse
 from nmm.fracture.growth.rule import GrowthRule
-from nmm.fracture.stress_intensity import stress_intensity
+from nmm.fracture.intensity_rows import IntensityRows
+from nmm.fracture.stress_intensity import check_domain
 from nmm.fracture.surroundings import domain_radius
 
 if TYPE_CHECKING:
@@ -62,6 +64,8 @@ class CrackGrowth(Effect):
 
     name = "fracture"
     external = False
+    held: ClassVar[bool] = False
+    """Whether new faces are held at first."""
 
     def __init__(self, setup: Setup, fronts: CrackFronts, sofar: GrownSoFar) -> None:
         table = setup.scene.fracture
@@ -99,43 +103,40 @@ class CrackGrowth(Effect):
     def _found(self, state: State) -> Intensities:
         model, front = self._setup.model, np.flatnonzero(self._tips >= 0)
         tip = self._tips[front]
-        element = model.cut.tips.element[tip]
-        kappa, stiff = tip_moduli(model, element)
-        about = [
-            stress_intensity(
-                model,
-                state.deformation,
-                int(one),
-                domain_radius(model.cut, int(one), self._radius()),
-                kappa=float(k),
-                body_force=self._weight(state, at),
-                acceleration=self._acceleration(state),
-            )
-            for one, k, at in zip(tip, kappa, element, strict=True)  # a handful of tips
-        ]
-        opening = np.array([one.opening for one in about])
-        sliding = np.array([one.sliding for one in about])
+        kappa, stiff = tip_moduli(model, model.cut.tips.element[tip])
+        pressure = model.pressure(state.deformation)
+        found = np.array([self._at(rows, state, pressure) for rows in self._rows]).reshape(-1, 2)
+        opening, sliding = found.T
         kink = self.rule.criterion.kink(opening, sliding, kappa)
         return Intensities(front, tip, opening, sliding, stiff, kink, self.rule.shares(kink, stiff))
+
+    @cached_property
+    def _rows(self) -> list[IntensityRows]:
+        """Intensities as functions of the unknowns, of each front with a tip."""
+        model, tip = self._setup.model, self._tips[self._tips >= 0]
+        kappa, _ = tip_moduli(model, model.cut.tips.element[tip])
+        found = []
+        for one, k in zip(tip, kappa, strict=True):  # a handful of tips
+            radius = domain_radius(model.cut, int(one), self._radius())
+            check_domain(model.cut, int(one), radius)
+            found.append(IntensityRows.of(model, int(one), radius, float(k)))
+        return found
+
+    def _at(self, rows: IntensityRows, state: State, pressure: Floats | None) -> Floats:
+        """K_I and K_II (2,) of a tip in a state, weight included."""
+        found = rows.intensities(state.deformation, pressure)
+        gravity = self._setup.scene.gravity
+        if gravity is None:
+            return found
+        body, density = rows.body, rows.density
+        down = state.frames.to_body(np.array([body]), np.array([gravity.acceleration]))[0]
+        return found + rows.of_weight(density * down)
 
     def _radius(self) -> float:
         """Radius of domains (m): that of the scene, or three cells."""
         size = self._setup.formulation.cover.size
         assert size is not None  # of meshes
         return 3 * size if self._table.radius is None else self._table.radius
-
-    def _weight(self, state: State, element: int) -> Callable[[Floats], Floats] | None:
-        """Weight of the material of an element, in the axes of its body; None without."""
-        gravity, model = self._setup.scene.gravity, self._setup.model
-        if gravity is None:
-            return None
-        body = model.manifold.element_body[[element]]
-        down = state.frames.to_body(body, np.array([gravity.acceleration]))[0]
-        return _even(model.density[element] * down)
-
-    def _acceleration(self, state: State) -> Floats | None:
-        """Acceleration (n,) of the unknowns; None in statics."""
-        return None
 
     def free(self, found: Intensities) -> Bools:
         """Which fronts (k,) with a tip have not grown as far as they may."""
@@ -162,7 +163,8 @@ class CrackGrowth(Effect):
             self.rule.increment,
         )
         names = ", ".join(self._fronts.name[one] for one in found.front[rows])
-        return Event(replace(geometry, cracks=cracks), f"cracks grew at {names}")
+        what = f"cracks grew at {names}"
+        return Event(replace(geometry, cracks=cracks), what, held=self.held)
 
     def follow(self, change: "Change") -> "CrackGrowth":
         """Return the effect on the new geometry, with what its fronts have gained."""
@@ -207,8 +209,3 @@ def tip_moduli(model: Model, element: Ints) -> tuple[Floats, Floats]:
     number = np.zeros(len(element), dtype=np.int64) if model.law is None else model.law[element]
     kappa = np.array([law.kolosov(model.plane) for law in model.laws])[number]
     return kappa, np.asarray(8 * model.elasticity[element, 2, 2] / (kappa + 1))
-
-
-def _even(force: Floats) -> Callable[[Floats], Floats]:
-    """Return a force density that is the same everywhere."""
-    return lambda points: np.tile(force, (len(points), 1))

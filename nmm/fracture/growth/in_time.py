@@ -6,7 +6,7 @@ withdrawn over the time that the other half takes at the speed that was reached.
 further from where it is seen than half a piece.
 """
 
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from nmm.fracture.growth.fronts import CrackFronts
 from nmm.fracture.growth.held_faces import HeldFaces, newly_held
 from nmm.fracture.growth.running import Running
 from nmm.fracture.growth.speed import SPEEDS, rayleigh_speeds
+from nmm.fracture.intensity_rows import IntensityRows
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 class GrowthInTime(CrackGrowth):
     """Cracks that grow in scenes with inertia; what growth takes is the work on faces that open."""
+
+    held = True
 
     def __init__(self, setup: Setup, fronts: CrackFronts, sofar: GrownSoFar) -> None:
         super().__init__(setup, fronts, sofar)
@@ -86,5 +89,8 @@ class GrowthInTime(CrackGrowth):
         half = self.rule.increment / 2
         return self.free(found) & (self._running.way[found.front] >= half)
 
-    def _acceleration(self, state: State) -> Floats | None:
-        return state.acceleration if state.acceleration.any() else None
+    def _at(self, rows: IntensityRows, state: State, pressure: Floats | None) -> Floats:
+        """See `CrackGrowth._at`; with the inertia of the material about the tip."""
+        found = super()._at(rows, state, pressure)
+        moves = state.acceleration.any()
+        return found + rows.of_acceleration(state.acceleration) if moves else found

@@ -62,7 +62,8 @@ def asked(recorder: Recorder, at: Stands) -> Asked:
     if not plan.askers:
         return ()
     view = recorder.view(at.state, at.contacts)
-    found = [(name, plan.event(name, view)) for name in plan.askers]
+    with recorder.stepper.clock.phase("events"):
+        found = [(name, plan.event(name, view)) for name in plan.askers]
     return tuple((name, event) for name, event in found if event is not None)
 
 
@@ -75,7 +76,7 @@ def with_events(recorder: Recorder, at: Stands, events: Asked, stage: str) -> St
         now = stepper.plan.event(name, recorder.view(at.state, at.contacts)) if said else event
         if now is None:
             continue
-        change = stepper.reshape(now.geometry, at.state)
+        change = stepper.reshape(now.geometry, at.state, now.held)
         follow(recorder, change)
         contact = stepper.plan.contact
         at = Stands(change.state, None if contact is None else contact.standing)

@@ -69,7 +69,8 @@ class _Growing:
         trial = self._solved(at, at.increment)
         if isinstance(trial, RunVerdict):
             return trial
-        found = fracture.intensities(trial.state)
+        with stepper.clock.phase("events"):
+            found = fracture.intensities(trial.state)
         if not len(found.front):
             return self._ended("every crack has come to an end", at)
         free = fracture.free(found)

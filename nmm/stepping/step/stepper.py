@@ -53,7 +53,7 @@ class Stepper:
         (P, 2) the elements' vertices at the start (m).
     size
         Diagonal of the domain (m).
-    seconds
+    clock, seconds
         Wall-clock seconds by phase.
     """
 
@@ -70,7 +70,7 @@ class Stepper:
         self.budget = Budget()
         self.reference = discretisation.model.manifold.elements.points
         self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
-        self._current, self._lay, self._clock = Current(discretisation), lay, clock
+        self._current, self._lay, self.clock = Current(discretisation), lay, clock
         among = discretisation.plan.contact is not None
         self._among = among
         self._geometry: Geometry | None = None
@@ -89,7 +89,7 @@ class Stepper:
         from nmm.stepping.step.contact_step import Touching
 
         carries = self._integrator.carries
-        return Touching(self._current, self._mover, self.solver, self.size, carries, self._clock)
+        return Touching(self._current, self._mover, self.solver, self.size, carries, self.clock)
 
     def _reach(self, motion: float = 0.0) -> float:
         """Return how far contacts are sought after a step that moved by ``motion`` (m)."""
@@ -177,7 +177,7 @@ class Stepper:
         self.budget.check()
 
         def solve(matter: Linearisation | None) -> Solution:
-            with self._clock.phase("assembly"):
+            with self.clock.phase("assembly"):
                 rule = self._rule
                 equations = self._assembly.of(state, end, step, rule, self.anchored, matter)
             return equations, self._solved(equations, breaking)
@@ -200,7 +200,7 @@ class Stepper:
         solve: Callable[[Linearisation | None], Solution],
     ) -> Solution:
         """Solve a step whose internal forces are not linear."""
-        current, still, clock = self._current, self._mover.still, self._clock
+        current, still, clock = self._current, self._mover.still, self.clock
         # Methods of contact are for symmetric matrices.
         symmetric = self.plan.contact is not None
         inner = Inner(current, state, step, self._rule, still, symmetric, clock)
@@ -216,7 +216,7 @@ class Stepper:
         """
         self.budget.check()
         assert self._touching is not None
-        with self._clock.phase("path"):
+        with self.clock.phase("path"):
             still = Instant.of(state)
             equations = self._assembly.of(state, still, None, self._rule, anchored=False)
             try:
@@ -275,12 +275,18 @@ class Stepper:
         if self._touching is not None:
             self._touching.follow(change)
 
-    def reshape(self, geometry: "Geometry", state: State) -> "Change":
-        """Solve the same blocks in another geometry; ``state`` is carried over to it."""
-        old = self.discretisation
-        change = old.change(reshaped(old.setup, geometry), state)
-        self.begin_anew(change)
-        self._geometry = geometry
+    def reshape(self, geometry: "Geometry", state: State, held: bool = False) -> "Change":
+        """Solve the same blocks in another geometry; ``state`` is carried over to it.
+
+        ``held`` says whether accelerations go on as they were (`nmm.effects.event.Event`).
+        """
+        with self.clock.phase("change"):
+            old = self.discretisation
+            change = old.change(reshaped(old.setup, geometry), state)
+            known = held and self._carried.knows_start
+            self.begin_anew(change)
+            self._carried = replace(self._carried, knows_start=known)
+            self._geometry = geometry
         return change
 
     def begin_anew(self, change: "Change", integrator: Integrator | None = None) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from covers.approximation.own_rule import own_rule
+from covers.change.inheritance import inherited
 from covers.change.parentage import Parentage
 from integration.polygons import Polygons
 from integration.rules import PointRule, polygon_rule
@@ -164,3 +165,59 @@ def test_a_body_that_arrives_starts_as_declared_and_the_others_go_on():
     np.testing.assert_allclose(found.frames.centre[1], [2.5, 0.5], rtol=1e-15)
     assert found.frames.angle[1] == 0.0
     assert strain_energy(both, found) == pytest.approx(strain_energy(one, state), rel=0.2)
+
+
+def cracked(tip):
+    """A plate whose crack ends at a place, with functions of its tip."""
+    plate = Polygons.from_vertices([[(0, 0), (2, 0), (2, 1), (0, 1)]])
+    cover = CoverTable.model_validate({"type": "triangles", "size": 0.2, "angle": 0.2, "degree": 1})
+    return solid(
+        plate, cover, [STEEL], "strain", cracks=[[(-0.1, 0.4), (tip, 0.55)]], density=[3.0]
+    )
+
+
+@pytest.mark.parametrize("tip", [1.2, 2.1])
+def test_momenta_are_kept_where_a_crack_grows_and_where_it_cuts_a_piece_off(tip):
+    old, new = cracked(0.9), cracked(tip)
+    before = moving(old)
+    after = change(old, new, before)
+    assert new.manifold.n_bodies == (1 if tip < 2 else 2)
+    expected, found = momenta(old, before), momenta(new, after)
+    assert found[1] == pytest.approx(expected[1], rel=1e-12, abs=1e-12)
+    assert found[2] == pytest.approx(expected[2], rel=1e-12, abs=1e-12)
+
+
+def test_covers_far_from_a_tip_that_moves_hand_over_their_unknowns():
+    old, new = cracked(0.9), cracked(1.2)
+    taken = inherited(Parentage(old.manifold, new.manifold))
+    assert (taken >= 0).mean() > 0.5
+    # The same functions, in their order: the same places and the same displacements of one unit.
+    random = np.random.default_rng(3).normal(size=old.manifold.n_unknowns)
+    field = np.where(taken >= 0, random[np.maximum(taken, 0)], 0.0)
+    only = np.zeros_like(random)
+    only[taken[taken >= 0]] = random[taken[taken >= 0]]
+    elements = np.flatnonzero(np.hypot(*(new.manifold.elements.centroids - [1.05, 0.55]).T) > 0.6)
+    points = new.manifold.elements.centroids[elements]
+    first, second = Parentage(old.manifold, new.manifold).kept
+    place = dict(zip(second.tolist(), first.tolist(), strict=True))
+    kept = np.array([one in place for one in elements.tolist()])
+    twins = np.array([place[one] for one in elements[kept].tolist()])
+    here = new.manifold.rows(elements[kept], points[kept]).apply(field)
+    there = old.manifold.rows(twins, points[kept]).apply(only)
+    assert kept.sum() > 20
+    assert here == pytest.approx(there, abs=1e-12)
+
+
+def test_smooth_fields_go_over_to_the_functions_of_the_next_tip_without_energy_made():
+    old, new = cracked(0.9), cracked(1.2)
+    rule = own_rule(old.manifold)
+    x, y = rule.points.T
+    wanted = np.stack([1e-3 * x * y, 1e-3 * (x**2 - y)], axis=1).ravel()
+    rows = old.manifold.rows(rule.owner, rule.points).matrix(old.manifold.n_unknowns).toarray()
+    field = np.linalg.lstsq(rows, wanted, rcond=1e-10)[0]
+    before = replace(initial_state(old.manifold), deformation=field, velocity=field)
+    after = change(old, new, before)
+    kinetic = [m.mass @ s.velocity @ s.velocity / 2 for m, s in ((old, before), (new, after))]
+    # The quadratic part is not held: what is lost of it about the tip.
+    assert kinetic[1] == pytest.approx(kinetic[0], rel=1e-4)
+    assert strain_energy(new, after) == pytest.approx(strain_energy(old, before), rel=1e-3)

@@ -139,9 +139,8 @@ def test_a_run_that_is_stopped_goes_on_to_the_same_cracks(tmp_path: Path) -> Non
         nmm.run(scene, net(), out=folder, progress=progress)
     half = nmm.resume(folder)
     assert half.summary.sentence == whole.summary.sentence
-    # Covers of degree 1 depend on each other: rounding moves what no strain feels by up to 1e-8.
-    for key in ("load_factor", "fracture:notch:end:x", "fracture:notch:end:K_I"):
-        assert half.history[key] == pytest.approx(whole.history[key], rel=1e-6)
+    for name, column in whole.history.items():
+        assert np.array_equal(half.history[name], column, equal_nan=True), name
     assert half.summary.changes == whole.summary.changes
 
 

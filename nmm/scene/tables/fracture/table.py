@@ -48,7 +48,7 @@ class FractureTable(Frozen):
     )
     speed: Literal["freund", "rayleigh"] | None = Field(
         default=None,
-        description="in motion: \"freund\", the default, c_R (1 - G_c / G); \"rayleigh\": c_R, the "
+        description='in motion: "freund", the default, c_R (1 - G_c / G); "rayleigh": c_R, the '
         "speed of Rayleigh's wave, as soon as a tip is critical",
         examples=["rayleigh"],
     )

@@ -1,0 +1,138 @@
+"""Stress intensities at a tip as linear functions of the displacement: found once for a model."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+from nmm.fracture.auxiliary import Auxiliary
+from nmm.fracture.interaction import Field, Interaction, Pulled, Traction, Weighed
+
+
+@dataclass(frozen=True)
+class IntensityRows:
+    """K_I and K_II of a tip, as sums over what the model knows.
+
+    Attributes
+    ----------
+    model
+        The model.
+    element
+        Ahead of the tip.
+    stiff
+        E' of the material about the tip (Pa).
+    unknowns
+        (2, n) factors of the displacements.
+    pressures
+        (2, k) factors of the pressures on patches; None without.
+    fixed
+        (2,) of loads that do not change.
+    pulled
+        Places of the domain, with the factors of forces on the volume.
+    """
+
+    model: Model
+    element: int
+    stiff: float
+    unknowns: Floats
+    pressures: Floats | None
+    fixed: Floats
+    pulled: tuple[Pulled, ...]
+
+    @classmethod
+    def of(
+        cls,
+        model: Model,
+        tip: int,
+        radius: float,
+        kappa: float,
+        face_traction: Traction | None = None,
+    ) -> "IntensityRows":
+        """Return the rows of a tip (number in ``model.cut.tips``), see `stress_intensity`."""
+        tips = model.cut.tips
+        element = tips.element[tip]
+        shear = float(model.elasticity[element, 2, 2])
+        fields = Auxiliary.of(tips.point[tip], tips.direction[tip], kappa, shear)
+        body = int(model.manifold.element_body[element])
+        about = Interaction(model, fields, radius, body)
+        volume = list(about.over_elements())
+        faces = list(about.over_faces(face_traction))
+        weighed = [part for part, _ in volume] + [p for p in faces if isinstance(p, Weighed)]
+        fixed = sum((p for p in faces if not isinstance(p, Weighed)), start=np.zeros(2))
+        stiff = 8 * shear / (kappa + 1)
+        total = np.sum([_on_unknowns(model, part) for part in weighed], axis=0)
+        pressed = None
+        if model.projected and model.pressures is not None:
+            pressed = (
+                stiff
+                / 2
+                * sum(
+                    part.pressure.T @ model.pressures.rows(model.manifold, part.owner, part.points)
+                    for part in weighed
+                )
+            )
+        return cls(
+            model,
+            int(element),
+            stiff,
+            stiff / 2 * total,
+            pressed,
+            stiff / 2 * fixed,
+            tuple(pulled for _, pulled in volume),
+        )
+
+    @property
+    def body(self) -> int:
+        """The body that it lies in."""
+        return int(self.model.manifold.element_body[self.element])
+
+    @property
+    def density(self) -> float:
+        """Of the material about it (kg/m3)."""
+        return float(self.model.density[self.element])
+
+    def intensities(self, unknowns: Floats, pressure: Floats | None) -> Floats:
+        """K_I and K_II (2,) of displacements (n,) and pressures on patches (k,) (Pa m^1/2)."""
+        found = self.unknowns @ unknowns + self.fixed
+        return found if self.pressures is None else found + self.pressures @ pressure
+
+    def of_weight(self, density: Floats) -> Floats:
+        """Part (2,) of a force (2,) on every volume about the tip (N/m3)."""
+        return self._even @ density
+
+    def of_forces(self, density: Field) -> Floats:
+        """Part (2,) of forces on the volume, a function of points (N/m3)."""
+        parts = [np.einsum("mni,mi->n", p.force, density(p.points)) for p in self.pulled]
+        return self.stiff / 2 * np.sum(parts, axis=0)
+
+    def of_acceleration(self, acceleration: Floats) -> Floats:
+        """Part (2,) of the inertia of the unknowns' acceleration (n,)."""
+        return self._inert @ acceleration
+
+    @cached_property
+    def _even(self) -> Floats:
+        """(2 modes, 2) factors of a uniform force."""
+        return self.stiff / 2 * np.sum([p.force.sum(axis=0) for p in self.pulled], axis=0)
+
+    @cached_property
+    def _inert(self) -> Floats:
+        """(2, n) factors of accelerations."""
+        model, total = self.model, np.zeros_like(self.unknowns)
+        for part in self.pulled:  # close to the tip and further out
+            rows = model.manifold.rows(part.owner, part.points)
+            force = -model.density[part.owner, None, None] * part.force
+            total += _summed(rows.unknowns, np.einsum("mni,mil->nml", force, rows.values), model)
+        return self.stiff / 2 * total
+
+
+def _on_unknowns(model: Model, part: Weighed) -> Floats:
+    """Factors (2, n) of the unknowns, from those of the gradient at places."""
+    index, rows = model.manifold.gradient_rows(part.owner, part.points)
+    return _summed(index, np.einsum("mnij,mijl->nml", part.gradient, rows, optimize=True), model)
+
+
+def _summed(index: Ints, values: Floats, model: Model) -> Floats:
+    n = model.manifold.n_unknowns
+    return np.stack([np.bincount(index.ravel(), mode.ravel(), minlength=n) for mode in values])

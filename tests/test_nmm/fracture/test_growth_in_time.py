@@ -1,0 +1,169 @@
+"""Cracks that grow in time: how fast, what that takes, and pieces that come free."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nmm
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+from nmm.errors import NmmError
+from nmm.formulation import Formulation, parse_formulation
+from nmm.fracture.growth.running import Running
+from nmm.fracture.growth.speed import freund, rayleigh_part
+from nmm.scene.model import Scene
+from nmm.scene.read import parse_scene
+from nmm.stepping.run import Run
+
+HANGING = """
+plane = "strain"
+duration = {duration}
+[materials.m]
+young_modulus = 10e6
+poisson_ratio = 0.3
+density = 1000
+[[blocks]]
+name = "plate"
+material = "m"
+vertices = [[0, -0.5], [1, -0.5], [1, 0.5], [0, 0.5]]
+[[cracks]]
+name = "notch"
+points = [[-0.1, 0.0], [0.6, 0.0]]
+[[supports]]
+name = "ceiling"
+segment = [[1, 0.5], [0, 0.5]]
+fix = ["x", "y"]
+[gravity]
+[inertia]
+[fracture]
+criterion = "straight_ahead"
+toughness = 2000.0
+increment = 0.15
+{more}
+"""
+NET = """
+[cover]
+type = "triangles"
+size = 0.25
+angle = 0.3
+shift = [0.13, 0.27]
+degree = 1
+[integrator]
+type = "newmark"
+step = 0.001
+[supports]
+method = "nitsche"
+"""
+
+
+class StoppedError(Exception):
+    """Raised in the middle of a run."""
+
+
+def hanging(duration: float = 0.03, more: str = "") -> Scene:
+    return parse_scene(HANGING.format(duration=duration, more=more))
+
+
+def net() -> Formulation:
+    return parse_formulation(NET)
+
+
+@pytest.mark.parametrize(
+    ("nu", "expected"),
+    # Viktorov (1967): the root of Rayleigh's equation.
+    [(0.0, 0.8740320), (0.25, 0.9194017), (0.5, 0.9553127)],
+)
+def test_the_speed_of_rayleighs_wave(nu: float, expected: float) -> None:
+    assert rayleigh_part(3 - 4 * nu) == pytest.approx(expected, abs=1e-6)
+
+
+def test_a_tip_runs_where_what_comes_in_is_what_growth_takes() -> None:
+    share = np.array([0.5, 1.0, 1.5, 3.0])
+    speed = freund(share)
+    assert speed[:2] == pytest.approx([0.0, 0.0])
+    # G (1 - v / c_R) = G_c, G of the tip at rest.
+    assert share[2:] ** 2 * (1 - speed[2:]) == pytest.approx([1.0, 1.0])
+
+
+def test_a_tip_takes_the_time_that_its_speed_says_for_every_piece() -> None:
+    """At a constant speed: half of it until the piece is cut, half until it is through."""
+    tip, step, cut = Running.at_rest(1, 0.0), 0.01, []
+    for number in range(1, 400):
+        tip = tip.advanced(number * step, np.array([2.0]))
+        if tip.way[0] >= 0.5:
+            tip, span = tip.cut(np.array([0]), np.array([1.0]))
+            assert 0 < span[0] <= 0.25 + 1e-12
+            cut.append(number * step)
+    # Pieces of 1 m at 2 m/s; the first step knows no speed at its start.
+    assert np.diff(cut) == pytest.approx(0.5, abs=1.5 * step)
+    assert (cut[-1] - cut[0]) / (len(cut) - 1) == pytest.approx(0.5, abs=1e-3)
+
+
+@pytest.fixture(scope="module")
+def fallen() -> Run:
+    """The run in which the block comes free."""
+    return nmm.run(hanging(), net())
+
+
+def mean_motion(run: Run, state: State) -> tuple[Floats, Floats]:
+    """Way (2,) of the lowest body's centroid, and its velocity in global axes."""
+    low = int(np.argmin(run.manifold.body_centroid[:, 1]))
+    rates = np.asarray(run.stepper.model.rigid_projection @ state.velocity).reshape(-1, 3)
+    frames = state.frames
+    assert frames.way is not None
+    return frames.way[low], frames.to_global(np.array([low]), rates[[low], :2])[0]
+
+
+def test_a_block_that_its_crack_cuts_off_falls_as_a_free_body(fallen: Run) -> None:
+    assert fallen.summary.status == "converged"
+    assert fallen.manifold.n_bodies == 2
+    state, step, number = fallen.state, 1e-3, 20
+    place, velocity = mean_motion(fallen, state)
+    for _ in range(number):
+        end = Instant(state.time + step, 1.0)
+        state, _ = fallen.stepper.accept(fallen.stepper.attempt(state, end, step))
+    found, faster = mean_motion(fallen, state)
+    time, weight = number * step, np.array([0.0, -9.81])
+    assert found == pytest.approx(place + velocity * time + weight * time**2 / 2, abs=1e-12)
+    assert faster == pytest.approx(velocity + weight * time, abs=1e-10)
+    # The ligament has held it before.
+    assert -place[1] < 9.81 * 0.03**2 / 2
+
+
+def test_energy_of_growth_in_time_is_told_to_the_last_part(fallen: Run) -> None:
+    run, history = fallen, fallen.history
+    taken = history["loss:fracture"]
+    assert (np.diff(taken) >= -1e-12).all()
+    assert taken[-1] > history["fracture:energy"][-1] > 0
+    assert abs(run.summary.energy_balance or 0.0) < 1e-3
+    # No faster than Rayleigh's wave, in any piece.
+    grown, time = history["fracture:growth"], history["time"]
+    bound = 0.9274 * np.sqrt(10e6 / 2.6 / 1000)
+    begin, end = np.flatnonzero(np.diff(grown) > 0)[[0, -1]]
+    assert grown[end] - grown[begin] <= bound * (time[end] - time[begin]) * (1 + 1e-9)
+
+
+def test_a_run_in_time_that_is_stopped_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
+    scene = hanging(0.015, "[output]\ncheckpoint = { every_steps = 1 }\n")
+    whole, folder = nmm.run(scene, net(), out=tmp_path / "whole"), tmp_path / "half"
+    left = [int(np.flatnonzero(whole.history["fracture:growth"] > 0)[0]) + 2]
+
+    def progress(share: float, said: str) -> None:
+        left[0] -= 1
+        if not left[0]:
+            raise StoppedError
+
+    with pytest.raises(StoppedError):
+        nmm.run(scene, net(), out=folder, progress=progress)
+    half = nmm.resume(folder)
+    for name, column in whole.history.items():
+        assert np.array_equal(half.history[name], column, equal_nan=True), name
+    assert half.summary.changes == whole.summary.changes
+
+
+def test_a_speed_without_motion_is_refused() -> None:
+    text = HANGING.format(duration=1.0, more='speed = "freund"')
+    with pytest.raises(NmmError, match="speed"):
+        parse_scene(text.replace("[inertia]", "").replace("duration = 1.0", ""))
