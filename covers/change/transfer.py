@@ -105,7 +105,7 @@ class Transfer:
         """(B,) bodies that inherit nothing: their place is known by their mean motion alone."""
         body = np.repeat(self.kin.new.cover_body, np.diff(self.kin.new.cover_offset))
         n = self.kin.new.n_bodies
-        return np.bincount(body[~self._free], minlength=n) == 0
+        return np.asarray(np.bincount(body[~self._free], minlength=n) == 0)
 
     def _among(self, matrix: csc_array) -> csc_array:
         """Rows and columns of a matrix (n, n) of the unknowns that are solved for."""

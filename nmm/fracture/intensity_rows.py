@@ -63,16 +63,11 @@ class IntensityRows:
         fixed = sum((p for p in faces if not isinstance(p, Weighed)), start=np.zeros(2))
         stiff = 8 * shear / (kappa + 1)
         total = np.sum([_on_unknowns(model, part) for part in weighed], axis=0)
+        held = model.pressures if model.projected else None
         pressed = None
-        if model.projected and model.pressures is not None:
-            pressed = (
-                stiff
-                / 2
-                * sum(
-                    part.pressure.T @ model.pressures.rows(model.manifold, part.owner, part.points)
-                    for part in weighed
-                )
-            )
+        if held is not None:
+            parts = [held.rows(model.manifold, w.owner, w.points).T @ w.pressure for w in weighed]
+            pressed = np.asarray(stiff / 2 * np.sum(parts, axis=0).T)
         return cls(
             model,
             int(element),
@@ -95,8 +90,10 @@ class IntensityRows:
 
     def intensities(self, unknowns: Floats, pressure: Floats | None) -> Floats:
         """K_I and K_II (2,) of displacements (n,) and pressures on patches (k,) (Pa m^1/2)."""
-        found = self.unknowns @ unknowns + self.fixed
-        return found if self.pressures is None else found + self.pressures @ pressure
+        found = np.asarray(self.unknowns @ unknowns + self.fixed)
+        if self.pressures is None or pressure is None:
+            return found
+        return np.asarray(found + self.pressures @ pressure)
 
     def of_weight(self, density: Floats) -> Floats:
         """Part (2,) of a force (2,) on every volume about the tip (N/m3)."""
@@ -105,7 +102,7 @@ class IntensityRows:
     def of_forces(self, density: Field) -> Floats:
         """Part (2,) of forces on the volume, a function of points (N/m3)."""
         parts = [np.einsum("mni,mi->n", p.force, density(p.points)) for p in self.pulled]
-        return self.stiff / 2 * np.sum(parts, axis=0)
+        return np.asarray(self.stiff / 2 * np.sum(parts, axis=0))
 
     def of_acceleration(self, acceleration: Floats) -> Floats:
         """Part (2,) of the inertia of the unknowns' acceleration (n,)."""
@@ -114,7 +111,8 @@ class IntensityRows:
     @cached_property
     def _even(self) -> Floats:
         """(2 modes, 2) factors of a uniform force."""
-        return self.stiff / 2 * np.sum([p.force.sum(axis=0) for p in self.pulled], axis=0)
+        total = np.sum([p.force.sum(axis=0) for p in self.pulled], axis=0)
+        return np.asarray(self.stiff / 2 * total)
 
     @cached_property
     def _inert(self) -> Floats:
