@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from nmm.effects.initial_stress import InitialStress
     from nmm.effects.loads import Loads
     from nmm.effects.view import View
-    from nmm.fracture.growth.crack_growth import CrackGrowth
+    from nmm.fracture.growth.growing import GrowingCracks
 
 
 T = TypeVar("T")
@@ -287,9 +287,9 @@ class Plan:
         return cast("Contact | None", self.effects.get("contact"))
 
     @property
-    def fracture(self) -> "CrackGrowth | None":
+    def fracture(self) -> "GrowingCracks | None":
         """The growth of cracks."""
-        return cast("CrackGrowth | None", self.effects.get("fracture"))
+        return cast("GrowingCracks | None", self.effects.get("fracture"))
 
     @property
     def inertia(self) -> "Inertia | None":

@@ -13,8 +13,8 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant, Setup
-from nmm.fracture.growth.crack_growth import CrackGrowth, GrownSoFar, Intensities, tip_moduli
 from nmm.fracture.growth.fronts import CrackFronts
+from nmm.fracture.growth.growing import GrowingCracks, GrownSoFar, Intensities, tip_moduli
 from nmm.fracture.growth.held_faces import HeldFaces, newly_held
 from nmm.fracture.growth.running import Running
 from nmm.fracture.growth.speed import SPEEDS, rayleigh_speeds
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
 
 
-class GrowthInTime(CrackGrowth):
+class GrowthInTime(GrowingCracks):
     """Cracks that grow in scenes with inertia; what growth takes is the work on faces that open."""
 
     held = True
@@ -74,7 +74,7 @@ class GrowthInTime(CrackGrowth):
         return new
 
     def carried(self) -> tuple[Any, ...]:
-        """See `CrackGrowth.carried`; and how far tips are, and what holds faces."""
+        """See `GrowingCracks.carried`; and how far tips are, and what holds faces."""
         return (*super().carried(), self._running.arrays, self._held.arrays)
 
     def carry(self, carried: tuple[Any, ...]) -> None:
@@ -90,7 +90,7 @@ class GrowthInTime(CrackGrowth):
         return self.free(found) & (self._running.way[found.front] >= half)
 
     def _at(self, rows: IntensityRows, state: State, pressure: Floats | None) -> Floats:
-        """See `CrackGrowth._at`; with the inertia of the material about the tip."""
+        """See `GrowingCracks._at`; with the inertia of the material about the tip."""
         found = super()._at(rows, state, pressure)
         moves = state.acceleration.any()
         return found + rows.of_acceleration(state.acceleration) if moves else found

@@ -1,0 +1,212 @@
+"""Cracks that grow where their tips reach the toughness: what statics and motion have in common."""
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.effects.base import Effect, Setup
+from nmm.effects.event import Event
+from nmm.fracture.criteria.base import Kink
+from nmm.fracture.growth.advance import advanced
+from nmm.fracture.growth.fronts import CrackFronts
+from nmm.fracture.growth.refusals import refuse
+from nmm.fracture.growth.rule import GrowthRule
+from nmm.fracture.intensity_rows import IntensityRows
+from nmm.fracture.stress_intensity import check_domain
+from nmm.fracture.surroundings import domain_radius
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+    from nmm.effects.view import View
+
+
+@dataclass(frozen=True)
+class Intensities:
+    """What the fronts with a tip have in a state.
+
+    Attributes
+    ----------
+    front, tip
+        (k,) the fronts, and their tips in the cut.
+    opening, sliding
+        (k,) K_I and K_II (Pa m^1/2).
+    stiff
+        (k,) E' of the material about each (Pa).
+    kink, share
+        How each would go on, and the share of its toughness that it has reached.
+    """
+
+    front: Ints
+    tip: Ints
+    opening: Floats
+    sliding: Floats
+    stiff: Floats
+    kink: Kink
+    share: Floats
+
+
+@dataclass(frozen=True)
+class GrownSoFar:
+    """How far each front has grown (n,) (m), and the energy that all of them took (J)."""
+
+    length: Floats
+    energy: float
+
+
+class GrowingCracks(Effect):
+    """Cracks of the scene that grow by a rule; their fracture energy is what the growth takes."""
+
+    name = "fracture"
+    external = False
+    held: ClassVar[bool] = False
+    """Whether new faces are held at first."""
+
+    def __init__(self, setup: Setup, fronts: CrackFronts, sofar: GrownSoFar) -> None:
+        table = setup.scene.fracture
+        assert table is not None
+        self.rule = GrowthRule.of(table)
+        self._setup, self._fronts, self._sofar, self._table = setup, fronts, sofar, table
+        self._tips = fronts.tips(setup.model.cut, setup.geometry.cracks)
+        self._known: tuple[Floats, Intensities] | None = None
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from ``[fracture]`` and ``[[cracks]]``.
+
+        Raises
+        ------
+        SceneError, FormulationError
+            See `refuse`.
+        """
+        names = [crack.name for crack in setup.scene.cracks]
+        made = cls(setup, CrackFronts.of(names), GrownSoFar(np.zeros(2 * len(names)), 0.0))
+        refuse(setup, made._tips)
+        return made
+
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        return f"{self._table.criterion}, pieces of {self.rule.increment:g} m"
+
+    def intensities(self, state: State) -> Intensities:
+        """Return what the tips have in a state; kept for the last one."""
+        if self._known is None or self._known[0] is not state.deformation:
+            self._known = state.deformation, self._found(state)
+        return self._known[1]
+
+    def _found(self, state: State) -> Intensities:
+        model, front = self._setup.model, np.flatnonzero(self._tips >= 0)
+        tip = self._tips[front]
+        kappa, stiff = tip_moduli(model, model.cut.tips.element[tip])
+        pressure = model.pressure(state.deformation)
+        found = np.array([self._at(rows, state, pressure) for rows in self._rows]).reshape(-1, 2)
+        opening, sliding = found.T
+        kink = self.rule.criterion.kink(opening, sliding, kappa)
+        return Intensities(front, tip, opening, sliding, stiff, kink, self.rule.shares(kink, stiff))
+
+    @cached_property
+    def _rows(self) -> list[IntensityRows]:
+        """Intensities as functions of the unknowns, of each front with a tip."""
+        model, tip = self._setup.model, self._tips[self._tips >= 0]
+        kappa, _ = tip_moduli(model, model.cut.tips.element[tip])
+        found = []
+        for one, k in zip(tip, kappa, strict=True):  # a handful of tips
+            radius = domain_radius(model.cut, int(one), self._radius())
+            check_domain(model.cut, int(one), radius)
+            found.append(IntensityRows.of(model, int(one), radius, float(k)))
+        return found
+
+    def _at(self, rows: IntensityRows, state: State, pressure: Floats | None) -> Floats:
+        """K_I and K_II (2,) of a tip in a state, weight included."""
+        found = rows.intensities(state.deformation, pressure)
+        gravity = self._setup.scene.gravity
+        if gravity is None:
+            return found
+        body, density = rows.body, rows.density
+        down = state.frames.to_body(np.array([body]), np.array([gravity.acceleration]))[0]
+        return found + rows.of_weight(density * down)
+
+    def _radius(self) -> float:
+        """Radius of domains (m): that of the scene, or three cells."""
+        size = self._setup.formulation.cover.size
+        assert size is not None  # of meshes
+        return 3 * size if self._table.radius is None else self._table.radius
+
+    def free(self, found: Intensities) -> Bools:
+        """Which fronts (k,) with a tip have not grown as far as they may."""
+        return self.rule.free(self._sofar.length[found.front])
+
+    def _growing(self, found: Intensities) -> Bools:
+        """Which fronts (k,) with a tip grow in a state."""
+        return self.rule.growing(found.share, self._sofar.length[found.front])
+
+    def event(self, view: "View") -> Event | None:
+        """Ask for new pieces where tips have reached their toughness."""
+        found = self.intensities(view.state)
+        rows = np.flatnonzero(self._growing(found))
+        if not len(rows):
+            return None
+        geometry, cut = self._setup.geometry, self._setup.model.cut
+        cracks = advanced(
+            cut,
+            geometry.cracks,
+            self._fronts,
+            found.front[rows],
+            found.tip[rows],
+            found.kink.angle[rows],
+            self.rule.increment,
+        )
+        names = ", ".join(self._fronts.name[one] for one in found.front[rows])
+        what = f"cracks grew at {names}"
+        return Event(replace(geometry, cracks=cracks), what, held=self.held)
+
+    @abstractmethod
+    def follow(self, change: "Change") -> "GrowingCracks":
+        """Return the effect on the new geometry, with what its fronts have gained."""
+
+    def _grown_so_far(self, change: "Change") -> GrownSoFar:
+        gained = self._fronts.gained(self._setup.geometry.cracks, change.setup.geometry.cracks)
+        model, front = self._setup.model, np.flatnonzero(self._tips >= 0)
+        stiff = tip_moduli(model, model.cut.tips.element[self._tips[front]])[1]
+        energy = model.thickness * gained[front] @ self.rule.toughness.energies(stiff)
+        return GrownSoFar(self._sofar.length + gained, self._sofar.energy + float(energy))
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Place, growth and intensities of every front, and the energy that growth took (J)."""
+        found = self.intensities(state)
+        rate = (found.opening**2 + found.sliding**2) / found.stiff
+        places = self._fronts.points(self._setup.geometry.cracks) + self._setup.origin
+        row = {"growth": float(self._sofar.length.sum()), "energy": self._sofar.energy}
+        for name, (x, y), grown in zip(self._fronts.name, places, self._sofar.length, strict=True):
+            row |= {f"{name}:x": x, f"{name}:y": y, f"{name}:growth": grown}
+        for number, front in enumerate(found.front):
+            name = self._fronts.name[front]
+            row[f"{name}:K_I"], row[f"{name}:K_II"] = found.opening[number], found.sliding[number]
+            row[f"{name}:G"], row[f"{name}:share"] = rate[number], found.share[number]
+        return {key: float(value) for key, value in row.items()}
+
+    def carried(self) -> tuple[Any, ...]:
+        """How far each front has grown (m), and what that took (J)."""
+        return self._sofar.length, self._sofar.energy
+
+    def carry(self, carried: tuple[Any, ...]) -> None:
+        """See `Effect.carry`."""
+        self._sofar = GrownSoFar(*carried)
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._known = None
+
+
+def tip_moduli(model: Model, element: Ints) -> tuple[Floats, Floats]:
+    """Kolosov's constant and E' (Pa) of the material of elements (n,)."""
+    number = np.zeros(len(element), dtype=np.int64) if model.law is None else model.law[element]
+    kappa = np.array([law.kolosov(model.plane) for law in model.laws])[number]
+    return kappa, np.asarray(8 * model.elasticity[element, 2, 2] / (kappa + 1))
