@@ -61,6 +61,7 @@ class Contact(Effect):
 
     def __init__(self, model: Model, parts: ContactParts, start: State) -> None:
         self.laws, self.partners, self._exact = parts.laws, parts.partners, parts.enforcement.exact
+        self._cracks = parts.cracks
         sides = self.partners.sides
         book = follow_joints(
             self.partners.surface(start),
@@ -70,6 +71,7 @@ class Contact(Effect):
             self.laws.bonded,
             self.laws.initial,
             parts.stations,
+            parts.cracks,
         )
         self._bonds = ConsistentBonds.of(model, book.points, self.laws)
         if self._bonds is not None:
@@ -97,6 +99,7 @@ class Contact(Effect):
             new._candidates,
             change.parentage,
             change.state,
+            new._cracks,
             None if new._exact else new.laws.springs,
         )
         new._unbonded = new.record.book.broken - self.broken_bonds
@@ -144,9 +147,13 @@ class Contact(Effect):
         """Return load over strength (m,) of bonds that break or begin to soften above one."""
         return self.laws.overload(solved.contacts, solved.answer)
 
-    def release(self, solved: ContactSolution, gone: Bools) -> None:
-        """Let bonds (m,) give way before the next step, though the solution be no step."""
-        self.record = let_go(self.record, self.laws, solved, gone)
+    def release(self, solved: ContactSolution, gone: Bools) -> float:
+        """Let bonds (m,) give way before the next step, though the solution be no step.
+
+        Return by how much they hold less energy from then on (J), but for those that broke.
+        """
+        self.record, shed = let_go(self.record, self.laws, solved, gone)
+        return shed
 
     def _tied(
         self,

@@ -12,11 +12,15 @@ from nmm.contact.candidates.partners import Partners
 from nmm.contact.enforcement.base import Enforcement, make_enforcement
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.mortar.segments import face_points
+from nmm.contact.points.bonded_cracks import BondedCracks
 from nmm.effects.base import Setup
 from nmm.errors import SceneError
 from nmm.formulation import ContactMethod
 from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.interfaces.from_scene import interface_law
+
+# Lengths by which a cut may move a crack, within which an edge lies on it.
+MOVED = 4.0
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,8 @@ class ContactParts:
         Which laws act, which points may meet, and how the laws are made to hold.
     stations
         "corners" or "gauss": where joints act along their edge.
+    cracks
+        Cracks within bodies whose faces hold together.
     held
         (B,) bodies that a support holds as a whole, in both directions.
     bends
@@ -41,6 +47,7 @@ class ContactParts:
     partners: Partners
     enforcement: Enforcement
     stations: str
+    cracks: BondedCracks
     held: Bools
     bends: bool
     means: bool
@@ -62,9 +69,14 @@ def contact_parts(setup: Setup) -> ContactParts:
         origin=setup.origin,
         whole_faces=means,
     )
-    return ContactParts(
-        laws, partners, enforcement, _stations(method, laws), _held(setup), points > 2, means
-    )
+    stations, cracks = _stations(method, laws), _cracks(setup)
+    held, bends = _held(setup), points > 2
+    return ContactParts(laws, partners, enforcement, stations, cracks, held, bends, means)
+
+
+def _cracks(setup: Setup) -> BondedCracks:
+    """Return the cracks whose faces begin bonded."""
+    return BondedCracks(setup.geometry.held, MOVED * setup.model.cut.crack_tolerance)
 
 
 def _stations(method: ContactMethod, laws: ContactLaws) -> str:

@@ -20,6 +20,8 @@ class Geometry:
         The blocks that are there.
     cracks
         Polylines (n, 2) that cut them, m.
+    bonded
+        Numbers of the cracks whose faces begin bonded.
     in_pieces
         Whether the polygons are pieces that no cover of blocks divides further.
     """
@@ -27,3 +29,9 @@ class Geometry:
     regions: Regions
     cracks: tuple[Floats, ...] = ()
     in_pieces: bool = False
+    bonded: tuple[int, ...] = ()
+
+    @property
+    def held(self) -> tuple[Floats, ...]:
+        """The cracks whose faces begin bonded."""
+        return tuple(self.cracks[number] for number in self.bonded)

@@ -161,5 +161,6 @@ INTERFACE_LAWS = Registry[type[InterfaceLaw]](
         "mohr_coulomb": "nmm.interfaces.mohr_coulomb:MohrCoulomb",
         "linear_softening": "nmm.interfaces.softening:LinearSoftening",
         "bilinear_softening": "nmm.interfaces.softening:BilinearSoftening",
+        "exponential_softening": "nmm.interfaces.softening:ExponentialSoftening",
     },
 )

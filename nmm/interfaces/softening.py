@@ -3,6 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -136,3 +137,22 @@ class BilinearSoftening(Softening):
     def curve(self) -> tuple[Floats, Floats]:
         """See `Softening.curve`."""
         return np.array([0.0, 0.8, 3.6]), np.array([1.0, 1 / 3, 0.0])
+
+
+def _exponential() -> tuple[Floats, Floats]:
+    """``exp(-w)`` by a hundred chords to 8, then straight to zero at 10; the area is one."""
+    widths = np.append(np.linspace(0.0, 8.0, 101), 10.0)
+    share = np.append(np.exp(-widths[:-1]), 0.0)
+    return widths / np.trapezoid(share, widths), share
+
+
+@dataclass(frozen=True)
+class ExponentialSoftening(Softening):
+    """Falls as ``exp(-w ft / GF)``, to 1e-3 of what is left; zero from ``10 GF / ft`` on."""
+
+    points: ClassVar[tuple[Floats, Floats]] = _exponential()
+
+    @property
+    def curve(self) -> tuple[Floats, Floats]:
+        """See `Softening.curve`."""
+        return self.points

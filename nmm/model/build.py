@@ -67,7 +67,9 @@ def reshaped(setup: Setup, geometry: Geometry) -> Setup:
 
 def geometry_of(scene: "Scene", regions: "Regions") -> Geometry:
     """Return blocks with the cracks of their scene."""
-    return Geometry(regions, tuple(np.array(crack.points) for crack in scene.cracks))
+    lines = tuple(np.array(crack.points) for crack in scene.cracks)
+    bonded = tuple(number for number, crack in enumerate(scene.cracks) if crack.bonded)
+    return Geometry(regions, lines, bonded=bonded)
 
 
 def build_model(scene: "Scene", formulation: "Formulation", geometry: Geometry) -> Model:
@@ -81,6 +83,7 @@ def build_model(scene: "Scene", formulation: "Formulation", geometry: Geometry) 
         [_finite(name, material_law(item), scene) for name, item in scene.materials.items()],
         scene.plane,
         cracks=list(geometry.cracks),
+        bonded=geometry.bonded,
         density=np.array([(item.density or 0.0) * has_mass for item in materials]),
         thickness=scene.thickness,
         lumped=formulation.integrator.mass == "lumped",

@@ -38,6 +38,7 @@ def cover_regions(
     cracks: "Sequence[Floats]" = (),
     kappa: Floats | None = None,
     in_pieces: bool = False,
+    bonded: "Sequence[int]" = (),
 ) -> Covering:
     """Make the manifold that a formulation's ``[cover]`` names.
 
@@ -53,6 +54,8 @@ def cover_regions(
         Kolosov's constant of each region, for singular functions.
     in_pieces
         Whether covers of blocks divide no block further.
+    bonded
+        Numbers of the cracks whose tips carry no functions: what holds them has no singularity.
 
     Raises
     ------
@@ -82,7 +85,7 @@ def cover_regions(
         blocks, region = whole.divided(regions.polygons, cover.size, cover.angle, cover.shift)
         manifold = block_manifold(blocks, region, functions)
         return Covering(manifold, uncut(manifold))
-    return _mesh(regions, cover, functions, lines, kappa)
+    return _mesh(regions, cover, functions, lines, kappa, bonded)
 
 
 def local_functions(cover: "CoverTable") -> LocalFunctions:
@@ -113,6 +116,7 @@ def _mesh(
     functions: LocalFunctions,
     lines: "Sequence[Floats]",
     kappa: Floats | None,
+    bonded: "Sequence[int]",
 ) -> Covering:
     from covers.approximation.mesh_manifold import mesh_manifold
     from nmm.model.degrees import kinds_by_region
@@ -128,7 +132,7 @@ def _mesh(
     except (ValueError, TypeError, ImportError) as fault:
         raise FormulationError(f"[cover] {fault}") from fault
     try:
-        extra = enrichments(pieces, cover, kappa)
+        extra = enrichments(pieces, cover, kappa, bonded)
     except ValueError as fault:
         raise FormulationError(f"[cover.enrichment] {fault}") from fault
     kinds = functions if not cover.regions else kinds_by_region(regions, pieces, cover)

@@ -9,14 +9,19 @@ from integration.arrays import Floats, Ints
 from nmm.errors import FormulationError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from covers.cutting.cut_cells import CutCells
     from nmm.formulation import CoverTable
 
 
-def enrichments(cut: "CutCells", cover: "CoverTable", kappa: Floats | None) -> list[Enrichment]:
+def enrichments(
+    cut: "CutCells", cover: "CoverTable", kappa: Floats | None, bonded: "Sequence[int]" = ()
+) -> list[Enrichment]:
     """Return crack-tip functions and the corner functions that ``[cover.enrichment]`` names.
 
-    The covers about a tip carry its functions, with the table those within its radius too.
+    The covers about a tip carry its functions, with the table those within its radius too; tips of
+    the cracks with the numbers ``bonded`` have none.
 
     Raises
     ------
@@ -32,7 +37,7 @@ def enrichments(cut: "CutCells", cover: "CoverTable", kappa: Floats | None) -> l
     constant = np.full(int(cut.element_region.max()) + 1, 2.0) if kappa is None else kappa
     radius = 0.0 if table is None else table.radius
     found = []
-    for number in _tips(cut, cover):  # a handful of tips
+    for number in _tips(cut, cover, bonded):  # a handful of tips
         element = cut.tips.element[number]
         functions = crack_tip_functions(float(constant[cut.element_region[element]]), cover.size)
         point, ahead = cut.tips.point[number], cut.tips.direction[number]
@@ -52,9 +57,9 @@ def enrichments(cut: "CutCells", cover: "CoverTable", kappa: Floats | None) -> l
     return found
 
 
-def _tips(cut: "CutCells", cover: "CoverTable") -> Ints:
+def _tips(cut: "CutCells", cover: "CoverTable", bonded: "Sequence[int]") -> Ints:
     """Tips whose functions are wanted."""
-    every = np.arange(len(cut.tips))
+    every = np.flatnonzero(~np.isin(cut.tips.crack, bonded))
     if cover.enrichment is not None:
         return every if cover.enrichment.tips else every[:0]
     return every if cover.functions == "monomials" else every[:0]

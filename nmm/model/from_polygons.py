@@ -75,6 +75,7 @@ def covered(
     thickness: float,
     lumped: bool,
     in_pieces: bool = False,
+    bonded: Sequence[int] = (),
 ) -> Model:
     """Cover regions and give the elements the numbers of their materials.
 
@@ -84,10 +85,12 @@ def covered(
         N regions with their materials, numbers of the ``laws`` and of the densities (kg/m3).
     in_pieces
         Whether covers of blocks divide none of them further.
+    bonded
+        Numbers of the cracks whose tips carry no functions.
     """
     own = np.asarray(regions.material)
     kappa = np.array([law.kolosov(plane) for law in laws])
-    covering = cover_regions(regions, cover, cracks, kappa[own], in_pieces)
+    covering = cover_regions(regions, cover, cracks, kappa[own], in_pieces, bonded)
     of_element = own[covering.manifold.element_region]
     covering = _numbered(covering, regions)
     return Model(

@@ -13,6 +13,7 @@ from pydantic import BaseModel
 from nmm.scene.faults import suggestion
 from nmm.scene.lines import Path
 from nmm.scene.stage_rules import stage_contradictions
+from nmm.scene.tables.fracture.bond_rules import bonded_crack_contradictions
 from nmm.scene.tables.fracture.rules import fracture_contradictions
 from nmm.scene.tables.heat_rules import PARTS as HEAT
 from nmm.scene.tables.heat_rules import heat_contradictions
@@ -48,6 +49,7 @@ def contradictions(data: object) -> list[Finding]:
         motion_contradictions,
         member_contradictions,
         fracture_contradictions,
+        bonded_crack_contradictions,
         splitting_contradictions,
         reduction_contradictions,
     )

@@ -11,6 +11,7 @@ from nmm.scene.fields import (
     Angle,
     BlockName,
     Count,
+    Flag,
     Frozen,
     Length,
     Name,
@@ -35,11 +36,21 @@ class Block(Frozen):
 
 
 class Crack(Frozen):
-    """A crack that is there from the start: a polyline that may end inside blocks."""
+    """A crack that is there from the start: a polyline that may end inside blocks.
+
+    Faces that are bonded hold together until the law of the interface of the material with itself
+    lets them go: a plane on which a cohesive zone may open.
+    """
 
     name: Name = Field(description=NAME, examples=["notch"])
     points: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(
         description="two or more points [x, y] in m", examples=[[[0, 0], [0.5, 0]]]
+    )
+    bonded: Flag = Field(
+        default=False,
+        description="true or false: whether its faces hold together by the bond of the interface "
+        "of the material with itself",
+        examples=[True],
     )
     conductance: Conductance | None = Field(
         default=None,

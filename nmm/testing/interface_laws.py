@@ -178,7 +178,7 @@ def _overload(law: InterfaceLaw, random: np.random.Generator) -> None:
 def _energy(law: InterfaceLaw, stiffness: float) -> None:
     """Pull a bond apart and integrate its force by trapezia."""
     assert law.fracture_energy is not None
-    reach = 4.0 * law.fracture_energy / law.tensile_strength
+    reach = 12.0 * law.fracture_energy / law.tensile_strength
     opening = np.linspace(0, reach + law.tensile_strength / stiffness, 20001)
     springs = np.full(len(opening), stiffness), np.full(len(opening), stiffness)
     whole = law.initial(np.ones(len(opening), dtype=bool))

@@ -1,8 +1,9 @@
 """From consistent terms to the bond's own law, at the instant and place where it is called for.
 
-The law's spring takes over the traction that the terms carried there: the distance at which it is
-free of stress is laid so. A bond that softens passes from one to the other without a jump, and one
-that breaks while it is pressed stays pressed.
+The law's spring takes over the traction that the terms carried there. Where the bond stands open it
+is as soft as that asks for, so that what is open counts; elsewhere the distance at which it is free
+of stress is laid so. A bond that softens passes from one to the other without a jump, and one that
+breaks while it is pressed stays pressed.
 """
 
 from dataclasses import replace
@@ -15,8 +16,8 @@ from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.interfaces.limits import Limits
 
 # Stiffness of the springs that go on, in penalties of the terms: of broken bonds, which press at
-# most, and of those that soften. These unload by their strength over it while they open, which is
-# missing in the energy that they take.
+# most, and most of those that soften. These unload by their strength over it while they open, which
+# is missing in the energy that they take.
 FIRM, RIGID = 100.0, 1e4
 
 # Normal and shear stiffness (m,) in N/m, and which are a law's own.
@@ -64,7 +65,7 @@ def released(
         Of the laws; what goes beyond is not taken over.
     """
     held, (penalty, shear_penalty, _) = contacts.bonded, springs
-    firm = np.where(held, RIGID, FIRM)
+    firm = np.where(held, _firm(answer.normal_force, answer.gap, penalty), FIRM)
     normal, tangent = firm * penalty, firm * shear_penalty
     pull = np.minimum(answer.normal_force, np.where(held, limits.tension, 0.0))
     bound = limits.cohesion + limits.friction * np.maximum(-pull, 0.0)
@@ -96,3 +97,14 @@ def released(
 def tied_energy(force: Floats, jump: Floats, penalty: Floats) -> Floats:
     """Energy (m,) of terms: ``g (A S q + gamma A g / 2)`` with ``f = A S q + gamma A g`` (J)."""
     return np.asarray(jump * (force - penalty * jump / 2))
+
+
+def _firm(pull: Floats, gap: Floats, penalty: Floats) -> Floats:
+    """Stiffness (m,) in penalties of springs that carry a pull where bonds stand open already.
+
+    Terms let a bond open a little where stress varies from cell to cell. A spring that is as long
+    goes on without a jump of the traction, and what is open counts as opened.
+    """
+    is_open = (pull > 0) & (gap > 0)
+    found = pull / np.where(is_open, penalty * gap, 1.0)
+    return np.where(is_open, np.clip(found, 1.0, RIGID), RIGID)

@@ -8,6 +8,7 @@ from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
 from nmm.contact.candidates.candidates import Candidates
+from nmm.contact.points.bonded_cracks import BondedCracks
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.inheritance import (
     continued,
@@ -29,12 +30,14 @@ def succeeding(
     candidates: Candidates,
     kin: Parentage,
     state: State,
+    cracks: BondedCracks,
     springs: Callable[[ContactPoints], tuple[Floats, Floats, Bools]] | None,
 ) -> ContactRecord:
     """Return the record of the new model that goes on from that of the old one.
 
     Bonds between bodies of which one is new are free of stress as they are placed; where one body
-    has become two there is no bond between them.
+    has become two there is no bond between them, but on cracks whose faces begin bonded: these go
+    on as the material was, without a jump.
 
     Parameters
     ----------
@@ -46,14 +49,18 @@ def succeeding(
         Which bodies of the new model come from which of the old one.
     state
         Of the new model.
+    cracks
+        Of the new model, those whose faces begin bonded.
     springs
         Of contact points, see `ContactLaws.springs`; None where contact has no springs.
     """
-    line = heirs(kin, fresh.book.points, known_joints(record.book))
+    seamless = cracks.points(kin.new, fresh.book.points)
+    line = heirs(kin, fresh.book.points, known_joints(record.book)).only_same(seamless)
     book, added = continued_joints(fresh.book, record.book, line)
-    # Faces that a change has made inside a body are no joint.
-    laid = ~(added & within_one(kin, book.points))
-    book, added = book.only(laid), added[laid]
+    # Faces that a change has made inside a body are no joint, unless they begin bonded.
+    inside, seamless = within_one(kin, book.points), cracks.points(kin.new, book.points)
+    laid = ~(added & inside) | seamless
+    book, added = book.only(laid), (added & ~(inside & seamless))[laid]
     book = placed(book, candidates.joints(book, state), added)
     size = float(np.hypot(*np.ptp(kin.new.elements.points, axis=0)))
     found, points = candidates.sought(ContactRecord(book), state, HELD * size)

@@ -10,11 +10,16 @@ from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.problem.step_problem import BROKEN
 from nmm.contact.solution.record import ContactRecord, ContactSolution
 
+# What contacts have at the end of a solution.
+ENDED = ("gap", "slip", "normal_force", "shear_force")
+
 
 def let_go(
     record: ContactRecord, laws: ContactLaws, solved: ContactSolution, gone: Bools
-) -> ContactRecord:
+) -> tuple[ContactRecord, float]:
     """Return the record with bonds (m,) handed to their laws, or lost, as a solution has them.
+
+    And by how much energy (J) the terms of those that soften held more than the springs that go on.
 
     The solution is the step that the record was left by, or one that began with it.
     """
@@ -22,8 +27,10 @@ def let_go(
     limits = laws.response(contacts, springs[0]).limits
     freed, lost = gone & contacts.tied, gone & laws.brittle[contacts.interface]
     after = laws.break_bonds(contacts, lost)
+    shed = 0.0
     if freed.any():
-        after, _ = released(after, freed, solved.answer, springs, limits)
+        ended = {name: getattr(solved.answer, name) for name in ENDED}
+        after, shed = released(replace(after, **ended), freed, solved.answer, springs, limits)
     points = record.book.points
     order = np.argsort(contacts.key)
     at = order[np.searchsorted(contacts.key[order], points.key)]
@@ -41,4 +48,4 @@ def let_go(
         shear_force=np.where(dropped, 0.0, points.shear_force),
         history=history,
     )
-    return replace(record, book=replace(record.book, points=points))
+    return replace(record, book=replace(record.book, points=points)), shed

@@ -40,6 +40,17 @@ class Heirs:
     child: Ints
     same: Bools
 
+    def only_same(self, chosen: Bools) -> "Heirs":
+        """Return the kin without those of ``chosen`` (m,) new points that lie beside their parents.
+
+        What a crack has grown by continues nothing, however near its old end is.
+        """
+        beside = chosen & ~self.same
+        if not beside.any():
+            return self
+        lost = beside[np.maximum(self.child, 0)] & (self.child >= 0)
+        return Heirs(np.where(beside, -1, self.parent), np.where(lost, -1, self.child), self.same)
+
     def shared(self, values: Floats, length: Floats) -> Floats:
         """Divide sums (k,) of the old points among the new ones (m,) by ``length`` (m,)."""
         found, known = np.zeros(len(self.parent)), self.parent >= 0

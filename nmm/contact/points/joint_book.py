@@ -13,6 +13,7 @@ from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.detection.pair_keys import pair_key, unordered_key
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import JOINT_LEFT
+from nmm.contact.points.bonded_cracks import BondedCracks, refuse_loose
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.tracking import Apart
@@ -119,8 +120,9 @@ def follow_joints(
     bonded: Bools,
     initial: Callable[[Ints, Bools], History],
     stations: str,
+    cracks: BondedCracks,
 ) -> JointBook:
-    """Follow the stretches of edges that two bodies share.
+    """Follow the stretches of edges that two bodies share, or two faces of a bonded crack.
 
     Parameters
     ----------
@@ -134,9 +136,15 @@ def follow_joints(
         From interfaces (m,) and bonds that hold to what their laws remember at first.
     stations
         "corners" or "gauss": where joints act along their edge.
+    cracks
+        Those within bodies whose faces hold together.
     """
-    joints = find_joints(surface)
+    joints = find_joints(surface, within_bodies=bool(cracks))
+    seam = cracks.hold((joints.start + joints.end) / 2)
+    kept = seam | (surface.body[joints.edge_a] != surface.body[joints.edge_b])
+    joints, seam = joints.take(kept), seam[kept]
     interface = interface_of(joints.edge_a, joints.edge_b)
+    refuse_loose(joints.start[seam & ~((interface >= 0) & bonded[interface])])
     wanted = (interface >= 0) & makes_joints[np.maximum(interface, 0)]
     joints, interface = joints.take(wanted), interface[wanted]
     distance = _distance(model, joints)
@@ -181,6 +189,11 @@ def _distance(model: Model, joints: Joints) -> Floats:
     far_a, far_b, apart = (
         np.abs(np.einsum("ij,ij->i", offset, joints.normal))
         for offset in (middle[a] - joints.start, middle[b] - joints.start, middle[a] - middle[b])
+    )
+    # About a tip both faces are of one element, which has no middle on either side.
+    far_a, far_b, apart = (
+        np.where(a == b, share * joints.length, far)
+        for far, share in ((far_a, 0.5), (far_b, 0.5), (apart, 1.0))
     )
     softness = modulus.max() / modulus
     share = far_a / (far_a + far_b)

@@ -54,7 +54,8 @@ class InterfaceTable(Frozen):
 
     law: PartName = Field(
         default="mohr_coulomb",
-        description='"mohr_coulomb", "linear_softening", "bilinear_softening" or "module:Name"',
+        description='"mohr_coulomb", "linear_softening", "bilinear_softening", '
+        '"exponential_softening" or "module:Name"',
     )
     between: Annotated[tuple[str, str] | Literal["any"], BeforeValidator(_pair)] = Field(
         default="any", description='two materials or "any"', examples=[["rock", "rock"]]

@@ -109,8 +109,8 @@ class _Following:
     def _happened(self, at: OnPath, event: Tried) -> OnPath | RunVerdict:
         """Accept a step to an event, let bonds give way, and find the balance after it."""
         after = self._accepted(at, event.attempt, event.way)
-        brittle = self.trials.give_way(event.attempt)
-        after = replace(after, softened=not brittle, events=at.events + 1)
+        brittle, shed = self.trials.give_way(event.attempt)
+        after = replace(after, softened=not brittle, events=at.events + 1, shed=shed)
         if not brittle or self.control.by_load:
             return after
         return self._balanced(after)
@@ -136,6 +136,9 @@ class _Following:
         if (jump or self.control.by_load) and attempt.solved is not None:
             lost = self._released(at.state, later)
             attempt = replace(attempt, solved=replace(attempt.solved, loss=lost))
+        elif attempt.solved is not None:
+            lost = attempt.solved.loss + at.shed
+            attempt = replace(attempt, solved=replace(attempt.solved, loss=lost))
         said = recorder.step(at.state, attempt, contacts)
         recorder.offer(state, "load", contacts)
         factor = state.load_factor
@@ -149,6 +152,7 @@ class _Following:
             way=at.way + attempt.increment,
             gone=at.gone + way,
             peak=max(at.peak, factor),
+            shed=0.0,
         )
 
     def _released(self, before: State, after: State) -> float:

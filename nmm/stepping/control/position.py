@@ -30,6 +30,8 @@ class OnPath:
         Whether the bonds that gave way last soften.
     events
         How often bonds gave way.
+    shed
+        By how much the bonds that gave way last hold less energy (J).
     """
 
     state: State
@@ -40,6 +42,7 @@ class OnPath:
     peak: float = 0.0
     softened: bool = False
     events: int = 0
+    shed: float = 0.0
 
 
 @dataclass(frozen=True)

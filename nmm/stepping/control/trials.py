@@ -41,15 +41,18 @@ class Trials:
         """Try a step by which the load factor changes so much."""
         return self.along(at, PathEquation(at.load, 0 * at.way, 1.0, change))
 
-    def give_way(self, attempt: Attempt) -> bool:
-        """Let the bonds that are loaded most give way; say whether any of them breaks at once."""
+    def give_way(self, attempt: Attempt) -> tuple[bool, float]:
+        """Let the bonds that are loaded most give way.
+
+        Say whether any of them breaks at once, and how much less energy the others hold (J).
+        """
         contact, solved = self.stepper.plan.contact, attempt.solved
         assert contact is not None
         assert solved is not None
         load = self._overload(attempt)
         gone: Bools = load >= load.max() * (1 - TIE)
-        contact.release(solved, gone)
-        return bool(contact.laws.brittle[solved.contacts.interface[gone]].any())
+        shed = contact.release(solved, gone)
+        return bool(contact.laws.brittle[solved.contacts.interface[gone]].any()), shed
 
     def _overload(self, attempt: Attempt) -> Floats:
         """Return load over strength (m,) of the bonds of an attempt."""

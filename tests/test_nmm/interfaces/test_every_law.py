@@ -3,7 +3,7 @@
 import pytest
 
 from nmm.interfaces.mohr_coulomb import MohrCoulomb
-from nmm.interfaces.softening import BilinearSoftening, LinearSoftening
+from nmm.interfaces.softening import BilinearSoftening, ExponentialSoftening, LinearSoftening
 from nmm.testing import check_interface_law
 
 BOND = {"friction_angle": 0.6, "cohesion": 4e6, "tensile_strength": 3e6, "bonded": True}
@@ -14,6 +14,7 @@ LAWS = [
     MohrCoulomb(friction_angle=0.6, dilation_angle=0.1, dilation_slip=1e-5),
     LinearSoftening(**BOND, fracture_energy=100.0, residual_friction_angle=0.4),
     LinearSoftening(**BOND, fracture_energy=100.0, dilation_angle=0.1),
+    ExponentialSoftening(**BOND, fracture_energy=100.0),
     BilinearSoftening(**BOND, fracture_energy=100.0, shear_fracture_energy=300.0),
 ]
 

@@ -8,7 +8,7 @@ import pytest
 from nmm.errors import SceneError
 from nmm.interfaces.mohr_coulomb import MohrCoulomb
 from nmm.interfaces.restitution import damping_of, restitution
-from nmm.interfaces.softening import BilinearSoftening, LinearSoftening
+from nmm.interfaces.softening import BilinearSoftening, ExponentialSoftening, LinearSoftening
 
 STRENGTH, ENERGY, SPRING = 3e6, 100.0, 1e13
 LINEAR = LinearSoftening(
@@ -19,6 +19,7 @@ LINEAR = LinearSoftening(
     fracture_energy=ENERGY,
 )
 BILINEAR = BilinearSoftening(**vars(LINEAR))
+EXPONENTIAL = ExponentialSoftening(**vars(LINEAR))
 
 
 def remembered(law, damage):
@@ -35,10 +36,10 @@ def pulled(law, openings):
     return law.update(history, gap, 0 * gap, (spring, spring)).traction[:, 0]
 
 
-@pytest.mark.parametrize("law", [LINEAR, BILINEAR])
+@pytest.mark.parametrize("law", [LINEAR, BILINEAR, EXPONENTIAL])
 def test_the_area_under_the_curve_is_the_fracture_energy_whatever_the_spring(law):
     """Trapezoids on 5e4 intervals of a piecewise linear curve: error about 1e-7."""
-    openings = np.linspace(0, 4 * ENERGY / STRENGTH, 50_001)
+    openings = np.linspace(0, 12 * ENERGY / STRENGTH, 50_001)
     assert np.trapezoid(pulled(law, openings), openings) == pytest.approx(ENERGY, rel=1e-6)
 
 
@@ -54,6 +55,14 @@ def test_bilinear_softening_passes_a_third_at_four_fifths_of_energy_over_strengt
     """Petersson's knee, with the elastic stretch of the spring on top."""
     knee = 0.8 * ENERGY / STRENGTH + STRENGTH / 3 / SPRING
     assert pulled(BILINEAR, [knee])[0] == pytest.approx(STRENGTH / 3, rel=1e-12)
+
+
+@pytest.mark.parametrize("width", [0.1, 1.0, 3.0])
+def test_exponential_softening_falls_by_e_over_energy_over_strength(width):
+    """``exp(-w ft / GF)``; chords of 0.08 are off by 1e-3."""
+    left = np.exp(-width)
+    there = width * ENERGY / STRENGTH + left * STRENGTH / SPRING
+    assert pulled(EXPONENTIAL, [there])[0] == pytest.approx(left * STRENGTH, rel=2e-3)
 
 
 def test_damage_never_heals():
