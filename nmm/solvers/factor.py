@@ -135,9 +135,12 @@ class Factor:
         """Return one application of the factors without refinement, for preconditioning."""
         return np.asarray(self.scale * self.decomposition.solve(self.scale * rhs))
 
-    def refined(self, rhs: Floats) -> Floats:
-        """Return a solution with refinement that is not judged: for steps of an iteration."""
-        return self._refined(rhs)[0]
+    def refined(self, rhs: Floats, tolerance: float = 0.0) -> Floats:
+        """Return a solution with refinement that is not judged: for steps of an iteration.
+
+        Refinement ends at a residual of ``tolerance`` of the load, or where rounding ends it.
+        """
+        return self._refined(rhs, tolerance)[0]
 
     def relative_residual(self, x: Floats, rhs: Floats) -> float:
         """``|rhs - matrix @ x| / |rhs|`` in scaled quantities."""
@@ -160,7 +163,7 @@ class Factor:
             norm = onenormest(inverse)
         return float(abs(unit).sum(axis=0).max() * norm)
 
-    def _refined(self, rhs: Floats) -> tuple[Floats, float, float]:
+    def _refined(self, rhs: Floats, tolerance: float = 0.0) -> tuple[Floats, float, float]:
         load = self.scale * rhs
         size = float(np.linalg.norm(load))
         if size == 0.0:
@@ -175,26 +178,25 @@ class Factor:
             # Rounding has the last word where a turn does not halve what is left; a shift is slow.
             stays = found > 0.5 * rest and not self.solver.shift
             best, rest = x, found
-            if stays or rest < 1e-15 or turn == self.solver.refinements:
+            if stays or rest < max(1e-15, tolerance) or turn == self.solver.refinements:
                 break
             x = x + self.apply(residual)
-        if self.solver.shift and rest > SLOW:
+        if self.solver.shift and rest > max(SLOW, tolerance):
             # Directions about as soft as the shift: refinement would take hundreds of turns.
-            tried, left = self._minimised(load, size)
+            tried, left = self._minimised(load, size, tolerance)
             if left < rest:
                 best, rest = tried, left
         growth = float(np.abs(best / self.scale).max() / np.abs(load).max())
         return best, rest, growth
 
-    def _minimised(self, load: Floats, size: float) -> tuple[Floats, float]:
+    def _minimised(self, load: Floats, size: float, tolerance: float) -> tuple[Floats, float]:
         """Solution with the shift taken out by minimal residuals, and its residual."""
 
         def product(x: Floats) -> Floats:
             return np.asarray(self.scale * (self.matrix @ (self.scale * x)))
 
-        x = minimal_residual(
-            product, self.decomposition.solve, load, directions=DIRECTIONS, tolerance=1e-14
-        )
+        inverse, goal = self.decomposition.solve, max(1e-14, tolerance)
+        x = minimal_residual(product, inverse, load, directions=DIRECTIONS, tolerance=goal)
         rest = float(np.linalg.norm(load - product(x))) / size
         return self.scale * x, rest
 

@@ -7,6 +7,8 @@ from nmm.solvers.factor import Factor
 
 SAMPLES = 2
 """Signs of roundings that are drawn; the worst counts."""
+DIGITS = 0.1
+"""Residual to which a change is solved: its size is all that is asked for."""
 
 
 def rounding_changes(factor: Factor, solution: Floats, load: Floats) -> list[Floats]:
@@ -19,4 +21,4 @@ def rounding_changes(factor: Factor, solution: Floats, load: Floats) -> list[Flo
     eps = float(np.finfo(float).eps)
     size = eps * (abs(factor.matrix) @ np.abs(solution) + np.abs(load))
     signs = np.random.default_rng(0).choice([-1.0, 1.0], (SAMPLES, len(load)))
-    return [factor.refined(sign * size) for sign in signs]
+    return [factor.refined(sign * size, DIGITS) for sign in signs]
