@@ -37,14 +37,14 @@ class Nitsche(Imposition):
         Tractions on the first side that either side gives, times its weight.
     ghost
         Matrix that ties cut elements to their neighbours; None without any.
-    lifts
-        The part of pressures, of each side that has any.
+    lift
+        The part of pressures; None where neither side has any.
     """
 
     penalty: Floats
     fluxes: tuple[Flux, ...]
     ghost: csc_array | None = None
-    lifts: tuple[Lift, ...] = ()
+    lift: Lift | None = None
 
     words: ClassVar[str] = "Nitsche's method"
     needs_cells: ClassVar[bool] = True
@@ -66,9 +66,8 @@ class Nitsche(Imposition):
         square = product((unknowns, rows), (unknowns, area * self.penalty[:, None, None] * rows))
         parts: list[Triplets] = [(row, column, value), (column, row, value), square]
         more = [] if self.ghost is None else [self.ghost]
-        if self.lifts:
-            across = self._across(state, n)
-            more += [part.matrix(across) for part in self.lifts]
+        if self.lift is not None:
+            more.append(self.lift.matrix(self._across(state, n)))
         for term in more:  # at most two
             entries = term.tocoo()
             places = entries.coords
@@ -83,17 +82,16 @@ class Nitsche(Imposition):
         total += np.bincount(unknowns.ravel(), back.ravel(), minlength=len(total))
         if self.ghost is not None:
             total -= self.ghost @ state.deformation
-        if self.lifts:
+        if self.lift is not None:
             across, gap = self._across(state, len(total)), self._gap(state, jump)
-            for part in self.lifts:  # at most two
-                total += part.force(across, state.deformation, gap)
+            total += self.lift.force(across, state.deformation, gap)
         return total
 
     def point_forces(self, state: State, jump: Floats) -> Floats:
         """See `Imposition.point_forces`."""
         total = self.interface.held * self._consistent(state, jump)
-        for part in self.lifts:  # at most two
-            pressure = part.pressure(state.deformation, self._gap(state, jump))
+        if self.lift is not None:
+            pressure = self.lift.pressure(state.deformation, self._gap(state, jump))
             total += self.interface.held * (pressure[:, None] * self.interface.normal(state))
         return np.asarray(total)
 
@@ -113,14 +111,15 @@ class Nitsche(Imposition):
         total -= float(np.sum(area * jump * self._traction(state)))
         if self.ghost is not None:
             total += 0.5 * float(q @ (self.ghost @ q))
-        return total + sum(part.energy(q, self._gap(state, jump)) for part in self.lifts)
+        if self.lift is not None:
+            total += self.lift.energy(q, self._gap(state, jump))
+        return total
 
     def gap_volume(self, state: State, jump: Floats, k: int) -> Floats:
         """See `Imposition.gap_volume`."""
-        total = np.zeros(k)
-        for part in self.lifts:  # at most two
-            total += part.gap_volume(self._gap(state, jump), k)
-        return total
+        if self.lift is None:
+            return np.zeros(k)
+        return self.lift.gap_volume(self._gap(state, jump), k)
 
     @property
     def free(self) -> Bools:

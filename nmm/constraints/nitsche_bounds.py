@@ -16,12 +16,14 @@ from nmm.solvers.linear import make_solver
 
 # Part of the diagonal that makes the energy definite for fields without traction.
 SHIFT = 1e-9
-# Directions that the estimate of an edge keeps.
+# Unknowns and rows up to which the ratio is that of full matrices, some milliseconds.
+FULL = 600
+# Directions that the estimate of a longer edge keeps.
 FEW = 20
-# Residual of the estimate in the ratio, whose own error is of its square. Less would do for the
-# safety, but what is left differs with the order in which a scene lists its blocks: by 1 % of the
-# penalty at 5e-2, and supports that give way show it in the displacements.
-TOLERANCE = 1e-4
+# Residual of that estimate. Less would do for the safety, but what is left differs with the order
+# in which a scene lists its blocks, and supports that give way show it in the displacements: 5e-6
+# of them at 1e-4.
+TOLERANCE = 1e-8
 # Wave numbers (x, y) of the two components the estimate starts from, over the size of the edge:
 # alike nowhere, and symmetric about no axis.
 WAVES = np.array([[61.3, 23.7], [37.9, 71.1]])
@@ -40,28 +42,43 @@ def edge_bound(
     traction
         Unknowns (m, L) and rows (m, 2, L).
     """
-    from scipy.sparse.linalg import LinearOperator, eigsh
-
     energy = csc_array(_energy(model, place) + ghost)
     unknowns, values = traction
     weight = np.sqrt(place.weight * model.thickness)[:, None, None]
     rows = sparse_rows(unknowns, weight * values, energy.shape[0])
     active = np.flatnonzero(energy.diagonal() > 0)
     energy, rows = energy[active][:, active], csr_array(rows[:, active])
-    scale = 1 / np.sqrt(energy.diagonal())
-    scaled = csc_array(diags_array(scale) @ energy @ diags_array(scale))
-    shifted = csc_array(scaled + SHIFT * diags_array(np.ones(len(scale))))
-    factor = make_solver().decompose(shifted)
-    rows = csr_array(rows @ diags_array(scale))
+    scale = diags_array(1 / np.sqrt(energy.diagonal()))
+    shifted = csc_array(scale @ energy @ scale + SHIFT * diags_array(np.ones(len(active))))
+    rows = csr_array(rows @ scale)
+    if max(rows.shape) <= FULL:
+        return _largest(rows.toarray(), shifted.toarray())
+    return _estimate(rows, shifted, place.position)
+
+
+def _largest(rows: Floats, energy: Floats) -> float:
+    """Largest eigenvalue of ``rows energy^-1 rows^T``, all of them full."""
+    from scipy.linalg import eigh, solve_triangular
+
+    half = solve_triangular(np.linalg.cholesky(energy), rows.T, lower=True)
+    ratio = half @ half.T if len(half) < len(rows) else half.T @ half
+    last = len(ratio) - 1
+    return float(eigh(ratio, eigvals_only=True, subset_by_index=[last, last])[0])
+
+
+def _estimate(rows: csr_array, energy: csc_array, position: Floats) -> float:
+    """The same of sparse matrices, by Lanczos's method."""
+    from scipy.sparse.linalg import LinearOperator, eigsh
+
+    factor = make_solver().decompose(energy)
 
     def product(x: Floats) -> Floats:
         return np.asarray(rows @ factor.solve(rows.T @ np.ravel(x)))
 
-    m = len(place)
-    operator = LinearOperator((2 * m, 2 * m), matvec=product, dtype=np.float64)
-    few: dict[str, Any] = {"ncv": min(FEW, 2 * m), "tol": TOLERANCE, "return_eigenvectors": False}
-    largest = eigsh(operator, k=1, which="LA", v0=_start(place.position), **few)
-    return float(largest[0])
+    m = rows.shape[0]
+    operator = LinearOperator((m, m), matvec=product, dtype=np.float64)
+    few: dict[str, Any] = {"ncv": FEW, "tol": TOLERANCE, "return_eigenvectors": False}
+    return float(eigsh(operator, k=1, which="LA", v0=_start(position), **few)[0])
 
 
 def _start(position: Floats) -> Floats:

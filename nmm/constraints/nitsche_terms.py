@@ -28,7 +28,7 @@ SOFTEST = 4.0
 # and from the tolerance of the estimate; between bodies another two for how sides share an energy.
 SAFETY_GROUND, SAFETY_BODIES = 2.0, 4.0
 
-Terms = tuple[Floats, tuple[Flux, ...], csc_array | None, tuple[Lift, ...]]
+Terms = tuple[Floats, tuple[Flux, ...], csc_array | None, Lift | None]
 
 
 def against_ground(model: Model, interface: Interface, method: Method) -> Terms:
@@ -51,8 +51,8 @@ def against_ground(model: Model, interface: Interface, method: Method) -> Terms:
     if method.gamma is None:
         bound = edge_bound(model, place, (flux.unknowns, flux.values), tie)
         penalty = np.maximum(penalty, SAFETY_GROUND * bound)
-    held_up = lift(model, place.elements, place.position, place.weight)
-    return penalty, (flux,), tie, () if held_up is None else (held_up,)
+    held_up = lift(model, [(place.elements, place.position, place.weight)])
+    return penalty, (flux,), tie, held_up
 
 
 def between_bodies(model: Model, interface: Interface, method: Method) -> Terms:
@@ -68,12 +68,14 @@ def between_bodies(model: Model, interface: Interface, method: Method) -> Terms:
         interface.area,
     )
     factor = SAFETY_BODIES if method.gamma is None else method.gamma
-    lifts = [
-        lift(model, side.elements, side.position, interface.first.weight * weight)
-        for side, weight in zip(sides, found.share, strict=True)
-    ]
-    known = tuple(one for one in lifts if one is not None)
-    return factor * found.least, found.fluxes, None, known
+    held_up = lift(
+        model,
+        [
+            (side.elements, side.position, interface.first.weight * weight)
+            for side, weight in zip(sides, found.share, strict=True)
+        ],
+    )
+    return factor * found.least, found.fluxes, None, held_up
 
 
 def _cut(model: Model, elements: Ints) -> Ints:

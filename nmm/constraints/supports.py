@@ -154,9 +154,9 @@ def _anchored(tie: Imposition, state: State) -> Imposition:
 
 def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
     """Return supports whose pressures know of one another."""
-    own = [s.lifts[0] if isinstance(s, Nitsche) and s.lifts else None for s in supports]
+    own = [s.lift if isinstance(s, Nitsche) else None for s in supports]
     pairs = zip(supports, sharing(own), strict=True)
-    return [replace(s, lifts=(one,)) if isinstance(s, Nitsche) and one else s for s, one in pairs]
+    return [replace(s, lift=one) if isinstance(s, Nitsche) else s for s, one in pairs]
 
 
 def _interface(setup: Setup, support: "SupportTable", method: Method) -> Interface:

@@ -82,24 +82,31 @@ class Lift:
         return np.asarray(self.root.T @ (self.root @ volume))
 
 
-def lift(model: Model, elements: Ints, points: Floats, length: Floats) -> Lift | None:
+def lift(model: Model, sides: Sequence[tuple[Ints, Floats, Floats]]) -> Lift | None:
     """Return the pressures at points of edges; None where the material has none.
+
+    Both sides are one: a patch may have edges of which it is the first side, and others of which
+    it is the second, and which is which hangs on the order of bodies.
 
     Parameters
     ----------
-    elements, points
-        (m,) and (m, 2).
-    length
-        (m,) of edge that each point stands for (m), times the share of its side in the traction.
+    sides
+        For one side or both: elements (m,), points (m, 2) and the length (m,) of edge that each
+        point stands for (m), times the share of the side in the traction.
     """
     known = model.pressures
     if known is None:
         return None
-    rows = known.rows(model.manifold, elements, points)
+    rows = csr_array(
+        sum(
+            diags_array(length) @ known.rows(model.manifold, elements, points)
+            for elements, points, length in sides
+        )
+    )
     wanted = np.unique(rows.indices).astype(np.int64)
     if not len(wanted):
         return None
-    weights = csr_array(csr_array(rows[:, wanted]).T @ diags_array(length))
+    weights = csr_array(csr_array(rows[:, wanted]).T)
     root = csr_array(np.sqrt(model.thickness) * known.root[:, wanted])
     root = csr_array(root[np.diff(root.indptr) > 0])
     share = np.full(len(wanted), SHARE)
