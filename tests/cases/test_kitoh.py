@@ -8,6 +8,9 @@ from types import ModuleType
 import numpy as np
 import pytest
 
+import nmm
+from nmm.contact.bonds import consistent_bonds
+
 SCRIPT = Path(__file__).parents[2] / "examples" / "kitoh_beam" / "failure_loads.py"
 
 
@@ -39,13 +42,28 @@ def test_130_blocks_fail_in_the_stated_range_whatever_the_increment(beams: Modul
     assert coarse == pytest.approx(fine, rel=0.01)
 
 
+@pytest.mark.parametrize("seed", [1, 3])
+def test_tractions_hardly_hang_on_the_penalty(beams: ModuleType, seed: int, monkeypatch) -> None:
+    text = (SCRIPT.parent / "kitoh_130.toml").read_text().replace("seed = 1\n", f"seed = {seed}\n")
+    text = text.replace('until = "failure"', "until = 1").replace("maximum_factor", "# ")
+    text = text.replace("motion_after_failure", "# ")
+    first = []
+    for safety in (1.1, 2.0):
+        monkeypatch.setattr(consistent_bonds, "SAFETY", safety)
+        run = nmm.run(nmm.parse_scene(text))
+        joint = run.stepper.plan.contact.record.book.points
+        pull = joint.normal_force / (0.1 * joint.length)
+        first.append(2.9e6 / pull.max())
+    # By 3 % on average: a tenth before what turns was held apart from the mean.
+    assert first[0] == pytest.approx(first[1], rel=0.065)
+    assert 8.6 < first[1] < first[0] < 11
+
+
 @pytest.mark.slow
 def test_ensemble_has_the_stated_means_scatter_crack_and_independence(beams: ModuleType) -> None:
     found = beams.main(seeds=(1, 2, 3, 4, 5))
     loads = {n: np.array([one.load for one in many]) for n, many in found["beams"].items()}
-    # One of six tessellations fails at 8.54: what is asked of all is asked of their mean here.
-    assert loads[130].mean() >= 8.6
-    assert loads[130].min() >= 8.4
+    assert loads[130].min() >= 8.6
     assert loads[130].max() <= 11
     assert loads[455].min() >= 8.4
     assert loads[455].max() <= 10.2

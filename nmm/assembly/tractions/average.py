@@ -48,6 +48,7 @@ class AverageTraction:
         positions: Sequence[Floats],
         normal: Floats,
         area: Floats,
+        reach: Sequence[Floats] | None = None,
     ) -> "AverageTraction":
         """Average the tractions at points of both sides.
 
@@ -59,13 +60,16 @@ class AverageTraction:
             (m, 2) outward from the first side in the reference place.
         area
             (m,) that each point stands for (m2).
+        reach
+            (m,) lengths (m), for each side: the bounds of an element's edges go as their inverse.
+            None makes them all the same.
         """
         donor = [donors(model, own) for own in elements]
         rows = [
             traction_rows(model, own, place, normal)
             for own, place in zip(donor, positions, strict=True)
         ]
-        bounds = element_bounds(model, donor, [values for _, values in rows], area)
+        bounds = element_bounds(model, donor, [values for _, values in rows], area, reach)
         # Functions without strain are as a material that nothing strains.
         compliance = [_inverse(bound) for bound in bounds]
         total = compliance[0] + compliance[1]

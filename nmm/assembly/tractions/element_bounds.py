@@ -13,12 +13,18 @@ FREE = 1e-11
 
 
 def element_bounds(
-    model: Model, donor: Sequence[Ints], traction: Sequence[Floats], weight: Floats
+    model: Model,
+    donor: Sequence[Ints],
+    traction: Sequence[Floats],
+    weight: Floats,
+    reach: Sequence[Floats] | None = None,
 ) -> list[Floats]:
-    """Largest ``int |sigma n|^2 / a(u, u)`` (m,) of the donor of each point, for each side (Pa/m).
+    """Bounds ``r`` (m,) with ``int |sigma n|^2 / r <= a(u, u)`` of donors, for each side (Pa/m).
 
     The integral goes over all points that a donor serves, on either side, so that the bounds add
     up: they draw on the same energy. Zero where the donor has no stress at all (rigid functions).
+    They are the same at all points of a donor, or go as the inverse of ``reach``: a short edge far
+    from an element's middle is then held less firmly than a long one near it.
 
     Parameters
     ----------
@@ -28,17 +34,20 @@ def element_bounds(
         (m, 2, L) rows, for each side.
     weight
         (m,) area of boundary (m2).
+    reach
+        (m,) lengths (m), for each side; None for the same everywhere.
     """
+    reach = reach or [np.ones(len(weight)) for _ in donor]
     served, number = np.unique(np.concatenate(donor), return_inverse=True)
     numbers = np.split(number.ravel(), len(donor))
     length = max(values.shape[2] for values in traction)
     flux = np.zeros((len(served), length, length))
-    for place, values in zip(numbers, traction, strict=True):  # two sides
+    for place, values, far in zip(numbers, traction, reach, strict=True):  # two sides
         own = values.shape[2]
-        each = np.einsum("mia,m,mib->mab", values, weight, values)
+        each = np.einsum("mia,m,mib->mab", values, weight * far, values)
         np.add.at(flux[:, :own, :own], place, each)
     ratio = largest_ratio(flux, element_stiffness(model, served, length))
-    return [ratio[place] for place in numbers]
+    return [ratio[place] / far for place, far in zip(numbers, reach, strict=True)]
 
 
 def element_stiffness(model: Model, elements: Ints, length: int) -> Floats:

@@ -14,11 +14,13 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Floats, Ints
+from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames
 from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.average import AverageTraction
 from nmm.assembly.tractions.donors import Flux
+from nmm.contact.bonds.turning import turning_share
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import TIED, ContactPoints
@@ -40,6 +42,8 @@ class ConsistentBonds:
         Tractions on the sides a that either side gives, times its weight.
     penalty
         (k,) Pa/m; zero where neither side has strain.
+    share
+        (k,) of it that holds what turns the sides of a joint against each other (`turning`).
     area
         (k,) that each point stands for (m2).
     n_unknowns
@@ -49,6 +53,7 @@ class ConsistentBonds:
     number: Ints
     fluxes: tuple[Flux, ...]
     penalty: Floats
+    share: Floats
     area: Floats
     n_unknowns: int
 
@@ -70,9 +75,13 @@ class ConsistentBonds:
             for edge, share in both
         ]
         elements = [edges.element[edge] for edge, _ in both]
-        found = AverageTraction.of(model, elements, places, -points.normal, area)
-        count = model.manifold.n_unknowns
-        return cls(number, found.fluxes, SAFETY * found.least, area, count)
+        reach = [_reach(model, own, points, area) for own in elements]
+        found = AverageTraction.of(model, elements, places, -points.normal, area, reach)
+        penalty = SAFETY * found.least
+        bending = float(model.modulus.max()) * points.spring_factor / points.length
+        rows = [(one.unknowns, one.values) for one in found.fluxes]
+        share = turning_share(rows, penalty, bending)
+        return cls(number, found.fluxes, penalty, share, area, model.manifold.n_unknowns)
 
     def tied(self, joints: ContactPoints, laws: ContactLaws) -> ContactPoints:
         """Return the joint points with the bonds that these terms hold, as stiff as the penalty.
@@ -85,7 +94,7 @@ class ConsistentBonds:
         return replace(
             joints,
             spring_factor=np.where(tied, factor, joints.spring_factor),
-            history={**joints.history, TIED: tied.astype(float)},
+            history={**joints.history, TIED: np.where(tied, self.share[row], 0.0)},
         )
 
     def row(self, joints: ContactPoints) -> Ints:
@@ -134,6 +143,22 @@ def consistent(model: Model, asked: str) -> bool:
             'expected linear materials: use bonds = "spring"'
         )
     return known and asked != "spring"
+
+
+def _reach(model: Model, elements: Ints, points: ContactPoints, area: Floats) -> Floats:
+    """Return how far (m,) the middles of elements are from the joints at their edges (m).
+
+    At least half of the mean over all joints of an element: the middle of a hollow one may lie
+    behind an edge.
+    """
+    boundary, middle = model.manifold.boundary, centroids(model.manifold.elements)
+    place = boundary.start[points.edge_a] + points.parameter_a[:, None] * (
+        boundary.end[points.edge_a] - boundary.start[points.edge_a]
+    )
+    far = np.abs(np.einsum("ij,ij->i", middle[elements] - place, points.normal))
+    whole = np.bincount(elements, area)
+    mean = np.bincount(elements, area * far) / np.where(whole > 0, whole, 1.0)
+    return np.asarray(np.maximum(far, mean[elements] / 2))
 
 
 def _rows(unknowns: Ints, values: Floats, n: int) -> csr_array:

@@ -3,7 +3,8 @@
 The law's spring takes over the traction that the terms carried there. Where the bond stands open it
 is as soft as that asks for, so that what is open counts; elsewhere the distance at which it is free
 of stress is laid so. A bond that softens passes from one to the other without a jump, and one that
-breaks while it is pressed stays pressed.
+breaks while it is pressed stays pressed. The bond that is left alone in the joint keeps its
+traction too: what the penalty counts of its jump is from then on all of it.
 """
 
 from dataclasses import replace
@@ -12,6 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from nmm.contact.bonds.turning import beside, counted
 from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.interfaces.limits import Limits
 
@@ -45,7 +47,12 @@ class LoadedContacts(Protocol):
 
 
 def released(
-    contacts: ContactPoints, gone: Bools, answer: LoadedContacts, springs: Springs, limits: Limits
+    contacts: ContactPoints,
+    gone: Bools,
+    lost: Bools,
+    answer: LoadedContacts,
+    springs: Springs,
+    limits: Limits,
 ) -> tuple[ContactPoints, float]:
     """Return the contacts with bonds that their laws hold, or have lost, from now on.
 
@@ -54,9 +61,9 @@ def released(
     Parameters
     ----------
     contacts
-        Of the step that the answer is of; bonds that break at once are marked as broken.
-    gone
-        (m,) which bonds are released.
+        Of the step that the answer is of, still whole.
+    gone, lost
+        (m,) which tied bonds are released, and which bonds break at once.
     answer
         What the terms carried, at the end of the step.
     springs
@@ -64,16 +71,18 @@ def released(
     limits
         Of the laws; what goes beyond is not taken over.
     """
-    held, (penalty, shear_penalty, _) = contacts.bonded, springs
+    held, (penalty, shear_penalty, _) = contacts.bonded & ~lost, springs
     firm = np.where(held, _firm(answer.normal_force, answer.gap, penalty), FIRM)
     normal, tangent = firm * penalty, firm * shear_penalty
     pull = np.minimum(answer.normal_force, np.where(held, limits.tension, 0.0))
     bound = limits.cohesion + limits.friction * np.maximum(-pull, 0.0)
     shear = np.where(held, np.clip(answer.shear_force, -bound, bound), 0.0)
     # A broken bond that nothing presses is free where it lies.
-    pressed = gone & (held | (pull < 0))
+    pressed, left = gone & (held | (pull < 0)), beside(contacts, gone)
     lag = np.where(pressed, answer.gap - pull / normal, 0.0)
     slid = np.where(gone & held, answer.slip - shear / tangent, 0.0)
+    lag = np.where(left, answer.gap - counted(contacts, answer.gap), lag)
+    slid = np.where(left, answer.slip - counted(contacts, answer.slip), slid)
     history = contacts.history
     found = replace(
         contacts,
@@ -87,16 +96,11 @@ def released(
             "plastic_slip": history["plastic_slip"] + slid,
         },
     )
+    before = tied_energy(contacts, contacts, (penalty, shear_penalty))
+    springs_hold = normal * found.gap**2 / 2 + tangent * found.slip**2 / 2
+    after = np.where(left, _alone(contacts, found, (penalty, shear_penalty)), springs_hold)
     kept = gone & held
-    terms = tied_energy(contacts.normal_force, contacts.gap, penalty)
-    terms += tied_energy(contacts.shear_force, contacts.slip, penalty)
-    anew = normal * found.gap**2 / 2 + tangent * found.slip**2 / 2
-    return found, float((terms - anew)[kept].sum())
-
-
-def tied_energy(force: Floats, jump: Floats, penalty: Floats) -> Floats:
-    """Energy (m,) of terms: ``g (A S q + gamma A g / 2)`` with ``f = A S q + gamma A g`` (J)."""
-    return np.asarray(jump * (force - penalty * jump / 2))
+    return found, float((before - after)[kept | beside(contacts, kept)].sum())
 
 
 def _firm(pull: Floats, gap: Floats, penalty: Floats) -> Floats:
@@ -108,3 +112,24 @@ def _firm(pull: Floats, gap: Floats, penalty: Floats) -> Floats:
     is_open = (pull > 0) & (gap > 0)
     found = pull / np.where(is_open, penalty * gap, 1.0)
     return np.where(is_open, np.clip(found, 1.0, RIGID), RIGID)
+
+
+def _alone(contacts: ContactPoints, found: ContactPoints, penalty: tuple[Floats, Floats]) -> Floats:
+    """Energy (m,) of terms, as contacts begin a step, once all of their jump counts (J)."""
+    total = np.zeros(len(contacts))
+    rows = (contacts.normal_force, contacts.gap, found.gap)
+    others = (contacts.shear_force, contacts.slip, found.slip)
+    for (force, jump, anew), firm in zip((rows, others), penalty, strict=True):
+        total += anew * (force - firm * counted(contacts, jump) + firm * anew / 2)
+    return total
+
+
+def tied_energy(
+    contacts: ContactPoints, loaded: LoadedContacts, penalty: tuple[Floats, Floats]
+) -> Floats:
+    """Energy (m,) of terms, ``g (A S q + h / 2)`` with the held part ``h`` of ``f = A S q + h``."""
+    total = np.zeros(len(contacts))
+    both = (loaded.normal_force, loaded.gap), (loaded.shear_force, loaded.slip)
+    for (force, jump), firm in zip(both, penalty, strict=True):
+        total += jump * (force - firm * counted(contacts, jump) / 2)
+    return total

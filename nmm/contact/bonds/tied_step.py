@@ -1,11 +1,12 @@
 """Whole bonds in the problem of a step: terms of its matrix instead of contacts.
 
-With the rows ``S`` of average tractions and ``B`` of gaps and slips, areas ``A`` and the penalty
-``gamma``, the forces of bonds and the energy that they are the slopes of are
+With the rows ``S`` of average tractions and ``B`` of gaps and slips, areas ``A`` and ``H``, the
+penalty times areas on the jumps that it counts (`nmm.contact.bonds.turning`), the forces of bonds
+and the energy that they are the slopes of are
 
-    f = A (S q + gamma g),    E = g^T A S q + gamma g^T A g / 2,
+    f = A S q + H g,    E = g^T A S q + g^T H g / 2,
 
-so that a step adds ``B^T A S + S^T A B + gamma B^T A B`` to its matrix. The forces act as the
+so that a step adds ``B^T A S + S^T A B + B^T H B`` to its matrix. The forces act as the
 contacts' do; the other half, ``S^T A g``, strains the bodies and moves none.
 """
 
@@ -21,6 +22,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
+from nmm.contact.bonds.turning import counting
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.problem.step_problem import BONDED, Limits, StepAnswer, StepProblem
@@ -57,25 +59,24 @@ class Direction:
     gaps: csr_array
     stresses: csr_array
 
-    def matrix(self, area: Floats, penalty: Floats) -> csc_array:
+    def matrix(self, area: Floats, held: csr_array) -> csc_array:
         """Return the matrix (n, n) of the terms."""
         across = self.gaps.T @ (diags_array(area) @ self.stresses)
-        own = self.gaps.T @ (diags_array(area * penalty) @ self.gaps)
-        return csc_array(across + across.T + own)
+        return csc_array(across + across.T + self.gaps.T @ (held @ self.gaps))
 
-    def push(self, area: Floats, penalty: Floats) -> Floats:
+    def push(self, area: Floats, held: csr_array) -> Floats:
         """Return what the forces at the start are on the unknowns (n,), with the sign changed."""
-        force = area * (self.stress + penalty * self.gap)
+        force = area * self.stress + held @ self.gap
         return np.asarray(self.gaps.T @ force + self.stresses.T @ (area * self.gap))
 
-    def force(self, area: Floats, penalty: Floats, increment: Floats) -> Floats:
+    def force(self, area: Floats, held: csr_array, increment: Floats) -> Floats:
         """Return the forces (k,) in N after an increment (n,)."""
-        stress = self.stress + self.stresses @ increment
-        return np.asarray(area * (stress + penalty * (self.gap + self.gaps @ increment)))
+        stress, gap = self.stress + self.stresses @ increment, self.gap + self.gaps @ increment
+        return np.asarray(area * stress + held @ gap)
 
-    def energy(self, area: Floats, penalty: Floats) -> Floats:
+    def energy(self, area: Floats, held: csr_array) -> Floats:
         """Return the energies (k,) at the start (J); they may be negative."""
-        return np.asarray(area * self.gap * (self.stress + penalty * self.gap / 2))
+        return np.asarray(self.gap * (area * self.stress + held @ self.gap / 2))
 
 
 @dataclass(frozen=True)
@@ -88,8 +89,10 @@ class TiedBonds(Transform):
         (k,) the contacts, rising.
     normal, tangent
         The two directions.
-    area, penalty
-        (k,) in m2 and Pa/m.
+    area
+        (k,) in m2.
+    held
+        (k, k) penalty times area on the jumps that it counts (N/m).
     weight
         Share of the end of the step in what forces hang on.
     """
@@ -98,7 +101,7 @@ class TiedBonds(Transform):
     normal: Direction
     tangent: Direction
     area: Floats
-    penalty: Floats
+    held: csr_array
     weight: float = 1.0
 
     @classmethod
@@ -128,31 +131,33 @@ class TiedBonds(Transform):
                 (tied.slip, shear, more[1], rows.tangent),
             )
         )
-        return cls(index, normal, tangent, bonds.area[at], bonds.penalty[at], weight)
+        area = bonds.area[at]
+        held = csr_array(diags_array(area * bonds.penalty[at]) @ counting(tied))
+        return cls(index, normal, tangent, area, held, weight)
 
     @cached_property
     def matrix(self) -> csc_array:
         """The matrix (n, n) of all terms."""
-        area, penalty = self.area, self.penalty
-        return csc_array(self.normal.matrix(area, penalty) + self.tangent.matrix(area, penalty))
+        area, held = self.area, self.held
+        return csc_array(self.normal.matrix(area, held) + self.tangent.matrix(area, held))
 
     @cached_property
     def energy(self) -> float:
         """Energy (J) at the start of the step."""
         both = (self.normal, self.tangent)
-        return float(sum(one.energy(self.area, self.penalty).sum() for one in both))
+        return float(sum(one.energy(self.area, self.held).sum() for one in both))
 
     @cached_property
     def push(self) -> Floats:
         """What the forces at the start are on the unknowns (n,), with the sign changed."""
         both = (self.normal, self.tangent)
-        return np.asarray(sum(one.push(self.area, self.penalty) for one in both))
+        return np.asarray(sum(one.push(self.area, self.held) for one in both))
 
     def forces(self, increment: Floats) -> tuple[Floats, Floats]:
         """Return pull and shear (k,) in N after an increment (n,)."""
         mean = self.weight * increment
         normal, shear = (
-            one.force(self.area, self.penalty, mean) for one in (self.normal, self.tangent)
+            one.force(self.area, self.held, mean) for one in (self.normal, self.tangent)
         )
         return normal, shear
 

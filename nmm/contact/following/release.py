@@ -6,6 +6,7 @@ import numpy as np
 
 from integration.arrays import Bools
 from nmm.contact.bonds.release import released
+from nmm.contact.bonds.turning import beside
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.problem.step_problem import BROKEN
 from nmm.contact.solution.record import ContactRecord, ContactSolution
@@ -26,17 +27,19 @@ def let_go(
     contacts, springs = solved.contacts, laws.springs(solved.contacts)
     limits = laws.response(contacts, springs[0]).limits
     freed, lost = gone & contacts.tied, gone & laws.brittle[contacts.interface]
-    after = laws.break_bonds(contacts, lost)
-    shed = 0.0
+    after, shed = contacts, 0.0
     if freed.any():
         ended = {name: getattr(solved.answer, name) for name in ENDED}
-        after, shed = released(replace(after, **ended), freed, solved.answer, springs, limits)
+        before = replace(contacts, **ended)
+        after, shed = released(before, freed, lost, solved.answer, springs, limits)
+    after = laws.break_bonds(after, lost)
     points = record.book.points
     order = np.argsort(contacts.key)
     at = order[np.searchsorted(contacts.key[order], points.key)]
     dropped = lost[at]
+    changed = (gone | beside(contacts, freed))[at]
     history = {
-        name: np.where(gone[at], after.history[name][at], column)
+        name: np.where(changed, after.history[name][at], column)
         for name, column in points.history.items()
     }
     points = replace(

@@ -95,7 +95,10 @@ class ContactPoints:
 
 
 TIED = "tied"
-"""The column of contacts that says whether consistent terms hold a bond."""
+"""The column of contacts that consistent terms hold: see `nmm.contact.bonds.turning.counted`.
+
+Zero where none does, else the share of their penalty that holds what turns in a joint.
+"""
 PARTS = tuple(part.name for part in fields(ContactPoints) if part.name != "history")
 
 

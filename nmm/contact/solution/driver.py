@@ -152,13 +152,14 @@ class ContactSolver:
                 return found
             if request.breaking == "stop" and brittle.any():
                 return replace(found, stopped=True)
-            loss += _stored(posed.problem, answer, brittle, contacts.tied)
+            loss += _stored(posed.problem, answer, brittle, contacts)
             freed = broken & contacts.tied
-            contacts = self._laws.break_bonds(contacts, brittle)
             if freed.any():
-                limits = iteration.response.limits
-                contacts, stored = released(contacts, freed, answer, iteration.springs, limits)
-                loss, besides = loss + stored, more(contacts)
+                limits, springs = iteration.response.limits, iteration.springs
+                contacts, stored = released(contacts, freed, brittle, answer, springs, limits)
+                loss += stored
+            contacts = self._laws.break_bonds(contacts, brittle)
+            besides = more(contacts) if freed.any() else besides
             iteration, start = HistoryIteration(self._laws, contacts), None
 
     def acting(self) -> csc_array | None:
@@ -253,10 +254,11 @@ class ContactSolver:
         return answer
 
 
-def _stored(problem: StepProblem, answer: StepAnswer, broken: Bools, tied: Bools) -> float:
+def _stored(
+    problem: StepProblem, answer: StepAnswer, broken: Bools, contacts: ContactPoints
+) -> float:
     """Energy (J) of bonds that break: in their springs, or of the terms that held them."""
-    penalty = problem.normal_stiffness
-    springs = answer.normal_force**2 / penalty + answer.shear_force**2 / problem.shear_stiffness
-    terms = tied_energy(answer.normal_force, answer.gap, penalty)
-    terms += tied_energy(answer.shear_force, answer.slip, penalty)
-    return float(np.where(tied, terms, springs / 2)[broken].sum())
+    stiffness = problem.normal_stiffness, problem.shear_stiffness
+    springs = answer.normal_force**2 / stiffness[0] + answer.shear_force**2 / stiffness[1]
+    terms = tied_energy(contacts, answer, stiffness)
+    return float(np.where(contacts.tied, terms, springs / 2)[broken].sum())

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.contact.bonds.turning import counted
 from nmm.errors import NmmError
 from nmm.scene import parse_scene
 from nmm.verification import text
 
 STRENGTH = 3e6
+RESIDUAL = 1e-6  # of the steps
 
 
 def bar(*, more="", law="", head="", lengths=(0.5, 2.0), moduli=(1e9, 10e9), cohesion=1e9):
@@ -142,3 +144,37 @@ def test_an_initial_stress_in_equilibrium_moves_nothing_and_loads_its_bonds():
     assert np.ptp(run.displacement[:, 0]) < 1e-9 * 2e6 / 1e9
     frame = run.frames[-1]
     assert frame.contact_force[:, 0].sum() == pytest.approx(2e6, rel=1e-9)
+
+
+def test_blocks_of_one_strain_in_a_row_bend_as_their_material():
+    # Two joints between the middles of blocks of 1 m: E I phi = M x 2 m, E / h of each. The couple
+    # shears the block that it acts on.
+    modulus, force = 1e9, 1e3
+    couple = (
+        '[[loads]]\nname = "up"\nkind = "point"\npoint = [5, 0]\nforce = [1e3, 0]\n'
+        '[[loads]]\nname = "down"\nkind = "point"\npoint = [5, 1]\nforce = [-1e3, 0]\n'
+    )
+    scene = bar(lengths=(1.0,) * 5, moduli=(modulus,) * 5, cohesion=1e9)
+    run = nmm.run(parse_scene(scene[: scene.index("[[loads]]")] + couple))
+    place, moved = run.manifold.elements.points, run.displacement
+
+    def rotation(left):
+        x = place[:, 0]
+        some = (x > left - 0.1) & (x < left + 1.1)
+        gradient = np.linalg.lstsq(np.c_[np.ones(some.sum()), place[some]], moved[some])[0][1:]
+        return (gradient[0, 1] - gradient[1, 0]) / 2
+
+    turned = rotation(3.0) - rotation(1.0)
+    assert turned == pytest.approx(12 * force * 2 / modulus, rel=RESIDUAL)
+
+
+def test_what_the_penalty_counts_of_a_jump_is_its_mean_and_a_share_of_the_rest():
+    scene = bar(lengths=(1.0, 1.0), moduli=(1e9, 1e9))
+    run = nmm.run(parse_scene(scene))
+    joint = run.stepper.plan.contact.record.book.points
+    share = joint.history["tied"]
+    found = counted(joint, np.array([1.0, 3.0]))
+    assert found.sum() == pytest.approx(4.0, rel=1e-12)
+    assert found[1] - found[0] == pytest.approx(2 * share[0], rel=1e-12)
+    # E / h over the penalty, 1.5 times its least E / 2: a face half a block from the middle.
+    assert share == pytest.approx([4 / 3, 4 / 3], rel=1e-9)

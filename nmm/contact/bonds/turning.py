@@ -1,0 +1,70 @@
+"""The part of a joint's jump by which its two sides turn against each other.
+
+Between elements of one strain each the average traction is the same all along a joint, and answers
+the mean jump alone. What is left of a jump bends both elements, which one strain cannot hold: it is
+held as firmly as the material between their middles bends, ``E / h`` (Kawai 1978), not by the
+penalty. Where tractions vary along a joint they answer both parts, and the penalty holds both.
+"""
+
+import numpy as np
+from scipy.sparse import csr_array, diags_array
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.contact.points.contact_points import TIED, ContactPoints
+
+
+def counted(contacts: ContactPoints, jump: Floats) -> Floats:
+    """Return the jumps (m,) that the penalty holds: the joint's mean, and a share of the rest.
+
+    The share is the column ``TIED``. A point whose joint has no other whole bond has its own jump.
+    """
+    tied = np.flatnonzero(contacts.tied)
+    found = jump.copy()
+    found[tied] = counting(contacts.take(tied)) @ jump[tied]
+    return found
+
+
+def counting(tied: ContactPoints) -> csr_array:
+    """Return the matrix (k, k) from jumps of tied bonds to those that the penalty holds."""
+    joint, share = _joint(tied), tied.history[TIED]
+    number = np.unique(joint, return_inverse=True)[1]
+    size = np.bincount(number)
+    points = np.arange(len(joint))
+    member = csr_array((np.ones(len(joint)), (number, points)), shape=(len(size), len(joint)))
+    mean = member.T @ diags_array(1.0 / size) @ member
+    return csr_array(diags_array(share) + diags_array(1 - share) @ mean)
+
+
+def beside(contacts: ContactPoints, gone: Bools) -> Bools:
+    """Return which tied bonds (m,) are left alone in their joint as others are gone."""
+    stays = contacts.tied & ~gone
+    return np.asarray(stays & np.isin(_joint(contacts), _joint(contacts)[contacts.tied & gone]))
+
+
+def turning_share(tractions: list[tuple[Ints, Floats]], penalty: Floats, bending: Floats) -> Floats:
+    """Return the share (k,) of the penalty that holds what turns, for the two points of joints.
+
+    Parameters
+    ----------
+    tractions
+        Unknowns (k, L) and rows (k, 2, L) of either side.
+    penalty, bending
+        (k,) of the mean jump, and ``E / h`` (Pa/m).
+    """
+    even = np.ones(len(penalty) // 2, dtype=bool)
+    for unknowns, values in tractions:
+        one, other = values[0::2], values[1::2]
+        off = np.abs(one - other).max(axis=(1, 2), initial=0.0)
+        even &= off <= SAME * np.abs(one).max(axis=(1, 2), initial=0.0)
+        even &= (unknowns[0::2] == unknowns[1::2]).all(axis=1)
+    share = bending / np.where(penalty > 0, penalty, 1.0)
+    return np.where(np.repeat(even, 2), share, 1.0)
+
+
+# Tractions that differ by less along a joint are the same, relative.
+SAME = 1e-9
+
+
+def _joint(contacts: ContactPoints) -> Ints:
+    """Number (m,) of the joint of each point: keys -1 and -2 are of the first."""
+    return np.asarray((-1 - contacts.key) // 2)
