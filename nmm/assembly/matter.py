@@ -5,6 +5,7 @@ Only elements whose laws are not linear have such points; the stiffness of the o
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -20,6 +21,9 @@ STRESS = "stress"
 """Stress (Q, 3) of the last accepted step, in body axes (Pa), beyond the initial stress."""
 INITIAL = "initial_strain"
 """Elastic strain (Q, 3) of the initial stress; absent where there is none."""
+
+# Tangents off by this share of the elastic one are that one, rounded.
+ROUNDING = 16 * float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -123,9 +127,22 @@ class Matter:
         return all(law.symmetric for law in self.laws)
 
     def stiffness(self, tangent: Floats, symmetric: bool = True) -> csc_array:
-        """Return the tangent stiffness (n, n) of tangents (Q, 3, 3), or its symmetric part."""
+        """Return the tangent stiffness (n, n) of tangents (Q, 3, 3), or its symmetric part.
+
+        It is the same object where matter is elastic.
+        """
         if symmetric:
             tangent = (tangent + np.swapaxes(tangent, 1, 2)) / 2
+        if np.abs(tangent - self.elastic).max() <= ROUNDING * np.abs(self.elastic).max():
+            return self.elastic_stiffness
+        return self._stiffness(tangent, symmetric)
+
+    @cached_property
+    def elastic_stiffness(self) -> csc_array:
+        """Stiffness (n, n) of elastic matter."""
+        return self._stiffness(self.elastic, symmetric=True)
+
+    def _stiffness(self, tangent: Floats, symmetric: bool) -> csc_array:
         return csc_array(self.rest + self.thickness * self.points.matrix(tangent, symmetric))
 
     def energy(self, deformation: Floats, history: History) -> float:

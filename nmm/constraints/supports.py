@@ -8,6 +8,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
+from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
@@ -17,6 +18,7 @@ from nmm.constraints.volume_lift import sharing
 from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Instant, Setup
 from nmm.effects.motion.ground import Ground
+from nmm.effects.motion.reactions import Reactions
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -74,6 +76,33 @@ class Supports(TiedInterfaces):
                 anchor = nearest(*positions, np.broadcast_to(before.anchor, (len(before), 2)))
             new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
         return new
+
+    def left(self, change: "Change", stresses: Sequence[StressAt]) -> list[Reactions]:
+        """Return, on the new model, what the supports exert that the change takes away."""
+        stay = {one.name for one in change.setup.scene.supports}
+        tables = [one for one in change.before.scene.supports if one.name not in stay]
+        scene = change.setup.scene.model_copy(update={"supports": tuple(tables)})
+        setup = replace(change.setup, scene=scene)
+        gone = self.follow(replace(change, setup=setup))
+        gone.feel(stresses)
+        return gone._standing(change.state, self)
+
+    def _standing(self, state: State, before: "Supports") -> list[Reactions]:
+        """Return what each support exerts; multipliers are those of the supports ``before``."""
+        known = {tie.interface.name: tie for tie in before.ties}
+        found = []
+        for tie, jump in zip(self.ties, self._jumps(state, Instant.of(state)), strict=True):
+            old = known[tie.interface.name]
+            from_old = tie.shared is not None and len(old.interface) == len(tie.interface)
+            forces = (old if from_old else tie).point_forces(state, jump)
+            whole = self._with_added(forces, tie, state)
+            beside = tie.force(state, jump) - tie.interface.spread(state, forces)
+            beside = np.zeros_like(beside) if tie.shared is not None else beside
+            place = tie.interface.first
+            found.append(
+                Reactions(place.elements, place.position, tie.interface.held * whole, beside)
+            )
+        return found
 
     @property
     def steady(self) -> bool:

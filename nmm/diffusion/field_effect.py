@@ -5,9 +5,11 @@ place.
 """
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats, Ints
@@ -100,9 +102,14 @@ class FieldEffect(Effect):
     def flux(self, state: State) -> Floats:
         """Mean flux (E, 2) of the elements in global axes."""
         field = self.here(state.time).unknowns
-        slopes = np.stack([rows @ field for rows in element_slopes(self.space)], axis=1)
+        slopes = np.stack([rows @ field for rows in self._slopes], axis=1)
         body = self.space.manifold.element_body
         return state.frames.to_global(body, -self._conductivity[:, None] * slopes)
+
+    @cached_property
+    def _slopes(self) -> tuple[csr_array, csr_array]:
+        """Rows (E, n) of the mean slopes of elements along x and y."""
+        return element_slopes(self.space)
 
     def amounts(self, state: State) -> Mapping[str, float]:
         """Return what was taken up since the start, and is stored; rates of a steady field."""

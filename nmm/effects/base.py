@@ -19,6 +19,7 @@ from nmm.scene.fields import Frozen
 if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.effects.event import Event
+    from nmm.effects.motion.reactions import Reactions
     from nmm.effects.view import View
     from nmm.formulation import Formulation
     from nmm.scene.model import Scene
@@ -324,6 +325,10 @@ class Effect(ABC):
 
     def put_in(self, state: State) -> None:
         """Take the state in which the effect joins a run that has begun without it."""
+        raise NotImplementedError
+
+    def take_over(self, left: "Sequence[Reactions]") -> None:
+        """Take what supports exerted that the change takes away, ready to act on the new model."""
         raise NotImplementedError
 
     def carried(self) -> Any:

@@ -1,6 +1,7 @@
 """Mohr-Coulomb plasticity of soil and rock in plane strain, perfectly plastic."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from integration.arrays import Floats
 from nmm.materials.base import History, Response
@@ -20,11 +21,14 @@ class MohrCoulombPlasticity(Frictional):
 
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
         """See `Law.update`."""
-        pyramid = Pyramid.of(
+        before = history["plastic_strain"]
+        found = principal_return(strain, before, self._pyramid)
+        accumulated = grown(history, found.plastic_strain)
+        return flowed(found.stress, found.tangent, found.plastic_strain, accumulated)
+
+    @cached_property
+    def _pyramid(self) -> Pyramid:
+        return Pyramid.of(
             (self.young_modulus, self.poisson_ratio),
             (self.cohesion, self.friction_angle, self.dilation_angle, self.cut_off),
         )
-        before = history["plastic_strain"]
-        found = principal_return(strain, before, pyramid)
-        accumulated = grown(history, found.plastic_strain)
-        return flowed(found.stress, found.tangent, found.plastic_strain, accumulated)

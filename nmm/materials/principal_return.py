@@ -8,11 +8,12 @@ of Karush, Kuhn and Tucker, Koiter 1953).
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Self
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 
 # Share of the stresses by which rounding leaves a point beyond the yield surface: it is elastic.
 BEYOND = 1e-10
@@ -84,6 +85,21 @@ class Pyramid:
         fixed = (np.array(part) for part in zip(*parts, strict=True))
         return cls(elastic, shear, float(np.sin(friction)), float(whole), tension, *fixed)
 
+    @cached_property
+    def whole(self) -> Floats:
+        """(4, 4) stresses (xx, yy, xy, zz) from strains (xx, yy, 2 xy, zz) in plane strain (Pa)."""
+        found, normal = np.zeros((4, 4)), np.array([0, 1, 3])
+        found[np.ix_(normal, normal)], found[2, 2] = self.elastic, self.shear
+        return found
+
+    def size(self, stress: Floats) -> Floats:
+        """Return what rounding of principal stresses (m, 3) is a share of, (m,) in Pa."""
+        return np.asarray(np.abs(stress).max(axis=1) + self.strength)
+
+    def flows(self, stress: Floats) -> Bools:
+        """Return where (m,) principal stresses (m, 3) in any order exceed the surface."""
+        return np.asarray(self.beyond(stress) > BEYOND * self.size(stress))
+
     def beyond(self, stress: Floats) -> Floats:
         """Return how far (m,) principal stresses (m, 3) in any order exceed the surface (Pa)."""
         first, last = stress.max(axis=1), stress.min(axis=1)
@@ -101,11 +117,35 @@ class ReturnedStress:
 
 
 def principal_return(strain: Floats, plastic: Floats, pyramid: Pyramid) -> ReturnedStress:
-    """Return stresses to the pyramid; ``strain`` (m, 3) whole, ``plastic`` (m, 4) before."""
+    """Return stresses to the pyramid; ``strain`` (m, 3) whole, ``plastic`` (m, 4) before.
+
+    Only points beyond it are turned to their principal axes.
+    """
     elastic = np.column_stack([strain, np.zeros(len(strain))]) - plastic
-    middle, half = (elastic[:, 0] + elastic[:, 1]) / 2, (elastic[:, 0] - elastic[:, 1]) / 2
-    radius, angle = np.hypot(half, elastic[:, 2] / 2), np.arctan2(elastic[:, 2] / 2, half) / 2
-    principal = np.stack([middle + radius, middle - radius, elastic[:, 3]], axis=1)
+    stress = elastic @ pyramid.whole
+    tangent = np.tile(pyramid.whole[:3, :3], (len(strain), 1, 1))
+    found = ReturnedStress(stress, tangent, plastic.copy())
+    flows = np.flatnonzero(pyramid.flows(_principal(stress)[0]))
+    if len(flows):
+        back = _returned(elastic[flows], pyramid)
+        stress[flows], tangent[flows] = back.stress, back.tangent
+        found.plastic_strain[flows] += back.plastic_strain
+    return found
+
+
+def _principal(tensor: Floats) -> tuple[Floats, Floats]:
+    """Principal values (m, 3) of tensors (m, 4: xx, yy, xy, zz), and angles (m,) of the first."""
+    middle, half = (tensor[:, 0] + tensor[:, 1]) / 2, (tensor[:, 0] - tensor[:, 1]) / 2
+    radius, angle = np.hypot(half, tensor[:, 2]), np.arctan2(tensor[:, 2], half) / 2
+    return np.stack([middle + radius, middle - radius, tensor[:, 3]], axis=1), angle
+
+
+def _returned(elastic: Floats, pyramid: Pyramid) -> ReturnedStress:
+    """Return stresses of points beyond the pyramid, and by how much their plastic strain grows.
+
+    ``elastic`` (m, 4: xx, yy, 2 xy, zz) are their strains before.
+    """
+    principal, angle = _principal(elastic * np.array([1.0, 1.0, 0.5, 1.0]))
     trial = principal @ pyramid.elastic
     order = np.argsort(-trial, axis=1, kind="stable")
     found, tangent = _sorted_return(np.take_along_axis(trial, order, axis=1), pyramid)
@@ -122,24 +162,20 @@ def principal_return(strain: Floats, plastic: Floats, pyramid: Pyramid) -> Retur
     left = stress @ np.linalg.inv(pyramid.elastic)
     flat = np.einsum("mi,mij->mj", left[:, :2], axes[:, :2])
     kept = np.column_stack([flat[:, :2], 2 * flat[:, 2], left[:, 2]])
-    same = (found == np.take_along_axis(trial, order, axis=1)).all(axis=1)
-    return ReturnedStress(back, whole, np.where(same[:, None], plastic, plastic + elastic - kept))
+    return ReturnedStress(back, whole, elastic - kept)
 
 
 def _sorted_return(trial: Floats, pyramid: Pyramid) -> tuple[Floats, Floats]:
     """Sorted principal stresses (m, 3) back at the surface, and their tangent (m, 3, 3)."""
-    size = np.abs(trial).max(axis=1) + pyramid.strength
     found, tangent = trial.copy(), np.tile(pyramid.elastic, (len(trial), 1, 1))
-    flows = np.flatnonzero(pyramid.beyond(trial) > BEYOND * size)
-    least = np.full(len(flows), np.inf)
-    out = trial[flows]
+    least, size = np.full(len(trial), np.inf), pyramid.size(trial)
     for number, matrix in enumerate(pyramid.matrix):  # three to ten sets of planes
-        stress = out @ matrix.T + pyramid.vector[number]
-        back = pyramid.start[number] - out @ pyramid.flow[number].T
+        stress = trial @ matrix.T + pyramid.vector[number]
+        back = pyramid.start[number] - trial @ pyramid.flow[number].T
         wrong = np.maximum(pyramid.beyond(stress), back.max(axis=1))
-        better = wrong < least - BEYOND * size[flows]
+        better = wrong < least - BEYOND * size
         least = np.where(better, wrong, least)
-        found[flows[better]], tangent[flows[better]] = stress[better], matrix @ pyramid.elastic
+        found[better], tangent[better] = stress[better], matrix @ pyramid.elastic
     return found, tangent
 
 

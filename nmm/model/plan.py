@@ -352,7 +352,13 @@ def plan_after(plan: Plan, change: "Change") -> Plan:
         new.effects[name] = effect = new._timed(name, make)
         if name not in plan.effects and defines(effect, "put_in"):
             effect.put_in(change.state)
-    return new.connected()
+    new.connected()
+    heirs = new._with("take_over")
+    if heirs and plan.supports is not None:
+        left = plan.supports.left(change, new.stresses)
+        for effect in heirs:
+            effect.take_over(left)
+    return new
 
 
 def _makers(setup: Setup) -> dict[str, Callable[[], Effect]]:

@@ -95,6 +95,7 @@ _PLACES = {
     "nmm.assembly.motion": ("State", "Frames"),
     "nmm.contact.detection.narrow_phase": ("Contacts",),
     "nmm.contact.detection.face_contacts": ("FaceContacts",),
+    "nmm.effects.motion.reactions": ("Reactions",),
     "nmm.contact.solution.record": ("ContactRecord", "ContactCarried"),
     "nmm.contact.points.contact_points": ("ContactPoints",),
     "nmm.contact.points.joint_book": ("JointBook",),

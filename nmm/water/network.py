@@ -88,10 +88,7 @@ class JointNetwork:
 
     def isolated(self, conductance: Floats, fixed: Ints) -> Bools:
         """Which nodes (n,) have open joints and none that leads to a given head."""
-        part, wet = self._parts(conductance)
-        reached = np.zeros(part.max(initial=-1) + 1, dtype=bool)
-        reached[part[fixed]] = True
-        return np.asarray(wet & ~reached[part])
+        return _unreached(*self._parts(conductance), fixed)
 
     def _parts(self, conductance: Floats) -> tuple[Ints, Bools]:
         """Connected part (n,) of each node, and which have open joints."""
@@ -106,9 +103,9 @@ class JointNetwork:
     def _solved(
         self, conductance: Floats, fixed: Ints, given: Floats, storage: Floats, before: Floats
     ) -> Floats:
-        _, wet = self._parts(conductance)
+        part, wet = self._parts(conductance)
         stores = storage > 0
-        loose = self.isolated(conductance, fixed) & ~stores
+        loose = _unreached(part, wet, fixed) & ~stores
         if loose.any():
             raise SolveError(
                 f"joints at {int(loose.sum())} nodes, node {int(np.flatnonzero(loose)[0])} first, "
@@ -137,6 +134,13 @@ class JointNetwork:
         links = number[self.ends[inner]]
         heads[sought] = low + heads_of(links, conductance[inner], ground, driven)
         return heads
+
+
+def _unreached(part: Ints, wet: Bools, fixed: Ints) -> Bools:
+    """Which wet nodes (n,) are of a connected part without a given head."""
+    reached = np.zeros(part.max(initial=-1) + 1, dtype=bool)
+    reached[part[fixed]] = True
+    return np.asarray(wet & ~reached[part])
 
 
 def coupled_heads(

@@ -54,9 +54,9 @@ class LocalDamping(Effect):
 
     def added_mass(self, state: State) -> csc_array:
         """Return what the mass gains or loses by the signs at the start of the step."""
-        sign = np.sign(self.power(state))
-        if self._kept is None or not np.array_equal(self._kept[0], sign):
-            self._kept = sign, self._matrix(1 / (1 - self._share * sign) - 1)
+        more = 1 / (1 - self._share * np.sign(self.power(state))) - 1
+        if self._kept is None or not np.array_equal(self._kept[0], more):
+            self._kept = more, self._matrix(more)
         return self._kept[1]
 
     def power(self, state: State) -> Floats:

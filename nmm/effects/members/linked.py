@@ -20,6 +20,11 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
 
 
+# Where members turn the matrix of an earlier step serves while what it is made of is off by no more
+# than this share of the largest: what it misses is solved for within the step.
+LIKE = 1e-3
+
+
 class Linked(Effect):
     """Members that pull their ends together by laws of the stretch between them."""
 
@@ -30,6 +35,8 @@ class Linked(Effect):
         self._offset = np.zeros(len(members.links))
         self._answers = KeptOfStates(self._answered)
         self._matrices = KeptOfStates(self._stiffness)
+        self._forces = KeptOfStates(self._force)
+        self._made: tuple[tuple[Floats, ...], csc_array] | None = None
 
     @property
     def bends(self) -> bool:
@@ -43,20 +50,33 @@ class Linked(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """See `Effect.force`."""
+        return self._forces.of(state)
+
+    def _force(self, state: State) -> Floats:
         links = self.members.links
         return links.pull(state, links.lines(state), self._answers.of(state).axial.force)
 
     def matrix(self, state: State) -> csc_array:
-        """See `Effect.matrix`."""
+        """See `Effect.matrix`; the same object as long as it would hardly be another."""
         return self._matrices.of(state)
 
     def _stiffness(self, state: State) -> csc_array:
         members, found = self.members, self._answers.of(state)
         if len(found.broken):
             raise SolveError(self._lost(found))
-        tangent = members.chains.tangent(found)
-        lines = members.links.lines(state)
-        return members.links.stiffness(state, lines, tangent, found.axial.force)
+        links, force = members.links, found.axial.force
+        lines = links.lines(state)
+        made_of = (
+            state.frames.angle[links.bodies],
+            lines.along,
+            found.axial.tangent,
+            found.bond.tangent,
+            force * lines.across,
+        )
+        if self._made is None or not _alike(self._made[0], made_of, LIKE if self.bends else 0.0):
+            tangent = members.chains.tangent(found)
+            self._made = made_of, links.stiffness(state, lines, tangent, force)
+        return self._made[1]
 
     def through(self, before: State, after: State, span: Span) -> StepForce:
         """See `Effect.through`."""
@@ -137,6 +157,8 @@ class Linked(Effect):
         """See `Effect.forget`."""
         self._answers.forget()
         self._matrices.forget()
+        self._forces.forget()
+        self._made = None
 
     def follow(self, change: "Change") -> Self:
         """Return the members on the new model; those that are new are put in as all stands."""
@@ -175,6 +197,14 @@ class Linked(Effect):
             f"{self.name} {', '.join(names)}: the bond loses force faster than the bar unloads "
             "(snap-back): no stable slips under this motion of its ends"
         )
+
+
+def _alike(some: tuple[Floats, ...], others: tuple[Floats, ...], share: float) -> bool:
+    """Whether arrays differ by no more than a share of their largest numbers."""
+    return all(
+        np.abs(one - other).max(initial=0.0) <= share * np.abs(one).max(initial=0.0)
+        for one, other in zip(some, others, strict=True)
+    )
 
 
 def _largest(names: Sequence[str], owner: Ints, values: Floats, what: str) -> dict[str, float]:

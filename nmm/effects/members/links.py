@@ -12,7 +12,7 @@ from typing import Self
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.members.ends import Ends
@@ -82,6 +82,13 @@ class Links:
         """LinesOfAction as drawn, which stay."""
         return LinesOfAction(self.direction, np.zeros(len(self)))
 
+    @cached_property
+    def bodies(self) -> Ints:
+        """Bodies that they are tied to."""
+        return np.unique(
+            np.concatenate([end.points.body[end.held > 0] for end in (self.first, self.second)])
+        )
+
     @property
     def grounded(self) -> bool:
         """Whether any end is on the ground."""
@@ -122,34 +129,50 @@ class Links:
 
     def rows(self, state: State, directions: Floats) -> csr_array:
         """(m, n) from the unknowns of a step to the motion apart along directions (m, 2)."""
-        parts = [(self.second, directions), (self.first, -directions)]
-        values = np.concatenate([end.along(state.frames, way) for end, way in parts], axis=1)
-        unknowns = np.concatenate([end.points.rows.unknowns for end, _ in parts], axis=1)
+        unknowns, values = self._apart(state, directions)
         ends = np.arange(len(values) + 1) * values.shape[1]
         shape = (len(values), len(state.deformation))
         return csr_array((values.ravel(), unknowns.ravel(), ends), shape=shape)
 
+    def _apart(self, state: State, directions: Floats) -> tuple[Ints, Floats]:
+        """Unknowns and rows (m, L) of the motion apart along directions (m, 2)."""
+        parts = [(self.second, directions), (self.first, -directions)]
+        values = np.concatenate([end.along(state.frames, way) for end, way in parts], axis=1)
+        return self._unknowns, values
+
+    @cached_property
+    def _unknowns(self) -> Ints:
+        ends = (self.second, self.first)
+        return np.concatenate([end.points.rows.unknowns for end in ends], axis=1)
+
     def pull(self, state: State, lines: LinesOfAction, force: Floats) -> Floats:
         """Force (n,) on the unknowns of axial forces (m,)."""
-        return -np.asarray(self.rows(state, lines.along).T @ force)
+        n = len(state.deformation)
+        if not force.any():
+            return np.zeros(n)
+        unknowns, values = self._apart(state, lines.along)
+        pushed = (-force[:, None] * values).ravel()
+        return np.asarray(np.bincount(unknowns.ravel(), pushed, minlength=n))
 
     def stiffness(
         self, state: State, lines: LinesOfAction, tangent: csr_array, force: Floats
     ) -> csc_array:
         """Matrix (n, n) of a tangent (m, m) along the lines and of forces (m,) that turn."""
-        along = self.rows(state, lines.along)
-        found = along.T @ tangent @ along
-        turning = force * lines.across
+        n, turning = len(state.deformation), force * lines.across
+        found = csc_array((n, n))
+        if tangent.data.any():
+            along = self.rows(state, lines.along)
+            found = csc_array(along.T @ tangent @ along)
         if turning.any():
             across = self.rows(state, lines.normal)
-            found = found + across.T @ diags_array(turning) @ across
-        return csc_array(found)
+            found = csc_array(found + across.T @ diags_array(turning) @ across)
+        return found
 
     def owed(
         self, model: Model, before: State, after: State, lines: LinesOfAction, force: Floats
     ) -> Floats:
         """Moments, as forces (n,), that rows at the start of a step lack of those half way."""
-        if self.small:
+        if self.small or not force.any():
             return np.zeros(len(before.deformation))
         moment = np.zeros((model.manifold.n_bodies, 3))
         pulls = force[:, None] * lines.along

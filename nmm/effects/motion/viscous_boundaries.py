@@ -1,28 +1,66 @@
-"""Viscous boundaries, and the waves that come in through them (Lysmer and Kuhlemeyer 1969)."""
+"""Viscous boundaries, and the waves that come in through them (Lysmer and Kuhlemeyer 1969).
 
-from collections.abc import Mapping
+What supports along an edge exerted when a stage takes them away may stay on it as a load, so that
+what it carries does not drift.
+"""
+
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
-from integration.arrays import Floats
+import numpy as np
+import shapely
+from shapely import LineString
+
+from integration.arrays import Bools, Floats
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.assembly.places import NEAR
 from nmm.effects.acting_place import edge_place
-from nmm.effects.base import Setup
+from nmm.effects.base import Instant, Setup
+from nmm.effects.members.ends import elements_at
 from nmm.effects.motion.driven_edges import DrivenEdges
 from nmm.effects.motion.edge_dashpots import EdgeDashpots, ground_of
+from nmm.effects.motion.reactions import Reactions
 from nmm.effects.motion.record import GroundMotion, motions_of, velocity_of
 
 if TYPE_CHECKING:
+    from nmm.effects.change import Change
     from nmm.scene.tables.shaking.boundaries import ViscousBoundaryTable
 
 
 @dataclass(frozen=True)
 class ViscousBoundary:
-    """One boundary: its dashpots, and the wave that comes in along x (0) and y (1)."""
+    """One boundary.
+
+    Attributes
+    ----------
+    name
+        As the scene calls it.
+    dashpots
+        On its edges.
+    incoming
+        The wave that comes in along x (0) and y (1).
+    segment
+        (2, 2) where it lies (m); None is all around its block.
+    takes_over
+        Whether reactions of supports that leave it stay as loads.
+    """
 
     name: str
     dashpots: EdgeDashpots
     incoming: Mapping[int, GroundMotion]
+    segment: Floats | None = None
+    takes_over: bool = False
+
+    def holds(self, reactions: Reactions) -> Bools:
+        """Say which (k,) of reactions act on it."""
+        if not self.takes_over:
+            return np.zeros(len(reactions), dtype=bool)
+        if self.segment is None:
+            return np.isin(reactions.elements, self.dashpots.place.elements)
+        line, points = LineString(self.segment), shapely.points(reactions.position)
+        return np.asarray(shapely.dwithin(line, points, NEAR * line.length))
 
     @property
     def driven(self) -> bool:
@@ -38,20 +76,63 @@ class ViscousBoundaries(DrivenEdges):
     """Dashpots on edges, against the velocity, and incoming waves.
 
     What the dashpots took is booked as lost, what the waves brought as work. An edge held by
-    nothing else drifts under a force that stays: with its share of force over impedance.
+    nothing else drifts under a force that stays, with its share of force over impedance, unless it
+    took over the reactions of what held it.
     """
 
     name = "viscous boundaries"
 
-    def __init__(self, boundaries: list[ViscousBoundary], n_unknowns: int) -> None:
-        super().__init__(boundaries, n_unknowns)
-        self.boundaries = boundaries
+    def __init__(self, boundaries: list[ViscousBoundary], model: Model) -> None:
+        super().__init__(boundaries, model.manifold.n_unknowns)
+        self.boundaries, self._model = boundaries, model
+        self._stand(Reactions.none(self._n))
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[viscous_boundaries]]``."""
         found = [_boundary(setup, one) for one in setup.scene.viscous_boundaries]  # a handful
-        return cls(found, setup.model.manifold.n_unknowns)
+        return cls(found, setup.model)
+
+    def take_over(self, left: Sequence[Reactions]) -> None:
+        """See `Effect.take_over`: those along boundaries that ask for them stay as loads."""
+        parts = [one.at(self._held(one)) for one in left]
+        self._stand(Reactions.sum([self._standing, *parts], self._n))
+
+    def follow(self, change: "Change") -> "ViscousBoundaries":
+        """Return the boundaries on the new model, with the loads that stay on them."""
+        new, known = type(self).from_setup(change.setup), self._standing
+        elements = elements_at(change.setup, known.position)
+        same = np.array_equal(elements, known.elements) and len(known.beside) == new._n
+        beside = known.beside if same else np.zeros(new._n)
+        moved = Reactions(elements, known.position, known.force, beside)
+        new._stand(moved.at(new._held(moved) & (elements >= 0)))
+        return new
+
+    def carried(self) -> Reactions:
+        """See `Effect.carried`: the loads that stay."""
+        return self._standing
+
+    def carry(self, carried: Reactions) -> None:
+        """See `Effect.carry`."""
+        self._stand(carried)
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return what sends the waves in, and the loads that stay."""
+        return super().force(state, end) + self._standing.push(self._points, state)
+
+    def work(self, before: State, after: State) -> float:
+        """Work of the waves, and of the loads that stay."""
+        stays = self._standing.work(self._points, before, after)
+        return super().work(before, after) + stays
+
+    def _stand(self, reactions: Reactions) -> None:
+        self._standing, self._points = reactions, reactions.points(self._model)
+
+    def _held(self, reactions: Reactions) -> Bools:
+        found = np.zeros(len(reactions), dtype=bool)
+        for one in self.boundaries:  # a handful
+            found |= one.holds(reactions)
+        return found
 
     @property
     def about(self) -> str:
@@ -81,4 +162,6 @@ def _boundary(setup: Setup, table: "ViscousBoundaryTable") -> ViscousBoundary:
     order = 2 * max(model.manifold.degree, 1)
     place = edge_place(setup, "viscous_boundaries", table, order)
     dashpots = EdgeDashpots.of(model, place, ground_of(table))
-    return ViscousBoundary(table.name, dashpots, motions_of(setup.scene, table.incoming))
+    incoming = motions_of(setup.scene, table.incoming)
+    segment = None if table.segment is None else np.array(table.segment)
+    return ViscousBoundary(table.name, dashpots, incoming, segment, table.reactions)

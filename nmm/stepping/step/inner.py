@@ -76,6 +76,12 @@ class Iterate:
             return self.matter.stiffness
         return csc_array(self.matter.stiffness + self.effects.stiffness)
 
+    def with_tangent_of(self, other: "Iterate") -> "Iterate":
+        """Return the iterate with the tangent that effects have at another one."""
+        known = other.effects
+        effects = InnerPart(self.effects.force, lambda: known.stiffness)
+        return replace(self, effects=effects)
+
 
 class Inner:
     """Internal forces of one step that starts at a state.
@@ -120,7 +126,7 @@ class Inner:
             self.elastic = self._model.stiffness
             self.start = self.elastic @ state.deformation
         else:
-            self.elastic = matter.stiffness(matter.elastic)
+            self.elastic = matter.elastic_stiffness
             self.start = matter.force(state.deformation, state.history[STRESS])
         self._lines = {name: self._line(name) for name in self._plan.bent}
         self._lined = all(defines(one, "matrix") for one in self._plan.bent.values())

@@ -27,6 +27,9 @@ Solution = tuple[Equations, Attempt]
 BALANCED, ROUNDED = 1e-10, 1e-7
 # Iterations of a step; plasticity takes four to eight.
 MOST = 30
+# Below this imbalance the tangent of effects is kept, with the matrix and its factors: what it
+# misses falls by as much again. Where it falls less than by this factor a new one is made.
+NEARLY, FALLS = 1e-3, 0.1
 # A full step is taken when it leaves at most this share of its slope; else it is shortened, at most
 # so often, down to this share of it.
 SLOPE, TRIALS, SHORTEST = 0.8, 6, 0.05
@@ -83,7 +86,10 @@ def newton(
                 sentence=f"{flows}; {said}" if flows else said,
                 singular=bool(flows),
             )
+        before = now
         now = _searched(equations, line, now, then, at)
+        if not inner.flows and _falls(imbalances):
+            now = now.with_tangent_of(before)
 
 
 def _goes_on(found: Attempt) -> bool:
@@ -110,6 +116,12 @@ def _balanced(imbalances: list[float]) -> bool:
         return True
     stalls = len(imbalances) > 1 and last > 0.5 * imbalances[-2]
     return last <= ROUNDED and stalls
+
+
+def _falls(imbalances: list[float]) -> bool:
+    """Whether little is out of balance, and it falls with the tangent as it was."""
+    last, before = imbalances[-1], imbalances[-2] if len(imbalances) > 1 else np.inf
+    return last <= NEARLY and last <= FALLS * before
 
 
 def _searched(

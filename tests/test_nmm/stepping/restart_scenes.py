@@ -513,6 +513,52 @@ name = "finer"
 duration = 0.012
 cover = { degree = 2 }
 """
+LEFT_STANDING = """
+title = "column on ground that goes on"
+plane = "strain"
+[materials.soil]
+young_modulus = "100 MPa"
+poisson_ratio = 0.25
+density = 2000
+[[blocks]]
+name = "soil"
+material = "soil"
+vertices = [[0, 0], [2, 0], [2, 4], [0, 4]]
+[gravity]
+[inertia]
+[records.wave]
+values = [0, 0.1, 0.3, 0.1, 0, 0, 0, 0, 0]
+step = 0.01
+quantity = "velocity"
+[[supports]]
+name = "bottom"
+segment = [[0, 0], [2, 0]]
+fix = ["x", "y"]
+[[viscous_boundaries]]
+name = "base"
+segment = [[0, 0], [2, 0]]
+reactions = true
+incoming = { x = "wave" }
+[output]
+every_steps = 3
+{checkpoint}
+[[stages]]
+name = "in place"
+[[stages]]
+name = "shaken"
+supports = []
+duration = 0.04
+[[stages]]
+name = "shaken on"
+duration = 0.02
+[formulation.cover]
+type = "quads"
+size = 0.9
+degree = 1
+[formulation.integrator]
+type = "newmark"
+step = 0.004
+"""
 SHAKEN_ON_ROCK = """
 duration = 0.03
 title = "shaken block"
@@ -579,6 +625,7 @@ SCENES = {
     "shaken": SHAKEN.replace("{duration}", "0.03").replace("{stages}", ""),
     "shaken stages": SHAKEN.replace("duration = {duration}", "").replace("{stages}", SHAKEN_STAGES),
     "shaken stone": SHAKEN_ON_ROCK,
+    "left standing": LEFT_STANDING,
 }
 
 

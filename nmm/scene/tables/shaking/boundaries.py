@@ -10,6 +10,7 @@ from nmm.scene.fields import (
     NAME,
     BlockName,
     Density,
+    Flag,
     Frozen,
     Name,
     Segment,
@@ -39,6 +40,12 @@ class ViscousBoundaryTable(Frozen):
         default={},
         description="names of records of the incoming wave along x and y",
         examples=[{"x": "quake"}],
+    )
+    reactions: Flag = Field(
+        default=False,
+        description="true or false: whether what supports along it exert stays on it as a load "
+        "when a stage takes them away, so that weight does not make it drift",
+        examples=[True],
     )
     density: Density | None = Field(
         default=None,

@@ -26,6 +26,9 @@ def motion_contradictions(data: Tables) -> Iterator[Finding]:
             yield (*path, "motion"), "no [inertia]", "a dynamic scene", remedy
     for path, row in rows(data, "viscous_boundaries"):
         yield from _named_records(data, (*path, "incoming"), row.get("incoming"))
+        if row.get("reactions") is True and not data.get("stages"):
+            remedy = "remove it, or add a stage at rest on supports, and one without them"
+            yield (*path, "reactions"), "no [[stages]]", "supports that a stage takes away", remedy
     for key in EDGES:
         if data.get(key) and "inertia" not in data:
             yield (key,), "no [inertia]", "a dynamic scene", f"add [inertia], or remove [[{key}]]"

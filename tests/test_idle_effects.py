@@ -1,0 +1,73 @@
+"""Effects that are named and idle change nothing; those that are not named are not imported."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.model.effects_table import EFFECTS
+
+BENCHMARKS = Path(__file__).resolve().parents[1] / "benchmarks"
+sys.path.insert(0, str(BENCHMARKS))
+from idle_effects import ALWAYS, IDLE  # noqa: E402
+
+sys.path.remove(str(BENCHMARKS))
+
+NEUTRAL = [name for name, idle in IDLE.items() if idle.within]
+STEPS = 4
+
+
+def test_every_effect_that_can_be_idle_has_a_row():
+    measured = {effect for idle in IDLE.values() for effect in idle.effects}
+    assert measured | set(ALWAYS) == set(EFFECTS.table)
+
+
+@pytest.mark.parametrize("name", NEUTRAL)
+def test_an_idle_effect_changes_no_displacement_beyond_rounding(name):
+    idle = IDLE[name]
+    runs = [nmm.run(scene) for scene in idle.scenes(STEPS)]
+    without, with_it = (run.displacement for run in runs)
+    n = len(without)
+    assert idle.shared is not None or len(with_it) == n
+    assert np.abs(without).max() > 0
+    # Displacements are differences of places, with sixteen digits of the size of the scene.
+    rounding = 16 * np.finfo(float).eps * np.abs(runs[0].frames[0].points).max()
+    assert np.abs(with_it[:n] - without).max() <= idle.within * np.abs(without).max() + rounding
+
+
+IMPORTS = """
+import os, sys
+sys.path.insert(0, {benchmarks!r})
+import numba, scipy.optimize, scipy.spatial, skfem
+import nmm.contact.candidates.candidates, nmm.contact.solution.driver
+import idle_effects
+from nmm.model.effects_table import EFFECTS, called_for
+from nmm.stepping.simulation import prepare
+
+idle_effects.COURSES, idle_effects.CELL = 5, 1.0
+modules = {{name: place.partition(":")[0] for name, place in EFFECTS.table.items()}}
+for name, idle in idle_effects.IDLE.items():
+    scene = idle.scenes(1)[1]
+    if os.fork():
+        if os.wait()[1]:
+            sys.exit(1)
+        continue
+    prepare(scene, scene.formulation)
+    named = {{modules[one] for one, wanted in called_for(scene).items() if wanted}}
+    loaded = sorted(set(modules.values()) & set(sys.modules) - named)
+    if loaded:
+        print(name, loaded, flush=True)
+    os._exit(bool(loaded))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs processes that are copied")
+def test_no_scene_imports_an_effect_that_it_does_not_name():
+    code = IMPORTS.format(benchmarks=str(BENCHMARKS))
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert not found.returncode, found.stdout + found.stderr[-2000:]
