@@ -2,11 +2,8 @@
 
 import numba as nb
 import numpy as np
-import numpy.typing as npt
 
-from integration.arrays import Floats
-
-Index = npt.NDArray[np.int32]
+from integration.arrays import Floats, Index
 
 
 @nb.njit(cache=True)

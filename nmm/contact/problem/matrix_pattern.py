@@ -13,10 +13,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Index
 from nmm.contact.problem.step_problem import StepProblem
-
-Index = npt.NDArray[np.int32]
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,8 @@ from llvmlite import ir  # type: ignore[import-untyped]
 from numba import types
 from numba.extending import get_cython_function_address, intrinsic
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats, Index, Ints
 
-Index = npt.NDArray[np.int32]
 LETTERS, SCALARS = np.frombuffer(b"LNRTU", dtype=np.uint8), np.array([1.0, -1.0, 0.0])
 
 

@@ -8,11 +8,8 @@ separates well, are left to minimum degree.
 
 import numba as nb
 import numpy as np
-import numpy.typing as npt
 
-from integration.arrays import Bools, Floats, Ints
-
-Index = npt.NDArray[np.int32]
+from integration.arrays import Bools, Floats, Index, Ints
 
 LANDMARKS = 8
 SMALL_PART = 100

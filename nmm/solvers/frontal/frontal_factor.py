@@ -6,9 +6,9 @@ from typing import Self
 import numpy as np
 from scipy.sparse import csc_array
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats, Index, Ints
 from nmm.solvers.frontal import fronts
-from nmm.solvers.frontal.blas import Index, addresses, words
+from nmm.solvers.frontal.blas import addresses, words
 from nmm.solvers.frontal.elimination import Fronts
 from nmm.solvers.frontal.workspace import Loan
 from nmm.solvers.threads import one_thread

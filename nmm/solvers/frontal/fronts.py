@@ -10,8 +10,8 @@ import numba as nb
 import numpy as np
 import numpy.typing as npt
 
-from integration.arrays import Floats, Ints
-from nmm.solvers.frontal.blas import Index, call5, call6, call8, call10, call11, call13
+from integration.arrays import Floats, Index, Ints
+from nmm.solvers.frontal.blas import call5, call6, call8, call10, call11, call13
 from nmm.solvers.frontal.extend_add import collect_lower, collect_whole, runs
 
 Outside = tuple[Ints, npt.NDArray[np.uint8], Index, Floats]

@@ -4,12 +4,9 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from integration.arrays import Ints
+from integration.arrays import Index, Ints
 from nmm.solvers.libraries.optional import METIS
-
-Index = npt.NDArray[np.int32]
 
 
 @cache

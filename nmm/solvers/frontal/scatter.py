@@ -2,11 +2,9 @@
 
 import numba as nb
 import numpy as np
-import numpy.typing as npt
 
-from integration.arrays import Ints
+from integration.arrays import Index, Ints
 
-Index = npt.NDArray[np.int32]
 Shape = tuple[Ints, Ints, Ints, Ints]
 """First places, row starts, rows and panel starts of supernodes."""
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csc_array
 
-from nmm.solvers.frontal.elimination import Fronts, skew
+from nmm.solvers.frontal.elimination import Fronts
+from nmm.solvers.frontal.symmetry import skew
 
 SKEW = 1e-12
 """Part of the largest entry by which a symmetric matrix and its mirror image may differ."""

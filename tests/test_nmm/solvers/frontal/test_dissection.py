@@ -7,7 +7,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import Delaunay
 
 from integration.arrays import Ints
-from nmm.solvers.frontal import elimination
+from nmm.solvers.frontal import ordering
 from nmm.solvers.frontal.cholesky import Cholesky
 from nmm.solvers.frontal.dissection import SMALL_PART, dissect
 from nmm.solvers.frontal.metis import metis_order
@@ -62,8 +62,8 @@ def test_order_with_fewer_operations_is_taken() -> None:
     for made in (net(120), scattered(6000)):
         weight = np.full(made.shape[0], 6)
         args = made.indptr, made.indices
-        plain = elimination._Columns.of(*args, elimination._minimum_degree(*args))
-        chosen = elimination._columns(*args, weight)
+        plain = ordering.Columns.of(*args, ordering._minimum_degree(*args))
+        chosen = ordering.columns(*args, weight)
         assert chosen.operations(weight) <= plain.operations(weight)
 
 
@@ -73,11 +73,11 @@ def test_dissected_matrix_is_factorised_and_solved() -> None:
     data = np.where(pattern.indices == columns, 8.0, -1.0)
     matrix = csc_array((data, pattern.indices, pattern.indptr), shape=pattern.shape)
     exact = np.random.default_rng(1).normal(size=14400)
-    before, elimination.WORTH = elimination.WORTH, 0.0
+    before, ordering.WORTH = ordering.WORTH, 0.0
     try:
         found = Cholesky().decompose(matrix)
     finally:
-        elimination.WORTH = before
+        ordering.WORTH = before
     assert is_cholesky(found)
     np.testing.assert_allclose(found.solve(matrix @ exact), exact, rtol=1e-9, atol=1e-12)
 
@@ -88,15 +88,15 @@ def test_metis_orders_large_graphs_where_it_is_installed() -> None:
     weight = np.full(made.shape[0], 2)
     order = metis_order(made.indptr, made.indices, weight)
     assert (np.sort(order) == np.arange(made.shape[0])).all()
-    found = elimination._Columns.of(made.indptr, made.indices, order).operations(weight)
+    found = ordering.Columns.of(made.indptr, made.indices, order).operations(weight)
     # nested dissection of a square grid takes 829/84 n^3 multiplications and additions for five
     # neighbours (George 1973), n^3 times 2^3 with two unknowns a node; diagonals cost up to twice
     assert found < 2 * 829 / 84 * (60 * 2) ** 3
 
 
 def test_own_dissection_serves_where_metis_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(elimination, "metis", lambda: None)
-    monkeypatch.setattr(elimination, "WORTH", 0.0)
+    monkeypatch.setattr(ordering, "metis", lambda: None)
+    monkeypatch.setattr(ordering, "WORTH", 0.0)
     made = net(40)
-    columns = elimination._columns(made.indptr, made.indices, np.ones(made.shape[0], dtype=int))
+    columns = ordering.columns(made.indptr, made.indices, np.ones(made.shape[0], dtype=int))
     assert (np.sort(columns.order) == np.arange(made.shape[0])).all()
