@@ -5,7 +5,9 @@ the springs that act there makes the end quick, once most states are right: what
 contacts acceleration mends in as many solves. On a wall of 1 000 bricks at ten times Young's
 modulus 10 solves with the first, one factorisation and 6 solves with the second do what the first
 alone does in 30 to 100, and at a hundred times what it does not do in 300
-(`benchmarks/bench_contact.py`).
+(`benchmarks/bench_contact.py`). Where many contacts slide the second gains nothing: a factorisation
+of 6 000 unknowns takes as long as 20 solves, so the first is left the later the larger the problem
+is, and the later for each turn of the second that did not pay in this step and the last ones.
 """
 
 import numpy as np
@@ -33,6 +35,7 @@ class Alternation:
     ) -> None:
         self.springs, self.linear, self.memory = springs, linear, memory
         self.tolerance, self.options = tolerance, options.alternation
+        self._size = options.alternation.size(len(increment))
         self._price = options.ways.acting
         self.increment, self.residual = increment, springs.residual(increment)
         self.solves = self.factorisations = 0
@@ -45,19 +48,23 @@ class Alternation:
         SolveError
             When even with all springs acting the load moves a free part.
         """
-        kept, options = self._all_acting(), self.options
-        self._steps(kept.factor, min(options.wide, budget.solves), options.slow)
+        kept, options, ways = self._all_acting(), self.options, self.memory.ways
+        self._wide(kept.factor, budget, options.slow.longer(self._size, ways.stay))
         narrow = 0
         while self._open and narrow < budget.factors and self._within(budget):
             before, narrow = self.residual.size, narrow + 1
             factor = self._acting()
             if factor is not None:
                 self._steps(factor, options.narrow, options.lost)
-            if self._open and not self.residual.size < options.renewed * before:
+            pays = self.residual.size < options.renewed * before
+            ways.second_factor(pays, self._size)
+            if self._open and not pays:
                 if not kept.as_new(self.springs.problem):
                     self.memory.forget(kept)
                     kept = self._all_acting()
-                self._steps(kept.factor, options.wide)
+                self._wide(kept.factor, budget)
+        if self._open:
+            ways.stay = 1.0
         story = f"{self.solves} solves with {self.factorisations or 'no'} new factors"
         return IterationResult(
             self.springs,
@@ -69,8 +76,12 @@ class Alternation:
         )
 
     def _within(self, budget: IterationBudget) -> bool:
-        spent = self.solves + self._price * self.factorisations
-        return self.solves < budget.solves and spent < budget.cost
+        return self.solves < budget.solves and self._spent < budget.cost
+
+    @property
+    def _spent(self) -> float:
+        """What the search has cost, in solves."""
+        return self.solves + self._price * self.factorisations
 
     @property
     def _open(self) -> bool:
@@ -98,6 +109,14 @@ class Alternation:
             return self.linear.factorise(pattern.matrix(springs.problem, normal, shear))
         except SolveError:
             return None
+
+    def _wide(
+        self, factor: Factor, budget: IterationBudget, patience: Patience | None = None
+    ) -> None:
+        """Take a turn of the first factor."""
+        turn = self.options.wide * self._size**2 * self.memory.ways.stay
+        turn = min(turn, budget.cost - self._spent, budget.solves - self.solves)
+        self._steps(factor, max(1, int(turn)), patience)
 
     def _steps(self, factor: Factor, budget: int, patience: Patience | None = None) -> None:
         search = ModifiedNewton(self.springs, factor, self.increment, self.residual, self.options)

@@ -6,7 +6,7 @@ blocks.
 """
 
 from dataclasses import dataclass, field
-from math import inf, log
+from math import inf, log, sqrt
 
 from nmm.registry import above_zero
 
@@ -61,6 +61,15 @@ class Patience:
         gain = log(sizes[-1 - self.look] / sizes[-1]) / self.look
         return not gain * self.ahead >= log(sizes[-1] / tolerance)
 
+    def longer(self, size: float, stay: float) -> "Patience":
+        """Patience of a problem in which a factorisation costs ``size`` times as many solves.
+
+        ``stay`` is how many times as many solves may lie ahead besides.
+        """
+        return Patience(
+            stay * size * self.ahead, self.below / size**3, max(1, int(size * self.look))
+        )
+
 
 @dataclass(frozen=True)
 class AlternationOptions:
@@ -72,6 +81,10 @@ class AlternationOptions:
         Solves in a row with the factor of all springs, and with that of those that act.
     slow
         When the first is left before its turn is over: most states are right and it is slow.
+    usual
+        Unknowns of the problems that ``wide`` and ``slow`` are meant for. In larger ones a
+        factorisation costs more solves, as the root of their number, and the first is left later;
+        up to as many times later again where the second has not paid.
     lost
         When the second is: it would take long, because states are wrong.
     renewed
@@ -89,12 +102,17 @@ class AlternationOptions:
     wide: int = above_zero(20)
     narrow: int = above_zero(20)
     slow: Patience = field(default_factory=lambda: Patience(10, 1e-3))
+    usual: float = above_zero(600.0)
     lost: Patience = field(default_factory=lambda: Patience(40))
     renewed: float = 0.1
     rest: float = above_zero(1e-6)
     drag: float = above_zero(0.02)
     growth: float = above_zero(3.0)
     depth: int = above_zero(10)
+
+    def size(self, unknowns: int) -> float:
+        """How many times as many solves a factorisation costs among so many unknowns; least 1."""
+        return max(1.0, sqrt(unknowns / self.usual))
 
 
 @dataclass(frozen=True)

@@ -25,11 +25,14 @@ class Ways:
     finishes
         Whether the alternation, when tried last, finished what the interior point had found
         roughly.
+    stay
+        How many times longer than usual the alternation stays with its first factor.
     """
 
     inside: float | None = None
     leads: bool = False
     finishes: bool = True
+    stay: float = 1.0
     _wait: int = 0
     _pause: int = 1
 
@@ -51,6 +54,10 @@ class Ways:
     def alternation_met(self) -> None:
         """Learn from a step in which the alternation did what was asked within its budget."""
         self.leads, self._pause = False, 1
+
+    def second_factor(self, paid: bool, longest: float) -> None:
+        """Learn from a turn of the alternation's second factor whether it paid."""
+        self.stay = max(self.stay / 2, 1.0) if paid else min(2 * self.stay, longest)
 
     def interior_took(self, found: IterationResult, options: WayOptions) -> None:
         """Learn from a step that the interior point ended, of its cost alone."""

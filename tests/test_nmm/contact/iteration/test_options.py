@@ -73,3 +73,13 @@ def test_a_formulation_says_how_much_is_kept_from_step_to_step() -> None:
         memory.keep(np.full(3, float(number)), np.array([number]))
     assert [found[0] for found in memory.found] == [4.0, 3.0, 2.0]
     assert make_enforcement("penalty").memory().options == DEFAULT.memory
+
+
+def test_patience_grows_with_the_price_of_a_factorisation():
+    from nmm.contact.iteration.options import AlternationOptions, Patience
+
+    options = AlternationOptions(usual=600.0)
+    # by hand: the root of four and of a hundred times as many unknowns, never below one
+    assert [options.size(n) for n in (12, 600, 2400, 60_000)] == [1.0, 1.0, 2.0, 10.0]
+    assert Patience(10.0, 1e-3, 4).longer(2.0, 3.0) == Patience(60.0, 1e-3 / 8, 8)
+    assert Patience(10.0, 1e-3, 4).longer(1.0, 1.0) == Patience(10.0, 1e-3, 4)

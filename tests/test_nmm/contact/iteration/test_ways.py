@@ -53,3 +53,13 @@ def test_a_start_near_the_end_is_always_alternated_and_uses_up_no_trial():
     for _ in range(5):
         assert ways.budget(WHOLE, True, OPTIONS).cost == OPTIONS.near
     assert steps(ways, 2) == [False, True]
+
+
+def test_the_first_factor_keeps_the_longer_the_more_often_the_second_did_not_pay():
+    ways = Ways()
+    stays = []
+    for paid in (False, False, False, True, True, True):
+        ways.second_factor(paid, 3.0)
+        stays.append(ways.stay)
+    # by hand: doubled up to 3, halved down to 1
+    assert stays == [2.0, 3.0, 3.0, 1.5, 1.0, 1.0]
