@@ -342,7 +342,7 @@ def test_a_room_holds_no_more_files_than_a_reader_can_survey(room):
 HEAVY = ("scipy", "matplotlib", "skfem", "pint", "numba", "shapely", "numpy")
 
 
-def modules_after(code: str) -> set[str]:
+def all_modules_after(code: str) -> set[str]:
     answer = subprocess.run(
         [sys.executable, "-c", f"{code}\nimport sys; print(*sys.modules)"],
         capture_output=True,
@@ -350,7 +350,11 @@ def modules_after(code: str) -> set[str]:
         check=True,
         cwd=ROOT,
     )
-    return {name.split(".")[0] for name in answer.stdout.split()}
+    return set(answer.stdout.split())
+
+
+def modules_after(code: str) -> set[str]:
+    return {name.split(".")[0] for name in all_modules_after(code)}
 
 
 def test_help_imports_nothing_heavy():
@@ -359,6 +363,19 @@ def test_help_imports_nothing_heavy():
         "assert CliRunner().invoke(app, ['--help']).exit_code == 0"
     )
     assert not modules_after(code) & set(HEAVY)
+
+
+SELDOM = ("special", "linalg", "spatial", "optimize", "sparse.linalg", "sparse.csgraph")
+
+
+def test_preparing_blocks_in_contact_imports_no_part_of_scipy_that_it_does_not_call():
+    code = (
+        "import nmm; from nmm.stepping.simulation import prepare\n"
+        "scene = nmm.read_scene('examples/incline/slide.toml')\n"
+        "prepare(scene, scene.formulation).identity()\n"
+        "print()"
+    )
+    assert not all_modules_after(code) & {f"scipy.{name}" for name in SELDOM}
 
 
 def test_the_public_face_is_lazy():

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from integration.arrays import Floats, Ints
 
 
 def components(n: int, first: Ints, second: Ints) -> Ints:
     """Connected component (n,) of each of ``n`` things, given pairs (p,) of connected ones."""
+    from scipy.sparse.csgraph import connected_components
+
     graph = csr_array((np.ones(len(first), dtype=np.int8), (first, second)), shape=(n, n))
     label = connected_components(graph, directed=False)[1].astype(np.int64)
     return by_first_occurrence(label, np.unique(label, return_index=True)[1])[1]

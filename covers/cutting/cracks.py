@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 import shapely
-from scipy.spatial import cKDTree
 
 from covers.cutting.components import components, unique_rows
 from covers.cutting.domain import Segments
@@ -78,6 +77,8 @@ def settled(
 def _settled_points(
     points: Floats, boundary: Segments, vertices: Floats, edges: Segments, tolerance: float
 ) -> Floats:
+    from scipy.spatial import cKDTree
+
     places = points.copy()
     loose = np.ones(len(points), dtype=bool)
     for targets in (boundary.start, vertices):  # corners of regions go before those of the mesh
@@ -99,6 +100,8 @@ def _clustered(
     places: Floats, loose: npt.NDArray[np.bool_], tolerance: float
 ) -> tuple[Floats, npt.NDArray[np.bool_]]:
     """Points nearer than the tolerance to one another as one point: a settled one, or the first."""
+    from scipy.spatial import cKDTree
+
     pairs = cKDTree(places).query_pairs(tolerance, output_type="ndarray").reshape(-1, 2)
     group = components(len(places), pairs[:, 0], pairs[:, 1])
     order = np.lexsort((loose, group))

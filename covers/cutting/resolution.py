@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from covers.cutting.components import components, unique_rows
 from integration.arrays import Floats, Ints
@@ -60,6 +59,8 @@ def clusters(steps: Floats) -> tuple[Ints, Ints]:
 
     First points of two clusters are more than a step apart.
     """
+    from scipy.spatial import cKDTree
+
     first, group = unique_rows(steps)
     pairs = cKDTree(steps[first]).query_pairs(1.0, output_type="ndarray").reshape(-1, 2)
     near = components(len(first), pairs[:, 0], pairs[:, 1])

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
-from scipy.spatial import cKDTree
 
 from covers.cutting.resolution import Resolution, clusters
 from integration.arrays import Bools, Floats, Ints
@@ -44,6 +43,8 @@ class Lines:
 
     def with_points(self, steps: Floats, points: Floats) -> tuple[Lines, Ints]:
         """More points, and the number of each: that of a known point within a step if any."""
+        from scipy.spatial import cKDTree
+
         distance, nearest = cKDTree(self.steps).query(steps, distance_upper_bound=1.0)
         number = np.asarray(nearest, dtype=np.int64)
         new = np.flatnonzero(np.isinf(distance))

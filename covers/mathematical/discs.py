@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from integration.arrays import Floats, Ints
 
@@ -14,6 +13,8 @@ def discs_of_cells(nodes: Floats, radius: Floats, corners: Floats) -> Ints:
     Discs have ``nodes`` (V, 2) and ``radius`` (V,), m; cells ``corners`` (C, v, 2), convex and
     counter-clockwise.
     """
+    from scipy.spatial import cKDTree
+
     middle = corners.mean(axis=1)
     reach = np.linalg.norm(corners - middle[:, None], axis=2).max(axis=1)
     found = cKDTree(nodes).query_ball_point(

@@ -24,8 +24,9 @@ DEEPEST = 16
 class Frozen(BaseModel):
     """Base of all scene and formulation models: immutable, closed, finite numbers only."""
 
+    # Tables within a scene are checked by the scene's own validator: none is built for each.
     model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True
+        frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True, defer_build=True
     )
 
 

@@ -5,7 +5,6 @@ from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
-from scipy.linalg.lapack import dgetrf, dgetrs
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
@@ -22,6 +21,8 @@ class Factors:
 
     def solve(self, rhs: Floats) -> Floats:
         """Return the solution of one right-hand side (n,) or of several (n, k)."""
+        from scipy.linalg.lapack import dgetrs
+
         found, _ = dgetrs(self.triangles, self.exchanged, rhs)
         return np.asarray(found)
 
@@ -34,6 +35,8 @@ class Dense(LinearSolver):
 
     def decompose(self, matrix: csc_array) -> Factors:
         """Factorise; `RankDeficientError` at a zero pivot."""
+        from scipy.linalg.lapack import dgetrf
+
         triangles, exchanged, bad = dgetrf(matrix.toarray(order="F"), overwrite_a=True)
         if bad > 0:
             raise RankDeficientError(f"the pivot in place {bad} is zero")

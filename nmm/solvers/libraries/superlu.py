@@ -1,18 +1,19 @@
 """SuperLU of scipy with settings for symmetric matrices; always available."""
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from scipy.sparse import csc_array
-from scipy.sparse.linalg import SuperLU as Decomposed
-from scipy.sparse.linalg import splu
 
 from integration.arrays import Floats
 from nmm.solvers.factor import RankDeficientError
 from nmm.solvers.linear import LinearSolver
 from nmm.solvers.saddle import saddle_scale
 from nmm.solvers.scaling import jacobi_scale, ruiz_scale
+
+if TYPE_CHECKING:
+    from scipy.sparse.linalg import SuperLU as Decomposed
 
 
 @dataclass(frozen=True)
@@ -33,8 +34,10 @@ class SuperLU(LinearSolver):
     pivot_threshold: float = 0.0
     equilibrate: bool = False
 
-    def decompose(self, matrix: csc_array) -> Decomposed:
+    def decompose(self, matrix: csc_array) -> "Decomposed":
         """Factorise; `RankDeficientError` at a zero pivot."""
+        from scipy.sparse.linalg import splu
+
         indices = matrix.indices.astype(np.intc, copy=False)
         indptr = matrix.indptr.astype(np.intc, copy=False)
         try:

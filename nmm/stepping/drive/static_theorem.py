@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array, hstack, vstack
-from scipy.sparse.csgraph import connected_components
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
@@ -153,6 +152,8 @@ def _directions(stepper: "Stepper", state: State) -> csr_array:
 
     A body that is held in part keeps its other motions. Rotations are of one mean size of a body.
     """
+    from scipy.sparse.csgraph import connected_components
+
     manifold, plan = stepper.model.manifold, stepper.plan
     n = manifold.n_unknowns
     size = np.repeat(np.sqrt(manifold.body_area), 3)
