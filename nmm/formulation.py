@@ -122,7 +122,8 @@ class IntegratorTable(PartTable):
 
     type: PartName = Field(
         default="shi",
-        description=f'"shi", "newmark", "generalized_alpha", "central_differences" {OWN}',
+        description=f'"shi", "newmark", "generalized_alpha", "energy_momentum", '
+        f'"central_differences" {OWN}',
         examples=["newmark"],
     )
     step: Time = Field(default=1e-3, gt=0, description="a step in s, > 0", examples=["1 ms"])
@@ -137,16 +138,17 @@ class IntegratorTable(PartTable):
 
 
 class Rotation(Frozen):
-    """How a step's rotation moves a body.
+    """How bodies move and strain.
 
-    "exact" turns it; "linear" is the update of classical DDA, in which areas grow; "small" keeps
-    all bodies where they are (theory of small displacements); "auto" is small for statics without
-    contact and exact for all else.
+    "exact" turns a body with its axes, in which strain is small; "linear" is the update of
+    classical DDA, in which areas grow; "small" keeps all bodies where they are (theory of small
+    displacements); "finite" measures finite strain at every point, so that one body may bend by
+    any angle; "auto" is small for statics without contact and exact for all else.
     """
 
-    update: Literal["auto", "exact", "linear", "small"] = Field(
+    update: Literal["auto", "exact", "linear", "small", "finite"] = Field(
         default="auto",
-        description='"auto", "exact", "linear" or "small"',
+        description='"auto", "exact", "linear", "small" or "finite"',
         examples=["exact"],
     )
 

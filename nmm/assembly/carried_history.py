@@ -6,8 +6,8 @@ import numpy as np
 
 from covers.change.parentage import Parentage
 from integration.arrays import Floats, Ints
-from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
+from nmm.assembly.stress_points import StressPoints
 
 
 def carried_history(
@@ -26,7 +26,7 @@ def carried_history(
         return {}
     if old.matter is None:
         return dict(declared)
-    nearest = _nearest(old, old.matter, new, new.matter)
+    nearest = _nearest(old, old.matter.points, new, new.matter.points)
     body = new.manifold.element_body[new.matter.points.rule.owner]
     known = (nearest >= 0) & ~kin.new_bodies[body]
     found = {}
@@ -39,14 +39,14 @@ def carried_history(
     return found
 
 
-def _nearest(old: Model, before: Matter, new: Model, after: Matter) -> Ints:
+def _nearest(old: Model, before: StressPoints, new: Model, after: StressPoints) -> Ints:
     """Nearest old material point (Q,) of the same region, -1 without any."""
     from scipy.spatial import KDTree
 
     size = float(np.hypot(*np.ptp(new.manifold.elements.points, axis=0)))
     places = []
-    for model, matter in ((old, before), (new, after)):
-        rule = matter.points.rule
+    for model, known in ((old, before), (new, after)):
+        rule = known.rule
         # Regions lie further apart than any two points of one.
         region = 10 * size * model.manifold.element_region[rule.owner]
         places.append(np.column_stack([rule.points, region]))

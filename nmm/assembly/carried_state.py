@@ -144,7 +144,7 @@ class _Moving:
         """Momenta (3 B,) that the new bodies are to have."""
         kin = self.transfer.kin
         whole, main = _whole(kin), np.maximum(kin.bodies.main, 0)
-        before = (_momenta(self.old, self.before) @ rate).reshape(-1, 3)
+        before = (momenta(self.old, self.before) @ rate).reshape(-1, 3)
         if whole.all():
             return np.asarray(before[main].ravel())
         parts = self._of_points(rate)
@@ -188,15 +188,18 @@ class _Moving:
 
     @cached_property
     def _rows(self) -> csr_array:
-        return _momenta(self.new, self.after)
+        return momenta(self.new, self.after)
 
 
 def _cross(arm: Floats, way: Floats) -> Floats:
     return np.asarray(arm[:, 0] * way[:, 1] - arm[:, 1] * way[:, 0])
 
 
-def _momenta(model: Model, deformation: Floats) -> csr_array:
-    """Rows (3 B, n): linear momentum, and angular momentum about where the centroid is."""
+def momenta(model: Model, deformation: Floats) -> csr_array:
+    """Rows (3 B, n): linear momentum, and angular momentum about where the frames' centres are.
+
+    They act on velocities of bodies with a deformation (n,), in body axes.
+    """
     manifold, heavy = model.manifold, bool((model.density > 0).all())
     mass = model.mass if heavy else model.measure
     rows = csr_array((mass @ manifold.rigid_modes).T)

@@ -6,7 +6,7 @@ Only elements whose laws are not linear have such points; the stiffness of the o
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -54,6 +54,9 @@ class Matter:
     thickness: float
     rest: csc_array
 
+    flows: ClassVar[bool] = True
+    """Whether matter may give way without end."""
+
     @classmethod
     def of(
         cls,
@@ -97,8 +100,12 @@ class Matter:
         strain = np.asarray(np.linalg.solve(self.elastic, of_point), dtype=float)[:, :, 0]
         return {**history, INITIAL: strain}
 
-    def update(self, deformation: Floats, history: History, step: float) -> Response:
+    def update(
+        self, deformation: Floats, history: History, step: float, before: Floats | None = None
+    ) -> Response:
         """Return what all points answer to the unknowns (n,) at the end of a step (s).
+
+        ``before`` (n,), of the iterate from which these were found, changes nothing here.
 
         The stress is that beyond the initial stress, and part of the new history.
         """
@@ -116,6 +123,17 @@ class Matter:
             stress, after[INITIAL] = stress - self._initial(initial), initial
         after[STRESS] = stress
         return Response(stress, tangent, after)
+
+    def internal(self, deformation: Floats, history: History) -> Floats:
+        """Return the internal force (n,) of an accepted state."""
+        return self.force(deformation, history[STRESS])
+
+    def mean_stress(self, deformation: Floats, history: History) -> tuple[Ints, Floats]:
+        """Return the elements (k,) that have points and their mean stress (k, 3), without initial.
+
+        In body axes (Pa).
+        """
+        return self.points.means(history[STRESS])
 
     def force(self, deformation: Floats, stress: Floats) -> Floats:
         """Return the internal force (n,) of unknowns (n,) and of the stress (Q, 3) of points."""
@@ -166,7 +184,13 @@ class Matter:
         elastic = [float(one @ (self.rest @ one)) / 2 for one in (end[0], start[0])]
         return float(force @ (end[0] - start[0])) + elastic[0] - elastic[1]
 
-    def stress_near(self, history: History, elements: Ints, points: Floats) -> Floats:
+    def missed(self, before: Floats, after: Floats) -> float:
+        """Return what the mean force of both ends does beyond its `work`: nothing (J)."""
+        return 0.0
+
+    def stress_near(
+        self, deformation: Floats, history: History, elements: Ints, points: Floats
+    ) -> Floats:
         """Stress (m, 3) of the nearest point in elements (m,), beyond the initial stress.
 
         It is not a number in elements whose law is linear.

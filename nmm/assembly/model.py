@@ -16,13 +16,14 @@ from integration.polygons import areas
 from nmm.assembly import element_matrices
 from nmm.assembly.blocks import Part, assemble
 from nmm.assembly.lumping import check_positive
-from nmm.assembly.matter import STRESS, Matter
+from nmm.assembly.matter import Matter
 from nmm.assembly.patches import pressures
 from nmm.assembly.pressures import Pressures
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Law
 
 if TYPE_CHECKING:
+    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
     from nmm.assembly.motion import State
 
 # Volume is resisted in every point up to this many shear moduli, by pressures beyond: a Poisson
@@ -59,6 +60,8 @@ class Model:
         without them all elements are linear.
     point_mass
         (n, n) of masses at points, which joins the mass; None without any.
+    finite
+        Whether strain is finite: all elements then have material points.
     """
 
     manifold: Manifold
@@ -73,6 +76,7 @@ class Model:
     law: Ints | None = None
     plane: str = "strain"
     point_mass: csc_array | None = None
+    finite: bool = False
 
     @cached_property
     def stiffness(self) -> csc_array:
@@ -84,25 +88,40 @@ class Model:
         return csc_array(drained + self.thickness * (held.T @ held))
 
     @cached_property
-    def matter(self) -> Matter | None:
+    def matter(self) -> "Matter | FiniteMatter | None":
         """Material points of the elements whose laws are not linear; None without any.
+
+        Under finite strain those of all elements.
 
         Raises
         ------
         FormulationError
             Projected volumes: pressures on patches are linear in the strain.
         """
-        if self.law is None or all(law.linear for law in self.laws):
+        linear = all(law.linear for law in self.laws) and not self.finite
+        if self.law is None or linear:
             return None
         if self.projected and self.pressures is not None:
             raise FormulationError(
-                '[cover] volumetric: "projected": with materials that are not linear: expected '
+                f'[cover] volumetric: "projected": with {self.bent}: expected '
                 '"full", which resists volume at every material point: use it with degree 1 or 2'
             )
+        if self.finite:
+            from nmm.assembly.finite_strain.finite_matter import FiniteMatter
+
+            given = self.manifold, self.laws, self.law, self.plane, self.thickness
+            return FiniteMatter.of(*given)
         straight = np.array([law.linear for law in self.laws])[self.law]
         elastic = self.thickness * self.elasticity * straight[:, None, None]
         rest = self._matrix(element_matrices.stiffness, elastic)
         return Matter.of(self.manifold, self.laws, self.law, self.plane, self.thickness, rest)
+
+    @property
+    def bent(self) -> str:
+        """What makes matter no line in the displacements, in words."""
+        if self.finite:
+            return 'finite strain ([rotation] update: "finite")'
+        return "a material that is not linear"
 
     def history(self) -> History:
         """Return the internal variables of matter that nothing has happened to, (Q, h) by name."""
@@ -122,7 +141,7 @@ class Model:
         """
         found = self.mean_stress(state.deformation, pressure)
         if self.matter is not None:
-            elements, means = self.matter.points.means(state.history[STRESS])
+            elements, means = self.matter.mean_stress(state.deformation, state.history)
             found[elements] = means
         return found
 
@@ -139,6 +158,16 @@ class Model:
             return 0.0
         ends = (before.deformation, before.history), (after.deformation, after.history)
         return self.matter.work(*ends) - self.strain_energy(after) + self.strain_energy(before)
+
+    def missed_work(self, before: "State", after: "State") -> float:
+        """Return by how much the mean force of both ends does more work (J) than is stored.
+
+        It is a matter of finite strain, whose force is no line in the displacement; what others do
+        beyond is dissipated.
+        """
+        if self.matter is None:
+            return 0.0
+        return self.matter.missed(before.deformation, after.deformation)
 
     @cached_property
     def pressures(self) -> Pressures | None:

@@ -227,6 +227,22 @@ def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
     return np.asarray(rate + model.manifold.rigid_modes @ change.ravel())
 
 
+def translate(model: Model, state: State, increment: Floats) -> State:
+    """Return the state after the step unknowns ``increment``: frames move along, and never turn.
+
+    All that is not mean translation, the whole rotation among it, is added to the deformation.
+    """
+    rigid = (model.rigid_projection @ increment).reshape(-1, 3)
+    rigid[:, 2] = 0.0
+    shift, frames = rigid[:, :2], state.frames
+    far = None if frames.way is None else frames.way + shift
+    return replace(
+        state,
+        frames=replace(frames, centre=frames.centre + shift, way=far),
+        deformation=state.deformation + increment - model.manifold.rigid_modes @ rigid.ravel(),
+    )
+
+
 def strain_only(
     model: Model, state: State, increment: Floats, rigid: Floats | None = None
 ) -> State:

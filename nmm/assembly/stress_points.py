@@ -28,7 +28,7 @@ class Batch:
     unknowns
         (k, L) of each element.
     rows
-        (k, q, 3, L) strain (xx, yy, 2 xy) of the unknowns.
+        (k, q, c, L) strain of the unknowns in c components.
     """
 
     at: Ints
@@ -36,9 +36,27 @@ class Batch:
     rows: Floats
 
 
+Measure = Callable[[Floats], Floats]
+"""From rows of gradients (m, 2 components, 2 directions, L) to those of strain (m, c, L)."""
+
+
+def small_strain(gradient: Floats) -> Floats:
+    """Return the rows (m, 3, L) of small strain: xx, yy, 2 xy."""
+    return np.stack(
+        [gradient[:, 0, 0], gradient[:, 1, 1], gradient[:, 0, 1] + gradient[:, 1, 0]], axis=1
+    )
+
+
+def gradients(gradient: Floats) -> Floats:
+    """Return the rows (m, 4, L) of the gradient itself: xx, xy, yx, yy."""
+    return gradient.reshape(len(gradient), 4, gradient.shape[3])
+
+
 @dataclass(frozen=True)
 class StressPoints:
     """Points of some elements of a manifold, element after element.
+
+    Strain is what is measured there, in c components, and stress what does work on it.
 
     Attributes
     ----------
@@ -55,7 +73,7 @@ class StressPoints:
     offset: Ints
 
     @classmethod
-    def of(cls, manifold: Manifold, chosen: Bools) -> Self:
+    def of(cls, manifold: Manifold, chosen: Bools, measure: Measure = small_strain) -> Self:
         """Return the points of the chosen elements (E,)."""
         parts = [_part(group, manifold, chosen) for group in manifold.groups]
         owner, points, weights = (
@@ -70,39 +88,44 @@ class StressPoints:
         first = 0
         for group, (own, index) in zip(manifold.groups, parts, strict=True):
             at = place[first : first + len(index)]
-            batches.extend(_batches(group, own.points, index, at))
+            batches.extend(_batches(group, own.points, index, at, measure))
             first += len(index)
         return cls(rule, tuple(batches), manifold.cover_offset)
 
     def __len__(self) -> int:
         return len(self.rule.owner)
 
+    @property
+    def width(self) -> int:
+        """Number c of components."""
+        return int(self.batches[0].rows.shape[2]) if self.batches else 3
+
     def strain(self, deformation: Floats) -> Floats:
-        """Strain (Q, 3) of the unknowns (n,)."""
-        found = np.empty((len(self), 3))
+        """Strain (Q, c) of the unknowns (n,)."""
+        found = np.empty((len(self), self.width))
         for part in self.batches:
             local = deformation[part.unknowns][:, None, :, None]
             found[part.at] = (part.rows @ local)[..., 0]
         return found
 
     def force(self, stress: Floats) -> Floats:
-        """Integral of ``B^T sigma`` (n,) of a stress (Q, 3), per unit thickness."""
+        """Integral of ``B^T sigma`` (n,) of a stress (Q, c), per unit thickness."""
         n = int(self.offset[-1])
         weighted, total = self.rule.weights[:, None] * stress, np.zeros(n)
         for part in self.batches:
-            k, q, _, length = part.rows.shape
-            rows = part.rows.reshape(k, 3 * q, length)
-            local = weighted[part.at].reshape(k, 1, 3 * q) @ rows
+            k, q, width, length = part.rows.shape
+            rows = part.rows.reshape(k, width * q, length)
+            local = weighted[part.at].reshape(k, 1, width * q) @ rows
             total += np.bincount(part.unknowns.ravel(), local.ravel(), minlength=n)
         return total
 
     def matrix(self, tangent: Floats, symmetric: bool = True) -> csc_array:
-        """Integral of ``B^T D B`` (n, n) of tangents (Q, 3, 3), per unit thickness."""
+        """Integral of ``B^T D B`` (n, n) of tangents (Q, c, c), per unit thickness."""
         weighted, parts = self.rule.weights[:, None, None] * tangent, []
         for part in self.batches:
-            k, q, _, length = part.rows.shape
-            rows = part.rows.reshape(k, 3 * q, length)
-            stress = (weighted[part.at] @ part.rows).reshape(k, 3 * q, length)
+            k, q, width, length = part.rows.shape
+            rows = part.rows.reshape(k, width * q, length)
+            stress = (weighted[part.at] @ part.rows).reshape(k, width * q, length)
             parts.append(Part(part.unknowns, np.swapaxes(rows, 1, 2) @ stress, np.arange(k)))
         return assemble(parts, int(self.offset[-1]), self.offset, symmetric)
 
@@ -137,16 +160,15 @@ def _part(group: ElementGroup, manifold: Manifold, chosen: Bools) -> tuple[Point
     return PointRule(rule.points[kept], rule.weights[kept], group.elements[index]), index
 
 
-def _batches(group: ElementGroup, points: Floats, index: Ints, at: Ints) -> Iterator[Batch]:
+def _batches(
+    group: ElementGroup, points: Floats, index: Ints, at: Ints, measure: Measure
+) -> Iterator[Batch]:
     """Batches of a group; points (m, 2) in its elements ``index`` (m,), ``at`` among all."""
     own, first, count = np.unique(index, return_index=True, return_counts=True)
     for q in np.unique(count):  # a handful of numbers of points
         alike = np.flatnonzero(count == q)
         chosen = (first[alike, None] + np.arange(q)).ravel()
-        gradient = group.gradient_rows(index[chosen], points[chosen])
-        rows = np.stack(
-            [gradient[:, 0, 0], gradient[:, 1, 1], gradient[:, 0, 1] + gradient[:, 1, 0]], axis=1
-        )
+        rows = measure(group.gradient_rows(index[chosen], points[chosen]))
         unknowns = group.unknowns[own[alike]]
-        shape = (len(alike), int(q), 3, unknowns.shape[1])
+        shape = (len(alike), int(q), rows.shape[1], unknowns.shape[1])
         yield Batch(at[chosen].reshape(shape[:2]), unknowns, rows.reshape(shape))

@@ -98,6 +98,11 @@ class Imposition(ABC):
         return True
 
     @property
+    def oriented(self) -> bool:
+        """Whether it holds two bodies by directions of one of them."""
+        return False
+
+    @property
     def tied_unknowns(self) -> Ints:
         """Unknowns tied to those of neighbours besides."""
         return np.empty(0, dtype=np.int64)

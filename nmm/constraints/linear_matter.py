@@ -24,6 +24,6 @@ def check_linear(model: Model, place: str, instead: str) -> None:
     """
     if model.matter is not None:
         raise FormulationError(
-            f'{place}: "nitsche": its traction is that of a linear material, and some here is not: '
+            f'{place}: "nitsche": with {model.bent}: its traction is that of linear matter: '
             f"expected a method that reads no stress: use {instead}"
         )

@@ -74,6 +74,11 @@ class Springs(Imposition):
         alike = self.stiffness.ndim == 1 and bool(self.interface.held.all())
         return self.interface.second is not None or not alike
 
+    @property
+    def oriented(self) -> bool:
+        """See `Imposition.oriented`: springs that are unlike along the interface and across."""
+        return self.interface.second is not None and self.stiffness.ndim > 1
+
     def _pulled(self, state: State, ways: Floats) -> Floats:
         """Forces (m, 2, k) in N of ways (m, 2, k) in global axes."""
         if self.stiffness.ndim == 1:

@@ -52,6 +52,12 @@ class TiedInterfaces(Effect):
         return ", ".join(said)
 
     @property
+    def with_axes(self) -> str:
+        """See `Effect.with_axes`."""
+        oriented = any(tie.oriented for tie in self.ties)
+        return "springs that are unlike along an interface and across" if oriented else ""
+
+    @property
     def multipliers(self) -> int:
         """Number of conditions that multipliers hold."""
         return sum(space.size for space in self._spaces)

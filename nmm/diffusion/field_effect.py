@@ -66,6 +66,11 @@ class FieldEffect(Effect):
         return f"{how}, {self.space.n} unknowns"
 
     @property
+    def with_axes(self) -> str:
+        """See `Effect.with_axes`."""
+        return "" if self.stress is None else "its stress"
+
+    @property
     def steady(self) -> bool:
         """See `Effect.steady`."""
         return self.course.steady and self.course.problem.still

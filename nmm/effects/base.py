@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.kinematics import COROTATIONAL, Kinematics
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
@@ -119,8 +120,8 @@ class Setup:
         (2,) where the axes of model and states lie in those of the scene (m).
     acting
         How loads act in a stage; None in scenes without stages.
-    small
-        Whether displacements are small: bodies' axes stay as they are.
+    kinematics
+        How bodies move and strain.
     table
         What an effect's own ``[effects.NAME]`` says, an `Effect.Table` in the axes of the model;
         None for effects that have keys of the scene.
@@ -136,7 +137,12 @@ class Setup:
     origin: Floats = field(default_factory=lambda: np.zeros(2))
     table: Any = None
     acting: Acting | None = None
-    small: bool = False
+    kinematics: Kinematics = COROTATIONAL
+
+    @property
+    def small(self) -> bool:
+        """Whether displacements are small: bodies' axes stay as they are."""
+        return self.kinematics.small
 
     def regions(self, name: str | None) -> Bools | None:
         """Return which regions a name means: a block, all blocks of a tessellation, or "all"."""
@@ -185,6 +191,14 @@ class Effect(ABC):
     def resolves(self) -> float | None:
         """Shortest time between samples of what drives it, that steps resolve (s); None is none."""
         return None
+
+    @property
+    def with_axes(self) -> str:
+        """What of it turns with the axes of bodies, in words, and not with the material.
+
+        Finite strain, whose axes never turn, refuses it. Empty where nothing does.
+        """
+        return ""
 
     @property
     def steady(self) -> bool:

@@ -31,7 +31,7 @@ class Inertia(Effect):
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from ``[inertia]``."""
-        return cls(setup.model, setup.formulation.rotation.update not in ("linear", "small"))
+        return cls(setup.model, setup.kinematics.turns)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the centrifugal force of the rotation at the start of the step."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
@@ -40,6 +41,11 @@ class InitialStress(Effect):
         density = np.einsum("ei,ei->e", stress, strain) / 2
         return float(density @ (model.element_area * model.thickness))
 
+    @property
+    def with_axes(self) -> str:
+        """See `Effect.with_axes`."""
+        return "a stress at the start"
+
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from ``[[initial_stresses]]``; later tables overwrite earlier ones."""
@@ -60,6 +66,7 @@ class InitialStress(Effect):
         matter = self._model.matter
         if matter is None:
             return state
+        assert isinstance(matter, Matter)  # finite strain refuses the effect
         return replace(state, history=matter.prestressed(state.history, self.stress))
 
     def force(self, state: State, end: Instant) -> Floats:

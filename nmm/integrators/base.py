@@ -96,6 +96,14 @@ class Integrator(ABC):
         return False
 
     @property
+    def conserves(self) -> bool:
+        """Whether the stress of a step is the one whose work is the energy that matter gains.
+
+        It is one of finite strain; forces act with the weight 1/2 at both ends.
+        """
+        return False
+
+    @property
     def restarts_at_impact(self) -> bool:
         """Whether the step after contacts began or ended to push is like the first of a run.
 
@@ -131,6 +139,7 @@ INTEGRATORS = Registry[type[Integrator]](
         "shi": "nmm.integrators.shi:Shi",
         "newmark": "nmm.integrators.newmark:Newmark",
         "central_differences": "nmm.integrators.central_differences:CentralDifferences",
+        "energy_momentum": "nmm.integrators.energy_momentum:EnergyMomentum",
         "generalized_alpha": "nmm.integrators.generalized_alpha:GeneralizedAlpha",
     },
 )

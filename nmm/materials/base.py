@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.errors import FormulationError
 from nmm.registry import Registry
 
 History = Mapping[str, Floats]
@@ -30,6 +31,24 @@ class Response(NamedTuple):
     stress: Floats
     tangent: Floats
     history: History
+
+
+class FiniteResponse(NamedTuple):
+    """What a law answers at m Green strains.
+
+    Attributes
+    ----------
+    energy
+        (m,) J/m3 of the volume as it was.
+    stress
+        (m, 3) second Piola-Kirchhoff stress (Pa): xx, yy, xy.
+    tangent
+        (m, 3, 3) its derivative by the Green strain (xx, yy, 2 xy), Pa.
+    """
+
+    energy: Floats
+    stress: Floats
+    tangent: Floats
 
 
 @dataclass(frozen=True)
@@ -86,6 +105,28 @@ class Law(ABC):
         elastic = stress @ np.linalg.inv(self.stiffness(plane))
         return np.asarray((elastic * stress).sum(axis=1) / 2)
 
+    def potential(self, strain: Floats, plane: str) -> FiniteResponse:
+        """Return energy, stress and tangent at Green strains (m, 3), for finite strain.
+
+        Of a linear law it is that of St Venant and Kirchhoff: `stiffness` between the Green strain
+        ``(F^T F - 1) / 2`` and the second Piola-Kirchhoff stress.
+
+        Raises
+        ------
+        FormulationError
+            Of laws that remember: they have no potential.
+        """
+        if not self.linear:
+            raise FormulationError(
+                f'[rotation] update: "finite": the law {type(self).__name__} has no potential of '
+                'finite strain: expected one that is elastic: use law = "elastic" or '
+                '"neo_hookean", or update = "exact"'
+            )
+        matrix = self.stiffness(plane)
+        stress = strain @ matrix.T
+        tangent = np.broadcast_to(matrix, (len(strain), 3, 3))
+        return FiniteResponse((stress * strain).sum(axis=1) / 2, stress, tangent)
+
     def kolosov(self, plane: str) -> float:
         """Return Kolosov's constant of singular fields; laws that have none give that of nu = 0.
 
@@ -109,6 +150,7 @@ MATERIAL_LAWS = Registry[Callable[..., Law]](
         "kelvin": "nmm.materials.viscous.laws:Kelvin",
         "maxwell": "nmm.materials.viscous.laws:Maxwell",
         "mohr_coulomb": "nmm.materials.mohr_coulomb:MohrCoulombPlasticity",
+        "neo_hookean": "nmm.materials.neo_hookean:NeoHookean",
         "orthotropic": "nmm.materials.orthotropic:Orthotropic",
         "standard_solid": "nmm.materials.viscous.laws:StandardSolid",
         "von_mises": "nmm.materials.von_mises:VonMisesPlasticity",

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.assembly.kinematics import CLASSICAL, COROTATIONAL, FINITE, SMALL, Kinematics
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
 from nmm.effects.base import Setup
@@ -42,8 +43,10 @@ def setup_of(
     if scene.inertia is not None:
         start = replace(start, load_factor=1.0)
     names, material = tuple(geometry.regions.name), np.asarray(geometry.regions.material)
-    small = small_motion(scene, formulation)
-    setup = Setup(scene, formulation, model, geometry, names, material, start, origin, small=small)
+    kinematics = kinematics_of(scene, formulation)
+    setup = Setup(
+        scene, formulation, model, geometry, names, material, start, origin, kinematics=kinematics
+    )
     if not scene.masses:
         return setup
     from nmm.effects.members.masses import loaded
@@ -51,12 +54,14 @@ def setup_of(
     return replace(setup, model=loaded(setup))
 
 
-def small_motion(scene: "Scene", formulation: "Formulation") -> bool:
-    """Whether bodies' axes stay: asked for, or statics of bodies that nothing touches."""
+def kinematics_of(scene: "Scene", formulation: "Formulation") -> Kinematics:
+    """Return how bodies move: as asked for, small in statics of bodies that nothing touches."""
     update = formulation.rotation.update
-    return update == "small" or (
-        update == "auto" and scene.inertia is None and scene.contact is None
-    )
+    if update == "auto":
+        still = scene.inertia is None and scene.contact is None
+        return SMALL if still else COROTATIONAL
+    asked = {"exact": COROTATIONAL, "linear": CLASSICAL, "small": SMALL, "finite": FINITE}
+    return asked[update]
 
 
 def reshaped(setup: Setup, geometry: Geometry) -> Setup:
@@ -88,6 +93,7 @@ def build_model(scene: "Scene", formulation: "Formulation", geometry: Geometry) 
         thickness=scene.thickness,
         lumped=formulation.integrator.mass == "lumped",
         in_pieces=geometry.in_pieces,
+        finite=kinematics_of(scene, formulation).finite,
     )
 
 

@@ -5,11 +5,12 @@ from dataclasses import fields
 from typing import TYPE_CHECKING
 
 from nmm import capacity
-from nmm.errors import Fault, SceneError
+from nmm.errors import Fault, FormulationError, SceneError
 from nmm.results.summary import Summary
 from nmm.scene.faults import suggestion
 
 if TYPE_CHECKING:
+    from nmm.assembly.kinematics import Kinematics
     from nmm.formulation import Formulation
     from nmm.scene.model import Scene
 
@@ -36,6 +37,26 @@ def check_together(scene: "Scene", formulation: "Formulation") -> None:
         steps = scene.duration / formulation.integrator.step
         place = formulation.source.place("integrator", "step")
         capacity.refuse(place, f"{steps:.3g} steps", steps * capacity.STEP, "take longer steps")
+
+
+def check_kinematics(formulation: "Formulation", kinematics: "Kinematics") -> None:
+    """Refuse an integrator of finite strain for bodies that know none.
+
+    Raises
+    ------
+    FormulationError
+        With the line of its type.
+    """
+    from nmm.integrators.base import make_integrator
+
+    table = formulation.integrator
+    if kinematics.finite or not make_integrator(table).conserves:
+        return
+    place = formulation.source.place("integrator", "type")
+    value = f'"{table.type}" with axes that turn with the bodies, or stay'
+    expected = "finite strain, whose energy the stress of a step can keep"
+    remedy = 'add update = "finite" to [rotation], or use type = "newmark"'
+    raise FormulationError(Fault(place, value, expected, remedy))
 
 
 def known_quantities(scene: "Scene") -> list[str]:

@@ -26,6 +26,7 @@ def solid(
     density: Sequence[float] | None = None,
     thickness: float = 1.0,
     lumped: bool = False,
+    finite: bool = False,
 ) -> Model:
     """Return the model of blocks under a cover.
 
@@ -45,6 +46,8 @@ def solid(
         Polylines (n, 2), m.
     lumped
         Whether the mass couples no cover with another.
+    finite
+        Whether strain is finite.
     """
     n = len(polygons)
     own = np.zeros(n, dtype=np.int64) if material is None else material
@@ -61,6 +64,7 @@ def solid(
         density=weights,
         thickness=thickness,
         lumped=lumped,
+        finite=finite,
     )
 
 
@@ -76,6 +80,7 @@ def covered(
     lumped: bool,
     in_pieces: bool = False,
     bonded: Sequence[int] = (),
+    finite: bool = False,
 ) -> Model:
     """Cover regions and give the elements the numbers of their materials.
 
@@ -87,6 +92,8 @@ def covered(
         Whether covers of blocks divide none of them further.
     bonded
         Numbers of the cracks whose tips carry no functions.
+    finite
+        Whether strain is finite.
     """
     own = np.asarray(regions.material)
     kappa = np.array([law.kolosov(plane) for law in laws])
@@ -105,6 +112,7 @@ def covered(
         laws=tuple(laws),
         law=of_element,
         plane=plane,
+        finite=finite,
     )
 
 

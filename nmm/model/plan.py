@@ -23,7 +23,7 @@ from nmm.effects.base import (
     StepForce,
     defines,
 )
-from nmm.errors import SolveError
+from nmm.errors import Fault, FormulationError, SolveError
 from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own, with_table
 from nmm.quantity import MemberSegments
@@ -337,7 +337,32 @@ def compile_plan(setup: Setup) -> Plan:
     plan = Plan({})
     for name, make in _makers(setup).items():
         plan.effects[name] = plan._timed(name, make)
+    if setup.kinematics.finite:
+        _check_finite(plan)
     return plan.connected()
+
+
+def _check_finite(plan: Plan) -> None:
+    """Refuse effects that count on axes that turn with bodies.
+
+    Raises
+    ------
+    FormulationError
+        All of them, one line each.
+    """
+    found = [(name, effect.with_axes) for name, effect in plan.effects.items()]
+    faults = [
+        Fault(
+            "[rotation] update",
+            f'"finite" with {name}: {what}',
+            "effects that follow a body that bends by any angle",
+            'use update = "exact", or leave the effect out',
+        )
+        for name, what in found
+        if what
+    ]
+    if faults:
+        raise FormulationError(*faults)
 
 
 def plan_after(plan: Plan, change: "Change") -> Plan:

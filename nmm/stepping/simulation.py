@@ -20,8 +20,8 @@ from nmm.geometry.checks.amounts import refuse_many_cells
 from nmm.geometry.regions import regions as build_regions
 from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.integrators.base import make_integrator
-from nmm.model.build import block_functions, geometry_of, reshaped, setup_of, small_motion
-from nmm.model.consistency import check_together
+from nmm.model.build import block_functions, geometry_of, reshaped, setup_of
+from nmm.model.consistency import check_kinematics, check_together
 from nmm.model.discretisation import Discretisation
 from nmm.model.fault_places import placed
 from nmm.model.origin import MovedBack, own_origin, shifted, shifted_regions
@@ -324,11 +324,12 @@ class Simulation:
         """Let the failed structure move under the load it did not carry; only frames are kept."""
         from nmm.effects.inertia import Inertia
 
+        moves = self.stepper.kinematics.let_go
         quiet = Stepper(
-            self.stepper.discretisation.joined(Inertia(self.stepper.model)),
+            self.stepper.discretisation.joined(Inertia(self.stepper.model, moves.turns)),
             make_integrator(self.formulation.integrator),
             self.stepper.solver,
-            small=False,
+            moves,
         )
         quiet.budget = self.stepper.budget
         factor = (verdict.load_factor or 0.0) * (1 + 2 * (verdict.tolerance or 0.0))
@@ -453,6 +454,7 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     whole = geometry_of(scene, regions)
     setup = stages[0].setup if stages else setup_of(scene, formulation, whole, origin)
     model, start, built = setup.model, setup.start, perf_counter()
+    check_kinematics(formulation, setup.kinematics)
     discretisation = Discretisation.of(setup)
     for later in stages[1:]:
         compile_plan(later.setup)  # its faults are told before anything is solved
@@ -462,7 +464,7 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
         discretisation,
         make_integrator(formulation.integrator),
         solver_for(model.manifold, formulation.solver, plan.contact is not None),
-        small=small_motion(scene, formulation),
+        setup.kinematics,
         lay=_lay(formulation, model, plan),
     )
     limits = formulation.loading
@@ -482,7 +484,6 @@ def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) ->
     setup = setup_of(stage.scene, stage.formulation, geometry, origin)
     whole = replace(
         setup,
-        small=small_motion(scene, stage.formulation),
         region_name=tuple(regions.name),
         region_material=np.asarray(regions.material),
         acting=stage.acting,

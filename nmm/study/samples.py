@@ -107,7 +107,8 @@ def _stress(run: "Run", elements: Ints, points: Floats) -> Floats:
     pressure = plan.pressure(model, run.state)
     stress = stresses(model, run.state.deformation, rule, pressure)
     if model.matter is not None:
-        near = model.matter.stress_near(run.state.history, elements, points)
+        state = run.state
+        near = model.matter.stress_near(state.deformation, state.history, elements, points)
         stress = np.where(np.isnan(near), stress, near)
     for tells in plan.stresses:  # a handful of effects
         stress = stress + tells(elements, points, run.state.time)

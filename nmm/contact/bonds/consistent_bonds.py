@@ -139,7 +139,7 @@ def consistent(model: Model, asked: str) -> bool:
     known = model.matter is None and not model.projected
     if asked == "nitsche" and not known:
         raise FormulationError(
-            '[contact] bonds: "nitsche": with a material that is not linear, or projected volumes: '
+            f'[contact] bonds: "nitsche": with {model.bent}, or projected volumes: '
             'expected linear materials: use bonds = "spring"'
         )
     return known and asked != "spring"

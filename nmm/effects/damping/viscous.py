@@ -45,6 +45,11 @@ class ViscousDamping(Effect):
         return f"{self._mass:.6g} 1/s of the mass and {self._stiffness:.6g} s of the stiffness"
 
     @property
+    def with_axes(self) -> str:
+        """See `Effect.with_axes`: the stiffness is that of bodies as they were."""
+        return "damping by stiffness" if self._stiffness > 0 else ""
+
+    @property
     def external(self) -> bool:  # type: ignore[override]
         """Whether momentum is lost: by mass."""
         return self._mass > 0

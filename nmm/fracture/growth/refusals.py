@@ -40,5 +40,5 @@ def refuse(setup: Setup, tips: Ints) -> None:
         remedy = 'leave it out, or use control = "loads" in [fracture]'
         raise FormulationError(Fault(place, value, expected, remedy))
     if model.matter is not None:
-        remedy = "use elastic materials, or remove [fracture]"
-        raise FormulationError(Fault(place, "matter that is not linear", "elastic matter", remedy))
+        remedy = "use elastic materials and small strain, or remove [fracture]"
+        raise FormulationError(Fault(place, model.bent, "elastic matter", remedy))

@@ -26,8 +26,8 @@ class Material(Frozen):
     law: PartName = Field(
         default="elastic",
         description='"elastic", "von_mises", "mohr_coulomb", "drucker_prager", "maxwell", '
-        '"kelvin", "standard_solid", "burgers", "orthotropic", or "module:Name" of a law of '
-        "one's own",
+        '"kelvin", "standard_solid", "burgers", "orthotropic", "neo_hookean", or "module:Name" of '
+        "a law of one's own",
     )
     density: Density | None = Field(
         default=None, gt=0, description="a density in kg/m3, > 0", examples=example("kg/m^3")

@@ -4,6 +4,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import areas
+from nmm.assembly.carried_state import momenta
 from nmm.assembly.motion import State
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.step.stepper import Stepper
@@ -78,8 +79,11 @@ def _typical(stepper: Stepper, state: State) -> Floats:
 def _of_bodies(stepper: Stepper, state: State) -> tuple[Floats, Floats]:
     """Momentum (B, 2) and angular momentum (B,) about the middle of the domain."""
     model = stepper.model
-    modes = model.manifold.rigid_modes
-    own = np.asarray(modes.T @ (model.mass @ state.velocity)).reshape(-1, 3)
+    if stepper.kinematics.finite:
+        own = np.asarray(momenta(model, state.deformation) @ state.velocity).reshape(-1, 3)
+    else:
+        modes = model.manifold.rigid_modes
+        own = np.asarray(modes.T @ (model.mass @ state.velocity)).reshape(-1, 3)
     pushed = state.frames.to_global(np.arange(len(own)), own[:, :2])
     arm = state.frames.centre - stepper.reference.mean(axis=0)
     return pushed, arm[:, 0] * pushed[:, 1] - arm[:, 1] * pushed[:, 0] + own[:, 2]

@@ -36,7 +36,7 @@ def hindrances(stepper: "Stepper", formulation: "Formulation") -> list[tuple[str
     if plan.contact is None:
         faults.append(("a scene without contact", "expected [contact]"))
     if stepper.model.matter is not None:
-        faults.append(("a material that is not linear", "expected elastic materials"))
+        faults.append((stepper.model.bent, "expected elastic materials of small strain"))
     if plan.bent:
         faults.append(("effects whose forces are not linear", "expected linear ones"))
     if make_enforcement(formulation.contact.enforcement, dict(formulation.contact.options)).exact:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from nmm.assembly.motion import State
-from nmm.stepping.drive.settling import COLLAPSE, Settled
+from nmm.stepping.drive.settling import Settled, too_far
 from nmm.stepping.drive.static_theorem import carried
 from nmm.stepping.step.anchors import block_name, largest_mover
 from nmm.stepping.step.stepper import Stepper
@@ -22,12 +22,14 @@ def evidence(
     attempt = found.attempt
     proof = carried(stepper, state, factor)
     said = [proof.sentence] if proof is not None and proof.fails else []
-    moves = attempt.motion > COLLAPSE * stepper.size
+    far = too_far(stepper)
+    moves = attempt.motion > far
     if (found.mechanism or moves) and np.isfinite(attempt.increment).all():
         body, how = largest_mover(stepper.model, state, attempt.increment)
         name = block_name(stepper.model, body, names)
         if moves:
-            way = f"points move by more than {100 * COLLAPSE:.0f} % of the domain in one increment"
+            share = 100 * far / stepper.size
+            way = f"points move by more than {share:.0f} % of the domain in one increment"
         else:
             way = attempt.sentence
         said.append(f"a mechanism was found: {way}, block {name} most: {how}")

@@ -98,7 +98,7 @@ def equilibrium(
     """
     if model.matter is not None:
         raise FormulationError(
-            "linear statics: a material that is not linear: expected elastic laws: run a scene"
+            f"linear statics: {model.bent}: expected elastic laws of small strain: run a scene"
         )
     solved = WithEffects(model, _plan(effects))
     system = LinearSystem(solved, solver_for(model.manifold, solver or Solver()), small=True)

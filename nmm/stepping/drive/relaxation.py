@@ -71,12 +71,13 @@ def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) ->
 
     model = stepper.model
     heavy = replace(model, density=np.where(model.density > 0, model.density, 1.0))
-    inertia = Inertia(heavy)
+    kinematics = stepper.kinematics.let_go
+    inertia = Inertia(heavy, kinematics.turns)
     moving = Stepper(
         stepper.discretisation.joined(inertia),
         Shi(kinetic_factor=0.0),
         stepper.solver,
-        small=False,
+        kinematics,
     )
     moving.budget = stepper.budget
     size = stepper.size

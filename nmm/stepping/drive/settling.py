@@ -31,8 +31,9 @@ STEADY = 4
 # A block that only anchors hold may wander by so many times that rounding.
 WANDER = 100.0
 
-# A structure whose points move by this share of its size in one increment has no equilibrium near.
-COLLAPSE = 0.05
+# A structure whose points move by this share of its size in one increment has no equilibrium near;
+# one that may bend by any angle goes further on its way.
+COLLAPSE, BENDING = 0.05, 1.0
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,11 @@ class Settled:
     mechanism: bool = False
 
 
+def too_far(stepper: Stepper) -> float:
+    """Return the largest motion (m) in one increment that is no collapse."""
+    return (BENDING if stepper.kinematics.finite else COLLAPSE) * stepper.size
+
+
 def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> Settled:
     """Find equilibrium in the moved place: solve, move, and correct until nothing moves.
 
@@ -58,7 +64,7 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
     total = attempt = stepper.attempt(state, end, None, breaking)
     way, steady, count = 0.0, 0, 0
     while count < CORRECTIONS or (count < PATIENCE and not steady):
-        far = not stepper.small and total.motion > COLLAPSE * stepper.size
+        far = not stepper.small and total.motion > too_far(stepper)
         if far or not attempt.converged:
             return Settled(replace(total, converged=False), contacts, far)
         _, contacts = stepper.accept(attempt)

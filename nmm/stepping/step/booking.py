@@ -52,28 +52,34 @@ class Booked:
 
 
 def booked(
-    equations: "Equations", increment: Floats, solved: "ContactSolution | None"
+    equations: "Equations",
+    increment: Floats,
+    solved: "ContactSolution | None",
+    missed: float = 0.0,
 ) -> Booked | None:
-    """Return the work in a step in time, None in statics."""
+    """Return the work in a step in time, None in statics.
+
+    ``missed`` (J) is what the mean force of matter at both ends does beyond what it stores.
+    """
     terms = equations.inertia
     if terms is None:
         return None
     heavy = terms.factor * float(increment @ (terms.mass @ increment))
     taken = heavy - float(increment @ terms.momentum)
-    beyond = 0.0
+    beyond = missed
     lost: Mapping[str, float] = {}
     damped = added = 0.0
     if terms.damping is not None:
         lost, damped, added = terms.damping.taken(increment, terms.factor, terms.rates)
     more = 0.0 if terms.gain is None else float(increment @ terms.gain)
     if terms.elastic is not None:
-        beyond = (more - float(increment @ (terms.elastic @ increment))) / 2
+        beyond += (more - float(increment @ (terms.elastic @ increment))) / 2
     elif terms.weight != 0.5:
         share = terms.contact_factor
         # The matrix is that of inertia and, weighted, of all that is elastic, over the share.
         whole = share * float(increment @ (equations.matrix @ increment))
         elastic = whole - heavy - damped - added
-        beyond = (terms.weight - 0.5) * (elastic / terms.weight - more)
+        beyond += (terms.weight - 0.5) * (elastic / terms.weight - more)
     work = 0.0
     if solved is not None and solved.rows is not None:
         forces = solved.answer.normal_force, solved.answer.shear_force

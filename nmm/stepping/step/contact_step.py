@@ -107,7 +107,7 @@ class Touching:
                 looks, crossed = looks + 1, _joined(crossed, missed)
                 contacts, midpoint = self.candidates(state, reach, equations.step, crossed), None
                 continue
-            if good and equations.step is not None and not self._mover.still:
+            if good and equations.step is not None and self._mover.kinematics.turns:
                 half = contact.momentum.midpoint(solved, state, result.state, midpoint)
                 if half is not None and halves < MIDPOINT_SOLUTIONS:
                     midpoint, halves = half, halves + 1

@@ -81,8 +81,9 @@ class InertiaTerms:
     elastic: csc_array | None = None
 
 
-# An out-of-balance force below this share of the forces that it is the difference of is rounding.
-ROUNDING = 1e-12
+# An out-of-balance force below this share of the forces that it is the difference of is rounding;
+# what iterations about matter leave of it is no more.
+ROUNDING, BALANCED = 1e-12, 1e-10
 
 
 @dataclass(frozen=True)
@@ -146,7 +147,8 @@ class Assembly:
         parts = list(plan.forces(state, end))
         force = sum(parts, start=np.zeros(len(state.deformation))) - line.force
         if step is None or plan.inertia is None:
-            if model.manifold.dependent and _rounded(force, [*parts, line.force]):
+            nothing = ROUNDING if matter is None else BALANCED
+            if model.manifold.dependent and _rounded(force, [*parts, line.force], nothing):
                 force = np.zeros_like(force)
             held = self._anchored(line.stiffness) if anchored else line.stiffness
             matrix, even = plan.matrix(state, held), line.symmetric
@@ -231,10 +233,10 @@ def _are(some: list[tuple[float, csc_array]], others: list[tuple[float, csc_arra
     return all(a == b and one is other for (a, one), (b, other) in pairs)
 
 
-def _rounded(force: Floats, parts: Sequence[Floats]) -> bool:
+def _rounded(force: Floats, parts: Sequence[Floats], share: float) -> bool:
     """Whether a force (n,) is nothing but rounding of the parts that it is the sum of.
 
     That is no load that dependent functions can carry: it does work on motions without strain.
     """
     size = sum(float(np.linalg.norm(part)) for part in parts)
-    return float(np.linalg.norm(force)) < ROUNDING * size
+    return float(np.linalg.norm(force)) < share * size

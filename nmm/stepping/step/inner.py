@@ -8,18 +8,25 @@ integrator gives to the end of the step, so that it enters the step as it is.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.matter import STRESS
-from nmm.assembly.motion import State, move, strain_only
+from nmm.assembly.kinematics import Kinematics
+from nmm.assembly.motion import State
 from nmm.effects.base import Instant, Span, StepForce, defines
 from nmm.integrators.base import Integrator
 from nmm.model.discretisation import Current
 from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.equations import BALANCED
 
+if TYPE_CHECKING:
+    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
+
+# Out-of-balance force of a step whose energy is kept: what it leaves adds up over steps.
+CONSERVED = 1e-13
 # Forces of effects below this share of those of a step count as so large.
 HARDLY = 1e-6
 # What effects miss is rounding up to so many times that of their stiffness times the motion.
@@ -88,8 +95,8 @@ class Inner:
 
     Parameters
     ----------
-    still
-        Whether the bodies' axes stay as they are.
+    kinematics
+        How bodies move.
     symmetric
         Whether tangents are to be.
 
@@ -103,6 +110,11 @@ class Inner:
         Whether tangents are.
     flows
         Whether matter may flow.
+    searches
+        Whether iterations are shortened where forces overshoot: not under finite strain, whose
+        tangents foresee how slender bodies stretch as they turn.
+    tolerance
+        Out-of-balance force, as a share of the forces, at which an iterate is the solution.
     """
 
     def __init__(
@@ -111,23 +123,27 @@ class Inner:
         state: State,
         step: float | None,
         rule: Integrator,
-        still: bool,
+        kinematics: Kinematics,
         symmetric: bool,
         clock: Clock,
     ) -> None:
         self._model, self._plan, self._clock = current.model, current.plan, clock
-        self._state, self._step, self._still = state, step, still
+        self._state, self._step, self._kinematics = state, step, kinematics
         weight = 1.0 if step is None else rule.end_weight
         self._span = Span(step, weight, half=step is not None and not rule.carries)
         matter = self._model.matter
-        self.flows = matter is not None
-        self.symmetric = symmetric or matter is None or matter.symmetric
+        self.flows = matter is not None and matter.flows
+        self._conserves = step is not None and rule.conserves
+        self.tolerance = CONSERVED if self._conserves else BALANCED
+        self.searches = matter is None or matter.flows
+        even = matter is None or (matter.symmetric and not self._conserves)
+        self.symmetric = symmetric or even
         if matter is None:
             self.elastic = self._model.stiffness
             self.start = self.elastic @ state.deformation
         else:
             self.elastic = matter.elastic_stiffness
-            self.start = matter.force(state.deformation, state.history[STRESS])
+            self.start = matter.internal(state.deformation, state.history)
         self._lines = {name: self._line(name) for name in self._plan.bent}
         self._lined = all(defines(one, "matrix") for one in self._plan.bent.values())
 
@@ -139,8 +155,10 @@ class Inner:
         matrix = effect.matrix(self._state) if defines(effect, "matrix") else csc_array((n, n))
         return force, matrix
 
-    def at(self, increment: Floats) -> Iterate:
+    def at(self, increment: Floats, before: Iterate | None = None) -> Iterate:
         """Return the internal forces at an increment (n,) of the step.
+
+        ``before`` is the iterate from which it was found.
 
         Raises
         ------
@@ -148,7 +166,7 @@ class Inner:
             Where an effect has none.
         """
         with self._clock.phase("material"):
-            matter, history = self._of_matter(increment)
+            matter, history = self._of_matter(increment, before)
         if self._lined and not increment.any():
             return self._first(increment, matter, history)
         pulls = self._pulls(increment)
@@ -176,7 +194,7 @@ class Inner:
         ``scale`` (n,) are factors by which forces compare, ``applied`` (n,) those of the step.
         """
         way, shares = then.increment - now.increment, [0.0]
-        if self.flows:
+        if self._model.matter is not None:
             missed = then.matter.missed(now.matter, way)
             size = max(_size(scale * one) for one in (then.matter.force, self.start, applied))
             shares.append(_size(scale * missed) / size if size else 0.0)
@@ -196,21 +214,37 @@ class Inner:
             total = total + abs(matrix) @ np.abs(increment)
         return total
 
-    def _of_matter(self, increment: Floats) -> tuple[InnerPart, Mapping[str, Floats]]:
+    def _of_matter(
+        self, increment: Floats, before: Iterate | None
+    ) -> tuple[InnerPart, Mapping[str, Floats]]:
         state, matter = self._state, self._model.matter
         whole = state.deformation + increment
         if matter is None:
             stiffness = self._model.stiffness
             return InnerPart(stiffness @ whole, lambda: stiffness), state.history
-        answer = matter.update(whole, state.history, self._step or 0.0)
+        if self._conserves:
+            return self._conserving(whole), state.history
+        last = None if before is None else state.deformation + before.increment
+        answer = matter.update(whole, state.history, self._step or 0.0, last)
         force, tangent = matter.force(whole, answer.stress), answer.tangent
         return InnerPart(force, lambda: matter.stiffness(tangent, self.symmetric)), answer.history
+
+    def _conserving(self, whole: Floats) -> InnerPart:
+        """Return the force that, weighed with that of the start, is the one of the whole step."""
+        matter, weight = cast("FiniteMatter", self._model.matter), self._span.weight
+        answer = matter.conserving(self._state.deformation, whole)
+        force = matter.force(whole, answer.stress)
+        tangent = answer.tangent / weight
+        return InnerPart(
+            (force - (1 - weight) * self.start) / weight,
+            lambda: matter.stiffness(tangent, self.symmetric),
+        )
 
     def _pulls(self, increment: Floats) -> dict[str, StepForce]:
         if not self._lines:
             return {}
         state = self._state
-        after = (strain_only if self._still else move)(self._model, state, increment)
+        after = self._kinematics.move(self._model, state, increment)
         if self._step is not None:
             after = replace(after, time=state.time + self._step)
         return {name: self._plan.through(name, state, after, self._span) for name in self._lines}

@@ -8,8 +8,9 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfStates
+from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, move, strain_only, vertex_points
+from nmm.assembly.motion import State, vertex_points
 from nmm.model.discretisation import Current
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.clock import Clock
@@ -25,18 +26,22 @@ class Mover:
 
     Parameters
     ----------
-    still
-        Whether the bodies' axes stay as they are.
+    kinematics
+        How bodies move.
 
     Attributes
     ----------
+    kinematics
+        The same.
     vertices
         The elements' vertices, which are followed.
     """
 
-    def __init__(self, current: Current, solver: LinearSolver, still: bool, clock: Clock) -> None:
+    def __init__(
+        self, current: Current, solver: LinearSolver, kinematics: Kinematics, clock: Clock
+    ) -> None:
         self._current, self.solver, self._clock = current, solver, clock
-        self.still = still
+        self.kinematics = kinematics
         self._masses: tuple[csc_array, Ints, Factor] | None = None
         self._follow(self._current.model)
 
@@ -71,7 +76,7 @@ class Mover:
         return self.vertices.place(state.frames, state.deformation)
 
     def _moved(self, state: State, increment: Floats) -> State:
-        return (strain_only if self.still else move)(self._current.model, state, increment)
+        return self.kinematics.move(self._current.model, state, increment)
 
     def _faster(self, equations: Equations, increment: Floats, push: Floats | None) -> State:
         """Return the state at the start with the rates of the end."""

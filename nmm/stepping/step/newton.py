@@ -22,9 +22,9 @@ from nmm.stepping.step.trial import Attempt
 
 Solution = tuple[Equations, Attempt]
 
-# Out-of-balance force of matter, as a share of the forces, at which an iterate is the solution;
-# and, where it falls no more for rounding, the largest that is taken.
-BALANCED, ROUNDED = 1e-10, 1e-7
+# Out-of-balance force of matter, as a share of the forces, that is taken for a solution where it
+# falls no more for rounding.
+ROUNDED = 1e-7
 # Iterations of a step; plasticity takes four to eight.
 MOST = 30
 # Below this imbalance the tangent of effects is kept, with the matrix and its factors: what it
@@ -64,10 +64,10 @@ def newton(
             said = f"{flows}; {found.sentence}" if flows else found.sentence
             found = replace(found, sentence=said, singular=found.singular or bool(flows))
             return equations, replace(found, passes=passes, imbalances=tuple(imbalances))
-        then = at(found.increment)
+        then = at(found.increment, now)
         imbalances.append(inner.imbalance(now, then, scale, equations.force))
         found = replace(found, passes=passes, imbalances=tuple(imbalances))
-        if _balanced(imbalances):
+        if _balanced(imbalances, inner.tolerance):
             after = replace(found.state, history=then.history, memory=then.memory)
             return equations, replace(
                 found, state=after, residual=max(found.residual, imbalances[-1])
@@ -87,8 +87,8 @@ def newton(
                 singular=bool(flows),
             )
         before = now
-        now = _searched(equations, line, now, then, at)
-        if not inner.flows and _falls(imbalances):
+        now = _searched(equations, line, now, then, at) if inner.searches else then
+        if inner.searches and not inner.flows and _falls(imbalances):
             now = now.with_tangent_of(before)
 
 
@@ -110,9 +110,9 @@ def _scale(elastic: csc_array) -> Floats:
     return np.asarray(1 / np.sqrt(np.where(diagonal > 0, diagonal, np.inf)))
 
 
-def _balanced(imbalances: list[float]) -> bool:
+def _balanced(imbalances: list[float], tolerance: float) -> bool:
     last = imbalances[-1]
-    if last <= BALANCED:
+    if last <= tolerance:
         return True
     stalls = len(imbalances) > 1 and last > 0.5 * imbalances[-2]
     return last <= ROUNDED and stalls
@@ -129,7 +129,7 @@ def _searched(
     line: Linearisation,
     now: Iterate,
     then: Iterate,
-    at: Callable[[Floats], Iterate],
+    at: Callable[[Floats, Iterate], Iterate],
 ) -> Iterate:
     """Return the next iterate: the whole step, or less where the forces overshoot along it.
 
@@ -152,7 +152,7 @@ def _searched(
             break
         (low, falls), (high, rises) = ends
         part = max(low - falls * (high - low) / (rises - falls), SHORTEST)
-        found = at(now.increment + part * way)
+        found = at(now.increment + part * way, now)
         now_slope = slope(found, part)
         if abs(now_slope) <= SLOPE * curved:
             break

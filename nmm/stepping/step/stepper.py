@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.motion import MaterialPoints, State, initial_state
 from nmm.effects.base import Instant
 from nmm.errors import SolveError
@@ -45,8 +46,8 @@ class Stepper:
 
     Attributes
     ----------
-    solver, small
-        The linear solver, and whether displacements are small.
+    solver, kinematics
+        The linear solver, and how bodies move.
     budget
         What the run may cost.
     reference
@@ -62,11 +63,11 @@ class Stepper:
         discretisation: Discretisation,
         integrator: Integrator,
         solver: LinearSolver,
-        small: bool,
+        kinematics: Kinematics,
         lay: Lay | None = None,
     ) -> None:
         clock = Clock()
-        self.solver, self.small, self.seconds = solver, small, clock.seconds
+        self.solver, self.kinematics, self.seconds = solver, kinematics, clock.seconds
         self.budget = Budget()
         self.reference = discretisation.model.manifold.elements.points
         self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
@@ -76,8 +77,8 @@ class Stepper:
         self._geometry: Geometry | None = None
         self._integrator = self._ruling(integrator)
         self._assembly = Assembly(self._current)
-        self._mover = Mover(self._current, solver, small or lay is not None, clock)
-        self._alone = Alone(self._current, self._mover, solver, small, clock)
+        self._mover = Mover(self._current, solver, kinematics, clock)
+        self._alone = Alone(self._current, self._mover, solver, self.small, clock)
         self._touching = self._contact_step() if among else None
         self._carried = CarriedOver(self._reach())
 
@@ -124,6 +125,11 @@ class Stepper:
         """Drop the workspace: factors, patterns, lists and starts that are kept for speed alone."""
         for part in (self._assembly, *self._solvers, self.plan):
             part.forget()
+
+    @property
+    def small(self) -> bool:
+        """Whether displacements are small."""
+        return self.kinematics.small
 
     @property
     def integrator(self) -> Integrator:
@@ -191,7 +197,10 @@ class Stepper:
                 return _failed(state, fault)
         if not found.converged or equations.inertia is None:
             return found
-        return replace(found, booked=booked(equations, found.increment, found.solved))
+        conserves = equations.rule.conserves
+        missed = 0.0 if conserves else self.model.missed_work(state, found.state)
+        work = booked(equations, found.increment, found.solved, missed)
+        return replace(found, booked=work)
 
     def _bent(
         self,
@@ -200,10 +209,10 @@ class Stepper:
         solve: Callable[[Linearisation | None], Solution],
     ) -> Solution:
         """Solve a step whose internal forces are not linear."""
-        current, still, clock = self._current, self._mover.still, self.clock
+        current, moves, clock = self._current, self.kinematics, self.clock
         # Methods of contact are for symmetric matrices.
         symmetric = self.plan.contact is not None
-        inner = Inner(current, state, step, self._rule, still, symmetric, clock)
+        inner = Inner(current, state, step, self._rule, moves, symmetric, clock)
         return newton(inner, state, solve, clock)
 
     def along(self, state: State, path: "PathEquation") -> Attempt:

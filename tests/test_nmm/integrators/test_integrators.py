@@ -4,6 +4,7 @@ import pytest
 
 from nmm.integrators.base import INTEGRATORS
 from nmm.integrators.central_differences import CentralDifferences
+from nmm.integrators.energy_momentum import EnergyMomentum
 from nmm.integrators.generalized_alpha import GeneralizedAlpha
 from nmm.integrators.newmark import Newmark
 from nmm.integrators.shi import Shi
@@ -15,6 +16,7 @@ MADE = {
     # gamma > 1/2 damps and costs an order.
     "newmark": [(Newmark(), 2.0), (Newmark(beta=0.3025, gamma=0.6), 1.0)],
     "central_differences": [(CentralDifferences(), 2.0)],
+    "energy_momentum": [(EnergyMomentum(), 2.0)],
     "generalized_alpha": [(GeneralizedAlpha(rho_inf=rho), 2.0) for rho in (0.0, 0.5, 0.8, 1.0)],
 }
 
