@@ -70,6 +70,49 @@ def test_a_block_at_rest_on_a_slope_stays_for_a_thousand_steps():
     assert np.ptp(slid[100:]) < 1e-9
 
 
+def chain(steps):
+    """Three blocks that lean on each other down a slope of 20 degrees, for steps of 10 ms."""
+    slope = np.radians(20.0)
+    along = np.array([[np.cos(slope), np.sin(slope)], [-np.sin(slope), np.cos(slope)]])
+
+    def laid(name, low, high):
+        return text.block(name, "rock", text.rectangle(low, high) @ along)
+
+    floor, foot = laid("floor", (-2, -1), (5, 0)), laid("foot", (-2, 0), (-1, 1))
+    blocks = [laid(f"b{number}", (number - 1, 0), (number, 1)) for number in range(3)]
+    middles = np.array([[number - 0.5, 0.5] for number in range(3)]) @ along
+    monitors = [text.monitor(f"m{n}", tuple(p), f"b{n}") for n, p in enumerate(middles.tolist())]
+    scene = parse_scene(
+        text.scene(
+            f'plane = "strain"\nduration = {steps * 0.01!r}\n[gravity]\n[inertia]\n[contact]\n'
+            "[formulation.integrator]\nstep = 0.01\n",
+            [
+                text.material("rock", modulus=1e9),
+                text.interface("contact", 10.0),
+                *(floor, foot, *blocks, text.held("floor"), text.held("foot"), *monitors),
+            ],
+        )
+    )
+    return run(scene)
+
+
+@pytest.mark.parametrize("steps", [500, pytest.param(100_000, marks=pytest.mark.slow)])
+def test_a_chain_of_blocks_at_rest_stays(steps):
+    """Friction of 10 degrees does not hold them on 20: each is pushed by those above it."""
+    found = chain(steps)
+    assert found.summary.status == "converged", found.summary.sentence
+    for number in range(3):
+        moved = way(found, f"m{number}")[100:]
+        assert np.ptp(moved, axis=0).max() < 1e-8
+    assert np.abs(rates(found)).max() < 1e-6
+    carried = [
+        sum(found.history[f"reaction:hold {name}:{axis}"][-1] for name in ("floor", "foot"))
+        for axis in "xy"
+    ]
+    weight = (3 + 7 + 1) * 2600 * text.G
+    assert carried == pytest.approx([0, weight], abs=1e-6 * weight)
+
+
 @pytest.mark.parametrize(
     ("steps", "integrator"),
     [

@@ -117,9 +117,17 @@ def moving_parts() -> Iterator[dict[str, str]]:
 
 
 def over_parts(
-    words: str, scene: Document, step: float, judge: Judge, slow: bool = False
+    words: str,
+    scene: Document,
+    step: float,
+    judge: Judge,
+    slow: bool = False,
+    kinds: Mapping[str, str] | None = None,
 ) -> Iterator[HardCase]:
-    """Yield a scene of bodies in motion with every enforcement and every integrator."""
+    """Yield a scene of bodies in motion with every enforcement and every integrator.
+
+    What else the scenes of a class differ in stands in ``kinds``, and on the page beside the parts.
+    """
     for parts in moving_parts():
         made = with_parts(
             scene,
@@ -130,4 +138,4 @@ def over_parts(
             },
         )
         label = f"{words}, {step:g} s, {parts['enforcement']}, {parts['integrator']}"
-        yield HardCase(label, made, judge, parts, slow)
+        yield HardCase(label, made, judge, {**parts, **(kinds or {})}, slow)

@@ -31,7 +31,11 @@ class Slopes(HardClass):
             heavy = 9.81 if step > 7e-4 else 98.1  # so that corners pass in fewer short steps
             scene = in_time(slope(sets, count, friction, seed, random), step, steps, heavy)
             words = f"{sets} sets, about {count} blocks, seed {seed}, {friction:g} deg"
-            yield from over_parts(words, scene, step, moving, slow=True)
+            kinds = {
+                **{"joint sets": f"{sets} sets", "blocks": f"{count} blocks"},
+                **{"friction": f"{friction:g} deg", "step": f"{step:g} s"},
+            }
+            yield from over_parts(words, scene, step, moving, slow=True, kinds=kinds)
 
 
 def slope(
