@@ -118,7 +118,8 @@ AngularVelocity = Annotated[float, quantity("rad/s")]
 AnyQuantity = Annotated[float, quantity("any")]
 
 # Strict: 1.5, "3" and true are no numbers of things, "yes" is no truth value.
-Count = Annotated[int, Field(strict=True)]
+# No more than 64 bits hold, as what counts is kept in arrays.
+Count = Annotated[int, Field(strict=True, le=10**18)]
 Flag = Annotated[bool, Field(strict=True)]
 
 

@@ -9,7 +9,8 @@ from pydantic import BaseModel
 def lost(data: Mapping[str, Any], model: BaseModel) -> Iterator[str]:
     """Yield the key paths of a file whose values the model does not have as they stand there.
 
-    Texts of number and unit are numbers in the model; all else must be equal, and of one kind.
+    Texts of number and unit are numbers in the model, and numbers may be expressions there; all
+    else must be equal, and of one kind.
     """
     said = model.model_dump(by_alias=True, exclude_unset=True)
     yield from _lost(data, said, ())
@@ -35,6 +36,8 @@ def _lost(given: Any, said: Any, path: tuple[str, ...]) -> Iterator[str]:
 def _same(given: object, said: object) -> bool:
     if isinstance(given, bool) or isinstance(said, bool):
         return given is said
+    if isinstance(said, str) and isinstance(given, int | float):
+        return float(said) == given  # an expression that is a number
     if isinstance(given, str) and isinstance(said, float):
         return any(sign.isdigit() for sign in given)  # with a unit, which the reader converted
     if isinstance(given, int) and isinstance(said, float):
