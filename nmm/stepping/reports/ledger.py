@@ -130,7 +130,7 @@ class Ledger:
             found = replace(found, change_energy=found.change_energy + shed)
         if attempt.booked is not None:
             found = found._lost_in_time(attempt.booked, earlier, loss)
-        return found.weighed(after.time)
+        return found.weighed(after.time, audited=attempt.booked is not None)
 
     def changed(self, plan: "Plan", model: "Model", state: State) -> "Ledger":
         """Return the totals with a change of what is solved, on which ``state`` is now."""
@@ -181,13 +181,19 @@ class Ledger:
         by_effects = (*self.damping_loss.values(), *self.effect_loss.values())
         return self.friction_loss + self.material_loss + sum(by_effects)
 
-    def weighed(self, time: float) -> "Ledger":
-        """Return the totals with the size of the energies, and how much came from nowhere."""
+    def weighed(self, time: float, audited: bool) -> "Ledger":
+        """Return the totals with the size of the energies, and how much came from nowhere.
+
+        Steps of statics are not ``audited``: what they make is no motion, and rises count from
+        their end.
+        """
         total = sum(self.energies.values())
         largest = max(
             self.throughput, abs(self.work), abs(total), abs(self.stored_first), self.dissipated
         )
         now = self._made, self.given
+        if not audited:
+            return with_parts(self, throughput=largest, last=now, lowest=now)
         return with_parts(
             self,
             throughput=largest,

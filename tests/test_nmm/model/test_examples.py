@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 
 from nmm.formulation import read_formulation
 from nmm.scene import read_scene
@@ -82,3 +83,44 @@ def test_the_pier_carries_its_weight_in_every_stage() -> None:
     # gamma (h^2 / 2 + h_above h) / E over the 3 m below the monitor.
     settled = 18000 * (4.5 + 3 * np.array([1, 0, 1, 1])) / 5e9
     np.testing.assert_allclose(found.history["monitor:second:uy"], -settled, rtol=0.01)
+
+
+@pytest.mark.slow
+def test_the_bridge_carries_its_weight_and_what_crosses_it() -> None:
+    scene = read_scene(EXAMPLES / "arch_bridge" / "bridge.toml")
+    found = run(scene)
+    assert found.summary.status == "converged", found.summary.sentence
+    rings = [np.array(block.vertices) for block in scene.blocks]
+    density = [scene.materials[block.material].density for block in scene.blocks]
+    areas = [(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2 for x, y in (ring.T for ring in rings)]
+    weight = 9.81 * np.dot(areas, density)
+    carried = found.history["reaction:west:y"] + found.history["reaction:east:y"]
+    assert carried[0] == pytest.approx(weight, rel=1e-6)
+    while_on = (found.history["time"] > 0.1) & (found.history["time"] < 1.1)
+    # Swings of the bridge go to and fro about it.
+    assert carried[while_on].mean() - weight == pytest.approx(80e3, rel=0.02)
+    thrust, place = found.history["reaction:west:x"], 12 * found.history["time"] - 7.412659
+    assert abs(place[np.argmax(thrust)]) < 1.5
+    assert thrust[-1] > 1.2 * thrust[0]
+
+
+def test_the_bolts_of_the_tunnel_carry_the_wedge_of_its_roof() -> None:
+    scene = read_scene(EXAMPLES / "tunnel" / "tunnel.toml")
+    found = run(scene)
+    assert found.summary.status == "converged", found.summary.sentence
+    # Joints at 55 and 120 degrees through (-1.7, 2.7) and (1.7, 2.7), and the roof between them.
+    wedge = shapely.Polygon([(0.16348, 5.36133), (-1.76089, 2.61304), (0, 3.2), (1.74766, 2.61745)])
+    upwards = [
+        found.history[f"bars:{bar.name}:force"][-1] * _rise(bar.points)
+        for bar in scene.bars
+        if wedge.buffer(1e-4).contains(shapely.Point(bar.points[0]))
+    ]
+    assert len(upwards) == 2
+    # The joints open, but for their ends.
+    assert sum(upwards) == pytest.approx(wedge.area * 2600 * 9.81, rel=0.01)
+    assert -2e-3 < found.history["monitor:roof:uy"][-1] < -1e-3
+
+
+def _rise(points) -> float:
+    (x, y), (u, v) = points
+    return float((v - y) / np.hypot(u - x, v - y))
