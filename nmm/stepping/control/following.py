@@ -84,10 +84,10 @@ class _Following:
 
     def _event_within(self, at: Standing, end: Tried) -> Tried | None:
         """Return where on a step the first bond is at its limit; None where it is not found."""
-        now = self.trials.of_load(at, 0.0).load
+        now = self.trials.of_load(at, 0.0).each
         return located(
             lambda way: self.trials.along(at, self.control.path(at, way)),
-            Tried(0.0, end.attempt, min(now, 1.0)),
+            Tried(0.0, end.attempt, np.minimum(now, 1.0)),
             end,
         )
 

@@ -1,10 +1,11 @@
-"""Where on a step a load over strength is one: regula falsi (Illinois)."""
+"""Where on a step the first bond is at its limit: each by itself, by regula falsi (Illinois)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from integration.arrays import Floats
 from nmm.stepping.step.trial import Attempt
 
 # Load over strength that is as good as one, and trials before the nearest one is taken.
@@ -15,11 +16,19 @@ ABOVE = 1e-9
 
 @dataclass(frozen=True)
 class Tried:
-    """A trial: how far, what came of it, and the largest load over strength there."""
+    """A trial: how far, what came of it, and load over strength of the joints' bonds there.
+
+    ``each`` (k,) is in the order of the joints' points, and infinite where there is no solution.
+    """
 
     way: float
     attempt: Attempt
-    load: float
+    each: Floats
+
+    @property
+    def load(self) -> float:
+        """Largest load over strength."""
+        return float(self.each.max(initial=0.0))
 
     @property
     def over(self) -> float:
@@ -32,23 +41,31 @@ def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried | 
 
     None where a trial in between has no solution.
     """
-    left, right = low.over, high.over
     best = min(low, high, key=lambda one: abs(one.over))
+    stays, beyond = [1.0, 1.0], None
     for _ in range(MOST):
-        if abs(best.over) <= CLOSE or left == right:
+        if abs(best.over) <= CLOSE or low.way == high.way:
             return best
-        way = (low.way * right - high.way * left) / (right - left)
-        found = try_(way)
+        found = try_(_crossing(low, high, stays))
         if not found.attempt.converged:
             return None
         best = min(best, found, key=lambda one: abs(one.over))
-        if (found.over > 0) == (high.over > 0):
-            high, right = found, found.over
-            left /= 2
+        again, beyond = beyond == (found.over > 0), found.over > 0
+        # An end that stays once more counts half.
+        part = 0.5 if again else 1.0
+        if beyond:
+            high, stays = found, [part * stays[0], 1.0]
         else:
-            low, left = found, found.over
-            right /= 2
+            low, stays = found, [1.0, part * stays[1]]
     return best
+
+
+def _crossing(low: Tried, high: Tried, counts: list[float]) -> float:
+    """Return how far the first bond is at its limit, if loads go in straight lines."""
+    over = high.each > 1
+    below, above = counts[0] * (1 - low.each[over]), counts[1] * (high.each[over] - 1)
+    share = float((below / (below + above)).min())
+    return low.way + share * (high.way - low.way)
 
 
 def outward(try_: Callable[[float], Tried], still: Tried, way: float) -> Tried | None:

@@ -34,8 +34,8 @@ class Trials:
         attempt = self.stepper.along(at.state, path)
         if attempt.converged and attempt.motion > self.stepper.size:
             attempt = replace(attempt, converged=False, sentence="points leave the domain")
-        load = float(self._overload(attempt).max(initial=0.0)) if attempt.converged else np.inf
-        return Tried(path.target, attempt, load)
+        each = self._by_joint(attempt) if attempt.converged else np.full(1, np.inf)
+        return Tried(path.target, attempt, each)
 
     def of_load(self, at: Standing, change: float) -> Tried:
         """Try a step by which the load factor changes so much."""
@@ -53,6 +53,14 @@ class Trials:
         gone: Bools = load >= load.max() * (1 - TIE)
         shed = contact.release(solved, gone)
         return bool(contact.laws.brittle[solved.contacts.interface[gone]].any()), shed
+
+    def _by_joint(self, attempt: Attempt) -> Floats:
+        """Return load over strength of the points of joints, in their order."""
+        assert attempt.solved is not None
+        contacts = attempt.solved.contacts
+        joints = contacts.is_joint
+        found = self._overload(attempt)[joints]
+        return np.asarray(found[np.argsort(-contacts.key[joints])])
 
     def _overload(self, attempt: Attempt) -> Floats:
         """Return load over strength (m,) of the bonds of an attempt."""

@@ -1,0 +1,37 @@
+"""Where on a step the first bond is at its limit: few trials, and the right bond."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from nmm.stepping.control.locating import CLOSE, Tried, located
+
+CURVES = {
+    "straight": lambda way: np.array([0.3 * way, 0.5 * way]),
+    "bent": lambda way: np.array([0.2 * way**2, 0.1 * (np.exp(way) - 1)]),
+    "kinked": lambda way: np.array([0.4 * way, max(0.1 * way, 4 * way - 8)]),
+    "overtaken": lambda way: np.array([1.2 - 0.3 / (0.5 + way), 0.05 * way**3, -way]),
+}
+
+
+@pytest.mark.parametrize("name", CURVES)
+@pytest.mark.parametrize("length", [3.0, 30.0])
+def test_the_first_bond_at_its_limit_is_found_in_few_trials(name, length):
+    tried = []
+
+    def trial(way):
+        loads = np.maximum(CURVES[name](way), 0.0)
+        tried.append(way)
+        return Tried(way, SimpleNamespace(converged=True), loads)
+
+    found = located(trial, trial(0.0), trial(length))
+    assert found is not None
+    assert abs(found.load - 1) <= CLOSE
+    # Nothing is over its strength before: brute force over the way to it.
+    ways = np.linspace(0.0, found.way, 501)[:-1]
+    assert max(CURVES[name](way).max() for way in ways) < 1
+    # Straight loads need one; halving would take 33.
+    most = {"straight": 1, "kinked": 8}.get(name, 12)
+    if length == 3.0:
+        assert len(tried) - 2 <= most
