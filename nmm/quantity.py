@@ -1,15 +1,25 @@
 """A named quantity of a frame: its values, what they belong to, and their unit."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
 
-Place = Literal["points", "elements", "bodies", "contacts", "members"]
-PLACES: tuple[Place, ...] = ("points", "elements", "bodies", "contacts", "members")
+Place = Literal["points", "elements", "bodies", "contacts", "members", "cracks", "tips"]
+PLACES: tuple[Place, ...] = (
+    *("points", "elements", "bodies", "contacts"),
+    *("members", "cracks", "tips"),
+)
+APART: tuple[Place, ...] = ("members", "cracks", "tips")
+"""Those of which a frame has as many as its quantities say, and where they lie."""
+
+ENDS = ("x1", "y1", "x2", "y2")
+"""Components of a quantity that says where both ends of segments are."""
+SPOT = ("x", "y")
+"""Components of one that says where points are."""
 
 
 @dataclass(frozen=True)
@@ -20,8 +30,8 @@ class Quantity:
     ----------
     on
         What the rows of the values belong to: the "points" of elements (vertices), "elements",
-        "bodies" (stored with each of their elements), "contacts", or "members": segments of what
-        connects points (`MemberSegments`).
+        "bodies" (stored with each of their elements), "contacts", "members": segments of what
+        connects points (`MemberSegments`), "cracks": segments of their faces, or their "tips".
     values
         (n,) numbers or (n, k) of k components; nan where there is none.
     unit
@@ -34,6 +44,12 @@ class Quantity:
     values: Floats
     unit: str = ""
     components: tuple[str, ...] = ()
+
+    def moved(self, by: Floats) -> "Quantity":
+        """Return it where all is moved ``by`` (2,): another one if it says where things are."""
+        if self.components not in (ENDS, SPOT):
+            return self
+        return replace(self, values=self.values + np.tile(by, len(self.components) // 2))
 
 
 @dataclass(frozen=True)
@@ -76,9 +92,8 @@ class MemberSegments:
     @property
     def quantities(self) -> dict[str, Quantity]:
         """What a frame holds of them."""
-        ends = ("x1", "y1", "x2", "y2")
         return {
-            self.ENDS: Quantity("members", self.place.reshape(-1, 4), "m", ends),
+            self.ENDS: Quantity("members", self.place.reshape(-1, 4), "m", ENDS),
             "members:number": Quantity("members", self.member.astype(float)),
             "members:force": Quantity("members", self.force, "N"),
             "members:slip": Quantity("members", self.slip, "m"),

@@ -15,7 +15,6 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.geometry.blocks import Regions
 from nmm.geometry.tessellation.cover_types import COVER_TYPES
-from nmm.quantity import MemberSegments
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import Sink
 from nmm.results.tee import Tee
@@ -132,9 +131,7 @@ class MovedBack(Tee):
 
     def frame(self, frame: Frame) -> None:
         """See `Sink.frame`."""
-        fields = dict(frame.fields)
-        if (ends := fields.get(MemberSegments.ENDS)) is not None:
-            fields[MemberSegments.ENDS] = replace(ends, values=ends.values + np.tile(self._by, 2))
+        fields = {name: one.moved(self._by) for name, one in frame.fields.items()}
         moved = replace(
             frame,
             points=frame.points + self._by,

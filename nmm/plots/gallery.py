@@ -17,6 +17,7 @@ from nmm.plots.results.curves import load_displacement, overview
 from nmm.plots.results.deformed import deformed, failure_mode
 from nmm.plots.results.members import members
 from nmm.plots.results.stress import stress
+from nmm.quantity import APART
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
 
@@ -78,7 +79,7 @@ def draw_all(
             draw(name, failure_mode, shown, scene=scene, magnification=magnification)
         draw(f"stress_{component}.png", stress, shown, component, frame=calm)
         for name, quantity in shown.frames[calm].fields.items():  # a handful, of effects
-            apart = quantity.on in ("contacts", "members")
+            apart = quantity.on in ("contacts", *APART)
             if ":" in name and not apart and quantity.values.ndim == 1:
                 file = name.replace(":", "_").replace(" ", "_")
                 draw(f"{file}.png", stress, shown, name, frame=calm)

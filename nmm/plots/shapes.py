@@ -6,6 +6,7 @@ import numpy as np
 
 from integration.polygons import Polygons
 from nmm.plots.edges import cracks, outlines, segments
+from nmm.quantity import SPOT
 from nmm.results.frame import Frame, Topology
 
 if TYPE_CHECKING:
@@ -80,6 +81,18 @@ def draw_lines(
         axes.add_collection(
             LineCollection(list(opened), linewidths=2 * width, capstyle="round", **style)
         )
+    if frame is not None:
+        draw_tips(axes, polygons, frame)
+
+
+def draw_tips(axes: "Axes", polygons: Polygons, frame: Frame) -> None:
+    """Mark the tips of cracks that may grow, where the polygons are drawn."""
+    for quantity in frame.on("tips").values():  # a handful
+        if quantity.components != SPOT or not len(quantity.values):
+            continue
+        away = np.hypot(*np.moveaxis(quantity.values[:, None] - frame.points, -1, 0))
+        points = polygons.points[np.argmin(away, axis=1)]
+        axes.plot(*points.T, "o", color=CRACK, markersize=2.5, markeredgewidth=0)
 
 
 def draw_blocks(

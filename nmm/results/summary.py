@@ -83,6 +83,9 @@ class Summary:
     change_energy, changes
         Energy (J) that changes of what is solved have added, negative where it went; None without
         any. And what changed, a sentence each.
+    fracture_energy, freed_energy
+        Energy (J) that cracks took by their toughness where they grew; and what the work was more
+        than what is stored and what others took. None without growing cracks.
     condition_estimate
         Estimated 1-norm condition number of the last system matrix.
     failure_load, failure_factor, failure_tolerance
@@ -121,6 +124,8 @@ class Summary:
     energy_balance: float | None = None
     change_energy: float | None = None
     changes: Sequence[str] = field(default_factory=list)
+    fracture_energy: float | None = None
+    freed_energy: float | None = None
     condition_estimate: float | None = None
     failure_load: float | None = None
     failure_factor: float | None = None
@@ -294,6 +299,8 @@ def rows(summary: Summary) -> list[tuple[str, str]]:
         ("largest penetration", _or_none(summary.largest_penetration, _metre)),
         ("energy balance", _or_none(summary.energy_balance, _number)),
         ("energy added by changes, J", _or_none(summary.change_energy, _number)),
+        ("energy of fracture, J", _or_none(summary.fracture_energy, _number)),
+        ("energy freed by fracture, J", _or_none(summary.freed_energy, _number)),
         ("condition estimate", _or_none(summary.condition_estimate, _number)),
         ("contacts at most", _counts(summary.largest_contacts)),
         ("seconds", _seconds(summary.seconds)),

@@ -398,6 +398,7 @@ class Simulation:
             Ended(scene, formulation, stepper, recorder, start, state, verdict, condition)
         )
         verdict, known = judged(verdict, findings), self.identity()
+        growth = stepper.plan.fracture
         load = None if verdict.load_factor is None else scaled_load(stepper, verdict.load_factor)
         return replace(
             known,
@@ -421,6 +422,8 @@ class Simulation:
             largest_contacts=dict(totals.largest),
             change_energy=totals.ledger.change_energy if totals.changes else None,
             changes=list(totals.changes),
+            fracture_energy=None if growth is None else growth.energy_taken,
+            freed_energy=None if growth is None else totals.ledger.freed(growth.name),
         )
 
 

@@ -10,17 +10,19 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.motion import MaterialPoints, State, material_points
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.fracture.criteria.base import Kink
 from nmm.fracture.growth.advance import advanced
+from nmm.fracture.growth.faces import CrackFaces
 from nmm.fracture.growth.fronts import CrackFronts
 from nmm.fracture.growth.refusals import refuse
 from nmm.fracture.growth.rule import GrowthRule
 from nmm.fracture.intensity_rows import IntensityRows
 from nmm.fracture.stress_intensity import check_domain
 from nmm.fracture.surroundings import domain_radius
+from nmm.quantity import SPOT, Quantity
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -50,6 +52,11 @@ class Intensities:
     stiff: Floats
     kink: Kink
     share: Floats
+
+    @property
+    def rate(self) -> Floats:
+        """Energy release rate (k,) straight ahead, (K_I^2 + K_II^2) / E' (J/m2)."""
+        return np.asarray((self.opening**2 + self.sliding**2) / self.stiff)
 
 
 @dataclass(frozen=True)
@@ -94,6 +101,11 @@ class GrowingCracks(Effect):
     def about(self) -> str:
         """See `Effect.about`."""
         return f"{self._table.criterion}, pieces of {self.rule.increment:g} m"
+
+    @property
+    def energy_taken(self) -> float:
+        """Energy (J) that the growth so far took by the toughness of the material."""
+        return self._sofar.energy
 
     def intensities(self, state: State) -> Intensities:
         """Return what the tips have in a state; kept for the last one."""
@@ -178,18 +190,49 @@ class GrowingCracks(Effect):
         energy = model.thickness * gained[front] @ self.rule.toughness.energies(stiff)
         return GrownSoFar(self._sofar.length + gained, self._sofar.energy + float(energy))
 
-    def history(self, state: State) -> Mapping[str, float]:
-        """Place, growth and intensities of every front, and the energy that growth took (J)."""
+    @cached_property
+    def _faces(self) -> CrackFaces:
+        return CrackFaces.of(self._setup.model)
+
+    @cached_property
+    def _spots(self) -> MaterialPoints:
+        """Tips of the fronts that have one."""
+        model, tip = self._setup.model, self._tips[self._tips >= 0]
+        tips = model.cut.tips
+        return material_points(model.manifold, tips.element[tip], tips.point[tip])
+
+    def outputs(self, state: State) -> Mapping[str, Quantity]:
+        """Faces of the cracks and their tips, where they are in a state."""
         found = self.intensities(state)
-        rate = (found.opening**2 + found.sliding**2) / found.stiff
+        place = self._spots.place(state.frames, state.deformation)
+        return {
+            **self._faces.quantities(state),
+            "tip": Quantity("tips", place, "m", SPOT),
+            "K_I": Quantity("tips", found.opening, "Pa m^0.5"),
+            "K_II": Quantity("tips", found.sliding, "Pa m^0.5"),
+            "G": Quantity("tips", found.rate, "J/m^2"),
+            "share": Quantity("tips", found.share),
+        }
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Length and opening of cracks, place, growth and intensities of fronts, energy (J).
+
+        The opening is the largest between the faces of a crack, the energy what growth took.
+        """
+        found = self.intensities(state)
         places = self._fronts.points(self._setup.geometry.cracks) + self._setup.origin
         row = {"growth": float(self._sofar.length.sum()), "energy": self._sofar.energy}
+        opening = self._faces.apart(state)[1]
+        for number, crack in enumerate(self._setup.scene.cracks):  # a handful
+            line = self._setup.geometry.cracks[number]
+            row[f"{crack.name}:length"] = np.hypot(*np.diff(line, axis=0).T).sum()
+            row[f"{crack.name}:opening"] = opening[self._faces.crack == number].max(initial=0.0)
         for name, (x, y), grown in zip(self._fronts.name, places, self._sofar.length, strict=True):
             row |= {f"{name}:x": x, f"{name}:y": y, f"{name}:growth": grown}
         for number, front in enumerate(found.front):
             name = self._fronts.name[front]
             row[f"{name}:K_I"], row[f"{name}:K_II"] = found.opening[number], found.sliding[number]
-            row[f"{name}:G"], row[f"{name}:share"] = rate[number], found.share[number]
+            row[f"{name}:G"], row[f"{name}:share"] = found.rate[number], found.share[number]
         return {key: float(value) for key, value in row.items()}
 
     def carried(self) -> tuple[Any, ...]:

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from integration.arrays import Bools
+from nmm.quantity import APART
 
 Arrays = Mapping[str, npt.NDArray[Any]]
 
@@ -56,8 +57,9 @@ def frame_misfit(arrays: Arrays) -> str | None:
         values = arrays.get(f"field_{number}")
         if values is None or values.dtype.kind != "f" or values.ndim not in (1, 2):
             return f"its field_{number} is no array of numbers"
-        known = lengths.setdefault("members", len(values)) if places[number] == "members" else None
-        if (known or lengths.get(places[number])) != len(values):
+        if places[number] in APART:
+            lengths.setdefault(places[number], len(values))
+        if lengths.get(places[number]) != len(values):
             return f"its field_{number} does not fit its {places[number]}"
     return None
 

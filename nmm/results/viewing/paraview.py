@@ -3,11 +3,14 @@
 `blocks.pvd` holds the elements at their place before the run, so that *Warp By Vector* with
 `displacement` and factor 1 shows them where they are; points are not shared between elements, so
 openings show. `contacts.pvd` holds the contact points where they are, with their forces, and
-`members.pvd` springs and bars where they are, with theirs.
+`members.pvd` springs and bars where they are, with theirs. `cracks.pvd` holds the faces of cracks
+that may grow as lines half way between both, with how far they are open and have slid, `tips.pvd`
+their tips with the intensities.
 """
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
@@ -15,7 +18,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import DamageError
-from nmm.quantity import MemberSegments
+from nmm.quantity import ENDS, SPOT, Quantity
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import RunData
 from nmm.results.storage.writing import told, write_text
@@ -53,8 +56,8 @@ def write_paraview(
     Returns
     -------
     list of Path
-        The files to open: `blocks.pvd` and, when the run has contact points or members,
-        `contacts.pvd` and `members.pvd`.
+        The files to open: `blocks.pvd` and, when the run has any, `contacts.pvd`, `members.pvd`,
+        `cracks.pvd` and `tips.pvd`.
 
     Raises
     ------
@@ -177,34 +180,61 @@ def contacts_grid(frame: Frame) -> str:
     )
 
 
-def members_grid(frame: Frame) -> str:
-    """Return the .vtu text of the members of a frame, a line for each segment."""
-    known = frame.on("members")
-    ends = known[MemberSegments.ENDS].values if known else np.zeros((0, 4))
-    number = np.arange(len(ends))
+def segments_grid(frame: Frame, place: str) -> str:
+    """Return the .vtu text of the members of a frame, or of its cracks: a line a segment."""
+    known = frame.on(place)
+    ends = _where(frame, place, ENDS).reshape(-1, 2)
+    number = np.arange(len(ends) // 2)
     return unstructured_grid(
-        points=ends.reshape(-1, 2),
-        connectivity=np.arange(2 * len(ends)),
+        points=ends,
+        connectivity=np.arange(len(ends)),
         offsets=2 * (number + 1),
-        types=np.full(len(ends), LINE, dtype=np.uint8),
+        types=np.full(len(number), LINE, dtype=np.uint8),
         point_data={},
-        cell_data={
-            name.partition(":")[2]: one.values
-            for name, one in known.items()
-            if name != MemberSegments.ENDS
-        },
+        cell_data=_carried(known, ENDS),
         components={},
     )
 
 
-def _members(frame: Frame) -> int:
-    known = frame.on("members")
-    return len(known[MemberSegments.ENDS].values) if known else 0
+def tips_grid(frame: Frame) -> str:
+    """Return the .vtu text of the crack tips of a frame."""
+    points = _where(frame, "tips", SPOT)
+    number = np.arange(len(points))
+    return unstructured_grid(
+        points=points,
+        connectivity=number,
+        offsets=number + 1,
+        types=np.full(len(number), VERTEX, dtype=np.uint8),
+        point_data=_carried(frame.on("tips"), SPOT),
+        cell_data={},
+        components={},
+    )
+
+
+def _where(frame: Frame, place: str, components: tuple[str, ...]) -> Floats:
+    """Where segments or points of a frame are, a row each."""
+    found = [one.values for one in frame.on(place).values() if one.components == components]
+    return found[0] if found else np.zeros((0, len(components)))
+
+
+def _carried(known: Mapping[str, Quantity], where: tuple[str, ...]) -> dict[str, Floats]:
+    """Return what segments or points carry, by its name without that of the effect."""
+    return {
+        name.partition(":")[2]: one.values for name, one in known.items() if one.components != where
+    }
 
 
 BESIDE: dict[str, tuple[Callable[[Frame], int], Callable[[Frame], str]]] = {
     "contacts": (lambda frame: len(frame.contact_gap), contacts_grid),
-    "members": (_members, members_grid),
+    "members": (
+        lambda frame: len(_where(frame, "members", ENDS)),
+        partial(segments_grid, place="members"),
+    ),
+    "cracks": (
+        lambda frame: len(_where(frame, "cracks", ENDS)),
+        partial(segments_grid, place="cracks"),
+    ),
+    "tips": (lambda frame: len(_where(frame, "tips", SPOT)), tips_grid),
 }
 """What lies beside the blocks in files of its own: how many of it a frame has, and its text."""
 

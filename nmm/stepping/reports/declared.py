@@ -13,7 +13,7 @@ from nmm.errors import NmmError
 from nmm.model.effects_table import OWN
 from nmm.model.plan import Plan
 from nmm.outputs.base import OUTPUTS, Output, View
-from nmm.quantity import PLACES, Quantity
+from nmm.quantity import APART, PLACES, Quantity
 
 
 @dataclass(frozen=True)
@@ -75,6 +75,7 @@ def _checked(who: str, name: str, one: Quantity, view: View) -> Quantity:
         "bodies": manifold.n_bodies,
         "contacts": 0 if contacts is None else len(contacts),
         "members": 0,  # those of effects alone
+        **dict.fromkeys(APART[1:], len(one.values)),
     }
     if one.on not in counts:
         raise NmmError(

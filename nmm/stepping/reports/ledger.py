@@ -170,6 +170,12 @@ class Ledger:
         """
         return -self._made / self.throughput if self.throughput else 0.0
 
+    def freed(self, effect: str) -> float:
+        """Energy (J) that work and stores say went where ``effect`` changed what is solved."""
+        gained = sum(self.energies.values()) - self.stored_first
+        others = self.dissipated - self.effect_loss.get(effect, 0.0)
+        return self.work - gained - others
+
     @property
     def _made(self) -> float:
         gained = sum(self.energies.values()) - self.stored_first - self.change_energy

@@ -1,0 +1,66 @@
+"""Faces of cracks in a state: where they are, how far they are open and have slid."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.quantity import ENDS, Quantity
+
+
+@dataclass(frozen=True)
+class CrackFaces:
+    """Pairs of edges of a boundary that are both faces of a crack.
+
+    Attributes
+    ----------
+    crack
+        (m,) number of each pair's crack.
+    left, right
+        Start and end of each pair (2 m), on either side.
+    """
+
+    crack: Ints
+    left: MaterialPoints
+    right: MaterialPoints
+
+    @classmethod
+    def of(cls, model: Model) -> "CrackFaces":
+        """Return all of a model."""
+        edges, manifold = model.cut.boundary, model.manifold
+        one = np.flatnonzero((edges.crack >= 0) & (edges.opposite > np.arange(len(edges))))
+        points = np.stack([edges.start[one], edges.end[one]], axis=1).reshape(-1, 2)
+        left, right = (
+            material_points(manifold, np.repeat(edges.element[side], 2), points)
+            for side in (one, edges.opposite[one])
+        )
+        return cls(edges.crack[one], left, right)
+
+    def quantities(self, state: State) -> dict[str, Quantity]:
+        """What a frame holds of them."""
+        ends, opening, sliding = self.apart(state)
+        return {
+            "faces": Quantity("cracks", ends, "m", ENDS),
+            "crack": Quantity("cracks", self.crack.astype(float)),
+            "opening": Quantity("cracks", opening, "m"),
+            "sliding": Quantity("cracks", sliding, "m"),
+        }
+
+    def apart(self, state: State) -> tuple[Floats, Floats, Floats]:
+        """Return ends (m, 4) half way between both faces, and how far they are open and have slid.
+
+        (m,) each, at the middles of the faces (m); open is positive.
+        """
+        one, two = (
+            side.place(state.frames, state.deformation).reshape(-1, 2, 2)
+            for side in (self.left, self.right)
+        )
+        ends = (one + two) / 2
+        along = ends[:, 1] - ends[:, 0]
+        along = along / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
+        # The material of the first side is on the left of its edges.
+        jump = (one - two).mean(axis=1)
+        opening = along[:, 0] * jump[:, 1] - along[:, 1] * jump[:, 0]
+        return ends.reshape(-1, 4), opening, (along * jump).sum(axis=1)
