@@ -14,6 +14,7 @@ from nmm.errors import Fault, FormulationError, SceneError
 from nmm.geometry.geometry import Geometry
 from nmm.materials.base import MATERIAL_LAWS, Law
 from nmm.model.covering import local_functions
+from nmm.model.enriching import with_growing_tips
 from nmm.model.from_polygons import covered
 
 if TYPE_CHECKING:
@@ -82,9 +83,12 @@ def build_model(scene: "Scene", formulation: "Formulation", geometry: Geometry) 
     materials = scene.materials.values()
     moves = scene.loading is not None and scene.loading.motion_after_failure is not None
     has_mass = scene.gravity is not None or scene.inertia is not None or moves
+    cover = formulation.cover
+    if scene.fracture is not None:
+        cover = with_growing_tips(cover)
     return covered(
         geometry.regions,
-        formulation.cover,
+        cover,
         [_finite(name, material_law(item), scene) for name, item in scene.materials.items()],
         scene.plane,
         cracks=list(geometry.cracks),

@@ -146,10 +146,10 @@ class GrowingCracks(Effect):
         return found + rows.of_weight(density * down)
 
     def _radius(self) -> float:
-        """Radius of domains (m): that of the scene, or three cells."""
+        """Radius of domains (m): that of the scene, or four cells."""
         size = self._setup.formulation.cover.size
         assert size is not None  # of meshes
-        return 3 * size if self._table.radius is None else self._table.radius
+        return 4 * size if self._table.radius is None else self._table.radius
 
     def free(self, found: Intensities) -> Bools:
         """Which fronts (k,) with a tip have not grown as far as they may."""

@@ -39,13 +39,13 @@ def away(places: Floats, line: Points) -> Floats:
 
 @dataclass(frozen=True)
 class BeamWithHoles(GrowingCrack):
-    """A crack beside three holes in a bent beam: it is drawn past the lowest into the middle one."""
+    """A crack beside three holes in a bent beam: it passes the lowest and meets the middle one."""
 
     name: ClassVar[str] = "GR6"
     title: ClassVar[str] = "Beam with three holes, the crack finds the middle one"
     source: ClassVar[str] = (
-        "Geometry of Bittencourt, Wawrzynek, Ingraffea and Sousa (1996); the path by finite elements "
-        "of degree 3, pieces of 0.1; lengths in inches there, here in units of one"
+        "Geometry of Bittencourt, Wawrzynek, Ingraffea and Sousa (1996); the path by finite "
+        "elements of degree 3, pieces of 0.1; lengths in inches there, here in units of one"
     )
     path: ClassVar[Points] = (
         *((4.0, 1.0), (4.0684, 1.2921), (4.1524, 1.58), (4.2518, 1.8631), (4.3646, 2.141)),
@@ -77,10 +77,11 @@ class BeamWithHoles(GrowingCrack):
         """Compare the path and where it ends."""
         place, _ = path(run, "c:end")
         off = away(place, self.path)
-        end = float(np.hypot(*(place[-1] - np.array([6.0, 4.75]))))
+        last = run.stepper.discretisation.setup.geometry.cracks[0][-1] + run.origin
+        end = float(np.hypot(*(last - np.array([6.0, 4.75]))))
         return {
             "distance from the path": limit(float(off.max()), 0.08, "the benchmark's, of 8"),
-            "it ends on the middle hole": Check(end, 0.25, 0.02, "a circle of 48 corners"),
+            "it ends on the middle hole": Check(end, 0.25, 0.01, "a circle of 48 corners"),
         }
 
 
@@ -91,8 +92,8 @@ class ShearedBeam(GrowingCrack):
     name: ClassVar[str] = "GR7"
     title: ClassVar[str] = "Single edge notched beam in four point shear"
     source: ClassVar[str] = (
-        "Beam of Arrea and Ingraffea (1982) with self-equilibrated loads; the path by finite elements "
-        "of degree 3, pieces of 6 mm"
+        "Beam of Arrea and Ingraffea (1982) with self-equilibrated loads; the path by finite "
+        "elements of degree 3, pieces of 6 mm"
     )
     path: ClassVar[Points] = (
         *((0.0, 82.0), (16.7, 88.6), (31.3, 99.0), (44.3, 111.5), (55.7, 125.4), (65.6, 140.4)),
@@ -184,7 +185,9 @@ class StressAlongCrack(GrowingCrack):
 
     name: ClassVar[str] = "GR10"
     title: ClassVar[str] = "Directional stability of a crack under tension along it"
-    source: ClassVar[str] = "Finite elements of degree 3 graded to the tips; pieces of 0.0125 to 0.05"
+    source: ClassVar[str] = (
+        "Finite elements of degree 3 graded to the tips; pieces of 0.0125 to 0.05"
+    )
     along: float = 1.5
 
     @classmethod

@@ -274,3 +274,37 @@ def test_the_path_of_a_crack_is_drawn(tmp_path: Path) -> None:
     assert np.hypot(*(points[1] - points[0])) == pytest.approx(0.1)
     plots.crack_paths(run, path=tmp_path / "paths.png")
     assert (tmp_path / "paths.png").stat().st_size > 10_000
+
+
+def test_what_growth_frees_is_told_beside_what_the_toughness_takes() -> None:
+    run = nmm.run(plate(FOLLOW.replace("0.1", "0.05")), net())
+    summary = run.summary
+    assert summary.fracture_energy == pytest.approx(0.2 * (1 - 0.3**2), rel=1e-9)
+    assert summary.freed_energy == pytest.approx(summary.fracture_energy, rel=0.03)
+    assert summary.freed_energy == pytest.approx(-(summary.change_energy or 0.0), rel=1e-6)
+
+
+def test_faces_and_tips_of_cracks_go_to_frames_history_and_paraview(tmp_path: Path) -> None:
+    from nmm.results.viewing.paraview import write_paraview
+
+    run = nmm.run(plate(), net(), out=tmp_path / "run")
+    frame, history = run.frames[-1], run.history
+    faces, opening = (frame.fields[f"fracture:{key}"].values for key in ("faces", "opening"))
+    # Before anything moves: from the mouth at the edge to the tip, without a gap.
+    still = run.frames[0].fields
+    ends = still["fracture:faces"].values
+    assert np.hypot(*(ends[:, 2:] - ends[:, :2]).T).sum() == pytest.approx(0.3, abs=1e-9)
+    assert still["fracture:tip"].values == pytest.approx(np.array([[0.3, 0.0]]), abs=1e-9)
+    assert history["fracture:notch:length"] == pytest.approx([0.4, 0.5, 0.6], abs=1e-2)
+    assert (opening > 0).all()
+    assert history["fracture:notch:opening"][-1] == pytest.approx(opening.max())
+    assert frame.fields["fracture:K_I"].values == pytest.approx(
+        history["fracture:notch:end:K_I"][-1:]
+    )
+    # The same from the folder, and as files.
+    stored = nmm.read_run(tmp_path / "run")
+    assert np.array_equal(stored.frames[-1].fields["fracture:faces"].values, faces)
+    files = {path.name for path in write_paraview(stored, tmp_path / "paraview")}
+    assert {"blocks.pvd", "cracks.pvd", "tips.pvd"} <= files
+    assert 'Name="opening"' in (tmp_path / "paraview" / "cracks_000001.vtu").read_text()
+    assert 'Name="K_I"' in (tmp_path / "paraview" / "tips_000001.vtu").read_text()

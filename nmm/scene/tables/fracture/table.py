@@ -63,7 +63,7 @@ class FractureTable(Frozen):
     radius: Length | None = Field(
         default=None,
         gt=0,
-        description="a radius in m, > 0, of the domain of the interaction integral; three cells "
+        description="a radius in m, > 0, of the domain of the interaction integral; four cells "
         "of the cover by default",
         examples=["30 mm"],
     )
