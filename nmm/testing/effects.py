@@ -211,7 +211,8 @@ def check_quantity(what: str, one: Quantity, model: Model, contacts: int = 0) ->
     """
     manifold = model.manifold
     sizes = (len(manifold.elements.points), len(manifold.elements), manifold.n_bodies)
-    counts = (*sizes, contacts, 0)  # members are those of `Effect.segments`
+    # Members are those of `Effect.segments`; cracks and tips are as many as there are.
+    counts = (*sizes, contacts, 0, len(one.values), len(one.values))
     claim(one.on in PLACES, f"{what}: on {one.on!r}, expected one of {', '.join(PLACES)}")
     expected = dict(zip(PLACES, counts, strict=True))[one.on]
     values = np.asarray(one.values)
