@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 WIDTH = 2.5  # points
+RIM = "#6b6b6b"  # about members, which are white where nothing pulls
 
 
 def members(
@@ -51,6 +52,8 @@ def members(
     drawn = LineCollection(
         list(ends), linewidths=WIDTH, capstyle="butt", cmap="viridis_r" if pulled else "RdBu_r"
     )
+    rim = LineCollection(list(ends), linewidths=WIDTH + 1.0, capstyle="butt", colors=RIM)
+    axes.add_collection(rim)
     drawn.set_array(factor * force)
     most = factor * float(np.abs(force).max(initial=0.0)) or 1.0
     drawn.set_clim(0.0 if pulled else -most, most)
