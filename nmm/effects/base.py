@@ -76,7 +76,7 @@ class StepForce:
     force
         (n,) its weighed force on the unknowns.
     stiffness
-        Makes the symmetric matrix (n, n) of about how it falls with the increment.
+        Makes the matrix (n, n) of about how it falls with the increment (`Effect.symmetric`).
     memory
         What the effect remembers if the step is accepted.
     """
@@ -236,6 +236,11 @@ class Effect(ABC):
     def limited(self) -> bool:
         """Whether its forces have limits, beyond which its matrix does not show what it carries."""
         return False
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the matrix of `through` is; of others contact takes the symmetric part."""
+        return True
 
     def through(self, before: State, after: State, span: Span) -> StepForce:
         """Return the weighed force through a step from one state to a trial of its end.

@@ -11,7 +11,7 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
 from nmm.effects.acting_place import edge_place
-from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.load_factor import load_factor
 
 if TYPE_CHECKING:
@@ -58,9 +58,9 @@ class SurfacePressure:
         return np.asarray(-self.factor(end) * self.size * along @ CLOCKWISE.T)
 
     def stiffness(self, n: int) -> csr_array:
-        """Matrix (n, n) by which the force falls with the motion, at factor 1; symmetric part.
+        """Matrix (n, n) by which the force falls with the motion, at factor 1.
 
-        The rest is of the ends of an open surface alone, where a support or another body is.
+        What is not symmetric of it is of the ends of an open surface alone.
         """
         rows = self.place.points.rows.matrix(n)
         k, q, _ = self.slopes.shape
@@ -69,33 +69,61 @@ class SurfacePressure:
         index = np.broadcast_to(first, turned.shape)
         entries = (turned.ravel(), (np.swapaxes(index, 1, 2).ravel(), index.ravel()))
         blocks = csr_array(entries, shape=(2 * k * q, 2 * k * q))
-        whole = self.size * (rows.T @ blocks @ rows)
-        return csr_array((whole + whole.T) / 2)
+        return csr_array(self.size * (rows.T @ blocks @ rows))
 
 
 class SurfacePressures(Effect):
     """All pressures of a scene.
 
-    A closed surface under an even pressure is in balance however it turns and bends.
+    A closed surface under an even pressure is in balance however it turns and bends. Where axes
+    turn with bodies what is left of a turn in a step waits for the next solution; under finite
+    strain all of it is in the deformation, and steps are solved for it.
     """
 
     name = "pressures"
 
-    def __init__(self, pressures: list[SurfacePressure], n_unknowns: int) -> None:
-        self.pressures, self._n = pressures, n_unknowns
-        self._parts = [one.stiffness(n_unknowns) for one in pressures]
+    def __init__(
+        self, pressures: list[SurfacePressure], n_unknowns: int, bends: bool = False
+    ) -> None:
+        self.pressures, self._n, self._bends = pressures, n_unknowns, bends
+        self._whole = [one.stiffness(n_unknowns) for one in pressures]
+        self._parts = [csr_array((whole + whole.T) / 2) for whole in self._whole]
         self._kept: tuple[tuple[float, ...], csc_array] | None = None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[loads]]`` of kind "pressure"."""
         found = [_pressure(setup, one) for one in setup.scene.loads if one.kind == "pressure"]
-        return cls(found, setup.model.manifold.n_unknowns)
+        return cls(found, setup.model.manifold.n_unknowns, setup.kinematics.finite)
 
     @property
     def steady(self) -> bool:
         """See `Effect.steady`."""
         return all(one.steady for one in self.pressures)
+
+    @property
+    def bends(self) -> bool:
+        """See `Effect.bends`."""
+        return self._bends
+
+    @property
+    def symmetric(self) -> bool:
+        """See `Effect.symmetric`: ends of open surfaces turn and store nothing."""
+        return False
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`: the forces at both ends, which are lines in the places."""
+        end = Instant.of(after)
+        force = span.weight * self.force(after, end)
+        if span.weight < 1:
+            force += (1 - span.weight) * self.force(before, Instant.of(before))
+
+        def stiffness() -> csc_array:
+            none = csc_array((self._n, self._n))
+            pairs = zip(self.pressures, self._whole, strict=True)
+            return csc_array(sum((span.weight * p.factor(end) * k for p, k in pairs), start=none))
+
+        return StepForce(force, stiffness)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the pressures on the surfaces as they are, in the bodies' axes."""

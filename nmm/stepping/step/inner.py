@@ -121,6 +121,7 @@ class Inner:
         self,
         current: Current,
         state: State,
+        end: Instant,
         step: float | None,
         rule: Integrator,
         kinematics: Kinematics,
@@ -128,7 +129,7 @@ class Inner:
         clock: Clock,
     ) -> None:
         self._model, self._plan, self._clock = current.model, current.plan, clock
-        self._state, self._step, self._kinematics = state, step, kinematics
+        self._state, self._end, self._step, self._kinematics = state, end, step, kinematics
         weight = 1.0 if step is None else rule.end_weight
         self._span = Span(step, weight, half=step is not None and not rule.carries)
         matter = self._model.matter
@@ -137,7 +138,8 @@ class Inner:
         self.tolerance = CONSERVED if self._conserves else BALANCED
         self.searches = matter is None or matter.flows
         even = matter is None or (matter.symmetric and not self._conserves)
-        self.symmetric = symmetric or even
+        self._even = all(one.symmetric for one in self._plan.bent.values())
+        self.symmetric = symmetric or (even and self._even)
         if matter is None:
             self.elastic = self._model.stiffness
             self.start = self.elastic @ state.deformation
@@ -150,9 +152,13 @@ class Inner:
     def _line(self, name: str) -> tuple[Floats, csc_array]:
         """Force (n,) and matrix (n, n) of an effect in the equations of the step."""
         effect, n = self._plan.bent[name], len(self.start)
-        here = Instant.of(self._state)
-        force = effect.force(self._state, here) if defines(effect, "force") else np.zeros(n)
         matrix = effect.matrix(self._state) if defines(effect, "matrix") else csc_array((n, n))
+        if not defines(effect, "force"):
+            return np.zeros(n), matrix
+        force, weight = effect.force(self._state, self._end), self._span.weight
+        if weight < 1 and not effect.steady:
+            begun = effect.force(self._state, Instant.of(self._state))
+            force = weight * force + (1 - weight) * begun
         return force, matrix
 
     def at(self, increment: Floats, before: Iterate | None = None) -> Iterate:
@@ -245,8 +251,7 @@ class Inner:
             return {}
         state = self._state
         after = self._kinematics.move(self._model, state, increment)
-        if self._step is not None:
-            after = replace(after, time=state.time + self._step)
+        after = replace(after, time=self._end.time, load_factor=self._end.load_factor)
         return {name: self._plan.through(name, state, after, self._span) for name in self._lines}
 
     def _beyond(self, pulls: Mapping[str, StepForce]) -> csc_array:
@@ -254,7 +259,7 @@ class Inner:
         total = csc_array(self.elastic.shape)
         for name, one in pulls.items():
             total = total + one.stiffness() / self._span.weight - self._lines[name][1]
-        return csc_array(total)
+        return csc_array((total + total.T) / 2 if self.symmetric and not self._even else total)
 
 
 def _size(force: Floats) -> float:

@@ -192,7 +192,7 @@ class Stepper:
             equations, found = solve(None)
         else:
             try:
-                equations, found = self._bent(state, step, solve)
+                equations, found = self._bent(state, end, step, solve)
             except SolveError as fault:
                 return _failed(state, fault)
         if not found.converged or equations.inertia is None:
@@ -205,6 +205,7 @@ class Stepper:
     def _bent(
         self,
         state: State,
+        end: Instant,
         step: float | None,
         solve: Callable[[Linearisation | None], Solution],
     ) -> Solution:
@@ -212,8 +213,25 @@ class Stepper:
         current, moves, clock = self._current, self.kinematics, self.clock
         # Methods of contact are for symmetric matrices.
         symmetric = self.plan.contact is not None
-        inner = Inner(current, state, step, self._rule, moves, symmetric, clock)
-        return newton(inner, state, solve, clock)
+        inner = Inner(current, state, end, step, self._rule, moves, symmetric, clock)
+        equations, found = newton(inner, state, solve, clock)
+        return equations, self._stable(equations, found)
+
+    def _stable(self, equations: Equations, found: Attempt) -> Attempt:
+        """Return an attempt in statics of finite strain, failed where it came to rest unstably."""
+        factor = self._alone.factor
+        asked = self.kinematics.finite and equations.step is None and equations.symmetric
+        matter = self.model.matter
+        if not (asked and found.converged) or factor is None or matter is None:
+            return found
+        from nmm.stepping.step.stability import unstable
+
+        if not unstable(factor, matter.elastic_stiffness, found.increment):
+            return found
+        sentence = "the equilibrium that was found is not stable"
+        return replace(
+            found, converged=False, state=equations.state, sentence=sentence, singular=True
+        )
 
     def along(self, state: State, path: "PathEquation") -> Attempt:
         """Solve a step of statics along a path (`nmm.contact.following`).

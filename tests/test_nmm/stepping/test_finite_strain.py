@@ -10,7 +10,7 @@ import pytest
 import nmm
 from covers.approximation.own_rule import own_rule
 from nmm.assembly.carried_state import momenta
-from nmm.effects.base import Instant
+from nmm.effects.base import Instant, Span
 from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
@@ -69,7 +69,8 @@ def bar(law, pull):
         + material(law)
         + box("bar", (0, 0), (1, 1))
         + roller("left", [[0, 0], [0, 1]], ["x"])
-        + pinned("pin", [0, 0], ["y"])
+        # Along the bottom: with a pin alone the bar buckles at 0.2 E.
+        + roller("low", [[0, 0], [1, 0]], ["y"])
         + load([[1, 0], [1, 1]], [pull, 0])
         + monitor("tip", [1, 1], "bar")
     )
@@ -122,6 +123,41 @@ def test_a_strip_bends_as_the_elastica_in_one_increment(load_of_one, rise, short
     assert -found.history["monitor:tip:ux"][-1] / 10 == pytest.approx(shortening, rel=2e-3)
     # Iterations grow with the rotation, not with the slenderness.
     assert found.summary.passes <= 12
+
+
+def test_a_column_bends_over_beyond_its_critical_load():
+    load_of_one = 1.1517196205 * np.pi**2 / 4
+    column = cantilever(10, 0.1, load_of_one).splitlines()
+    push = load_of_one * 1e6 * 0.1**2 / 12 / 100
+    at = next(n for n, line in enumerate(column) if line.startswith("traction"))
+    column[at] = f"traction = [{-push}, {1e-3 * push}]"
+    cover = 'type = "quads"\nsize = 0.5\ndegree = 2'
+    # Increments that leap over the critical load must not end on the straight column.
+    found = run("\n".join(column), cover, more="[loading]\nincrement = 0.5\n")
+    assert found.summary.status == "converged", found.summary.sentence
+    assert found.history["monitor:tip:uy"][-1] / 10 == pytest.approx(0.5932076462, abs=1e-2)
+    assert found.history["monitor:tip:ux"][-1] / 10 == pytest.approx(-0.2589803939, abs=1e-2)
+
+
+def test_the_tangent_of_a_pressure_is_that_of_its_force():
+    scene = (
+        bar("elastic", 0.0)
+        .replace('kind = "edge"', 'kind = "pressure"\npressure = 0.3')
+        .replace("traction = [0.0, 0]\n", "")
+    )
+    text = f'[cover]\n{COVERS["triangles"]}\n[rotation]\nupdate = "finite"\n'
+    made = prepare(parse_scene(scene), parse_formulation(text))
+    effect, start = made.stepper.plan.effects["pressures"], made.start
+    random = np.random.default_rng(0)
+    bent, way = (0.1 * random.normal(size=len(start.deformation)) for _ in range(2))
+    span = Span(None, 1.0, half=False)
+
+    def through(unknowns):
+        after = replace(start, deformation=unknowns, load_factor=1.0)
+        return effect.through(start, after, span)
+
+    slope = (through(bent + way).force - through(bent - way).force) / 2
+    np.testing.assert_allclose(-through(bent).stiffness() @ way, slope, atol=1e-12)
 
 
 def test_small_strain_is_met_where_loads_are_small():

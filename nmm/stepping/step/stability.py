@@ -1,0 +1,40 @@
+"""Whether an equilibrium of finite strain is stable: its tangent resists the softest motion.
+
+Newton's method finds equilibria of every kind. A straight column is one beyond its critical load
+too, which no slow test would meet.
+"""
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.solvers.factor import Factor
+
+# Turns of inverse iteration: each brings out the softest motion by the ratio of two stiffnesses.
+TURNS = 4
+# Stiffness of a motion, as a share of the elastic one, that is none but rounding.
+NONE = 1e-12
+
+
+def unstable(factor: Factor, elastic: csc_array, increment: Floats) -> bool:
+    """Say whether a symmetric tangent has a motion that it drives on.
+
+    Parameters
+    ----------
+    factor
+        Of the tangent (n, n).
+    elastic
+        (n, n) stiffness where nothing has moved, by which motions are measured: functions that are
+        dependent have none in either.
+    increment
+        (n,) unknowns of the step, with which the search begins: they have a share of what is soft.
+    """
+    way, tangent = increment, factor.matrix
+    if tangent.shape != elastic.shape:  # conditions join it, and no pivot tells
+        return False
+    for _ in range(TURNS):
+        size = float(way @ (elastic @ way))
+        if not 0 < size < np.inf:
+            return False
+        way = factor.refined(elastic @ way / np.sqrt(size))
+    return bool(way @ (tangent @ way) < -NONE * (way @ (elastic @ way)))

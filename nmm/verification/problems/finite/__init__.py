@@ -1,0 +1,1 @@
+"""Problems of finite strain: strips that bend by any angle, rubber, squares that spin."""
