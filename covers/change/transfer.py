@@ -169,6 +169,8 @@ class Transfer:
     def _strain_rows(self, side: int) -> "_StrainRows":
         """Strains (xx, yy, 2 xy) at the points by the unknowns of one manifold."""
         index, g = self._sides[side].gradient_rows(self.elements[side], self.points)
+        if not len(g):  # no material in common
+            return _StrainRows(index, np.zeros((0, 3, index.shape[1])))
         values = np.stack([g[:, 0, 0], g[:, 1, 1], g[:, 0, 1] + g[:, 1, 0]], axis=1)
         return _StrainRows(index, values)
 

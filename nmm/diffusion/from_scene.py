@@ -32,12 +32,12 @@ Values = Callable[[Floats], Floats]
 
 @dataclass(frozen=True)
 class Given:
-    """One of the scene's tables: where it stands, the table, and what it gives.
+    """One of the scene's tables: its key, the table, and what it gives.
 
     Attributes
     ----------
-    key, number
-        Place in the scene.
+    key
+        Of its tables in the scene.
     item
         The table: name, segment, block, history.
     values
@@ -47,7 +47,6 @@ class Given:
     """
 
     key: str
-    number: int
     item: Any
     values: Values | None = None
     amount: float = 0.0
@@ -147,7 +146,7 @@ def _place(setup: Setup, given: Given) -> Place:
     order = 2 * manifold.degree + 2
     place = on_segment(manifold, np.array(item.segment), setup.regions(item.block), order)
     if not len(place):
-        where = setup.scene.source.place(given.key, given.number, "segment")
+        where = setup.scene.source.of_name(given.key, item.name)
         expected = "a part of the boundary of a block"
         raise SceneError(Fault(where, str(item.segment), expected, "move it onto an edge"))
     return place

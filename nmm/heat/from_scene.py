@@ -27,22 +27,20 @@ def heat_problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
     if scene.heat.transient:
         stored = of_elements(setup, "density") * of_elements(setup, "heat_capacity")
     held = [
-        Given("temperatures", i, one, partial(sloping, one, one.temperature - reference))
-        for i, one in enumerate(scene.temperatures)
+        Given("temperatures", one, partial(sloping, one, one.temperature - reference))
+        for one in scene.temperatures
     ]
     around = [
-        Given("convections", i, one, partial(_even, one.temperature - reference), one.coefficient)
-        for i, one in enumerate(scene.convections)
+        Given("convections", one, partial(_even, one.temperature - reference), one.coefficient)
+        for one in scene.convections
     ]
-    fluxes = enumerate(scene.heat_fluxes)
-    sources = enumerate(scene.heat_sources)
     tables = FieldTables(
         conductivity=of_elements(setup, "conductivity"),
         capacity=stored,
         held=held,
         exchanges=around,
-        inflows=[Given("heat_fluxes", i, one, amount=one.flux) for i, one in fluxes],
-        sources=[Given("heat_sources", i, one, amount=one.power) for i, one in sources],
+        inflows=[Given("heat_fluxes", one, amount=one.flux) for one in scene.heat_fluxes],
+        sources=[Given("heat_sources", one, amount=one.power) for one in scene.heat_sources],
         conductance=lambda interface: interface.conductance,
         cracks=[crack.conductance for crack in scene.cracks],
         what=LOOSE,

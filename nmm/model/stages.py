@@ -12,6 +12,7 @@ from nmm.effects.base import Acting
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.model.origin import shifted
 from nmm.scene.cover_tables import CoverTable
+from nmm.scene.stages import KINDS
 from nmm.scene.tables.members import MEMBERS
 
 if TYPE_CHECKING:
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
     from nmm.scene.stages import StageTable
+
+# Tables of forces: what is new grows with the load factor, what is listed no more fades with it.
+PUSHING = ("loads", "water_pressures")
 
 
 @dataclass(frozen=True)
@@ -73,23 +77,29 @@ def _resolved(
     scene: "Scene", formulation: "Formulation", regions: "Regions", origin: Floats
 ) -> Iterator[Stage]:
     present = np.ones(len(regions), dtype=bool)
-    loads, supports, members, before = None, None, None, frozenset[str]()
+    listed: dict[str, tuple[str, ...] | None] = dict.fromkeys(KINDS)
+    members, before = None, frozenset[str]()
     for number, table in enumerate(scene.stages):  # a handful of stages
         place = _Place(scene, number, origin)
         present = _present(table, present, regions, place)
         formulation = _formulation(table, formulation, place)
-        loads = loads if table.loads is None else table.loads
-        supports = supports if table.supports is None else table.supports
+        listed |= {kind: table.lists(kind) for kind in KINDS if table.lists(kind) is not None}
         members = members if table.members is None else table.members
         there = {one for one in _names(scene, formulation) if present[regions.select(one)].any()}
-        acting = [one for one in scene.loads if _acts(one, loads, there)]
-        names = frozenset(one.name for one in acting)
+        acting = {
+            key: [one for one in getattr(scene, key) if _acts(one, listed[kind], there)]
+            for kind, keys in KINDS.items()
+            for key in keys
+        }
+        names = frozenset(one.name for key in PUSHING for one in acting[key])
         fading = frozenset() if table.duration else before - names
-        leaving = [one for one in scene.loads if one.name in fading and _acts(one, None, there)]
+        leaving = {
+            key: [o for o in getattr(scene, key) if o.name in fading and _acts(o, None, there)]
+            for key in PUSHING
+        }
         whole = {
             "stages": (),
-            "loads": (*acting, *leaving),
-            "supports": tuple(one for one in scene.supports if _acts(one, supports, there)),
+            **{key: (*items, *leaving.get(key, ())) for key, items in acting.items()},
             **_members(scene, members, dynamic=table.duration is not None),
             "monitors": tuple(one for one in scene.monitors if _acts(one, None, there)),
             "duration": table.duration,
@@ -105,7 +115,7 @@ def _resolved(
             _of_present(formulation, there),
             present,
             table.duration,
-            Acting(grows=names - before, leaves=frozenset(one.name for one in leaving)),
+            Acting(names - before, frozenset(o.name for one in leaving.values() for o in one)),
         )
         before = names
 
@@ -206,7 +216,8 @@ def _edges(items: tuple[Any, ...], table: "StageTable", there: set[str]) -> tupl
 def _names(scene: "Scene", formulation: "Formulation") -> set[str]:
     """Names of blocks that anything refers to."""
     cover = formulation.cover
-    placed = (*scene.loads, *scene.supports, *scene.monitors)
+    placed = tuple(item for keys in KINDS.values() for key in keys for item in getattr(scene, key))
+    placed += scene.monitors
     placed += (*scene.viscous_boundaries, *scene.free_fields)
     items: tuple[Any, ...] = (*placed, *(cover.nets or ()), *(cover.regions or ()))
     return {item.block for item in items if item.block is not None}

@@ -173,6 +173,11 @@ class Scene(Frozen):
         return self.inertia is not None or (self.duration is not None and self.loading is None)
 
     @property
+    def followed(self) -> bool:
+        """Whether a field of the blocks changes by itself over time."""
+        return any(field is not None and field.transient for field in (self.heat, self.seepage))
+
+    @property
     def source(self) -> Source:
         """Where the scene was read; `scene.source.place("blocks", 3)` is "file:line: blocks.3"."""
         return self._source

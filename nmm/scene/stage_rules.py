@@ -7,6 +7,7 @@ from typing import Any
 
 from nmm.scene.faults import suggestion
 from nmm.scene.lines import Path
+from nmm.scene.stages import KINDS
 from nmm.scene.unread_rows import Finding, Tables
 
 BLOCKS = ("blocks", "remove", "add")
@@ -19,7 +20,9 @@ def stage_contradictions(data: Tables) -> Iterator[Finding]:
         return
     yield from _beside(data)
     solids = [*_names(data, "blocks"), *_names(data, "tessellations")]
-    known = {"loads": _names(data, "loads"), "supports": _names(data, "supports")}
+    known = {
+        kind: [name for key in keys for name in _names(data, key)] for kind, keys in KINDS.items()
+    }
     for number, stage in enumerate(stages):
         if not isinstance(stage, Mapping):
             continue
@@ -31,7 +34,7 @@ def stage_contradictions(data: Tables) -> Iterator[Finding]:
         for key, names in known.items():
             for name in _texts(stage, key):
                 if name not in names:
-                    expected = f"the name of one of {key}"
+                    expected = f"the name of one of {', '.join(KINDS[key])}"
                     yield (*path, key), f'"{name}"', expected, suggestion(name, names)
         if "duration" in stage and "inertia" not in data:
             remedy = "remove it, so that the stage is solved to rest, or add [inertia]"

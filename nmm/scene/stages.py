@@ -6,13 +6,21 @@ from pydantic import Field, model_validator
 
 from nmm.scene.fields import BlockName, Frozen, Name, Options, Time, example, fault
 
+KINDS = {
+    "loads": ("loads",),
+    "supports": ("supports",),
+    "heat": ("temperatures", "heat_fluxes", "heat_sources", "convections"),
+    "water": ("water_pressures", "heads", "inflows", "joint_heads"),
+}
+"""Keys of a stage that list names, and the tables of the scene that have them."""
+
 
 class StageTable(Frozen):
     """What is there from the stage's beginning to its end.
 
     A stage without duration is solved to rest. What is not given stays as in the stage before; at
-    first every block, load, support and member is there. Loads and supports that name a block are
-    there with it; a member that is new is put in as all stands then.
+    first every block, load, support and member is there, with all that heats and wets. What names a
+    block is there with it; a member that is new is put in as all stands then.
     """
 
     name: Name = Field(description="a name of its own", examples=["excavation"])
@@ -38,6 +46,16 @@ class StageTable(Frozen):
         description="names of all springs, dashpots, bars, foundations and masses that are there",
         examples=[["bolt"]],
     )
+    heat: tuple[Name, ...] | None = Field(
+        default=None,
+        description="names of all temperatures, heat fluxes, heat sources and convections that act",
+        examples=[["summer"]],
+    )
+    water: tuple[Name, ...] | None = Field(
+        default=None,
+        description="names of all water pressures, heads, inflows and joint heads that act",
+        examples=[["full reservoir"]],
+    )
     duration: Time | None = Field(
         default=None,
         gt=0,
@@ -49,6 +67,11 @@ class StageTable(Frozen):
         description="keys of the formulation's [cover] that are other from this stage on",
         examples=[{"degree": 2}],
     )
+
+    def lists(self, key: str) -> tuple[str, ...] | None:
+        """Return the names of what acts of a kind of `KINDS`; None where all that did go on."""
+        found: tuple[str, ...] | None = getattr(self, key)
+        return found
 
     @model_validator(mode="after")
     def _one_way(self) -> StageTable:

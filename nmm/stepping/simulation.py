@@ -362,9 +362,7 @@ class Simulation:
     def _load_schedule(self) -> LoadSchedule:
         loading, steps = self.scene.loading, self.formulation.loading
         if loading is None:
-            fields = (self.scene.heat, self.scene.seepage)
-            followed = any(field is not None and field.transient for field in fields)
-            increment = steps.increment if followed else 1.0
+            increment = steps.increment if self.scene.followed else 1.0
             return LoadSchedule(1.0, False, increment, steps.tolerance)
         until = loading.until == "failure"
         target = loading.maximum_factor or (np.inf if until else float(loading.until))

@@ -202,11 +202,11 @@ def _apertures(setup: Setup, edge_a: Ints, edge_b: Ints) -> tuple[Floats, Floats
 def _held(setup: Setup, sites: WetJoints) -> list[HeldHead]:
     near = NEAR * float(np.hypot(*np.ptp(setup.model.manifold.elements.points, axis=0)))
     found = []
-    for number, item in enumerate(setup.scene.joint_heads):  # a handful
+    for item in setup.scene.joint_heads:  # a handful
         ends = np.array([item.point, item.point] if item.segment is None else item.segment)
         nodes = np.flatnonzero(_distance(sites.places, ends) <= near)
         if not len(nodes):
-            place = setup.scene.source.place("joint_heads", number)
+            place = setup.scene.source.of_name("joint_heads", item.name)
             shown, expected = str(item.segment or item.point), "a place where a joint ends"
             raise SceneError(Fault(place, shown, expected, "move it to the end of a joint"))
         head = np.full(len(nodes), item.head - setup.origin[1])

@@ -71,8 +71,7 @@ class WaterPressures(Effect):
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[water_pressures]]``."""
-        tables = setup.scene.water_pressures
-        found = [_water(setup, number, item) for number, item in enumerate(tables)]
+        found = [_water(setup, item) for item in setup.scene.water_pressures]
         return cls(found, setup.model.manifold.n_unknowns)
 
     @property
@@ -104,11 +103,11 @@ class WaterPressures(Effect):
         return found
 
 
-def _water(setup: Setup, number: int, item: "WaterPressureTable") -> WaterOnEdges:
+def _water(setup: Setup, item: "WaterPressureTable") -> WaterOnEdges:
     manifold, pressure = setup.model.manifold, pressure_of(item, setup.origin)
     edge, start, end = _divided(*_edges(setup, item), pressure)
     if not len(edge):
-        where = setup.scene.source.place("water_pressures", number)
+        where = setup.scene.source.of_name("water_pressures", item.name)
         found = str(item.segment or item.crack or item.block)
         raise SceneError(Fault(where, found, "an edge of a block", "move it onto one"))
     place = on_parts(manifold, edge, start, end, manifold.degree + 1)

@@ -90,11 +90,8 @@ def _problem(setup: Setup, space: ScalarSpace) -> DiffusionProblem:
     assert scene.seepage is not None
     stored = of_elements(setup, "specific_storage") if scene.seepage.transient else None
     low = float(setup.origin[1])
-    held = [
-        Given("heads", i, one, partial(sloping, one, one.head - low))
-        for i, one in enumerate(scene.heads)
-    ]
-    inflows = [Given("inflows", i, one, amount=one.velocity) for i, one in enumerate(scene.inflows)]
+    held = [Given("heads", one, partial(sloping, one, one.head - low)) for one in scene.heads]
+    inflows = [Given("inflows", one, amount=one.velocity) for one in scene.inflows]
     tables = FieldTables(
         conductivity=of_elements(setup, "hydraulic_conductivity"),
         capacity=stored,

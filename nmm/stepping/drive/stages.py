@@ -179,8 +179,9 @@ def _solved(
         return run_in_time(stepper, recorder, moving, times, progress, keeps.keep)
     recorder.choice = choice_under_loads(output)
     asked = steps.loading
-    # What is new is brought on at once unless increments are asked for.
-    increment = asked.increment if "increment" in asked.model_fields_set else 1.0
+    # What is new is brought on at once unless increments are asked for, or a field is followed.
+    stepped = "increment" in asked.model_fields_set or stage.scene.followed
+    increment = asked.increment if stepped else 1.0
     loads = LoadSchedule(1.0, False, increment, asked.tolerance, state.time, staged.clock)
     under = at or keeps.begin(UnderLoad.at_start(state, loads))
     assert isinstance(under, UnderLoad)

@@ -559,6 +559,64 @@ degree = 1
 type = "newmark"
 step = 0.004
 """
+SEASONS = """
+title = "wall in winter and summer"
+plane = "strain"
+[materials.rock]
+young_modulus = "1 GPa"
+poisson_ratio = 0.2
+density = 2000
+conductivity = 2.0
+heat_capacity = 800
+thermal_expansion = 1e-5
+hydraulic_conductivity = 1e-6
+[[blocks]]
+name = "wall"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 3], [0, 3]]
+[gravity]
+[heat]
+transient = true
+duration = "20 days"
+[[temperatures]]
+name = "inside"
+segment = [[0, 0], [0, 3]]
+temperature = 5.0
+[[temperatures]]
+name = "summer"
+segment = [[1, 0], [1, 3]]
+temperature = 20.0
+[seepage]
+[[heads]]
+name = "foot"
+segment = [[0, 0], [1, 0]]
+head = 0.0
+[[water_pressures]]
+name = "flood"
+segment = [[1, 0], [1, 3]]
+level = 2.0
+[[supports]]
+name = "bottom"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+[output]
+every_steps = 3
+{checkpoint}
+[[stages]]
+name = "winter"
+heat = ["inside"]
+water = ["foot"]
+[[stages]]
+name = "summer"
+heat = ["summer"]
+water = ["foot", "flood"]
+[formulation.cover]
+type = "quads"
+size = 0.6
+degree = 1
+[formulation.loading]
+increment = 0.2
+"""
 SHAKEN_ON_ROCK = """
 duration = 0.03
 title = "shaken block"
@@ -626,6 +684,7 @@ SCENES = {
     "shaken stages": SHAKEN.replace("duration = {duration}", "").replace("{stages}", SHAKEN_STAGES),
     "shaken stone": SHAKEN_ON_ROCK,
     "left standing": LEFT_STANDING,
+    "seasons": SEASONS,
 }
 
 
