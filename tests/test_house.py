@@ -29,6 +29,7 @@ LIBRARIES = {
 # a linear solver; `results` stands above `stepping`, which hands its frames to a sink.
 ROOMS = (
     "errors",
+    "frozen",
     "trust",
     "registry",
     "quantity",

@@ -21,6 +21,7 @@ from nmm.assembly.patches import pressures
 from nmm.assembly.pressures import Pressures
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Law
+from nmm.solvers.unchecked import product
 
 if TYPE_CHECKING:
     from nmm.assembly.finite_strain.finite_matter import FiniteMatter
@@ -149,7 +150,7 @@ class Model:
         """Energy (J) stored in the material, but for what an initial stress counts by itself."""
         q = state.deformation
         if self.matter is None:
-            return float(q @ (self.stiffness @ q)) / 2
+            return float(q @ product(self.stiffness, q)) / 2
         return self.matter.energy(q, state.history)
 
     def dissipated(self, before: "State", after: "State") -> float:

@@ -16,6 +16,8 @@ from covers.approximation.manifold import Manifold
 from covers.approximation.rows import Rows
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
+from nmm.frozen import with_parts
+from nmm.solvers.unchecked import product
 
 
 @dataclass(frozen=True)
@@ -195,7 +197,7 @@ def move(model: Model, state: State, increment: Floats) -> State:
     only the mean translation keeps its global direction; the rest turns with the material.
     """
     modes = model.manifold.rigid_modes
-    rigid = (model.rigid_projection @ increment).reshape(-1, 3)
+    rigid = product(model.rigid_projection, increment).reshape(-1, 3)
     frames = state.frames
     bodies = np.arange(len(rigid))
     shift = frames.to_global(bodies, rigid[:, :2])
@@ -207,10 +209,10 @@ def move(model: Model, state: State, increment: Floats) -> State:
     )
     # What the sum of angles has taken up, rounded: a velocity must not drift against its axes.
     turn = rotation_matrices(moved.angle - frames.angle)
-    return replace(
+    return with_parts(
         state,
         frames=moved,
-        deformation=state.deformation + increment - modes @ rigid.ravel(),
+        deformation=state.deformation + increment - product(modes, rigid.ravel()),
         velocity=_turn_translation(model, state.velocity, turn),
         acceleration=_turn_translation(model, state.acceleration, turn),
     )
@@ -220,11 +222,11 @@ def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
     """Keep the mean translation of a rate fixed in space while the body's axes ``turn``."""
     if not rate.any():
         return rate
-    mean = (model.rigid_projection @ rate).reshape(-1, 3)
+    mean = product(model.rigid_projection, rate).reshape(-1, 3)
     turned = np.einsum("bji,bj->bi", turn, mean[:, :2])
     change = np.zeros_like(mean)
     change[:, :2] = turned - mean[:, :2]
-    return np.asarray(rate + model.manifold.rigid_modes @ change.ravel())
+    return np.asarray(rate + product(model.manifold.rigid_modes, change.ravel()))
 
 
 def translate(model: Model, state: State, increment: Floats) -> State:

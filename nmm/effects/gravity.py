@@ -33,9 +33,14 @@ class Gravity(Effect):
     def force(self, state: State, end: Instant) -> Floats:
         """Return the weight in the bodies' axes."""
         body, along_x, along_y = self._unit
-        bodies = np.arange(self._model.manifold.n_bodies)
-        down = state.frames.to_body(bodies, np.tile(self._acceleration, (len(bodies), 1)))
+        down = state.frames.to_body(*self._everywhere)
         return np.asarray(along_x * down[body, 0] + along_y * down[body, 1])
+
+    @cached_property
+    def _everywhere(self) -> tuple[Ints, Floats]:
+        """All bodies (B,), and the acceleration (B, 2) of each in global axes."""
+        bodies = np.arange(self._model.manifold.n_bodies)
+        return bodies, np.tile(self._acceleration, (len(bodies), 1))
 
     @cached_property
     def _unit(self) -> tuple[Ints, Floats, Floats]:

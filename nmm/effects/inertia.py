@@ -9,6 +9,7 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
+from nmm.solvers.unchecked import product
 
 
 class Inertia(Effect):
@@ -38,14 +39,12 @@ class Inertia(Effect):
         spin = self.spin(state)
         if not (self._axes_turn and spin.any()):
             return np.zeros(self._model.manifold.n_unknowns)
-        stretch = self._model.manifold.stretch_modes @ spin**2
-        return np.asarray(self.mass @ stretch)
+        return product(self.mass, product(self._model.manifold.stretch_modes, spin**2))
 
     def spin(self, state: State) -> Floats:
         """Return the mean rate of rotation (B,) of the bodies (rad/s)."""
-        rates = self._model.rigid_projection @ state.velocity
-        return np.asarray(rates).reshape(-1, 3)[:, 2]
+        return product(self._model.rigid_projection, state.velocity).reshape(-1, 3)[:, 2]
 
     def energy(self, state: State) -> float:
         """Kinetic energy (J)."""
-        return float(0.5 * state.velocity @ (self.mass @ state.velocity))
+        return float(0.5 * state.velocity @ product(self.mass, state.velocity))

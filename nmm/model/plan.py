@@ -64,11 +64,14 @@ class Plan:
         Wall-clock seconds by effect.
     sums
         The last sum of matrices with its parts: parts that stay need not be added again.
+    hooks
+        The effects that have each hook that was asked for, by name.
     """
 
     effects: dict[str, Effect]
     seconds: dict[str, float] = field(default_factory=dict)
     sums: dict[str, tuple[list[csc_array], csc_array]] = field(default_factory=dict)
+    hooks: dict[str, list[tuple[str, Effect]]] = field(default_factory=dict)
 
     def joined(self, effect: Effect) -> "Plan":
         """Return the plan with one effect more."""
@@ -76,6 +79,7 @@ class Plan:
 
     def connected(self) -> "Plan":
         """Tell the effects that ask which stresses others add; return the plan itself."""
+        self.hooks.clear()
         if self.stresses:
             for effect in self._with("feel"):
                 effect.feel(self.stresses)
@@ -319,7 +323,11 @@ class Plan:
         return [effect for _, effect in self._named(hook)]
 
     def _named(self, hook: str) -> list[tuple[str, Effect]]:
-        return [(name, one) for name, one in self.effects.items() if defines(one, hook)]
+        known = self.hooks.get(hook)
+        if known is None:
+            known = [(name, one) for name, one in self.effects.items() if defines(one, hook)]
+            self.hooks[hook] = known
+        return known
 
     def _timed(self, name: str, call: Callable[[], T]) -> T:
         start = perf_counter()

@@ -5,6 +5,7 @@ judged by their residual; a matrix without inverse is decomposed again with a sh
 """
 
 from dataclasses import dataclass, field
+from math import sqrt
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -15,6 +16,7 @@ from nmm.errors import SolveError
 from nmm.solvers.draws import same_draws
 from nmm.solvers.krylov import minimal_residual
 from nmm.solvers.scaling import scaled
+from nmm.solvers.unchecked import product
 
 if TYPE_CHECKING:
     from nmm.solvers.linear import LinearSolver
@@ -165,14 +167,14 @@ class Factor:
 
     def _refined(self, rhs: Floats, tolerance: float = 0.0) -> tuple[Floats, float, float]:
         load = self.scale * rhs
-        size = float(np.linalg.norm(load))
+        size = _length(load)
         if size == 0.0:
             return np.zeros_like(load), 0.0, 0.0
         x = self.apply(rhs)
         best, rest = x, np.inf
         for turn in range(self.solver.refinements + 1):
-            residual = rhs - self.matrix @ x
-            found = float(np.linalg.norm(self.scale * residual)) / size
+            residual = rhs - product(self.matrix, x)
+            found = _length(self.scale * residual) / size
             if not found < rest:
                 break
             # Rounding has the last word where a turn does not halve what is left; a shift is slow.
@@ -204,6 +206,11 @@ class Factor:
         shifted = self.solver.deflated()
         parts = shifted.decompose(scaled(self.matrix, self.scale, shifted.shift))
         return Factor(shifted, self.matrix, self.scale, parts, deflated=True)
+
+
+def _length(vector: Floats) -> float:
+    """Euclidean norm, as numpy's of a vector."""
+    return sqrt(float(vector @ vector))
 
 
 def _limit(growth: float) -> float:

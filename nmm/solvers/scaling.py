@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from nmm.solvers.unchecked import made_of
 
 
 def jacobi_scale(matrix: csc_array) -> Floats:
@@ -33,7 +34,7 @@ def ruiz_scale(matrix: csc_array, sweeps: int = 3) -> Floats:
 def scaled(matrix: csc_array, scale: Floats, shift: float) -> csc_array:
     """``diag(scale) matrix diag(scale)`` plus ``shift`` on the diagonal; zeros keep their place."""
     data, diagonals = _scaled_data(matrix, scale, shift)
-    scaled = csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
+    scaled = made_of(csc_array, data, matrix.indices, matrix.indptr, matrix.shape)
     if shift and diagonals < len(scale):
         from scipy.sparse import eye_array
 

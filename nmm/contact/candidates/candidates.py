@@ -3,8 +3,6 @@
 Joints (shared edges whose interface has strength or stiffness) are followed from the start.
 """
 
-from dataclasses import replace
-
 import numpy as np
 from scipy.sparse import csr_array
 
@@ -23,6 +21,7 @@ from nmm.contact.points.tracking import answered, remember, searched_points
 from nmm.contact.problem.step_problem import Limits
 from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.record import ContactRecord, ContactSolution
+from nmm.frozen import with_parts
 
 
 class Candidates:
@@ -62,7 +61,7 @@ class Candidates:
         new = searched_points(found, interface, self._laws.initial(interface, loose), surface)
         if self._laws.stiff:
             new = self._laws.sized(new, surface)
-        new = replace(new, gap=self._geometry.gaps(new, state))
+        new = with_parts(new, gap=self._geometry.gaps(new, state))
         return found, concatenate([joints, self._followed(record, new, found)])
 
     def joints(self, book: JointBook, state: State) -> ContactPoints:

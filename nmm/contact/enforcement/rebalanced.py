@@ -13,6 +13,7 @@ from nmm.contact.iteration.options import SMALL
 from nmm.contact.problem.balance import length, weights
 from nmm.contact.problem.residual_kernel import meeting_forces
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+from nmm.frozen import with_parts
 from nmm.solvers.linear import LinearSolver
 
 UNEVEN = 1e-3
@@ -51,7 +52,7 @@ def solve_rebalanced(
         if not finer.verdict.converged:
             break
         answer = finer
-    return replace(answer, passes=passes)
+    return with_parts(answer, passes=passes)
 
 
 def imbalance_of_bodies(problem: StepProblem, answer: StepAnswer, body: Ints) -> float:

@@ -6,6 +6,7 @@ of the last step alone, with two thirds of their contacts in a wrong state. In s
 says where a loose piece belongs: what starts from a mix may leave it anywhere.
 """
 
+import numba as nb
 import numpy as np
 
 from integration.arrays import Floats
@@ -37,14 +38,46 @@ def start_from(springs: CutSprings, known: list[Floats], mixes: bool) -> Floats:
     if not mixes:
         return points[best]
     others = [i for i in range(len(points)) if i != best]
-    rest = springs.weight * residuals[best].force
-    ways = np.stack([springs.weight * residuals[i].force - rest for i in others])
-    products = np.einsum("ik,jk->ij", ways, ways)
-    trace = float(np.trace(products))
-    if not (np.isfinite(trace) and trace > 0.0):
-        return points[best]
-    products += MIX_RIDGE * trace * np.eye(len(others))
-    share = np.linalg.solve(products, -np.einsum("ik,k->i", ways, rest))
-    steps = np.stack([points[i] - points[best] for i in others])
-    mixed = points[best] + np.einsum("i,ik->k", share, steps)
+    order = [best, *others]
+    forces = [residuals[i].force for i in order]
+    mixed: Floats = _mixed(np.stack([points[i] for i in order]), np.stack(forces), springs.weight)
     return mixed if springs.residual(mixed).size < residuals[best].size else points[best]
+
+
+@nb.njit(cache=True)
+def _mixed(points: Floats, forces: Floats, weight: Floats) -> Floats:
+    """Mix (n,) of ``points`` (k, n) of the least weighted force, on lines from the first.
+
+    The normal equations are positive definite by their ridge; where they are not finite or vanish
+    it is the first point.
+    """
+    count, n = points.shape[0] - 1, len(weight)
+    table = np.zeros((count, count + 1))
+    for k in range(n):
+        square = weight[k] ** 2
+        for i in range(count):
+            way = forces[i + 1, k] - forces[0, k]
+            table[i, count] -= square * way * forces[0, k]
+            for j in range(i + 1):
+                table[i, j] += square * way * (forces[j + 1, k] - forces[0, k])
+    trace = 0.0
+    for i in range(count):
+        trace += table[i, i]
+        for j in range(i):
+            table[j, i] = table[i, j]
+    found: Floats = points[0].copy()
+    if not (np.isfinite(trace) and trace > 0.0):
+        return found
+    for i in range(count):
+        table[i, i] += MIX_RIDGE * trace
+    for i in range(count):
+        for row in range(i + 1, count):
+            share = table[row, i] / table[i, i]
+            for column in range(i, count + 1):
+                table[row, column] -= share * table[i, column]
+    for i in range(count - 1, -1, -1):
+        for column in range(i + 1, count):
+            table[i, count] -= table[i, column] * table[column, count]
+        table[i, count] /= table[i, i]
+        found += table[i, count] * (points[i + 1] - points[0])
+    return found

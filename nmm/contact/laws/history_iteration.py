@@ -14,6 +14,7 @@ from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.tension_compression import AsymmetricSprings
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
+from nmm.frozen import with_parts
 from nmm.interfaces.history import History
 from nmm.solvers.anderson import FixedPoint
 
@@ -74,7 +75,7 @@ class HistoryIteration:
         self.done = change <= UNCHANGED
         self._count += 1
         if self.done:
-            self.contacts = replace(self.contacts, history=image)
+            self.contacts = with_parts(self.contacts, history=image)
             return None
         if self._count == MOST:
             sentence = (

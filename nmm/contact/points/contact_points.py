@@ -10,6 +10,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import Frames
 from nmm.contact.points.boundary_points import Sides
 from nmm.interfaces.history import History
+from nmm.solvers.unchecked import made_of
 
 if TYPE_CHECKING:
     from nmm.contact.points.joint_points import JointSites
@@ -143,7 +144,7 @@ def rows(
     shape = (len(contacts), n_unknowns)
     # Columns and offsets of their own: summing changes both in place.
     normal, tangent = (
-        csr_array((value.ravel(), columns.flatten(), offsets.copy()), shape=shape)
+        made_of(csr_array, value.ravel(), columns.flatten(), offsets.copy(), shape)
         for value in values
     )
     if sides.repeats:

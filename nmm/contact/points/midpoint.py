@@ -10,7 +10,7 @@ work of contact forces is what their springs store (Simo and Tarnow 1992; Laurse
 Both sides move as if the force acted at one point, that of side a: it makes no couple.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array, diags_array
@@ -22,6 +22,7 @@ from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints, rows
 from nmm.contact.points.moments import moments
 from nmm.contact.problem.row_products import pushed
+from nmm.frozen import with_parts
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,9 @@ def middle(before: State, after: State) -> State:
         (before.frames.centre + after.frames.centre) / 2,
         (before.frames.angle + after.frames.angle) / 2,
     )
-    return replace(before, frames=frames, deformation=(before.deformation + after.deformation) / 2)
+    return with_parts(
+        before, frames=frames, deformation=(before.deformation + after.deformation) / 2
+    )
 
 
 def midpoint_rows(
@@ -68,7 +71,7 @@ def midpoint_rows(
     side_a = sides.at(contacts.edge_a, contacts.parameter_a)
     place_a = side_a.place(half.frames, half.deformation)
     foot = np.einsum("ij,ij->i", place_a - surface.start[edge], along) / length
-    contacts = replace(
+    contacts = with_parts(
         contacts,
         normal=direction,
         parameter_b=np.where(contacts.is_joint, contacts.parameter_b, foot),

@@ -11,13 +11,13 @@ new reference, and it never grows again.
 """
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.contact.detection.pair_keys import unordered_key
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.frozen import with_parts
 
 
 def counted(
@@ -58,7 +58,7 @@ def counted(
         if len(born):
             taker = new.take(born)
             reference[born] = _from_stretch(taker.gap, _beside(taker, old, body))
-    return replace(new, gap=new.gap - reference, reference=reference)
+    return with_parts(new, gap=new.gap - reference, reference=reference)
 
 
 def _from_stretch(gap: Floats, stretch: Floats) -> Floats:

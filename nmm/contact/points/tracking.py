@@ -1,7 +1,6 @@
 """Contact points that search finds, from step to step: what they keep of those they continue."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN, StepAnswer
+from nmm.frozen import with_parts
 from nmm.interfaces.history import History
 
 # From points to where their sides a are from their sides b (m, 2).
@@ -62,7 +62,9 @@ def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> Conta
     A point that goes on under another interface keeps no history.
     """
     if len(old) == len(new) and np.array_equal(predecessor, np.arange(len(new))):
-        return replace(new, history=old.history, **{name: getattr(old, name) for name in CARRIED})
+        return with_parts(
+            new, history=old.history, **{name: getattr(old, name) for name in CARRIED}
+        )
     if not len(old):
         return new
     known = predecessor >= 0
@@ -75,14 +77,14 @@ def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> Conta
     kept: dict[str, Any] = {
         name: np.where(known, getattr(old, name)[source], getattr(new, name)) for name in CARRIED
     }
-    return replace(new, history=history, **kept)
+    return with_parts(new, history=history, **kept)
 
 
 def answered(points: ContactPoints, answer: StepAnswer, once_bonded: Bools) -> ContactPoints:
     """Return the points as an answer leaves them; ``once_bonded`` (m,) had a bond at the start."""
     parted = once_bonded & points.is_joint & (answer.state == OPEN)
     state = np.where(parted, int(BROKEN), answer.state)
-    return replace(
+    return with_parts(
         points,
         gap=answer.gap,
         slip=answer.slip,

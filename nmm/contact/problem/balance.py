@@ -1,10 +1,10 @@
 """How far a step is out of balance, in a norm that mixes no units."""
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse import csc_array, diags_array
 
 from integration.arrays import Floats
-from nmm.contact.problem.residual_kernel import squared
+from nmm.contact.problem.residual_kernel import weighted
 from nmm.contact.problem.step_problem import StepProblem
 
 
@@ -19,9 +19,9 @@ def weights(
     """
     normal = problem.normal_stiffness if normal is None else normal
     shear = problem.shear_stiffness if shear is None else shear
-    diagonal = problem.matrix.diagonal() + _squared(problem.normal_rows, normal)
-    diagonal += _squared(problem.tangent_rows, shear)
-    return np.asarray(1.0 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0)))
+    parts = problem.matrix, problem.normal_rows, problem.tangent_rows
+    matrix, *rows = ((one.indptr, one.indices, one.data) for one in parts)
+    return np.asarray(weighted(*matrix, *rows[0], normal, *rows[1], shear))
 
 
 def relative_residual(
@@ -33,10 +33,6 @@ def relative_residual(
     size = max(length(weight * part) for part in (inner, contact, problem.force))
     rest = length(weight * (inner + contact - problem.force))
     return rest / size if size > 0 else 0.0
-
-
-def _squared(rows: csr_array, stiffness: Floats) -> Floats:
-    return np.asarray(squared(rows.indptr, rows.indices, rows.data, stiffness, rows.shape[1]))
 
 
 def length(vector: Floats) -> float:

@@ -11,3 +11,7 @@ class ContactState(IntEnum):
     SLIDE = 2
     BONDED = 3
     BROKEN = 4
+
+
+NAMES = tuple(state.name.lower() for state in ContactState)
+"""Of the states in the history, in their order."""

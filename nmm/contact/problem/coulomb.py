@@ -10,6 +10,9 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN, SLIDE, STICK, Limits, StepProblem
 
+NUMBERS = tuple(int(state) for state in (OPEN, STICK, SLIDE, BONDED, BROKEN))
+"""Of the states, which arrays compare without asking what they are."""
+
 
 def shear_bound(normal: Floats, closed: Bools, limits: Limits) -> Floats:
     """Largest shear force (N) ``c + mu max(-N, 0)`` of normal forces (m,) within their limit.
@@ -61,8 +64,8 @@ def tangent(normal: Floats, shear: Floats, limits: Limits) -> tuple[Floats, Floa
 
 def label(problem: StepProblem, is_open: Bools, sliding: Bools) -> Ints:
     """States of contacts that are open, sliding or neither, given what they were."""
-    bonded, broken = problem.state == BONDED, problem.state == BROKEN
-    held = np.where(bonded, BONDED, STICK)
-    closed = np.where(sliding, SLIDE, held)
-    lost = np.where(broken | (problem.limits.tension > 0), BROKEN, OPEN)
+    open_, stick, slide, bond, gone = NUMBERS
+    bonded, broken = problem.state == bond, problem.state == gone
+    closed = np.where(sliding, slide, np.where(bonded, bond, stick))
+    lost = np.where(broken | (problem.limits.tension > 0), gone, open_)
     return np.where(is_open, lost, closed).astype(np.int64)

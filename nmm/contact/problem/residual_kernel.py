@@ -91,12 +91,33 @@ def residual(
 
 
 @nb.njit(cache=True)
-def squared(pointers: Index, columns: Index, entries: Floats, stiffness: Floats, n: int) -> Floats:
-    """Diagonal (n,) of ``rows.T diag(stiffness) rows``."""
-    found = np.zeros(n)
-    for c in range(len(stiffness)):
-        for k in range(pointers[c], pointers[c + 1]):
-            found[columns[k]] += entries[k] * entries[k] * stiffness[c]
+def weighted(
+    pointers: Index,
+    rows: Index,
+    entries: Floats,
+    normal_pointers: Index,
+    normal_columns: Index,
+    normal_entries: Floats,
+    normal_stiffness: Floats,
+    tangent_pointers: Index,
+    tangent_columns: Index,
+    tangent_entries: Floats,
+    shear_stiffness: Floats,
+) -> Floats:
+    """Inverse roots (n,) of the diagonal of matrix and springs; 1 where that is not positive."""
+    found = np.zeros(len(pointers) - 1)
+    for j in range(len(found)):
+        for k in range(pointers[j], pointers[j + 1]):
+            if rows[k] == j:
+                found[j] += entries[k]
+    for c in range(len(normal_stiffness)):
+        for k in range(normal_pointers[c], normal_pointers[c + 1]):
+            found[normal_columns[k]] += normal_entries[k] ** 2 * normal_stiffness[c]
+    for c in range(len(shear_stiffness)):
+        for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
+            found[tangent_columns[k]] += tangent_entries[k] ** 2 * shear_stiffness[c]
+    for j in range(len(found)):
+        found[j] = 1.0 / np.sqrt(found[j]) if found[j] > 0.0 else 1.0
     return found
 
 

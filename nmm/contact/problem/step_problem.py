@@ -95,6 +95,26 @@ class StepProblem:
         inner = self.matrix @ increment - self.force
         return np.asarray(inner + self.normal_rows.T @ normal + self.tangent_rows.T @ shear)
 
+    @property
+    def _is_sound(self) -> bool:
+        """Whether `check` has nothing to say, asked without what it would name."""
+        m, limits = len(self.gap), self.limits
+        bounds = limits.tension, limits.cohesion, limits.friction
+        columns = (
+            *(self.gap, self.slip, self.normal_stiffness, self.shear_stiffness, limits.friction),
+            *(self.normal_force, self.shear_force, self.state, *bounds[:2]),
+        )
+        matrices = self.normal_rows, self.tangent_rows, self.matrix
+        n = len(self.force)
+        finite = (self.force, *columns[:5], *(one.data for one in matrices))
+        return (
+            all(len(column) == m for column in columns)
+            and tuple(one.shape for one in matrices) == ((m, n), (m, n), (n, n))
+            and all(np.logical_and.reduce(np.isfinite(one)) for one in finite)
+            and all(np.minimum.reduce(one, initial=1.0) > 0 for one in columns[2:4])
+            and all(np.minimum.reduce(one, initial=0.0) >= 0 for one in bounds)
+        )
+
     def check(self) -> None:
         """Refuse shapes and numbers that no enforcement could make sense of.
 
@@ -103,6 +123,8 @@ class StepProblem:
         SolveError
             Naming the first array at fault.
         """
+        if self._is_sound:
+            return
         n, m = len(self.force), self.n_contacts
         sizes: dict[str, tuple[Any, Any]] = {"matrix": (self.matrix.shape, (n, n))}
         for name in ("normal_rows", "tangent_rows"):

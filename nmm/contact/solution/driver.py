@@ -30,6 +30,7 @@ from nmm.contact.problem.transform import Transform, solve_through
 from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.request import StepRequest
 from nmm.errors import SolveError
+from nmm.frozen import with_parts
 from nmm.solvers.linear import LinearSolver
 
 
@@ -147,7 +148,7 @@ class ContactSolver:
             brittle = broken & self._laws.brittle[contacts.interface]
             if not broken.any():
                 loss += iteration.loss(answer, sliding) + posed.loss(contacts, answer)
-                return replace(found, loss=loss, sliding=sliding, rows=rows)
+                return with_parts(found, loss=loss, sliding=sliding, rows=rows)
             if request.near is not None and not request.near(answer.increment):
                 return found
             if request.breaking == "stop" and brittle.any():

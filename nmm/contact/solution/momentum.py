@@ -12,6 +12,7 @@ from nmm.contact.detection.tolerances import MIDPOINT_GAPS
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.midpoint import middle, missing_moments
 from nmm.contact.solution.record import ContactSolution
+from nmm.solvers.unchecked import product
 
 
 class Momentum:
@@ -66,10 +67,10 @@ class Momentum:
         forces = solved.answer.normal_force, solved.answer.shear_force
         half = middle(before, after)
         push = through.push(*forces)
-        owed = np.asarray(self._modes_turned @ (balance - push)).reshape(-1, 3)
-        acted = np.asarray(self._modes_turned @ push)
+        owed = product(self._modes_turned, balance - push).reshape(-1, 3)
+        acted = product(self._modes_turned, push)
         owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, acted)
-        return np.asarray(modes @ (step * self._compliance_of_all * owed.ravel()))
+        return product(modes, step * self._compliance_of_all * owed.ravel())
 
     @cached_property
     def _of_blocks(self) -> bool:

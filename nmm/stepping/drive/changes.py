@@ -14,9 +14,9 @@ import numpy as np
 from covers.change.parentage import same_elements
 from nmm.assembly.motion import State
 from nmm.errors import Fault, SceneError
+from nmm.frozen import with_parts
 from nmm.results.frame import Topology
 from nmm.stepping.reports.recorder import Recorder, monitors
-from nmm.stepping.step.frozen import with_parts
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 import numpy as np
 
 from nmm.assembly.motion import State
+from nmm.frozen import with_parts
 from nmm.stepping.drive.changes import difference, follow
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import CONVERGED, RunVerdict
 from nmm.stepping.reports.output import choice_in_time, choice_under_loads
 from nmm.stepping.reports.recorder import Recorder, monitors
-from nmm.stepping.step.frozen import with_parts
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
-from nmm.stepping.step.frozen import with_parts
+from nmm.frozen import with_parts
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:

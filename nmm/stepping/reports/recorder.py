@@ -12,12 +12,12 @@ from nmm.assembly.places import at_point
 from nmm.effects.base import Setup
 from nmm.effects.view import View
 from nmm.errors import GeometryError
+from nmm.frozen import with_parts
 from nmm.results.frame import Frame
 from nmm.results.sink import Sink
 from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.ledger import Ledger
 from nmm.stepping.reports.output import Choice, Watch
-from nmm.stepping.step.frozen import with_parts
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -254,13 +254,13 @@ class Recorder:
         return turned_stress(stress, state.frames.angle[model.manifold.element_body])
 
     def _contact_row(self, attempt: Attempt, contacts: "ContactPoints") -> dict[str, float]:
-        from nmm.contact.problem.contact_state import ContactState
+        from nmm.contact.problem.contact_state import NAMES
 
         contact = self.stepper.plan.contact
         assert contact is not None
         penetration = -float(contacts.gap.min(initial=0.0))
-        tally = np.bincount(contacts.state, minlength=len(ContactState)).tolist()
-        counts = {s.name.lower(): tally[s] for s in ContactState}
+        tally = np.bincount(contacts.state, minlength=len(NAMES)).tolist()
+        counts = dict(zip(NAMES, tally, strict=True))
         counts["broken"] = contact.broken_bonds
         totals = self.totals
         self.totals = with_parts(

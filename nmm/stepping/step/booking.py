@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
+from nmm.solvers.unchecked import product
 
 if TYPE_CHECKING:
     from nmm.contact.solution.record import ContactSolution
@@ -64,7 +65,7 @@ def booked(
     terms = equations.inertia
     if terms is None:
         return None
-    heavy = terms.factor * float(increment @ (terms.mass @ increment))
+    heavy = terms.factor * float(increment @ product(terms.mass, increment))
     taken = heavy - float(increment @ terms.momentum)
     beyond = missed
     lost: Mapping[str, float] = {}
@@ -77,7 +78,7 @@ def booked(
     elif terms.weight != 0.5:
         share = terms.contact_factor
         # The matrix is that of inertia and, weighted, of all that is elastic, over the share.
-        whole = share * float(increment @ (equations.matrix @ increment))
+        whole = share * float(increment @ product(equations.matrix, increment))
         elastic = whole - heavy - damped - added
         beyond += (terms.weight - 0.5) * (elastic / terms.weight - more)
     work = 0.0

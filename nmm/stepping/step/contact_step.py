@@ -19,8 +19,10 @@ from nmm.contact.detection.tolerances import (
 )
 from nmm.contact.solution.request import StepRequest
 from nmm.effects.base import Instant
+from nmm.frozen import with_parts
 from nmm.model.discretisation import Current
 from nmm.solvers.linear import LinearSolver
+from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations
 from nmm.stepping.step.mover import Mover
@@ -114,7 +116,7 @@ class Touching:
                     continue
                 result = self._kept(equations, solved, result, rest)
             passage = "" if motion is None else contact.partners.passage(motion)
-            return replace(
+            return with_parts(
                 result,
                 converged=good and not passage,
                 sentence=passage or self._why(verdict.sentence, result, solved),
@@ -217,7 +219,7 @@ class Touching:
     ) -> tuple[Attempt, Floats]:
         """Return the bodies moved, and what contact takes of the forces (n,)."""
         increment = solved.answer.increment
-        rest = equations.force - equations.matrix @ increment
+        rest = equations.force - product(equations.matrix, increment)
         if held is not None and solved.rows is not None:
             rest = rest - self._holding(held, solved, rest)
         push = -rest if self._carries and equations.step else None
@@ -240,7 +242,7 @@ class Touching:
         assert equations.step is not None
         state = result.state
         change = self.contact.momentum.kept(solved, equations.state, state, equations.step, rest)
-        return replace(result, state=replace(state, velocity=state.velocity + change))
+        return with_parts(result, state=with_parts(state, velocity=state.velocity + change))
 
 
 def _joined(one: Pairs | None, other: Pairs) -> Pairs:

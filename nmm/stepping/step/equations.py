@@ -14,9 +14,11 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
 from nmm.integrators.damping import Damping
 from nmm.model.discretisation import ModelWithEffects
+from nmm.solvers.unchecked import product
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,7 @@ class Linearisation:
     @classmethod
     def linear(cls, model: Model, state: State) -> "Linearisation":
         """Return that of linear matter, the same at all iterates."""
-        force = model.stiffness @ state.deformation
+        force = product(model.stiffness, state.deformation)
         return cls(model.stiffness, force, force)
 
 
@@ -169,7 +171,7 @@ class Assembly:
             force = force if weight == 1 else weight * force + (1 - weight) * earlier
         velocity = rule.kinetic_factor * state.velocity
         rates = rule.momentum(velocity, state.acceleration, step)
-        momentum, factor = mass @ rates, rule.mass_factor(step)
+        momentum, factor = product(mass, rates), rule.mass_factor(step)
         resisting = plan.damping(state), plan.added_mass(state)
         damping = Damping.of(*resisting, rule, velocity, state.acceleration, step)
         heavy = [mass]
@@ -184,12 +186,12 @@ class Assembly:
             elastic = plan.matrix(state, line.stiffness)
             matrix = self._sum([(factor / share, one) for one in heavy])
             terms = replace(terms, elastic=elastic)
-            return replace(static, matrix=matrix, force=pushed / share, inertia=terms)
+            return with_parts(static, matrix=matrix, force=pushed / share, inertia=terms)
         parts = [(1.0, line.stiffness), *((factor / weight, one) for one in heavy)]
         if damping is not None:
             parts += [(damping.rate / weight, one) for one in damping.dampers.values()]
         matrix = self._times(weight / share, plan.matrix(state, self._sum(parts)))
-        return replace(static, matrix=matrix, force=pushed / share, inertia=terms)
+        return with_parts(static, matrix=matrix, force=pushed / share, inertia=terms)
 
     def _anchored(self, stiffness: csc_array) -> csc_array:
         """Return a stiffness with anchors."""

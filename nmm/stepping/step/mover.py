@@ -1,6 +1,5 @@
 """Where bodies are after an increment, how fast, and how far their points have moved."""
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +10,7 @@ from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, vertex_points
+from nmm.frozen import with_parts
 from nmm.model.discretisation import Current
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.clock import Clock
@@ -63,7 +63,7 @@ class Mover:
         with self._clock.phase("update"):
             state, end = equations.state, equations.end
             moved = self._moved(self._faster(equations, increment, push), increment)
-            moved = replace(moved, time=end.time, load_factor=end.load_factor)
+            moved = with_parts(moved, time=end.time, load_factor=end.load_factor)
             way = self.place(moved) - self.place(state)
             motion = float(np.sqrt((way**2).sum(axis=1).max()))
         return Attempt(True, "converged", moved, increment, motion, 0.0, 1)
@@ -89,7 +89,7 @@ class Mover:
             fast, more = rule.contact_kick
             kick = self._accelerated(push)
             velocity, acceleration = velocity + fast * step * kick, acceleration + more * kick
-        return replace(state, velocity=velocity, acceleration=acceleration)
+        return with_parts(state, velocity=velocity, acceleration=acceleration)
 
     def _accelerated(self, push: Floats) -> Floats:
         """Return the acceleration (n,) by a force; none of what has no mass.

@@ -11,6 +11,7 @@ from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.motion import MaterialPoints, State, initial_state
 from nmm.effects.base import Instant
 from nmm.errors import SolveError
+from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
 from nmm.integrators.starting import rule_of
 from nmm.model.build import reshaped
@@ -23,7 +24,6 @@ from nmm.stepping.step.carried import CarriedOver, LaidAnew
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Assembly, Equations, Linearisation
 from nmm.stepping.step.free_step import Alone
-from nmm.stepping.step.frozen import with_parts
 from nmm.stepping.step.inner import Inner
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.newton import Solution, newton
@@ -200,7 +200,7 @@ class Stepper:
         conserves = equations.rule.conserves
         missed = 0.0 if conserves else self.model.missed_work(state, found.state)
         work = booked(equations, found.increment, found.solved, missed)
-        return replace(found, booked=work)
+        return with_parts(found, booked=work)
 
     def _bent(
         self,

@@ -1,4 +1,4 @@
-"""Values of a run that are replaced in each step, quicker than by `dataclasses.replace`."""
+"""Frozen values that are replaced in each step, quicker than by `dataclasses.replace`."""
 
 from typing import Any, TypeVar
 
