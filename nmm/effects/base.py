@@ -174,6 +174,8 @@ class Effect(ABC):
     external: bool = True
     """Whether its forces may change the momentum of all bodies together; false where they come in
     pairs, and for gravity, whose impulse audits know."""
+    on_paths: ClassVar[bool] = False
+    """Whether paths past the peak may go on through the changes that it asks for."""
     stays: ClassVar[bool] = False
     """Whether it goes on in stages whose scene no longer names it."""
 

@@ -2,7 +2,11 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from covers.change.parentage import Parentage
+from covers.change.transfer import Transfer
+from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Setup
@@ -31,6 +35,11 @@ class Change:
     parentage: Parentage
     state: State
     former: State
+
+    def field(self, displacement: Floats) -> Floats:
+        """Return a displacement field (n,) of the old model on the unknowns of the new one."""
+        transfer = Transfer.of(self.parentage, np.ones_like(self.old.density))
+        return transfer.deformation(displacement, self.old.drained)
 
     @property
     def old(self) -> Model:

@@ -76,7 +76,9 @@ def contact_parts(setup: Setup) -> ContactParts:
 
 def _cracks(setup: Setup) -> BondedCracks:
     """Return the cracks whose faces begin bonded."""
-    return BondedCracks(setup.geometry.held, MOVED * setup.model.cut.crack_tolerance)
+    geometry = setup.geometry
+    others = geometry.free if geometry.bonded else ()
+    return BondedCracks(geometry.held, others, MOVED * setup.model.cut.crack_tolerance)
 
 
 def _stations(method: ContactMethod, laws: ContactLaws) -> str:

@@ -17,8 +17,12 @@ class Event:
         What happens, for the summary: "2 blocks split".
     held
         Whether forces hold at first what is parted, so that accelerations go on as they were.
+    exact
+        Whether the load is sought at which it happens; else that of a step that ends near it will
+        do.
     """
 
     geometry: Geometry
     what: str
     held: bool = False
+    exact: bool = True

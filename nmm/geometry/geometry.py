@@ -35,3 +35,9 @@ class Geometry:
     def held(self) -> tuple[Floats, ...]:
         """The cracks whose faces begin bonded."""
         return tuple(self.cracks[number] for number in self.bonded)
+
+    @property
+    def free(self) -> tuple[Floats, ...]:
+        """The other cracks."""
+        numbers = range(len(self.cracks))
+        return tuple(self.cracks[number] for number in numbers if number not in self.bonded)

@@ -50,6 +50,7 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "contact": "nmm.effects.contact:Contact",
         "fracture": "nmm.fracture.growth.crack_growth:CrackGrowth",
         "fracture in time": "nmm.fracture.growth.in_time:GrowthInTime",
+        "cohesive zones": "nmm.fracture.cohesive.zones:CohesiveZones",
         "splitting": "nmm.splitting.splitting:Splitting",
         "artificial joints": "nmm.constraints.artificial_joints:ArtificialJoints",
     },
@@ -91,6 +92,7 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
     "contact": lambda s: s.contact is not None,
     "fracture": lambda s: s.fracture is not None and s.inertia is None,
     "fracture in time": lambda s: s.fracture is not None and s.inertia is not None,
+    "cohesive zones": lambda s: s.cohesive_zones is not None,
     "splitting": lambda s: bool(s.splitting),
 }
 """When a scene calls for a built-in effect, in the order in which they act."""

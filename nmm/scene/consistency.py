@@ -14,6 +14,7 @@ from nmm.scene.faults import suggestion
 from nmm.scene.lines import Path
 from nmm.scene.stage_rules import stage_contradictions
 from nmm.scene.tables.fracture.bond_rules import bonded_crack_contradictions
+from nmm.scene.tables.fracture.cohesive import cohesive_contradictions
 from nmm.scene.tables.fracture.rules import fracture_contradictions
 from nmm.scene.tables.heat_rules import PARTS as HEAT
 from nmm.scene.tables.heat_rules import heat_contradictions
@@ -50,6 +51,7 @@ def contradictions(data: object) -> list[Finding]:
         member_contradictions,
         fracture_contradictions,
         bonded_crack_contradictions,
+        cohesive_contradictions,
         splitting_contradictions,
         reduction_contradictions,
     )

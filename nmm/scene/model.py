@@ -35,6 +35,7 @@ from nmm.scene.output import OutputTable
 from nmm.scene.own_tables import EffectTable
 from nmm.scene.solids import Block, Crack, JointSet, Tessellation
 from nmm.scene.stages import StageTable
+from nmm.scene.tables.fracture.cohesive import CohesiveZonesTable
 from nmm.scene.tables.fracture.table import FractureTable
 from nmm.scene.tables.heat import (
     ConvectionTable,
@@ -123,6 +124,9 @@ class Scene(Frozen):
     )
     contact: ContactTable | None = Field(default=None, description="a table [contact]")
     fracture: FractureTable | None = Field(default=None, description="a table [fracture]")
+    cohesive_zones: CohesiveZonesTable | None = Field(
+        default=None, description="a table [cohesive_zones]"
+    )
     strength_reduction: StrengthReductionTable | None = Field(
         default=None, description="a table [strength_reduction]"
     )

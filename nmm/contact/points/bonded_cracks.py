@@ -19,11 +19,14 @@ class BondedCracks:
     ----------
     lines
         Polylines (n, 2) in the reference place (m).
+    others
+        Those of cracks beside them, whose faces are free though they part bodies.
     tolerance
         How far a cut may have moved them (m).
     """
 
     lines: tuple[Floats, ...] = ()
+    others: tuple[Floats, ...] = ()
     tolerance: float = 0.0
 
     def __bool__(self) -> bool:
@@ -31,9 +34,16 @@ class BondedCracks:
 
     def hold(self, places: Floats) -> Bools:
         """Which places (m, 2) of the reference lie on them."""
-        if not self.lines:
+        return self._on(self.lines, places)
+
+    def part(self, places: Floats) -> Bools:
+        """Which places (m, 2) of the reference lie on the others."""
+        return self._on(self.others, places) & ~self.hold(places)
+
+    def _on(self, lines: tuple[Floats, ...], places: Floats) -> Bools:
+        if not lines:
             return np.zeros(len(places), dtype=bool)
-        every = shapely.MultiLineString([line.tolist() for line in self.lines])
+        every = shapely.MultiLineString([line.tolist() for line in lines])
         return np.asarray(shapely.dwithin(shapely.points(places), every, self.tolerance))
 
     def points(self, manifold: Manifold, points: ContactPoints) -> Bools:

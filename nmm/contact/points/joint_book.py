@@ -140,8 +140,9 @@ def follow_joints(
         Those within bodies whose faces hold together.
     """
     joints = find_joints(surface, within_bodies=bool(cracks))
-    seam = cracks.hold((joints.start + joints.end) / 2)
-    kept = seam | (surface.body[joints.edge_a] != surface.body[joints.edge_b])
+    middle = (joints.start + joints.end) / 2
+    seam, apart = cracks.hold(middle), surface.body[joints.edge_a] != surface.body[joints.edge_b]
+    kept = seam | (apart & ~cracks.part(middle))
     joints, seam = joints.take(kept), seam[kept]
     interface = interface_of(joints.edge_a, joints.edge_b)
     refuse_loose(joints.start[seam & ~((interface >= 0) & bonded[interface])])

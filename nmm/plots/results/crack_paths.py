@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 COLOURS = ("#b2182b", "#2166ac", "#1b7837", "#762a83", "#b35806", "#01665e")
 PLACE = ":growth"
+# Effects whose fronts grow.
+GROWING = ("fracture", "fracture in time", "cohesive zones")
 
 
 def crack_paths(run: RunData, *, ax: "Axes | None" = None, path: PathLike | None = None) -> "Axes":
@@ -30,7 +32,7 @@ def crack_paths(run: RunData, *, ax: "Axes | None" = None, path: PathLike | None
     Parameters
     ----------
     run
-        A run of a scene with ``[fracture]``, in memory or stored.
+        A run of a scene with ``[fracture]`` or ``[cohesive_zones]``, in memory or stored.
     ax
         Axes to draw into; a new figure when None.
     path
@@ -65,11 +67,12 @@ def grown_paths(run: RunData) -> dict[str, Floats]:
     """Return the places (n, 2) of every front that has grown, by its name; a point a piece."""
     history, found = run.history, {}
     for column, grown in history.items():
-        if not (column.startswith("fracture:") and column.endswith(PLACE) and grown[-1] > 0):
+        effect, _, name = column.removesuffix(PLACE).partition(":")
+        if effect not in GROWING or not column.endswith(PLACE) or not np.nanmax(grown) > 0:
             continue
-        name = column.removeprefix("fracture:").removesuffix(PLACE)
-        if f"fracture:{name}:x" in history:
-            first = np.unique(grown, return_index=True)[1]
-            places = [history[f"fracture:{name}:{axis}"][first] for axis in "xy"]
+        if f"{effect}:{name}:x" in history:
+            known = np.flatnonzero(np.isfinite(grown))
+            first = known[np.unique(grown[known], return_index=True)[1]]
+            places = [history[f"{effect}:{name}:{axis}"][first] for axis in "xy"]
             found[name] = np.stack(places, axis=1)
     return found

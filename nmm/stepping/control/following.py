@@ -18,6 +18,7 @@ from nmm.stepping.control.locating import ABOVE, Tried, located
 from nmm.stepping.control.position import OnPath, PathEnd
 from nmm.stepping.control.trials import Trials
 from nmm.stepping.control.verdicts import arrived, no_balance
+from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import RunVerdict
 from nmm.stepping.reports.ledger import stored
@@ -42,11 +43,11 @@ def run_path(
     progress: Progress,
 ) -> tuple[State, RunVerdict]:
     """Follow a path from ``start``; return the last state in equilibrium and the verdict."""
-    trials = Trials(stepper, {one.name: one.points for one in recorder.monitors})
-    following = _Following(stepper, recorder, control, end, trials, progress)
+    following = _Following(stepper, recorder, control, end, progress)
 
     def step(at: OnPath) -> OnPath | RunVerdict:
-        return arrived(at, control.end, end) or following.next(at)
+        ended = None if at.changed else arrived(at, control.end, end)
+        return ended or following.next(at)
 
     at = OnPath(start, None, control.increment, np.zeros_like(start.deformation))
     return until_verdict(at, step, recorder)
@@ -60,14 +61,38 @@ class _Following:
     recorder: Recorder
     control: Control
     end: PathEnd
-    trials: Trials
     progress: Progress
 
+    @property
+    def trials(self) -> Trials:
+        """Steps as they are tried on the present model."""
+        monitors = {one.name: one.points for one in self.recorder.monitors}
+        return Trials(self.stepper, monitors)
+
     def next(self, at: OnPath) -> OnPath | RunVerdict:
-        """Go on to the end of a step, or to the next event."""
+        """Go on to the end of a step, or to the next event; then to what the state calls for."""
+        after = self._balanced(at) if at.changed else self._further(at)
+        return (
+            after
+            if isinstance(after, RunVerdict) or after.state is at.state
+            else self._changed(after)
+        )
+
+    def _changed(self, at: OnPath) -> OnPath:
+        """Change the model where effects ask for it; the balance is to be found anew then."""
+        stands = Stands(at.state, at.contacts)
+        stands = with_events(self.recorder, stands, asked(self.recorder, stands), "load")
+        way = at.way
+        for change in stands.changes:  # a handful of effects
+            way = change.field(way)
+        changed, state, contacts = bool(stands.changes), stands.state, stands.contacts
+        return replace(at, state=state, contacts=contacts, way=way, changed=changed)
+
+    def _further(self, at: OnPath) -> OnPath | RunVerdict:
         standing = self.trials.standing(at)
-        idle = not self.control.row(standing).any() or self.control.idle(at.events, at.softened)
-        if self.control.by_load or idle:
+        row = self.control.row(standing)
+        waits = self.control.idle(at.events, at.softened) and self.trials.may_give_way()
+        if self.control.by_load or waits or not row.any():
             return self._to_event(at)
         step = min(at.advance, self.control.end - at.gone)
         found = self.trials.along(standing, self.control.path(standing, step))
@@ -116,16 +141,17 @@ class _Following:
         return self._balanced(after)
 
     def _balanced(self, at: OnPath) -> OnPath | RunVerdict:
-        """Return the balance after bonds broke, with what is controlled held still."""
-        standing = self.trials.standing(at)
+        """Return the balance after bonds broke, or faces are new, with the control held still."""
+        standing, trials = self.trials.standing(at), self.trials
         path = self.control.path(standing, 0.0)
         while True:
-            found = self.trials.along(standing, path)
+            found = trials.along(standing, path)
             if not found.attempt.converged:
                 return no_balance(at, found.attempt)
             if found.load <= 1 + ABOVE:
                 return self._accepted(at, found.attempt, 0.0, jump=True)
-            self.trials.give_way(found.attempt)
+            brittle, _ = trials.give_way(found.attempt)
+            at = replace(at, softened=not brittle, events=at.events + 1)
 
     def _accepted(self, at: OnPath, attempt: Attempt, way: float, jump: bool = False) -> OnPath:
         """Accept a step and tell it; time counts steps."""

@@ -28,6 +28,8 @@ class OnPath:
         Largest load factor so far.
     softened
         Whether the bonds that gave way last soften.
+    changed
+        Whether the model has changed in this state, which is not in balance again yet.
     events
         How often bonds gave way.
     shed
@@ -41,6 +43,7 @@ class OnPath:
     gone: float = 0.0
     peak: float = 0.0
     softened: bool = False
+    changed: bool = False
     events: int = 0
     shed: float = 0.0
 

@@ -41,6 +41,14 @@ class Trials:
         """Try a step by which the load factor changes so much."""
         return self.along(at, PathEquation(at.load, 0 * at.way, 1.0, change))
 
+    def may_give_way(self) -> bool:
+        """Whether any bond is left that breaks at once, or begins to soften, at a limit."""
+        contact = self.stepper.plan.contact
+        assert contact is not None
+        points = contact.standing
+        brittle = points.bonded & contact.laws.brittle[points.interface]
+        return bool((points.tied | brittle).any())
+
     def give_way(self, attempt: Attempt) -> tuple[bool, float]:
         """Let the bonds that are loaded most give way.
 

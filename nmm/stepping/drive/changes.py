@@ -32,11 +32,12 @@ Asked = tuple[tuple[str, "Event"], ...]
 
 @dataclass(frozen=True)
 class Stands:
-    """An accepted state with its contacts, and what has happened in it, in words."""
+    """An accepted state with its contacts, what has happened in it, in words, and the changes."""
 
     state: State
     contacts: "ContactPoints | None"
     what: str = ""
+    changes: "tuple[Change, ...]" = ()
 
 
 def refuse_events(scene: "Scene", plan: "Plan") -> None:
@@ -48,10 +49,14 @@ def refuse_events(scene: "Scene", plan: "Plan") -> None:
         Naming the effects.
     """
     controlled = scene.loading is not None and scene.loading.control is not None
-    beside = {("stages",): bool(scene.stages), ("loading", "control"): controlled}
-    for key, there in beside.items():
-        if there and plan.askers:
-            place, names = scene.source.place(*key), ", ".join(plan.askers)
+    off_path = [name for name in plan.askers if not plan.effects[name].on_paths]
+    beside: dict[tuple[str, ...], list[str]] = {
+        ("stages",): list(plan.askers) if scene.stages else [],
+        ("loading", "control"): off_path if controlled else [],
+    }
+    for key, askers in beside.items():
+        if askers:
+            place, names = scene.source.place(*key), ", ".join(askers)
             expected, word = "blocks and cracks that no event changes", ".".join(key)
             raise SceneError(Fault(place, names, expected, f"remove it, or {word}"))
 
@@ -71,6 +76,7 @@ def with_events(recorder: Recorder, at: Stands, events: Asked, stage: str) -> St
     """Change what was asked for, one event after the other; return what stands then."""
     stepper = recorder.stepper
     said: list[str] = []
+    changes: list[Change] = []
     for name, event in events:  # a handful of effects
         # What one has changed another has not seen.
         now = stepper.plan.event(name, recorder.view(at.state, at.contacts)) if said else event
@@ -81,11 +87,12 @@ def with_events(recorder: Recorder, at: Stands, events: Asked, stage: str) -> St
         contact = stepper.plan.contact
         at = Stands(change.state, None if contact is None else contact.standing)
         said.append(now.what)
+        changes.append(change)
     if not said:
         return at
     what = ", ".join(said)
     recorder.happened(at.state, stage, at.contacts, f"at {at.state.time:.6g}: {what}")
-    return Stands(at.state, at.contacts, what)
+    return Stands(at.state, at.contacts, what, tuple(changes))
 
 
 def follow(recorder: Recorder, change: "Change") -> None:

@@ -138,6 +138,11 @@ class Trial:
     broke: bool
     events: Asked
 
+    @property
+    def located(self) -> bool:
+        """Whether the load is sought at which an event happens."""
+        return any(event.exact for _, event in self.events)
+
 
 def run_load(
     stepper: Stepper,
@@ -193,7 +198,7 @@ class _Raising:
         start = self.stepper.remember()
         trial = self._tried(at)
         # What an event leaves is sought from where it happens, to the tolerance of the load.
-        if trial.found.attempt.converged and (trial.fine or not trial.events):
+        if trial.found.attempt.converged and (trial.fine or not trial.located):
             return self._grown(at, trial)
         self.stepper.restore(start)
         unheld = self.stepper.plan.contact is not None and at.state.load_factor == 0

@@ -13,6 +13,7 @@ TABLES = {
     "damping": ("damping",),
     "contact": ("contact",),
     "fracture": ("fracture",),
+    "cohesive zones": ("cohesive_zones",),
     "splitting": ("splitting",),
     "initial velocity": ("initial_velocities",),
     "initial stress": ("initial_stresses",),

@@ -1,0 +1,1 @@
+"""Cohesive zones: bonded faces laid where the stress calls for them, and where zones begin."""

@@ -1,0 +1,109 @@
+"""Stress averaged over a length: what a tip, or a place without a crack, is judged by.
+
+Stress beside the end of a cohesive zone varies from cell to cell; its mean over a length does not
+(Wells and Sluys 2001). The weights are those of a normal distribution of the distance, times area,
+within one body, and nothing weighs beyond the length.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from scipy.sparse import csr_array, diags_array
+from scipy.spatial import KDTree
+
+from integration.arrays import Floats, Ints
+from integration.rules import PointRule, polygon_rule
+from nmm.assembly.errors import stresses
+from nmm.assembly.model import Model
+
+# Length over the standard deviation of the weights.
+DEVIATIONS = 2.0
+# Degree to which stress times weight is integrated in an element.
+ORDER = 6
+
+
+@dataclass(frozen=True)
+class StressMeans:
+    """Means about places.
+
+    Attributes
+    ----------
+    model
+        Whose stress it is.
+    rule
+        Points at which it is taken.
+    weights
+        (k, Q) rows that sum to one; those of places with nothing about them are empty.
+    """
+
+    model: Model
+    rule: PointRule
+    weights: csr_array
+
+    @classmethod
+    def about(
+        cls, model: Model, places: Floats, body: Ints, length: float, ahead: Floats | None = None
+    ) -> "StressMeans":
+        """Weigh the material of bodies about places.
+
+        Parameters
+        ----------
+        places, body
+            (k, 2) in the reference place, and the body (k,) of each.
+        length
+            Beyond which nothing weighs (m).
+        ahead
+            (k, 2) directions: what is on the other side does not weigh; None where all does.
+        """
+        rule = _points(model, places, length)
+        near = KDTree(places).sparse_distance_matrix(
+            KDTree(rule.points), length, output_type="coo_matrix"
+        )
+        row, point = near.row.astype(np.int64), near.col.astype(np.int64)
+        weight = rule.weights[point] * np.exp(-((DEVIATIONS * near.data / length) ** 2) / 2)
+        weight *= model.manifold.element_body[rule.owner[point]] == body[row]
+        if ahead is not None:
+            way = rule.points[point] - places[row]
+            weight *= np.einsum("ij,ij->i", way, ahead[row]) > 0
+        found = csr_array((weight, (row, point)), shape=(len(places), len(rule.points)))
+        total: Floats = np.asarray(found.sum(axis=1))
+        each = diags_array(1 / np.where(total > 0, total, 1.0))
+        return cls(model, rule, csr_array(each @ found))
+
+    def of(self, deformation: Floats) -> Floats:
+        """Return the mean stresses (k, 3) in body axes of unknowns (n,), in Pa."""
+        if not len(self.rule.points):
+            return np.zeros((self.weights.shape[0], 3))
+        return np.asarray(self.weights @ stresses(self.model, deformation, self.rule))
+
+
+@dataclass(frozen=True)
+class LargestPrincipal:
+    """Largest principal stresses (k,) in Pa, and the directions (k, 2) in which they pull."""
+
+    size: Floats
+    way: Floats
+
+    @classmethod
+    def of(cls, stress: Floats) -> "LargestPrincipal":
+        """Return those of stresses (k, 3)."""
+        mean = (stress[:, 0] + stress[:, 1]) / 2
+        half, shear = (stress[:, 0] - stress[:, 1]) / 2, stress[:, 2]
+        angle = np.arctan2(shear, half) / 2
+        return cls(mean + np.hypot(half, shear), np.stack([np.cos(angle), np.sin(angle)], axis=1))
+
+    @property
+    def plane(self) -> Floats:
+        """(k, 2) directions of the planes that they open."""
+        return np.stack([-self.way[:, 1], self.way[:, 0]], axis=1)
+
+
+def _points(model: Model, places: Floats, length: float) -> PointRule:
+    """Points of the elements that lie within a length of any place."""
+    shapes = model.manifold.elements.to_shapely()
+    tree = shapely.STRtree(shapes)
+    found = tree.query(shapely.points(places), predicate="dwithin", distance=length)[1]
+    near = np.unique(found)
+    rule = polygon_rule(model.manifold.elements.take(near), ORDER)
+    return PointRule(rule.points, rule.weights, near[rule.owner])

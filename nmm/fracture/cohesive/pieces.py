@@ -1,0 +1,64 @@
+"""New pieces of cohesive zones: polylines whose faces begin bonded."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from covers.cutting.cut_cells import CutCells
+from integration.arrays import Floats, Ints
+from nmm.fracture.growth.advance import advanced
+from nmm.fracture.growth.fronts import CrackFronts
+from nmm.geometry.geometry import Geometry
+
+
+def extended(
+    geometry: Geometry,
+    cut: CutCells,
+    fronts: CrackFronts,
+    growing: Ints,
+    tips: Ints,
+    ways: Floats,
+    length: float,
+) -> Geometry:
+    """Return the geometry with new pieces at some fronts.
+
+    The first piece at the tip of a crack that is open is a polyline of its own; later ones, and
+    those of bonded cracks, go on in theirs.
+
+    Parameters
+    ----------
+    growing, tips
+        (k,) fronts that grow, and their tips in the cut.
+    ways
+        (k, 2) planes in which they grow, either way.
+    length
+        Of each piece (m).
+    """
+    ahead = cut.tips.direction[tips]
+    angle = _angle(ahead, ways)
+    lines = advanced(cut, geometry.cracks, fronts, growing, tips, angle, length)
+    cracks, bonded = list(geometry.cracks), list(geometry.bonded)
+    for number in np.unique(fronts.crack[growing]):  # a handful of cracks
+        if number in geometry.bonded:
+            cracks[number] = lines[number]
+    for front in growing:  # a handful of fronts
+        number = fronts.crack[front]
+        if number not in geometry.bonded:
+            piece = lines[number][-2:] if fronts.last[front] else lines[number][1::-1]
+            bonded.append(len(cracks))
+            cracks.append(piece)
+    return replace(geometry, cracks=tuple(cracks), bonded=tuple(bonded))
+
+
+def with_nucleus(geometry: Geometry, line: Floats) -> Geometry:
+    """Return the geometry with a zone that begins along a polyline (n, 2)."""
+    bonded = (*geometry.bonded, len(geometry.cracks))
+    return replace(geometry, cracks=(*geometry.cracks, line), bonded=bonded)
+
+
+def _angle(ahead: Floats, ways: Floats) -> Floats:
+    """Angle (k,) from directions ahead to planes, the nearer way along each (rad)."""
+    along = np.einsum("ij,ij->i", ahead, ways)
+    across = ahead[:, 0] * ways[:, 1] - ahead[:, 1] * ways[:, 0]
+    forward = np.where(along < 0, -1.0, 1.0)
+    return np.asarray(np.arctan2(forward * across, forward * along))
