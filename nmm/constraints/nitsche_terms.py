@@ -11,8 +11,10 @@ from scipy.sparse import csc_array
 from covers.approximation.ghost import ghost, neighbours
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
+from nmm.assembly.places import Place
 from nmm.assembly.tractions.average import AverageTraction, direct_modulus
 from nmm.assembly.tractions.donors import Flux, traction_rows
+from nmm.assembly.tractions.element_bounds import element_bounds
 from nmm.constraints.imposition import Method
 from nmm.constraints.interface import Interface
 from nmm.constraints.nitsche_bounds import edge_bound
@@ -48,11 +50,21 @@ def against_ground(model: Model, interface: Interface, method: Method) -> Terms:
     flux = Flux(place.points.body, *rows, place.elements, place.position, place.normal)
     gamma = GAMMA[min(method.degree, 3)] if method.gamma is None else method.gamma
     penalty = gamma * hard[place.elements] / method.size
-    if method.gamma is None:
+    # No edge asks for more than the one of its elements that asks most. Elements that are cut small
+    # ask for too much: what their neighbours store counts then, and the edge is asked as a whole.
+    whole = tie.nnz == 0
+    if method.gamma is None and not (whole and _within(penalty, model, place, flux)):
         bound = edge_bound(model, place, (flux.unknowns, flux.values), tie)
         penalty = np.maximum(penalty, SAFETY_GROUND * bound)
     held_up = lift(model, [(place.elements, place.position, place.weight)])
     return penalty, (flux,), tie, held_up
+
+
+def _within(penalty: Floats, model: Model, place: Place, flux: Flux) -> bool:
+    """Whether a penalty (m,) is large enough whatever its elements' neighbours store."""
+    area = place.weight * model.thickness
+    bound = element_bounds(model, [place.elements], [flux.values], area)[0]
+    return bool(SAFETY_GROUND * bound.max(initial=0.0) <= penalty.min(initial=np.inf))
 
 
 def between_bodies(model: Model, interface: Interface, method: Method) -> Terms:
