@@ -17,9 +17,10 @@ from scipy.sparse import csr_array, diags_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import Frames, State
+from nmm.assembly.motion import Frames, MaterialPoints, State
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints, rows
+from nmm.contact.points.midpoint_kernel import add_turns
 from nmm.contact.points.moments import moments
 from nmm.contact.problem.row_products import pushed
 from nmm.frozen import with_parts
@@ -57,12 +58,34 @@ def middle(before: State, after: State) -> State:
     )
 
 
+def body_projection(sides: Sides, model: Model) -> Floats | None:
+    """Mean motions (B, 3, L) of bodies from the unknowns that rows of their points name.
+
+    None where one row may name an unknown twice.
+    """
+    if sides.repeats:
+        return None
+    bodies, edge = np.unique(sides.start.body, return_index=True)
+    unknowns = sides.start.rows.unknowns[edge]
+    found = np.zeros((model.manifold.n_bodies, 3, unknowns.shape[1]))
+    for kind in range(3):
+        rows_of = np.broadcast_to(3 * bodies[:, None] + kind, unknowns.shape)
+        found[bodies, kind] = csr_array(model.rigid_projection[rows_of, unknowns]).toarray()
+    return found
+
+
 def midpoint_rows(
-    contacts: ContactPoints, sides: Sides, model: Model, start: State, half: State
+    contacts: ContactPoints,
+    sides: Sides,
+    model: Model,
+    start: State,
+    half: State,
+    projection: Floats | None = None,
 ) -> ContactRows:
     """Return the rows of contacts with both sides where they are half way.
 
-    Every body must be one element: the rows of its points then hold all of its unknowns.
+    Every body must be one element: the rows of its points then hold all of its unknowns. With
+    their `body_projection` one compiled pass takes the place of sparse sums and products.
     """
     surface = sides.surface(half.frames, half.deformation)
     edge = contacts.edge_b
@@ -78,27 +101,79 @@ def midpoint_rows(
     )
     side_b = sides.at(edge, contacts.parameter_b)
     apart = place_a - side_b.place(half.frames, half.deformation)
-    n_unknowns = model.manifold.n_unknowns
-    # The rotation of edge b takes the foot's motion to the point of side a.
     turn = sides.end.rows.values[edge] - sides.start.rows.values[edge]
-    local = half.frames.to_body(side_b.body, direction / length[:, None])
-    unknowns = sides.start.rows.unknowns[edge]
-    turning = _sparse(unknowns, np.einsum("mcl,mc->ml", turn, local), n_unknowns)
-    found = []
-    for part, axis, across in zip(
-        rows(contacts, sides, half.frames, n_unknowns),
-        (direction, tangents(direction)),
-        (tangents(direction), -direction),
-        strict=True,
-    ):
-        lever = np.einsum("ij,ij->i", apart, across)
+    points = _HalfWay(direction, length, apart, turn, (side_a, side_b))
+    parts = rows(contacts, sides, half.frames, model.manifold.n_unknowns)
+    if projection is None:
+        one, other = _turned_plainly(parts, points, model, start, half)
+        return ContactRows(one, other, direction)
+    normal, tangent = parts
+    m = len(contacts)
+    add_turns(
+        normal.data.reshape(m, -1),
+        tangent.data.reshape(m, -1),
+        direction,
+        points.levers,
+        turn,
+        (side_a.body, side_b.body),
+        (side_a.rows.apply(half.deformation), side_b.rows.apply(half.deformation)),
+        (start.frames.rotation, half.frames.rotation),
+        projection,
+    )
+    return ContactRows(normal, tangent, direction)
+
+
+@dataclass(frozen=True)
+class _HalfWay:
+    """Contact points half way through a step.
+
+    Attributes
+    ----------
+    direction, length
+        (m, 2) normals, and lengths (m,) of the edges of side b (m).
+    apart
+        (m, 2) from side b to side a (m).
+    turn
+        (m, 2, L) rows of the end of edge b less those of its start.
+    points
+        Both sides.
+    """
+
+    direction: Floats
+    length: Floats
+    apart: Floats
+    turn: Floats
+    points: tuple[MaterialPoints, MaterialPoints]
+
+    @property
+    def levers(self) -> tuple[Floats, Floats]:
+        """How far (m,) apart sides are along tangent and normal, over the length of edge b.
+
+        The rotation of that edge takes the foot's motion to the point of side a.
+        """
+        across = tangents(self.direction)
+        one, other = (np.einsum("ij,ij->i", self.apart, way) for way in (across, self.direction))
+        return one / self.length, other / self.length
+
+
+def _turned_plainly(
+    parts: tuple[csr_array, csr_array], at: _HalfWay, model: Model, start: State, half: State
+) -> list[csr_array]:
+    """Rows with what turning adds, by sparse matrices."""
+    side_a, side_b = at.points
+    local = half.frames.to_body(side_b.body, at.direction)
+    along = np.einsum("mcl,mc->ml", at.turn, local)
+    turning = _sparse(side_b.rows.unknowns, along, model.manifold.n_unknowns)
+    across, found = tangents(at.direction), []
+    one, other = at.levers
+    for part, axis, lever in zip(parts, (at.direction, across), (one, -other), strict=True):
         rigid = _rigid_shift(side_a.body, axis, side_a.rows.apply(half.deformation), start, half)
         rigid = rigid - _rigid_shift(
             side_b.body, axis, side_b.rows.apply(half.deformation), start, half
         )
         whole = part + diags_array(lever) @ turning + rigid @ model.rigid_projection
         found.append(csr_array(whole))
-    return ContactRows(found[0], found[1], direction)
+    return found
 
 
 def _rigid_shift(body: Ints, axis: Floats, bent: Floats, start: State, half: State) -> csr_array:

@@ -1,6 +1,6 @@
 """How contact points move with the unknowns: rows, distances, and means over faces."""
 
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints, rows
 from nmm.contact.points.joint_points import JointSites
-from nmm.contact.points.midpoint import ContactRows, midpoint_rows
+from nmm.contact.points.midpoint import ContactRows, body_projection, midpoint_rows
 from nmm.contact.points.tracking import Apart, apart_on
 
 
@@ -49,11 +49,16 @@ class ContactGeometry:
     ) -> ContactRows:
         """Return the rows of contacts in a state, or at the middle of a step."""
         if midpoint is not None:
-            return midpoint_rows(contacts, self.sides, self.model, state, midpoint)
+            given = contacts, self.sides, self.model, state, midpoint
+            return midpoint_rows(*given, self._projection)
         stations = JointSites.at(self.sides, contacts) if self.bends else self._stations
         n_unknowns = self.model.manifold.n_unknowns
         found = rows(contacts, self.sides, state.frames, n_unknowns, stations)
         return ContactRows(*found, contacts.normal)
+
+    @cached_property
+    def _projection(self) -> Floats | None:
+        return body_projection(self.sides, self.model)
 
     def apart(self, state: State, surface: Surface) -> Apart:
         """Return how far apart the sides of joints are in a state."""
