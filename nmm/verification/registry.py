@@ -115,6 +115,8 @@ CASES = Registry[type[Case]](
         "GR8": f"{_HOME}.growing_cracks:PassingCracks",
         "GR9": f"{_HOME}.crack_paths:LPanel",
         "GR10": f"{_HOME}.crack_paths:StressAlongCrack",
+        "GR11": f"{_HOME}.growth_invariants:SameAnywhere",
+        "GR12": f"{_HOME}.cracks_in_motion:StruckCrack",
         "PL0 bar": f"{_HOME}.plasticity:PlasticBar",
         "PL0 beam": f"{_HOME}.plasticity:PlasticBeam",
         "PL1": f"{_HOME}.matter.oedometer:Oedometer",
