@@ -22,7 +22,7 @@ from integration.arrays import Bools, Floats, Ints
 from integration.rules import polygon_rule
 
 # Degree to which fields are integrated on elements with singular functions.
-SINGULAR = 12
+SINGULAR = 8
 # Share of the mass, in units of the stiffness, that makes rigid motions unique where strains are
 # matched; it is taken out again.
 HELD = 1e-8

@@ -113,16 +113,18 @@ class Interaction:
     def _density(self, owner: Ints, points: Floats, weights: Floats) -> tuple[Weighed, Pulled]:
         """What counts at points (m, 2) of elements (m,) with areas (m,)."""
         q, dq = self.fields.cutoff(points, self.radius)
-        ahead = self.fields.tip.direction
-        on_stress, on_gradient, on_force = [], [], []
-        for v in self._auxiliary(owner, points):
-            of_v, v1 = stresses_of(self.model.elasticity[owner], v), v @ ahead
-            on_stress.append(_outer(v1, dq) - (dq @ ahead)[:, None, None] * v)
+        ahead, both = self.fields.tip.direction, self._auxiliary(owner, points)
+        on_force = np.stack([-q[:, None] * (v @ ahead) for v in both], axis=1)
+        pulled = Pulled(owner, points, weights[:, None, None] * on_force)
+        # Near the tip, where the cut-off stays 1, forces alone count.
+        falls = dq.any(axis=1)
+        owner, points, weights, dq = owner[falls], points[falls], weights[falls], dq[falls]
+        on_stress, on_gradient = [], []
+        for v in both[:, falls]:
+            of_v = stresses_of(self.model.elasticity[owner], v)
+            on_stress.append(_outer(v @ ahead, dq) - (dq @ ahead)[:, None, None] * v)
             on_gradient.append(_outer(np.einsum("mij,mj->mi", of_v, dq), ahead))
-            on_force.append(-q[:, None] * v1)
-        found = self._weighed(owner, points, weights, on_stress, on_gradient)
-        pulled = weights[:, None, None] * np.stack(on_force, axis=1)
-        return found, Pulled(owner, points, pulled)
+        return self._weighed(owner, points, weights, on_stress, on_gradient), pulled
 
     def over_faces(self, traction: Traction | None) -> Iterator[Weighed | Floats]:
         """Yield what counts over faces of cracks and over the boundary, and fixed parts (2,).

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StruckCrack(SceneCase):
-    """A wave of tension comes from above upon a crack: its intensity rises with the root of time."""
+    """A wave of tension comes upon a crack: its intensity rises with the root of time."""
 
     name: ClassVar[str] = "GR12"
     title: ClassVar[str] = "Long crack under a wave of tension, intensity in time"
@@ -51,7 +51,7 @@ class StruckCrack(SceneCase):
     def scene(self) -> str:
         """Return a plate of ten by four, cracked half way, that is pulled all at once."""
         h = self.height
-        motion = '[formulation.integrator]\ntype = "newmark"\n' f"step = {self.arrival / 40!r}\n"
+        motion = f'[formulation.integrator]\ntype = "newmark"\nstep = {self.arrival / 40!r}\n'
         tables: Sequence[str] = [
             text.material("m", self.modulus, self.poisson, self.density),
             text.block("plate", "m", text.rectangle((-5.0, -h), (5.0, h))),
