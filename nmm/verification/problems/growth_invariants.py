@@ -65,7 +65,7 @@ class SameAnywhere(GrowingCrack):
         at, way = self.where.point, self.where.vector
         ring = [at(one) for one in ((0.0, -1.0), (1.0, -1.0), (1.0, 1.0), (0.0, 1.0))]
         return [
-            text.block("plate", "m", ring[::-1] if self.where.mirrored else ring),
+            text.block("plate", "m", np.array(ring[::-1] if self.where.mirrored else ring)),
             crack("c", [at((-0.05, -0.03)), at((0.3, 0.15))]),
             pull("up", [at((0.0, 1.0)), at((1.0, 1.0))], way((0.0, 1.0))),
             pull("down", [at((0.0, -1.0)), at((1.0, -1.0))], way((0.0, -1.0))),
