@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Placed:
+class SceneElsewhere:
     """Where a scene lies: mirrored about y = 0 or not, then turned (rad), then shifted (m)."""
 
     mirrored: bool = False
@@ -56,7 +56,7 @@ class SameAnywhere(GrowingCrack):
     name: ClassVar[str] = "GR11"
     title: ClassVar[str] = "Growth of a crack, shifted, turned and mirrored"
     source: ClassVar[str] = "Mechanics knows no place and no direction; Griffith's balance"
-    where: Placed = Placed()
+    where: SceneElsewhere = SceneElsewhere()
     angle: float = 17.0
 
     @property
@@ -84,12 +84,16 @@ class SameAnywhere(GrowingCrack):
         assert taken is not None
         turned, half = float(np.radians(37.0)), self._far
         return {
-            "shifted by 1e6 (m)": limit(half(place, Placed(shift=(1e6, -1e6))), 1e-6, "rounding"),
+            "shifted by 1e6 (m)": limit(
+                half(place, SceneElsewhere(shift=(1e6, -1e6))), 1e-6, "rounding"
+            ),
             "turned by 37 degrees (m)": limit(
-                half(place, Placed(turn=turned)), 1e-3, "the net lies otherwise about the plate"
+                half(place, SceneElsewhere(turn=turned)),
+                1e-3,
+                "the net lies otherwise about the plate",
             ),
             "mirrored (m)": limit(
-                half(place, Placed(mirrored=True)), 1e-3, "the net is not mirrored"
+                half(place, SceneElsewhere(mirrored=True)), 1e-3, "the net is not mirrored"
             ),
             "energy freed, of the work": Check(
                 freed,
@@ -99,7 +103,7 @@ class SameAnywhere(GrowingCrack):
             ),
         }
 
-    def _far(self, place: Floats, where: Placed) -> float:
+    def _far(self, place: Floats, where: SceneElsewhere) -> float:
         """Largest distance (m) of the path from that of the scene elsewhere."""
         import nmm
         from nmm.scene.read import parse_scene
