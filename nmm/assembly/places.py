@@ -92,7 +92,7 @@ def along_segment(
     edges = manifold.boundary
     a, b = segment
     length = float(np.hypot(*(b - a)))
-    t = (b - a) / length
+    t = (b - a) / (length or 1.0)  # no edge lies on a segment without length
     n = np.array([-t[1], t[0]])
     near = NEAR * _size(manifold)
     on_line = (np.abs((edges.start - a) @ n) < near) & (np.abs((edges.end - a) @ n) < near)

@@ -136,8 +136,10 @@ def test_a_uniform_pressure_passes_wherever_the_blocks_stand(change):
 @pytest.mark.parametrize("mesh", MESHES)
 @pytest.mark.parametrize("enforcement", ["lagrange", slow("augmented"), slow("cone")])
 def test_exact_contact_with_friction_passes_a_uniform_pressure(mesh, enforcement):
-    # Rounds end at residuals of 1e-8 of the load.
-    assert pressed(mesh, enforcement=enforcement) < (1e-10 if enforcement == "lagrange" else 1e-7)
+    # Rounds end at residuals of 1e-8 of the load; the cone leaves overlaps of 1e-7 of what forces
+    # press faces in by (`gap_tolerance`), ten times that in a stress, and 7e-9 with 1e-9 of it.
+    allowed = {"lagrange": 1e-10, "augmented": 1e-7, "cone": 3e-6}
+    assert pressed(mesh, enforcement=enforcement) < allowed[enforcement]
 
 
 @pytest.mark.parametrize("mesh", MESHES)

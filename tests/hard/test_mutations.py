@@ -10,6 +10,7 @@ from nmm.scene import Scene, parse_scene
 from nmm.verification.hard.oracles.echoes import lost
 from nmm.verification.hard.spoilt.mutations import bases, shrunk, sound_files, spoilt, verdict
 from nmm.verification.hard.spoilt.mutators import keys_of
+from nmm.verification.hard.spoilt.sound_effects import EFFECTS
 from nmm.verification.hard.spoilt.sound_texts import DYNAMIC, STATIC
 
 FEW, MANY = 30, 50_000
@@ -153,6 +154,7 @@ def test_a_spoilt_text_is_reduced_to_the_lines_that_it_takes(monkeypatch):
         ),
         ('[heat]\n[[temperatures]]\nname = "t"\nblock = { a = 1 }\ntemperature = 1\n', "name"),
         ('[[cracks]]\nname = "k"\npoints = [[0.5, 0.2], [0.5, 0.8]]\n', "file.toml: [cover] type"),
+        ("[formulation.contact]\nmax_passes = 1" + "0" * 30 + "\n", "contact.max_passes"),
     ],
 )
 def test_what_was_a_traceback_is_a_line(more, said):
@@ -160,6 +162,13 @@ def test_what_was_a_traceback_is_a_line(more, said):
     found = verdict(text)
     assert found.outcome == "refused", found
     assert said in found.words
+
+
+def test_a_segment_without_length_holds_no_temperature():
+    heated = EFFECTS["heated"]
+    found = verdict(heated.replace("segment = [[0, 1], [1, 1]]", "segment = [[1, 1], [1, 1]]"))
+    assert found.outcome == "refused"
+    assert "convections" in found.words
 
 
 def test_discs_reach_other_places_than_the_ends_of_edges_in_contacts_too():

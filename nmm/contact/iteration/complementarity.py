@@ -122,8 +122,9 @@ class Complementarity:
         """
         springs, scale, limits = self.springs, self.compliance, self.springs.problem.limits
         normal, shear = trial
-        typical = float(np.sqrt(np.mean(normal**2))) if len(normal) else 0.0
-        typical = typical or 1.0
+        parted = springs.problem.gap / scale[0]  # in place of forces where there are none yet
+        sizes = (float(np.sqrt(np.mean(one**2))) for one in (normal, shear, parted) if len(one))
+        typical = next((size for size in sizes if size > 0), 1.0)
         pull = np.where(self.active[0], limits.tension, 0.0)
         p = np.maximum(pull - normal, typical)
         stretch = (normal - springs.normal_shift) * self.give[0]

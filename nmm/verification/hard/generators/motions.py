@@ -149,6 +149,8 @@ def _judge(scene: Document) -> Checks:
     images = {"order of blocks and corners": (listed_anew(scene, 3), np.eye(2))}
     images["shift by 1e4 sizes"] = (shifted(scene, _far(found)), np.eye(2))
     images["other units"] = (in_units(scene, 1e2, 1e4), 1e2 * np.eye(2))
+    # A power of two changes no digit: what differs knows a force of its own.
+    images["forces by a power of two"] = (in_units(scene, 1.0, 2.0**12), np.eye(2))
     if scene["formulation"]["cover"]["type"] == "block":  # nets would lie otherwise
         c, s = np.cos(1.1), np.sin(1.1)
         images["turn"] = (turned(scene, 1.1), np.array([[c, -s], [s, c]]))
