@@ -38,6 +38,12 @@ def integrators_of_contact() -> list[str]:
     return [name for name in integrators() if _goes_with_contact(name)]
 
 
+def with_integrator(name: str) -> dict[str, str]:
+    """Parts of a formulation with an integrator, for `with_parts`: its kinematics among them."""
+    finite = {"rotation.update": "finite"} if INTEGRATORS.make(name).conserves else {}
+    return {"integrator.type": name, **finite}
+
+
 def _goes_with_contact(name: str) -> bool:
     try:
         INTEGRATORS.make(name).among_contacts  # noqa: B018  # asked for its refusal
@@ -133,7 +139,7 @@ def over_parts(
             scene,
             {
                 "contact.enforcement": parts["enforcement"],
-                "integrator.type": parts["integrator"],
+                **with_integrator(parts["integrator"]),
                 "integrator.step": step,
             },
         )

@@ -12,7 +12,13 @@ from nmm.integrators.base import INTEGRATORS
 from nmm.stepping.drive.stable_step import longest_step
 from nmm.verification.base import Check, Checks, holds, limit
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
-from nmm.verification.hard.cases.parts import integrators, meshes, solvers, with_parts
+from nmm.verification.hard.cases.parts import (
+    integrators,
+    meshes,
+    solvers,
+    with_integrator,
+    with_parts,
+)
 from nmm.verification.hard.cases.writing import block
 from nmm.verification.hard.generators.random_solids import solid
 from nmm.verification.hard.oracles.linear import monitored
@@ -38,7 +44,7 @@ class Steps(HardClass):
             explicit = isfinite(INTEGRATORS.make(name).limit)
             # The consistent mass of degree 1 has no inverse, as functions depend on one another.
             fields = {"cover.degree": 0} if explicit else {}
-            made = with_parts(scene, {"integrator.type": name, **fields})
+            made = with_parts(scene, {**with_integrator(name), **fields})
             judge = _halved_below_the_limit if explicit else _halved
             yield HardCase(f"seed {seed}, {name}", made, judge, {"integrator": name})
         for name in solvers():

@@ -13,6 +13,7 @@ from nmm.verification.hard.cases.parts import (
     integrators_of_contact,
     meshes,
     solvers,
+    with_integrator,
     with_parts,
 )
 from nmm.verification.hard.cases.transforms import (
@@ -70,7 +71,7 @@ class Motions(HardClass):
                 {
                     "cover": covers[cover],
                     "contact.enforcement": parts["enforcement"],
-                    "integrator.type": parts["integrator"],
+                    **with_integrator(parts["integrator"]),
                     "solver.type": parts["solver"],
                 },
             )
