@@ -64,7 +64,7 @@ def contact_parts(setup: Setup) -> ContactParts:
     partners = Partners(
         setup.model,
         _pairs(setup),
-        within_bodies=bool(setup.geometry.cracks),
+        within_bodies=bool(setup.geometry.cracks) or setup.kinematics.finite,
         face_points=points,
         origin=setup.origin,
         whole_faces=means,

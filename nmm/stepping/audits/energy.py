@@ -11,6 +11,9 @@ from nmm.stepping.reports.ledger import Rise
 # A rise over the run that is less than this times that of one step is the same rise.
 SAME = 1.5
 
+# What the integrator gave explains a rise from this share of it on.
+SHARE = 0.01
+
 # Steps in an impact with which Shi's integrator keeps nine tenths of its energy.
 RESOLVED = 60
 
@@ -89,7 +92,7 @@ def _cause(run: Ended) -> str:
     ledger = run.recorder.ledger
     if ledger.contact_loss < -abs(ledger.integration_loss):
         return "it came from contact: take smaller steps or another enforcement and compare"
-    if ledger.integration_loss < 0:
+    if ledger.integration_loss < -SHARE * max(ledger.in_step.energy, ledger.in_run.energy):
         return (
             f'it came from the integrator "{run.formulation.integrator.type}": take smaller steps, '
             "or one without gain"

@@ -655,6 +655,86 @@ every_steps = 4
 step = 1e-3
 """
 
+RUBBER = """
+duration = 0.16
+title = "rubber that lands"
+plane = "strain"
+[materials.rubber]
+law = "neo_hookean"
+density = 1.0
+young_modulus = 100.0
+poisson_ratio = 0.3
+[[blocks]]
+name = "floor"
+material = "rubber"
+vertices = [[-1, -0.5], [2, -0.5], [2, 0], [-1, 0]]
+[[blocks]]
+name = "strip"
+material = "rubber"
+vertices = [[0, 0.1], [1, 0.3], [0.95, 0.5], [-0.05, 0.3]]
+[[supports]]
+name = "held"
+segment = [[-1, -0.5], [2, -0.5]]
+fix = ["x", "y"]
+[[initial_velocities]]
+block = "strip"
+velocity = [0, -1]
+angular_velocity = 2
+[inertia]
+[contact]
+[interfaces.dry]
+friction_angle = "25 deg"
+[output]
+every_steps = 4
+{checkpoint}
+[formulation.cover]
+type = "triangles"
+size = 0.6
+degree = 1
+[formulation.rotation]
+update = "finite"
+[formulation.integrator]
+type = "energy_momentum"
+step = 0.02
+"""
+BENT = """
+title = "strip that bends"
+plane = "stress"
+[materials.rubber]
+young_modulus = 1e6
+poisson_ratio = 0.0
+[[blocks]]
+name = "strip"
+material = "rubber"
+vertices = [[0, 0], [10, 0], [10, 0.2], [0, 0.2]]
+[[supports]]
+name = "held"
+segment = [[0, 0], [0, 0.2]]
+fix = ["x", "y"]
+[[loads]]
+name = "up"
+kind = "edge"
+segment = [[10, 0], [10, 0.2]]
+traction = [0, 300]
+[[loads]]
+name = "press"
+kind = "pressure"
+segment = [[5, 0], [10, 0]]
+pressure = 3.0
+[loading]
+until = 1.0
+[output]
+{checkpoint}
+[formulation.cover]
+type = "quads"
+size = 1.0
+degree = 1
+[formulation.rotation]
+update = "finite"
+[formulation.loading]
+increment = 0.1
+"""
+
 SHI = 'step = "2 ms"'
 NEWMARK = 'type = "newmark"\nstep = "2 ms"'
 OWN_NEWMARK = 'type = "newmark"\nstep = "2 ms"\n[formulation.integrator.options]\ngamma = 0.6'
@@ -685,6 +765,8 @@ SCENES = {
     "shaken stone": SHAKEN_ON_ROCK,
     "left standing": LEFT_STANDING,
     "seasons": SEASONS,
+    "rubber": RUBBER,
+    "bent": BENT,
 }
 
 

@@ -219,6 +219,50 @@ def test_two_bodies_are_pressed_together_evenly(cover):
     assert 2 + found.history["monitor:tip:uy"][-1] == pytest.approx(1.6, abs=2e-3)
 
 
+CLAMP = (
+    'plane = "strain"\n[contact]\n[loading]\nuntil = 1.0\n[interfaces.smooth]\nfriction_angle = 0\n'
+    + material("elastic")
+    + '[[blocks]]\nname = "clamp"\nmaterial = "m"\nvertices = '
+    "[[0, 0], [2, 0], [2, 0.3], [0.3, 0.3], [0.3, 0.7], [2, 0.7], [2, 1], [0, 1]]\n"
+    + roller("back", [[0, 0], [0, 1]], ["x", "y"])
+    + load([[1.5, 1], [2, 1]], [0, -0.012])
+    + load([[1.5, 0], [2, 0]], [0, 0.012]).replace('"p"', '"q"')
+    + monitor("upper", [2, 0.7], "clamp")
+    + monitor("lower", [2, 0.3], "clamp")
+)
+
+
+@pytest.mark.slow
+def test_lips_of_one_body_close_and_press_on_each_other():
+    cover = 'type = "bspline"\nsize = 0.25\ndegree = 0'
+    found = run(CLAMP, cover, more="[loading]\nincrement = 0.25\n")
+    assert found.summary.status == "converged", found.summary.sentence
+    upper, lower = (found.history[f"monitor:{lip}:uy"][-1] for lip in ("upper", "lower"))
+    # They meet half way, but for springs that give by some 1e-3 of the opening of 0.4.
+    assert upper == pytest.approx(-0.2, abs=2e-3)
+    assert lower == pytest.approx(0.2, abs=2e-3)
+    assert found.history["penetration"][-1] < 5e-3
+
+
+STAGED = (
+    'plane = "strain"\n[contact]\n[gravity]\n[interfaces.skin]\nfriction_angle = 0.5\n'
+    + material("neo_hookean").replace("density = 1.0", "density = 0.005")
+    + box("low", (0, 0), (2, 1))
+    + roller("ground", [[0, 0], [2, 0]], ["x", "y"])
+    + monitor("middle", [0.7, 1], "low")
+)
+
+
+def test_a_stage_that_takes_a_body_away_leaves_the_other_as_if_it_had_been_alone():
+    stages = '[[stages]]\nname = "both"\n[[stages]]\nname = "one"\nremove = ["top"]\n'
+    both = run(STAGED + box("top", (0.2, 1), (1.2, 2)) + stages, "quads")
+    alone = run(STAGED, "quads")
+    assert both.summary.status == alone.summary.status == "converged"
+    ways = both.history["monitor:middle:uy"]
+    assert ways[0] < 2 * ways[-1]
+    assert ways[-1] == pytest.approx(alone.history["monitor:middle:uy"][-1], rel=1e-7)
+
+
 FLYING = 'plane = "strain"\nduration = 10.0\n[inertia]\n' + "{material}" + box("b", (0, 0), (1, 1))
 # Elongated by 1.1 and 0.95 at the start, and spun by 5 rad/s.
 STRETCH, SPIN = np.diag([1.1, 0.95]), np.array([[0.0, -5.0], [5.0, 0.0]])
