@@ -91,6 +91,8 @@ class Simulation:
         What is solved one after the other; none in a scene without stages.
     safety
         The factor of safety at which the scene is run; None where strength is not reduced.
+    at_once
+        Whether statics of loads in full tries no smaller increments of them.
     """
 
     scene: "Scene"
@@ -103,6 +105,7 @@ class Simulation:
     origin: Floats
     stages: Sequence[Staged] = ()
     safety: Safety | None = None
+    at_once: bool = False
 
     def folder(self, path: Path) -> RunFolder:
         """Return the run folder at ``path`` with scene and formulation as run."""
@@ -363,7 +366,7 @@ class Simulation:
         loading, steps = self.scene.loading, self.formulation.loading
         if loading is None:
             increment = steps.increment if self.scene.followed else 1.0
-            return LoadSchedule(1.0, False, increment, steps.tolerance)
+            return LoadSchedule(1.0, False, increment, steps.tolerance, at_once=self.at_once)
         until = loading.until == "failure"
         target = loading.maximum_factor or (np.inf if until else float(loading.until))
         return LoadSchedule(target, until, steps.increment, steps.tolerance)

@@ -1,37 +1,47 @@
 """The factor of safety of a scene, by strength reduction (Zienkiewicz et al. 1975).
 
 Each factor is a run of its own from the unloaded scene, as Griffiths and Lane (1999) do it: it
-holds where the run finds equilibrium under all loads.
+holds where the run finds equilibrium under all loads. Once one holds the static theorem says of
+blocks which factors cannot, in a few linear programmes; the next run is one just below these.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from math import atan, tan
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from nmm.results.sink import MemorySink
 from nmm.results.summary import Safety
+from nmm.stepping.drive.safety_bound import FINE, safety_bound
 from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED
 from nmm.stepping.simulation import Progress, Simulation, prepare
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
-    from nmm.results.summary import Summary
     from nmm.scene.model import Scene
     from nmm.scene.tables.strength_reduction import StrengthReductionTable
 
+Bound = Callable[[float, float], float | None]
+"""From the highest factor and the width of the bracket to one that fails; None is none shown."""
+
+SHOWN = "no contact forces within friction and strength carry the loads (static theorem)"
 # While no bracket is known factors go up and down by this.
 STRIDE = 2.0
 
 
 @dataclass(frozen=True)
 class FactorTried:
-    """A run with strengths over a factor: its status, and its verdict in words."""
+    """A run with strengths over a factor: its status, and its verdict in words.
+
+    ``bound`` seeks a factor that fails from where the run ended (`safety_bound`).
+    """
 
     factor: float
     status: str
     sentence: str
+    bound: Bound = lambda highest, width: None
 
     @property
     def holds(self) -> bool:
@@ -50,11 +60,13 @@ def reduced(scene: "Scene", formulation: "Formulation", progress: Progress) -> S
     table = scene.strength_reduction
     assert table is not None
     begun, tried = perf_counter(), list[FactorTried]()
-    quick = formulation if _grows(scene) else _at_once(formulation)
+    at_once = not _grows(scene)
 
     def run(factor: float) -> FactorTried:
-        found = _run(weakened(scene, factor), quick)
-        tried.append(FactorTried(factor, found.status, found.sentence))
+        made, memory = prepare(weakened(scene, factor), formulation), MemorySink()
+        state = replace(made, at_once=at_once).run([memory], lambda share, text: None)
+        found, reached = memory.summary, partial(safety_bound, made.stepper, state, factor)
+        tried.append(FactorTried(factor, found.status, found.sentence, reached))
         says = "equilibrium" if tried[-1].holds else "none"
         progress(min(len(tried) / 12, 1.0), f"strength / {factor:.5g}: {says}")
         return tried[-1]
@@ -72,7 +84,7 @@ def reduced(scene: "Scene", formulation: "Formulation", progress: Progress) -> S
     at.stepper.seconds["strength reduction"] = (
         perf_counter() - begun - sum(at.stepper.seconds.values())
     )
-    return replace(at, scene=scene, begun=begun, safety=safety)
+    return replace(at, scene=scene, begun=begun, safety=safety, at_once=at_once)
 
 
 def bracket(
@@ -80,15 +92,24 @@ def bracket(
 ) -> tuple[FactorTried | None, FactorTried | None]:
     """Return the largest factor that holds and the smallest that fails; None where there is none.
 
-    From 1 factors are doubled or halved within the bounds until one of each is known; then the
-    bracket is halved to its tolerance.
+    From 1 factors are halved within the bounds until one holds. Where the static theorem then shows
+    one that fails, the next is that less the tolerance; else factors are doubled until one fails.
+    What bracket is left is halved to its tolerance.
     """
     first = run(min(max(1.0, table.lowest), table.highest))
     low, high = (first, None) if first.holds else (None, first)
-    while high is None and low is not None and low.factor < table.highest:
-        low, high = _sorted(run(min(STRIDE * low.factor, table.highest)), low, high)
     while low is None and high is not None and high.factor > table.lowest:
         low, high = _sorted(run(max(high.factor / STRIDE, table.lowest)), low, high)
+    if low is not None:
+        most = table.highest if high is None else high.factor
+        fails = low.bound(most, table.tolerance)
+        if fails is not None:
+            high = FactorTried(fails, COLLAPSED, SHOWN)
+            below = fails - (1 - FINE) * table.tolerance
+            if below > low.factor:
+                low, high = _sorted(run(below), low, high)
+    while high is None and low is not None and low.factor < table.highest:
+        low, high = _sorted(run(min(STRIDE * low.factor, table.highest)), low, high)
     while low is not None and high is not None and high.factor - low.factor > table.tolerance:
         low, high = _sorted(run((low.factor + high.factor) / 2), low, high)
     return low, high
@@ -134,15 +155,3 @@ def _grows(scene: "Scene") -> bool:
     """Whether anything but weight acts, which the load factor brings on bit by bit."""
     moved = any(any(one.displacement) or one.field is not None for one in scene.supports)
     return bool(scene.loads or scene.water_pressures) or moved
-
-
-def _at_once(formulation: "Formulation") -> "Formulation":
-    """Return a formulation that tries no smaller increments, which have the same weight."""
-    loading = formulation.loading.model_copy(update={"tolerance": 1.0})
-    return formulation.model_copy(update={"loading": loading})
-
-
-def _run(scene: "Scene", formulation: "Formulation") -> "Summary":
-    memory = MemorySink()
-    prepare(scene, formulation).run([memory], lambda share, text: None)
-    return memory.summary

@@ -123,6 +123,7 @@ CASES = Registry[type[Case]](
         "PL3": f"{_HOME}.plasticity:PlasticCylinder",
         "PL4": f"{_HOME}.plasticity:Footing",
         "PL5": f"{_HOME}.matter.safety:SoilSlope",
+        "PL5 plane": f"{_HOME}.matter.safety:SlidingWedge",
         "TH1": f"{_HOME}.heat_strain:Bimetal",
         "TH2": f"{_HOME}.heat_strain:Restrained",
         "TH2 gap": f"{_HOME}.heat_strain:ClosingGap",

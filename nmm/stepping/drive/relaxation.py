@@ -15,6 +15,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.shi import Shi
+from nmm.stepping.drive.settling import COLLAPSE
 from nmm.stepping.drive.static_theorem import carried
 from nmm.stepping.step.anchors import block_name, largest_mover
 from nmm.stepping.step.stepper import Stepper
@@ -29,6 +30,8 @@ GATHERS, GATHERED = 4.0, 0.03
 # Over this way one that cannot stand where it starts, by the static theorem, has fallen, though it
 # might come to lie on something further on.
 FALLEN = 0.25
+# Steps after which the static theorem is asked again where blocks are to rest near.
+LOOK = 20
 # Up to this way the motion that is told of a block that moves freely is looked for.
 FREE_WAY = 0.01
 # A step is lengthened and cut by these; so many steps, cuts in a row, and sizes of the domain
@@ -64,8 +67,14 @@ class Relaxed:
     way: float = 0.0
 
 
-def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) -> Relaxed:
-    """Move loose blocks under the loads of ``end`` until they rest; ``names`` (N,) of regions."""
+def relax(
+    stepper: Stepper, state: State, end: Instant, names: Sequence[str], near: bool = False
+) -> Relaxed:
+    """Move loose blocks under the loads of ``end`` until they rest; ``names`` (N,) of regions.
+
+    Where they are to rest ``near`` where they stand, those that go further than `COLLAPSE` fall,
+    and so do those that, on their way, no contact forces hold with the bonds that are left.
+    """
     # Only scenes with loose blocks come here; the others do not import inertia.
     from nmm.effects.inertia import Inertia
 
@@ -83,6 +92,7 @@ def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) ->
     size = stepper.size
     length = _first_length(heavy, stepper.plan.force(state, end), size)
     proof = carried(stepper, state, end.load_factor)
+    farthest = COLLAPSE if near else 1.0
     way, cuts, attempt, start, stands = 0.0, 0, None, None, True
 
     def fallen(first: Attempt | None) -> str:
@@ -114,10 +124,15 @@ def relax(stepper: Stepper, state: State, end: Instant, names: Sequence[str]) ->
             return Relaxed(state, steps, False, fallen(attempt), True)
         if found.motion < STILL * size and _holds(stepper, state, end):
             return Relaxed(state, steps, True, "", way=way)
-        if way > size:
+        if way > farthest * size:
             break
+        if near and steps % LOOK == 0:
+            now = carried(moving, state, end.load_factor)
+            if now is not None and now.fails:
+                said = f"{now.sentence} after {way:.3g} m; {_who(moving, attempt, names)}"
+                return Relaxed(state, steps, False, said, True)
         length *= LONGER if found.motion < SLOW * size else 1.0
-    return Relaxed(state, steps, False, _who(moving, attempt, names), way > size)
+    return Relaxed(state, steps, False, _who(moving, attempt, names), way > farthest * size)
 
 
 def _holds(stepper: Stepper, state: State, end: Instant) -> bool:

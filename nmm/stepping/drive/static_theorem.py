@@ -75,9 +75,12 @@ class LoadBound:
     motion: Floats
 
 
-def carried(stepper: "Stepper", state: State, asked: float) -> Carried | None:
-    """Return what can be carried near ``state``; None without contact or where it is not known."""
-    found = _largest_share(stepper, state, asked, most=1.0)
+def carried(stepper: "Stepper", state: State, asked: float, weaker: float = 1.0) -> Carried | None:
+    """Return what can be carried near ``state``; None without contact or where it is not known.
+
+    Strengths of contacts are those of the stepper over ``weaker``.
+    """
+    found = _largest_share(stepper, state, asked, 1.0, weaker)
     if found is None:
         return None
     return Carried(None if found.factor is None else asked * found.factor, asked)
@@ -92,7 +95,9 @@ def load_bound(stepper: "Stepper", state: State) -> LoadBound | None:
     return _largest_share(stepper, state, 1.0, most=np.inf)
 
 
-def _largest_share(stepper: "Stepper", state: State, asked: float, most: float) -> LoadBound | None:
+def _largest_share(
+    stepper: "Stepper", state: State, asked: float, most: float, weaker: float = 1.0
+) -> LoadBound | None:
     """Return the largest share, up to ``most``, of the loads at ``asked`` that is carried.
 
     It is not known where members have limits of their own, which no condition here says.
@@ -105,6 +110,7 @@ def _largest_share(stepper: "Stepper", state: State, asked: float, most: float) 
     if contact is None or any(effect.limited for effect in plan.effects.values()):
         return None
     (normal, tangent), limits = contact.near(state, NEAR * stepper.size)
+    tension = limits.tension / weaker
     balance = _directions(stepper, state)
     fixed, whole = (plan.force(state, Instant(at, at)) for at in (0.0, asked))
     fixed, gain = balance @ fixed, balance @ (whole - fixed)
@@ -114,11 +120,11 @@ def _largest_share(stepper: "Stepper", state: State, asked: float, most: float) 
     m = len(limits.friction)
     equal = hstack([balance @ normal.T, balance @ tangent.T, csc_array(gain[:, None] / size)])
     bounds = np.full((2 * m + 1, 2), np.inf)
-    bounds[:m, 0], bounds[m : 2 * m, 0] = -limits.tension / size, -np.inf
+    bounds[:m, 0], bounds[m : 2 * m, 0] = -tension / size, -np.inf
     bounds[-1] = 0.0, most
     cost = np.zeros(2 * m + 1)
     cost[-1] = -1.0
-    rough, strength = _friction(limits)
+    rough, strength = _friction(limits, weaker)
     found = linprog(
         cost,
         A_ub=rough,
@@ -139,12 +145,15 @@ def _largest_share(stepper: "Stepper", state: State, asked: float, most: float) 
     return LoadBound(float(found.x[-1]), -motion if motion @ whole < 0 else motion)
 
 
-def _friction(limits: "Limits") -> tuple[csr_array, Floats]:
-    """Conditions ``|t| - mu p <= c`` on pressures, shear forces and the load's share."""
+def _friction(limits: "Limits", weaker: float) -> tuple[csr_array, Floats]:
+    """Conditions ``|t| - mu p <= c`` on pressures, shear forces and the load's share.
+
+    Friction and cohesion are those of the limits over ``weaker``.
+    """
     m = len(limits.friction)
-    one, slope = diags_array(np.ones(m)), diags_array(-limits.friction)
+    one, slope = diags_array(np.ones(m)), diags_array(-limits.friction / weaker)
     rows = [hstack([slope, sign * one, csc_array((m, 1))]) for sign in (1.0, -1.0)]
-    return csr_array(vstack(rows)), np.tile(limits.cohesion, 2)
+    return csr_array(vstack(rows)), np.tile(limits.cohesion / weaker, 2)
 
 
 def _directions(stepper: "Stepper", state: State) -> csr_array:

@@ -55,6 +55,9 @@ class LoadSchedule:
         Largest increment of the load factor.
     tolerance
         Relative width of the bracket of the failure load.
+    at_once
+        Whether what acts does so in full from the start: smaller increments are not tried, and
+        blocks that do not come to rest near where they stand have failed.
     begin, stops
         Time at load factor 0, and whether time stops there: in statics of a scene that has no
         clock, time is the load factor, counted over stages.
@@ -66,6 +69,7 @@ class LoadSchedule:
     tolerance: float
     begin: float = 0.0
     stops: bool = False
+    at_once: bool = False
 
     def instant(self, factor: float) -> Instant:
         """Return the end of a step to a load factor."""
@@ -216,7 +220,8 @@ class _Raising:
         """Look for equilibrium under one increment more, with anchors where nothing else helps."""
         stepper, schedule, state = self.stepper, self.schedule, at.state
         factor = min(state.load_factor + at.rise, schedule.target)
-        fine = at.rise <= max(schedule.tolerance * factor, SMALLEST * schedule.increment)
+        finest = max(schedule.tolerance * factor, SMALLEST * schedule.increment)
+        fine = schedule.at_once or at.rise <= finest
         start, bonds = stepper.remember(), stepper.broken_bonds
         # A bond that breaks in a coarse increment is no news yet: the increment is cut first.
         end, breaking = self.schedule.instant(factor), _breaking(fine)
@@ -247,7 +252,7 @@ class _Raising:
         """Bring loose blocks to rest, from where the load begins to grow anew."""
         start = self.stepper.remember()
         end = self.schedule.instant(trial.factor)
-        rest = relax(self.stepper, at.state, end, self.names)
+        rest = relax(self.stepper, at.state, end, self.names, near=self.schedule.at_once)
         if not rest.at_rest:
             self.stepper.restore(start)
             return _no_rest(rest)
