@@ -167,3 +167,28 @@ def test_a_speed_without_motion_is_refused() -> None:
     text = HANGING.format(duration=1.0, more='speed = "freund"')
     with pytest.raises(NmmError, match="speed"):
         parse_scene(text.replace("[inertia]", "").replace("duration = 1.0", ""))
+
+
+def test_momentum_of_a_plate_that_is_torn_apart_stays_zero() -> None:
+    """Pulled evenly at both ends, held by nothing: what one half gains the other has too."""
+    text = HANGING.format(duration=0.02, more="")
+    head, _, rest = text.partition("[[supports]]")
+    pulls = "".join(
+        f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = [[{one}, {y}], [{other}, {y}]]\n'
+        f"traction = [0, {pull}]\n"
+        for name, y, one, other, pull in (
+            ("up", 0.5, 1, 0, 4e3),
+            ("down", -0.5, 0, 1, -4e3),
+        )
+    )
+    scene = parse_scene(head + pulls + rest[rest.index("[inertia]") :])
+    run = nmm.run(scene, net())
+    model = run.stepper.model
+    assert model.manifold.n_bodies == 2
+    assert not [warning for warning in run.summary.warnings if "momentum" in warning]
+    modes, bodies = model.manifold.rigid_modes, np.arange(2)
+    parts = np.asarray(modes.T @ (model.mass @ run.state.velocity)).reshape(-1, 3)[:, :2]
+    parts = run.state.frames.to_global(bodies, parts)
+    # Each half has been given 4 kN for 20 ms, less what the ligament held.
+    assert np.abs(parts).max() > 10.0
+    assert np.abs(parts.sum(axis=0)).max() < 1e-11 * np.abs(parts).max()
