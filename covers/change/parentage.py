@@ -90,6 +90,17 @@ class Parentage:
         return _kept(self.old, self.new)
 
     @cached_property
+    def whole(self) -> Bools:
+        """Which new bodies (B,) are all of one old one, and nothing else."""
+        bodies = self.bodies
+        children = np.bincount(bodies.parent, minlength=bodies.n_parents)
+        parents = np.bincount(bodies.child, minlength=bodies.n_children)
+        main = np.maximum(bodies.main, 0)
+        alone = (bodies.main >= 0) & (children[main] == 1) & (parents == 1)
+        close = np.isclose(self.old.body_area[main], self.new.body_area, rtol=1e-9, atol=0.0)
+        return np.asarray(alone & close)
+
+    @cached_property
     def new_bodies(self) -> Bools:
         """Which new bodies (B,) have no parent."""
         return self.bodies.main < 0

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol, Self
 
 from covers.change.parentage import Parentage
-from nmm.assembly.carried_state import carried
+from nmm.assembly.carried.state import carried
 from nmm.assembly.motion import State, initial_state
 from nmm.effects.base import Effect, Setup
 from nmm.effects.change import Change

@@ -92,7 +92,7 @@ def draw_tips(axes: "Axes", polygons: Polygons, frame: Frame) -> None:
             continue
         away = np.hypot(*np.moveaxis(quantity.values[:, None] - frame.points, -1, 0))
         points = polygons.points[np.argmin(away, axis=1)]
-        axes.plot(*points.T, "o", color=CRACK, markersize=2.5, markeredgewidth=0)
+        axes.plot(*points.T, "o", color=CRACK, markersize=4, markeredgewidth=0)
 
 
 def draw_blocks(

@@ -4,7 +4,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import areas
-from nmm.assembly.carried_state import momenta
+from nmm.assembly.momenta import momenta
 from nmm.assembly.motion import State
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.step.stepper import Stepper

@@ -10,7 +10,7 @@ from covers.change.inheritance import inherited
 from covers.change.parentage import Parentage
 from integration.polygons import Polygons
 from integration.rules import PointRule, polygon_rule
-from nmm.assembly.carried_state import carried
+from nmm.assembly.carried.state import carried
 from nmm.assembly.errors import strains
 from nmm.assembly.motion import initial_state, material_points
 from nmm.formulation import CoverTable

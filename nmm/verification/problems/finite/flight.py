@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.carried_state import momenta
+from nmm.assembly.momenta import momenta
 from nmm.verification import text
 from nmm.verification.base import Checks, SceneCase, limit
 from nmm.verification.reading import last_way

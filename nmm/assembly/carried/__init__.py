@@ -1,0 +1,1 @@
+"""The state of a model carried over to the next one: places, displacements, rates, history."""
