@@ -1,0 +1,168 @@
+"""The cases of the seed paper by several ways of breaking.
+
+``python examples/seed_cases/cases.py KEY`` runs those whose key begins so, or all, prints their
+lines of the tables of ``docs/seed_cases.md`` and draws its pictures.
+"""
+
+import re
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from time import process_time
+
+import numpy as np
+
+import nmm
+from nmm import plots
+
+# Seconds on the wall clock that a case may take.
+BUDGET = 300.0
+HERE = Path(__file__).parent
+DOCS = HERE.parents[1] / "docs"
+BEAM = (HERE.parent / "kitoh_beam" / "kitoh_130.toml").read_text()
+PULL_OUT = (HERE / "pull_out.toml").read_text()
+
+EVENTS = '\n[loading.control]\ntype = "events"\nfall = 0.1\n\n[[reference]]'
+# Rigid blocks on springs as stiff as the material between their middles (Kawai 1978).
+RIGID = (
+    '\n[formulation.cover]\nfunctions = "rigid"\n\n[formulation.contact]\nbonds = "spring"\n'
+    'bond_stiffness = 1\njoint_points = "gauss"\n'
+)
+SPLITTING = (
+    '[splitting.concrete]\ntensile_strength = "2.9 MPa"\ncohesion = "4.7 MPa"\n'
+    'friction_angle = "37 deg"\nsmallest_block = "{smallest}"\n\n[[monitors]]'
+)
+CRACK = (
+    '[[cracks]]\nname = "notch"\npoints = [["200 mm", 0], ["200 mm", "10 mm"]]\n\n'
+    '[fracture]\ncriterion = "hoop_stress"\nenergy = "100 J/m^2"\nincrement = "5 mm"\n'
+    'max_growth = "80 mm"\ncontrol = "toughness"\n\n[[monitors]]'
+)
+MESH = '\n[formulation.cover]\ntype = "quads"\ndegree = 0\nsize = "6.3 mm"\n'
+
+
+@dataclass(frozen=True)
+class Row:
+    """One run: what it is called, and what came of it."""
+
+    way: str
+    load: float
+    status: str
+    where: str
+    energy: float
+    pieces: str
+    seconds: float
+
+
+def beam(height: float = 100.0, blocks: int = 130, energy: float | None = None) -> str:
+    """Return the plain beam (mm), scaled from 100 mm, event by event or softening (J/m2)."""
+    text = re.sub(r"motion_after_failure.*\n", "", BEAM).replace("130", str(blocks))
+    scale = height / 100.0
+    text = re.sub(r'"(\d+) mm"', lambda found: f'"{scale * float(found[1]):g} mm"', text)
+    text = text.replace(f'thickness = "{height:g} mm"', 'thickness = "100 mm"')
+    # The plates grow with the beam, and the traction on them falls.
+    text = text.replace("-0.5 MPa", f"{-0.5 / scale:g} MPa")
+    if energy is None:
+        return text.replace("maximum_factor = 40", "").replace("\n[[reference]]", EVENTS)
+    law = f'bonded = true\nlaw = "linear_softening"\nfracture_energy = "{energy:g} J/m^2"\n'
+    text = text.replace("maximum_factor = 40", "maximum_factor = 1000")
+    text = text.replace("increment = 1\n", f"increment = {2 * scale**0.75:g}\n")
+    return text.replace("bonded = true\n", law)
+
+
+def splitting(text: str, smallest: str) -> str:
+    """Return a scene whose blocks split besides joints that break, under a growing load."""
+    text = re.sub(r"\[loading.control\]\n(.+\n)*", "", text)
+    return text.replace("[[monitors]]", SPLITTING.format(smallest=smallest), 1)
+
+
+def cracked() -> str:
+    """Return the plain beam as one body with a notch of 10 mm that grows."""
+    text = re.sub(r"motion_after_failure.*\n|maximum_factor.*\n", "", BEAM)
+    region = '[["0 mm", 0], ["400 mm", 0], ["400 mm", "100 mm"], [0, "100 mm"]]'
+    whole = f'[[blocks]]\nname = "beam"\nmaterial = "concrete"\nvertices = {region}\n\n'
+    text = re.sub(r"\[\[tessellations\]\]\n(.+\n)+\n", whole, text)
+    text = text.replace("[contact]\n", "").replace('until = "failure"', "until = 1")
+    text = re.sub(r"\[interfaces.concrete\]\n(.+\n)+\n", "", text)
+    text = text[: text.index("[[reference]]")]
+    return text.replace("[[monitors]]", CRACK) + MESH
+
+
+def loose() -> str:
+    """Return the pull-out whose sides are free."""
+    text = re.sub(r'\[\[supports\]\]\nname = "\w+ side"\n(.+\n)+\n', "", PULL_OUT)
+    return text.replace('fix = ["y"]', 'fix = ["x", "y"]', 1).replace("infinity", "0", 1)
+
+
+CASES: dict[str, tuple[str, Callable[[], str]]] = {
+    "beam bonds": ("bonds between blocks", beam),
+    "beam rigid": ("rigid blocks and springs", lambda: beam() + RIGID),
+    "beam splitting": ("joints that break, blocks that split", lambda: splitting(beam(), "9 mm")),
+    "beam crack": ("crack that grows from a notch of 10 mm", cracked),
+    "pull-out bonds": ("bonds between blocks, k = infinity", lambda: PULL_OUT),
+    "pull-out free bonds": ("bonds between blocks, k = 0", loose),
+    "pull-out rigid": ("rigid blocks and springs, k = infinity", lambda: PULL_OUT + RIGID),
+    "pull-out free rigid": ("rigid blocks and springs, k = 0", lambda: loose() + RIGID),
+}
+for _n in (60, 130, 455):
+    CASES[f"blocks {_n}"] = f"{_n} blocks", partial(beam, blocks=_n)
+for _h in (50, 200, 800):
+    CASES[f"size brittle {_h}"] = f"h = {_h} mm, brittle", partial(beam, _h)
+for _h in (50, 100, 200, 400, 800):
+    CASES[f"size soft {_h}"] = f"h = {_h} mm, 100 J/m2", partial(beam, _h, energy=100.0)
+PICTURES = ("beam bonds", "pull-out bonds", "pull-out free bonds")
+
+
+def ran(key: str) -> Row:
+    """Run one case; draw it where the page shows it."""
+    way, text = CASES[key]
+    started = process_time()
+    run = nmm.run(nmm.parse_scene(text()), budget=BUDGET)
+    seconds = process_time() - started
+    if key in PICTURES:
+        plots.deformed(run, path=DOCS / "seed_cases" / f"{key.replace(' ', '_')}.png")
+    largest = float(np.max(run.history["load_factor"]))
+    factor = run.summary.failure_factor or largest
+    lost = run.history.get("friction_loss", np.zeros(1))[-1]
+    energy = run.history.get("fracture:energy", np.array([lost]))[-1]
+    bodies = run.history.get("splitting:bodies")
+    broken = run.stepper.broken_bonds
+    pieces = f"{bodies[-1]:.0f} bodies" if bodies is not None else f"{broken} broken"
+    summary = run.summary
+    return Row(way, factor, summary.status, _where(run), float(energy), pieces, seconds)
+
+
+def _where(run: nmm.Run) -> str:
+    """Return the box (mm) about what is open at the end."""
+    frame = run.frames[-1]
+    x, y = (run.history.get(f"fracture:notch:end:{axis}") for axis in "xy")
+    if x is not None and y is not None:
+        return f"to ({1e3 * np.nanmax(x):.0f}, {1e3 * np.nanmax(y):.0f})"
+    gap = frame.contact_gap
+    wide = (frame.contact_force == 0).all(axis=1) & (gap > 0.2 * gap.max(initial=0.0))
+    if not wide.any():
+        return "-"
+    place = 1e3 * frame.contact_position[wide]
+    (left, low), (right, high) = place.min(axis=0), place.max(axis=0)
+    return f"x {left:.0f} .. {right:.0f}, y {low:.0f} .. {high:.0f}"
+
+
+def rows(beginning: str) -> Iterator[tuple[str, Row]]:
+    """Run the cases whose keys begin so."""
+    for key in CASES:
+        if key.startswith(beginning):
+            yield key, ran(key)
+
+
+def line(row: Row) -> str:
+    """Return a line of a table."""
+    return (
+        f"| {row.way} | {row.load:.4g} | {row.status} | {row.where} | {1e3 * row.energy:.3g} | "
+        f"{row.pieces} | {row.seconds:.0f} |"
+    )
+
+
+if __name__ == "__main__":
+    for _, found in rows(sys.argv[1] if len(sys.argv) > 1 else ""):
+        print(line(found), flush=True)
