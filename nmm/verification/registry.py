@@ -117,6 +117,7 @@ CASES = Registry[type[Case]](
         "GR10": f"{_HOME}.crack_paths:StressAlongCrack",
         "GR11": f"{_HOME}.growth_invariants:SameAnywhere",
         "GR12": f"{_HOME}.cracks_in_motion:StruckCrack",
+        "CO3": f"{_HOME}.cohesive_cracks:CohesiveBeam",
         "PL0 bar": f"{_HOME}.plasticity:PlasticBar",
         "PL0 beam": f"{_HOME}.plasticity:PlasticBeam",
         "PL1": f"{_HOME}.matter.oedometer:Oedometer",
