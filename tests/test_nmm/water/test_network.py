@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nmm.errors import SolveError
-from nmm.water.network import JointNetwork, coupled_heads
+from nmm.water.network import JointNetwork
 
 PARALLEL = np.array([[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]])
 LENGTH = np.array([1.0, 1.0, 1.5, 1.0, 1.0])
@@ -74,56 +74,6 @@ def test_a_square_network_conducts_as_its_continuum():
     flow = network.inflow(conductance, heads)[number[:, 0]].sum()
     # n + 1 rows of joints over n spacings; K = w^3 g / (12 mu s).
     assert flow * n * spacing / ((n + 1) * spacing) == pytest.approx(1.635e-6, rel=1e-12)
-
-
-@pytest.mark.parametrize("cells", [1, 40])
-@pytest.mark.parametrize("stiffness", [1e6, 1e8, 1e10, 1e12, 1e14])
-def test_apertures_that_pressure_opens_have_a_linear_fourth_power(stiffness, cells):
-    weight = 9810.0
-    network, fixed, start = chain(cells, 10.0, 1e-4)
-    seen = []
-
-    def conductance(heads):
-        seen.append(heads)
-        return network.conductance(start + weight * heads[network.ends] / stiffness, True)
-
-    heads = coupled_heads(network, conductance, fixed, np.array([2e6, 0.0]) / weight)
-    ends = 1e-4 + np.array([2e6, 0.0]) / stiffness
-    x = np.linspace(0, 1, cells + 1)
-    fourth = ends[0] ** 4 + x * (ends[1] ** 4 - ends[0] ** 4)
-    # The fixed point ends at 1e-12 of the head; stiff joints open by little.
-    assert (1e-4 + weight * heads / stiffness) ** 4 == pytest.approx(fourth, rel=1e-8)
-    flow = network.flows(conductance(heads), heads)
-    unit = stiffness * (ends[0] ** 4 - ends[1] ** 4) / (48e-3 * 10)
-    assert flow == pytest.approx(np.full(cells, unit), rel=1e-8)
-    # Each round takes the same share of what is left, however soft the joint.
-    assert len(seen) < 80
-
-
-def test_the_published_aperture_gives_the_published_flow():
-    network, fixed, start = chain(40, 10.0, 1e-4)
-
-    def conductance(heads):
-        return network.conductance(start + 9810 * heads[network.ends] / 1e10, True)
-
-    heads = coupled_heads(network, conductance, fixed, np.array([2e6, 0.0]) / 9810)
-    assert network.flows(conductance(heads), heads)[0] == pytest.approx(1.666666667e-4, rel=1e-8)
-    assert 9810 * heads[20] == pytest.approx(1530439.534, rel=1e-8)
-
-
-def test_a_pulse_of_pressure_runs_into_a_closed_joint_as_diffusion():
-    cells, weight = 80, 9810.0
-    network, fixed, start = chain(cells, 20.0, 1e-4)
-    conductance = network.conductance(start)
-    storage = (1e-4 / 2.2e9 + 1e-10) * weight * 20.0 / cells
-    nodes = np.full(cells + 1, storage)
-    nodes[[0, -1]] /= 2
-    step = 480.21818 / 1000
-    heads = np.zeros(cells + 1)
-    for _ in range(300):  # to t D / L^2 = .3
-        heads = network.stepped(conductance, fixed[:1], np.array([1.0]), nodes / step, heads)
-    assert heads[-1] == pytest.approx(0.39319618, abs=0.01)
-    assert heads[cells // 2] == pytest.approx(0.57015747, abs=0.01)
 
 
 @pytest.mark.parametrize("wide", [1e-6, 1e-4, 1e-2, 1e-1])
