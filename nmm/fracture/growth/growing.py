@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.model import Model
+from integration.arrays import Bools, Floats
 from nmm.assembly.motion import MaterialPoints, State, material_points
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
-from nmm.fracture.criteria.base import Kink
 from nmm.fracture.growth.advance import advanced
 from nmm.fracture.growth.faces import CrackFaces
 from nmm.fracture.growth.fronts import CrackFronts
+from nmm.fracture.growth.intensities import Intensities, tip_moduli
 from nmm.fracture.growth.refusals import refuse
 from nmm.fracture.growth.rule import GrowthRule
 from nmm.fracture.intensity_rows import IntensityRows
@@ -27,36 +26,6 @@ from nmm.quantity import SPOT, Quantity
 if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.effects.view import View
-
-
-@dataclass(frozen=True)
-class Intensities:
-    """What the fronts with a tip have in a state.
-
-    Attributes
-    ----------
-    front, tip
-        (k,) the fronts, and their tips in the cut.
-    opening, sliding
-        (k,) K_I and K_II (Pa m^1/2).
-    stiff
-        (k,) E' of the material about each (Pa).
-    kink, share
-        How each would go on, and the share of its toughness that it has reached.
-    """
-
-    front: Ints
-    tip: Ints
-    opening: Floats
-    sliding: Floats
-    stiff: Floats
-    kink: Kink
-    share: Floats
-
-    @property
-    def rate(self) -> Floats:
-        """Energy release rate (k,) straight ahead, (K_I^2 + K_II^2) / E' (J/m2)."""
-        return np.asarray((self.opening**2 + self.sliding**2) / self.stiff)
 
 
 @dataclass(frozen=True)
@@ -246,10 +215,3 @@ class GrowingCracks(Effect):
     def forget(self) -> None:
         """See `Effect.forget`."""
         self._known = None
-
-
-def tip_moduli(model: Model, element: Ints) -> tuple[Floats, Floats]:
-    """Kolosov's constant and E' (Pa) of the material of elements (n,)."""
-    number = np.zeros(len(element), dtype=np.int64) if model.law is None else model.law[element]
-    kappa = np.array([law.kolosov(model.plane) for law in model.laws])[number]
-    return kappa, np.asarray(8 * model.elasticity[element, 2, 2] / (kappa + 1))

@@ -14,8 +14,9 @@ from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant, Setup
 from nmm.fracture.growth.fronts import CrackFronts
-from nmm.fracture.growth.growing import GrowingCracks, GrownSoFar, Intensities, tip_moduli
+from nmm.fracture.growth.growing import GrowingCracks, GrownSoFar
 from nmm.fracture.growth.held_faces import HeldFaces, newly_held
+from nmm.fracture.growth.intensities import Intensities, tip_moduli
 from nmm.fracture.growth.running import Running
 from nmm.fracture.growth.speed import SPEEDS, rayleigh_speeds
 from nmm.fracture.intensity_rows import IntensityRows

@@ -1,0 +1,46 @@
+"""What the tips of growing cracks have in a state, and the moduli of the material about them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+from nmm.fracture.criteria.base import Kink
+
+
+@dataclass(frozen=True)
+class Intensities:
+    """What the fronts with a tip have in a state.
+
+    Attributes
+    ----------
+    front, tip
+        (k,) the fronts, and their tips in the cut.
+    opening, sliding
+        (k,) K_I and K_II (Pa m^1/2).
+    stiff
+        (k,) E' of the material about each (Pa).
+    kink, share
+        How each would go on, and the share of its toughness that it has reached.
+    """
+
+    front: Ints
+    tip: Ints
+    opening: Floats
+    sliding: Floats
+    stiff: Floats
+    kink: Kink
+    share: Floats
+
+    @property
+    def rate(self) -> Floats:
+        """Energy release rate (k,) straight ahead, (K_I^2 + K_II^2) / E' (J/m2)."""
+        return np.asarray((self.opening**2 + self.sliding**2) / self.stiff)
+
+
+def tip_moduli(model: Model, element: Ints) -> tuple[Floats, Floats]:
+    """Kolosov's constant and E' (Pa) of the material of elements (n,)."""
+    number = np.zeros(len(element), dtype=np.int64) if model.law is None else model.law[element]
+    kappa = np.array([law.kolosov(model.plane) for law in model.laws])[number]
+    return kappa, np.asarray(8 * model.elasticity[element, 2, 2] / (kappa + 1))
