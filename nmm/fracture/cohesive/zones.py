@@ -91,13 +91,17 @@ class CohesiveZones(Effect):
         SceneError
             Nothing that could grow, or no strength.
         FormulationError
-            A cover that cracks cannot cut.
+            A cover that cracks cannot cut, or matter that is not linear.
         """
         place = setup.scene.source.place("cohesive_zones")
         if setup.formulation.cover.size is None:
             value = f'cover type "{setup.formulation.cover.type}"'
             remedy = 'use type = "triangles" with a size in [cover]'
             raise FormulationError(Fault(place, value, "a mesh, which cracks can cut", remedy))
+        if setup.model.matter is not None:
+            remedy = "use elastic materials, or remove [cohesive_zones]"
+            value, expected = "matter that is not linear", "elastic matter"
+            raise FormulationError(Fault(place, value, expected, remedy))
         made = cls(setup, {})
         if not (made._tips >= 0).any() and made._nuclei is None:
             remedy = "let one of [[cracks]] end inside a block, or add nucleation = true"
@@ -190,7 +194,7 @@ class CohesiveZones(Effect):
         return new
 
     def _moved(self, new: "CohesiveZones") -> list[tuple[str, Floats, Floats]]:
-        """Fronts by name, where they are and where they were; nuclei begin in their middle."""
+        """Fronts by name, where they are and where they were; new nuclei have not moved."""
         were = dict(
             zip(self._fronts.name, self._fronts.points(self._setup.geometry.cracks), strict=True)
         )

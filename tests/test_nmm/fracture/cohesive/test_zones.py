@@ -97,8 +97,9 @@ def test_a_zone_that_grows_from_a_notch_carries_the_load_of_a_drawn_plane():
 def test_the_peak_hangs_on_no_net():
     peaks = []
     for angle, x in ((0.0, 0.3), (0.5, 0.7), (0.8, 0.1), (1.3, 0.5)):
-        peaks.append(nmm.run(beam(), net(angle, x)).summary.failure_factor)
-    assert np.ptp(peaks) < 0.01 * PEAK
+        peaks.append(nmm.run(beam(end="70 um"), net(angle, x)).history["load_factor"].max())
+    # Cells of a fifth of the height: the peaks of nets scatter by 2 %.
+    assert np.ptp(peaks) < 0.03 * PEAK
     assert np.mean(peaks) == pytest.approx(PEAK, rel=0.02)
 
 
@@ -130,7 +131,6 @@ def test_a_zone_stops_at_its_largest_growth():
 )
 def test_what_zones_lack_is_told(old, new, said):
     text = BEAM.format(cracks=NOTCH, zones=ZONES, left=-1, right=1, end="1 um")
-    text = text.replace("tensile_strength", "cohesion_" if new == "never" else "tensile_strength")
     with pytest.raises(NmmError, match=said):
         parse_scene(text.replace(old, new, 1))
 
