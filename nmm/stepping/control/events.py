@@ -34,8 +34,9 @@ def next_event(trials: Trials, at: OnPath, most: float) -> Reached | RunVerdict:
     if abs(still.over) > ABOVE:
         first = factor * (1 / still.load - 1) if factor and still.load else 1.0
         other = outward(try_, still, first or 1.0)
-        if other is None:
-            return _at_most(try_, most - factor) or no_event(at)
+        if other is None or not other.attempt.converged:
+            end = no_event(at) if other is None else no_balance(at, other.attempt)
+            return _at_most(try_, most - factor) or end
         low, high = sorted((still, other), key=lambda one: one.over)
         event = located(try_, low, high)
         if event is None:

@@ -71,12 +71,12 @@ def _crossing(low: Tried, high: Tried, counts: list[float]) -> float:
 def outward(try_: Callable[[float], Tried], still: Tried, way: float) -> Tried | None:
     """Return a trial on the other side of one than ``still``, each further by secants.
 
-    None where there is none: loads do not change, or a trial has no solution.
+    None where there is none, as loads do not change; a trial without a solution where one is met.
     """
     before, now = still, try_(way)
     for _ in range(MOST):
         if not now.attempt.converged:
-            return None
+            return now
         if np.sign(now.over) != np.sign(still.over) or abs(now.over) <= CLOSE:
             return now
         slope = (now.load - before.load) / (now.way - before.way)

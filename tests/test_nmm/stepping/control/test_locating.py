@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from nmm.stepping.control.locating import CLOSE, Tried, located
+from nmm.stepping.control.locating import CLOSE, Tried, located, outward
 
 CURVES = {
     "straight": lambda way: np.array([0.3 * way, 0.5 * way]),
@@ -35,3 +35,18 @@ def test_the_first_bond_at_its_limit_is_found_in_few_trials(name, length):
     most = {"straight": 1, "kinked": 8}.get(name, 12)
     if length == 3.0:
         assert len(tried) - 2 <= most
+
+
+def test_a_trial_without_a_solution_is_told_from_loads_that_do_not_change():
+    def trial(way, solved=True, slope=1.0):
+        loads = np.array([0.5 + slope * way]) if solved else np.full(1, np.inf)
+        return Tried(way, SimpleNamespace(converged=solved), loads)
+
+    still = trial(0.0)
+    assert outward(lambda way: trial(way, slope=0.0), still, 1.0) is None
+    lost = outward(lambda way: trial(way, solved=False), still, 1.0)
+    assert lost is not None
+    assert not lost.attempt.converged
+    found = outward(trial, still, 0.1)
+    assert found is not None
+    assert found.over >= 0
