@@ -47,7 +47,11 @@ class RecordTable(Frozen):
     )
     scale: Number = Field(default=1.0, description="a factor on the values", examples=[0.5])
     start: Time = Field(
-        default=0.0, description="a time in s at which the record's time is zero", examples=["1 s"]
+        default=0.0,
+        ge=-1e9,
+        le=1e9,
+        description="a time in s, at most 1e9, at which the record's time is zero",
+        examples=["1 s"],
     )
     baseline: Literal["none", "velocity", "displacement"] = Field(
         default="none",

@@ -29,6 +29,7 @@ incoming = {{ y = "wave" }}
 density = "2400 kg/m^3"
 p_velocity = "2100 m/s"
 s_velocity = "1200 m/s"
+reactions = false
 [[free_fields]]
 name = "f"
 segment = [[5, 0], [5, 1]]
@@ -381,6 +382,31 @@ degree = 1
 [formulation.cover.enrichment]
 tips = true
 """
+ZONES = f"""{HEAD}{SQUARE}{HELD}[interfaces.i]
+friction_angle = 0.5
+cohesion = "2 MPa"
+tensile_strength = "1 MPa"
+bonded = true
+[contact]
+[[cracks]]
+name = "k"
+points = [[0, 0.5], [0.45, 0.5]]
+[[loads]]
+name = "l"
+kind = "edge"
+segment = [[0, 1], [1, 1]]
+traction = [0, "1 kPa"]
+[cohesive_zones]
+increment = 0.1
+length = 0.2
+ahead = 0.5
+nucleation = true
+max_growth = 0.3
+[formulation.cover]
+type = "quads"
+size = 0.2
+degree = 1
+"""
 SPLITTING = f"""duration = 0.01
 {HEAD}{SQUARE}[[blocks]]
 name = "c"
@@ -424,6 +450,10 @@ name = "k"
 points = [[1, 0.5], [2, 0.5]]
 blocks = ["b", "ground"]
 stiffness = 1e6
+[[water_pressures]]
+name = "lake"
+segment = [[0, 0], [0, 1]]
+level = 0.8
 [[stages]]
 name = "first"
 blocks = ["b"]
@@ -438,6 +468,7 @@ cover = {{ degree = 1 }}
 [[stages]]
 name = "third"
 remove = ["c"]
+water = ["lake"]
 [formulation.cover]
 type = "quads"
 size = 0.5
@@ -553,6 +584,7 @@ EFFECTS = {
         "pulled": PULLED,
         "opened": OPENED,
         "growing": GROWING,
+        "zones": ZONES,
         "splitting": SPLITTING,
         "staged": STAGED,
         "yielding": YIELDING,
