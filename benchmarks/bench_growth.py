@@ -16,7 +16,8 @@ from nmm.formulation import Formulation
 from nmm.results.sink import MemorySink
 from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
-from nmm.stepping.simulation import Simulation, prepare
+from nmm.stepping.prepare import prepare
+from nmm.stepping.simulation import Simulation
 
 SIZES = (0.05, 0.035, 0.025, 0.0175)
 """Cells of a plate of one by one."""

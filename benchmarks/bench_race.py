@@ -16,7 +16,7 @@ from counted_work import raced, run
 from race_peers import Pymunk
 from race_scenes import RACES
 
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 
 def shared_area(rings: list[np.ndarray]) -> float:

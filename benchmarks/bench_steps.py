@@ -11,7 +11,8 @@ from whole_scenes import SCENES
 
 from nmm.formulation import Formulation
 from nmm.results.sink import MemorySink
-from nmm.stepping.simulation import Simulation, prepare
+from nmm.stepping.prepare import prepare
+from nmm.stepping.simulation import Simulation
 
 STEP, STEPS = 1e-3, 12
 """Seconds of time a step, and steps of a run."""

@@ -22,7 +22,8 @@ from pathlib import Path
 from race_scenes import SMALL, Race
 
 from nmm.results.sink import MemorySink
-from nmm.stepping.simulation import Simulation, prepare
+from nmm.stepping.prepare import prepare
+from nmm.stepping.simulation import Simulation
 
 FACTORISED = ("nmm/solvers/factor.py", "of")
 """File and function that each factorisation goes through."""

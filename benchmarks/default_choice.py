@@ -21,7 +21,8 @@ from whole_scenes import pile
 from nmm.formulation import Formulation
 from nmm.results.sink import MemorySink
 from nmm.solvers.threads import one_thread
-from nmm.stepping.simulation import Simulation, prepare
+from nmm.stepping.prepare import prepare
+from nmm.stepping.simulation import Simulation
 
 FIXED = {"growth": 1.0, "rescue": 0}
 """Rounds whose springs stay as they are, so that their factor is kept."""

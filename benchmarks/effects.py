@@ -18,7 +18,7 @@ from idle_effects import IDLE, Idle
 from nmm.formulation import Formulation
 from nmm.results.sink import MemorySink
 from nmm.scene.model import Scene
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 STEPS, ROUNDS = 40, 3
 """Steps of a run, and runs of each scene."""

@@ -21,7 +21,7 @@ from nmm.formulation import Formulation
 from nmm.results.frame import Frame, Topology
 from nmm.results.summary import Summary
 from nmm.solvers.threads import one_thread
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 STEP = 1e-3
 

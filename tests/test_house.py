@@ -371,7 +371,7 @@ SELDOM = ("special", "linalg", "spatial", "optimize", "sparse.linalg", "sparse.c
 
 def test_preparing_blocks_in_contact_imports_no_part_of_scipy_that_it_does_not_call():
     code = (
-        "import nmm; from nmm.stepping.simulation import prepare\n"
+        "import nmm; from nmm.stepping.prepare import prepare\n"
         "scene = nmm.read_scene('examples/incline/slide.toml')\n"
         "prepare(scene, scene.formulation).identity()\n"
         "print()"

@@ -46,7 +46,7 @@ import numba, scipy.optimize, scipy.spatial, skfem
 import nmm.contact.candidates.candidates, nmm.contact.solution.driver
 import idle_effects
 from nmm.model.effects_table import EFFECTS, called_for
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 idle_effects.COURSES, idle_effects.CELL = 5, 1.0
 modules = {{name: place.partition(":")[0] for name, place in EFFECTS.table.items()}}

@@ -47,7 +47,7 @@ def test_cells_of_the_pile_have_three_to_six_contacts_each():
     from whole_scenes import pile
 
     from nmm.formulation import Formulation
-    from nmm.stepping.simulation import prepare
+    from nmm.stepping.prepare import prepare
 
     simulation = prepare(pile(100, 1.0), Formulation())
     found = simulation.stepper.candidates(simulation.start, 1e-6, 1e-3)

@@ -171,7 +171,7 @@ def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
     from nmm.formulation import Formulation
     from nmm.model.effects_table import called_for
     from nmm.model.tips import tip_lines
-    from nmm.stepping.simulation import prepare
+    from nmm.stepping.prepare import prepare
 
     scene = nmm.read_scene(place)
     chosen = read_formulation(formulation) or scene.formulation or Formulation()
@@ -210,7 +210,7 @@ def _bound(place: Path, formulation: Path | None) -> None:
     from nmm.errors import SceneError
     from nmm.formulation import Formulation
     from nmm.stepping.drive.static_theorem import load_bound
-    from nmm.stepping.simulation import prepare
+    from nmm.stepping.prepare import prepare
     from nmm.stepping.step.anchors import block_name, largest_mover
     from nmm.stepping.step.stepper import scaled_load
 
@@ -321,7 +321,7 @@ def _faults(place: Path, formulation: Path | None) -> list[str]:
 
 def _prepared(scene: "Scene", formulation: "Formulation") -> None:
     """Build all that a run needs: what it would refuse is refused here."""
-    from nmm.stepping.simulation import prepare
+    from nmm.stepping.prepare import prepare
 
     prepare(scene, formulation).identity()
 

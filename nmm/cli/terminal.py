@@ -13,9 +13,9 @@ from nmm.errors import NmmError, NmmWarning
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from nmm.progress import Progress
     from nmm.scene import Scene
     from nmm.stepping.run import Run
-    from nmm.stepping.simulation import Progress
 
 
 # Colours of the ends of runs; others are red.

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from nmm.errors import NmmWarning, StorageError
 from nmm.formulation import read_formulation
+from nmm.progress import Progress
 from nmm.results.sink import MemorySink
 from nmm.results.storage import files
 from nmm.results.storage.history import read_history
@@ -16,8 +17,8 @@ from nmm.results.summary import RUNNING, STOPPED, UNKNOWN
 from nmm.scene import read_scene
 from nmm.solvers.threads import one_thread
 from nmm.stepping.drive.verdict import SPENT
+from nmm.stepping.prepare import prepare
 from nmm.stepping.run import Run, finished
-from nmm.stepping.simulation import Progress, prepare
 from nmm.trust import allowing, given
 
 GOES_ON = (RUNNING, STOPPED, SPENT, UNKNOWN)

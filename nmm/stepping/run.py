@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.formulation import Formulation
+from nmm.progress import Progress
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import MemorySink, Sink
 from nmm.results.storage.run_folder import RunFolder
 from nmm.results.summary import Summary
 from nmm.solvers.threads import one_thread
+from nmm.stepping.prepare import prepare
 from nmm.stepping.run_state import RunState
-from nmm.stepping.simulation import Progress, Simulation, prepare
+from nmm.stepping.simulation import Simulation
 from nmm.stepping.step.stepper import Stepper
 from nmm.trust import allowing, beside, given
 

@@ -12,11 +12,13 @@ from math import atan, tan
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
+from nmm.progress import Progress
 from nmm.results.sink import MemorySink
 from nmm.results.summary import Safety
 from nmm.stepping.drive.safety_bound import FINE, safety_bound
 from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED
-from nmm.stepping.simulation import Progress, Simulation, prepare
+from nmm.stepping.prepare import prepare
+from nmm.stepping.simulation import Simulation
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation

@@ -10,12 +10,13 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
+from nmm.progress import Progress
 from nmm.results.frame import Frame
 from nmm.results.storage.writing import told, write_text
 from nmm.scene import Scene
 from nmm.stepping.run import Run, run
 from nmm.study.cases.block_covers import blocks_of
-from nmm.study.cases.measure import Progress, machine, method_of
+from nmm.study.cases.measure import machine, method_of
 from nmm.study.cases.memory import added_memory
 from nmm.study.cases.variants import StudyCase
 from nmm.study.samples import Raster, SampledFields, fields, raster

@@ -43,7 +43,7 @@ def check_effect_of(
     """
     from nmm.formulation import Formulation
     from nmm.model.effects_table import OWN
-    from nmm.stepping.simulation import prepare
+    from nmm.stepping.prepare import prepare
     from nmm.trust import allowing, beside
 
     given = formulation or scene.formulation

@@ -99,7 +99,7 @@ def test_a_reader_that_drops_or_turns_a_value_is_found_out():
 
 
 def test_a_traceback_a_hang_and_a_fault_without_a_line_are_found_out(monkeypatch):
-    from nmm.stepping import simulation
+    from nmm.stepping import prepare
 
     def broken(scene, formulation):
         raise IndexError("index -1")
@@ -112,18 +112,18 @@ def test_a_traceback_a_hang_and_a_fault_without_a_line_are_found_out(monkeypatch
         raise nmm.NmmError("no")
 
     for wrong, outcome in ((broken, "IndexError in broken"), (endless, "late"), (curt, "told")):
-        monkeypatch.setattr(simulation, "prepare", wrong)
+        monkeypatch.setattr(prepare, "prepare", wrong)
         assert verdict(DYNAMIC, longest=0.3).outcome.startswith(outcome)
 
 
 def test_a_spoilt_text_is_reduced_to_the_lines_that_it_takes(monkeypatch):
-    from nmm.stepping import simulation
+    from nmm.stepping import prepare
 
     def breaks(scene, formulation):
         if scene.loads:
             raise IndexError
 
-    monkeypatch.setattr(simulation, "prepare", breaks)
+    monkeypatch.setattr(prepare, "prepare", breaks)
     outcome = verdict(STATIC).outcome
     reduced = shrunk(STATIC, "scene", outcome)
     assert verdict(reduced).outcome == outcome

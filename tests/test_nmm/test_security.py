@@ -15,7 +15,7 @@ import nmm
 from nmm.cli.app import app
 from nmm.formulation import Formulation, parse_formulation
 from nmm.scene import Scene, parse_scene
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 from nmm.study.sweep.study_file import StudyPlan
 from nmm.trust import allowing
 from nmm.verification.published import Expected

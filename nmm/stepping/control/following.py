@@ -6,13 +6,13 @@ still, bond after bond; under control by events they find none before the load h
 the next bond is at its limit.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.contact.controls.base import Control, Standing
+from nmm.progress import Progress
 from nmm.stepping.control.events import next_event
 from nmm.stepping.control.locating import ABOVE, Tried, located
 from nmm.stepping.control.position import OnPath, PathEnd
@@ -30,8 +30,6 @@ from nmm.stepping.step.trial import Attempt
 SMALLEST = 2.0**-20
 # Iterations of a step up to which the next is longer.
 EASY = 8
-
-Progress = Callable[[float, str], None]
 
 
 def run_path(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.progress import Progress
 from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.stable_step import longest_step, singular_mass
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
@@ -86,7 +87,7 @@ def run_in_time(
     recorder: Recorder,
     at: InTime,
     schedule: Schedule,
-    progress: Callable[[float, str], None],
+    progress: Progress,
     keep: Callable[[InTime], InTime] = lambda at: at,
 ) -> tuple[State, RunVerdict]:
     """Step on over the schedule's duration; ``keep`` is shown where every step but the last ends.
@@ -130,7 +131,7 @@ def _next(
     recorder: Recorder,
     at: InTime,
     schedule: Schedule,
-    progress: Callable[[float, str], None],
+    progress: Progress,
 ) -> InTime | RunVerdict:
     """Return where the next step ends, or why there is none."""
     state, rest = at.state, at.rest(schedule)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.errors import SolveError
+from nmm.progress import Progress
 from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad
 from nmm.stepping.drive.until_verdict import until_verdict
@@ -27,7 +28,7 @@ def run_growth(
     recorder: Recorder,
     at: UnderLoad,
     schedule: LoadSchedule,
-    progress: Callable[[float, str], None],
+    progress: Progress,
     keep: Callable[[UnderLoad], UnderLoad] = lambda at: at,
 ) -> tuple[State, RunVerdict]:
     """Let cracks grow from where they stand until none can.
@@ -55,7 +56,7 @@ class _Growing:
     stepper: Stepper
     recorder: Recorder
     schedule: LoadSchedule
-    progress: Callable[[float, str], None]
+    progress: Progress
     bodies: int
 
     def next(self, at: UnderLoad) -> UnderLoad | RunVerdict:

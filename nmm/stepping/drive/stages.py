@@ -8,6 +8,7 @@ import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.frozen import with_parts
+from nmm.progress import Progress
 from nmm.stepping.drive.changes import difference, follow
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from nmm.integrators.base import Integrator
     from nmm.model.stages import Stage
 
-Progress = Callable[[float, str], None]
 At = TypeVar("At", InTime, UnderLoad)
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.progress import Progress
 from nmm.stepping.drive.changes import Asked, Stands, asked, with_events
 from nmm.stepping.drive.evidence import evidence
 from nmm.stepping.drive.relaxation import Relaxed, relax
@@ -39,6 +40,11 @@ SMALLEST = 2.0**-30
 
 # From a state and a load factor to the limit point between, if one is seen.
 Beyond = Callable[[State, float], LimitPoint | None]
+
+
+def unseen(state: State, factor: float) -> LimitPoint | None:
+    """Return no limit point: where paths cannot be followed."""
+    return None
 
 
 @dataclass(frozen=True)
@@ -153,10 +159,10 @@ def run_load(
     recorder: Recorder,
     at: UnderLoad,
     schedule: LoadSchedule,
-    progress: Callable[[float, str], None],
+    progress: Progress,
     names: Sequence[str] = (),
     keep: Callable[[UnderLoad], UnderLoad] = lambda at: at,
-    beyond: Beyond = lambda state, factor: None,
+    beyond: Beyond = unseen,
 ) -> tuple[State, RunVerdict]:
     """Raise the load factor from where it stands; ``names`` are those of the regions.
 
@@ -188,7 +194,7 @@ class _Raising:
     stepper: Stepper
     recorder: Recorder
     schedule: LoadSchedule
-    progress: Callable[[float, str], None]
+    progress: Progress
     names: Sequence[str]
     beyond: Beyond
 

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 from nmm.errors import FormulationError, NmmError
 from nmm.formulation import Formulation
+from nmm.progress import Progress
 from nmm.scene import Scene, build_scene
 from nmm.scene.document import build
 from nmm.scene.faults import Source
 from nmm.study.ablation.omissions import Omission, omissions
-from nmm.study.cases.measure import Progress, measure
+from nmm.study.cases.measure import measure
 from nmm.study.cases.quantities import check_quantity
 from nmm.study.cases.record import Record
 from nmm.study.cases.variants import StudyCase

@@ -2,13 +2,14 @@
 
 import os
 import platform
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
 
 from nmm.errors import NmmError
+from nmm.progress import Progress
 from nmm.study.cases.block_covers import blocks_of
 from nmm.study.cases.memory import added_memories
 from nmm.study.cases.quantities import Measured, quantity
@@ -19,8 +20,6 @@ from nmm.study.cases.variants import StudyCase
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
     from nmm.results.summary import Summary
-
-Progress = Callable[[float, str], None]
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,9 @@ from time import process_time
 import numpy as np
 
 from nmm.formulation import Formulation
+from nmm.progress import Progress
 from nmm.scene import Scene, parse_scene
-from nmm.study.cases.measure import Progress, machine
+from nmm.study.cases.measure import machine
 from nmm.study.cases.memory import added_memory
 from nmm.study.cases.variants import StudyCase
 from nmm.study.cost.cost_model import CostModel, MeasuredRun, fit, size_of
@@ -84,7 +85,7 @@ def wall(number: int, steps: int) -> Scene:
 def measured(kinds: Sequence[Kind], progress: Progress | None = None) -> Iterator[MeasuredRun]:
     """Yield size and cost of every kind, each after a warm-up and the lesser of two repeats."""
     from nmm.results.sink import MemorySink
-    from nmm.stepping.simulation import prepare
+    from nmm.stepping.prepare import prepare
 
     for number, kind in enumerate(kinds):
         if progress is not None:

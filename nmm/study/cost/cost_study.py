@@ -9,8 +9,9 @@ import numpy as np
 
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
+from nmm.progress import Progress
 from nmm.scene import Scene
-from nmm.study.cases.measure import Progress, measure
+from nmm.study.cases.measure import measure
 from nmm.study.cases.quantities import check_quantity
 from nmm.study.cases.record import Record
 from nmm.study.cases.running import SKFEM

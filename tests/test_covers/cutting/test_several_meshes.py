@@ -13,7 +13,7 @@ from integration.polygons import Polygons
 from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 from nmm.verification import text
 
 BLOCKS = Polygons.from_vertices(

@@ -222,7 +222,7 @@ def test_bonds_break_once_in_a_step_that_moves_further_than_contacts_were_sought
     """The first step of a run knows no motion: it seeks to 3e-6 m, the pull is 1e-2 m."""
     from nmm.contact.laws.contact_laws import ContactLaws
     from nmm.effects.base import Instant
-    from nmm.stepping.simulation import prepare
+    from nmm.stepping.prepare import prepare
 
     broken, real = [], ContactLaws.break_bonds
 

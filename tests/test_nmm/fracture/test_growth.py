@@ -15,7 +15,7 @@ from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 from nmm.verification.continuum import polygon
 
 PLATE = """

@@ -10,7 +10,7 @@ import nmm
 from nmm.errors import FormulationError
 from nmm.integrators.central_differences import CentralDifferences
 from nmm.stepping.drive.stable_step import longest_step
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 from nmm.testing.integrators import Oscillator
 
 BAR = """

@@ -13,7 +13,7 @@ from nmm.geometry import regions
 from nmm.model.consistency import known_quantities
 from nmm.scene import parse_scene
 from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 STEP = "[formulation.integrator]\nstep = {}\n"
 

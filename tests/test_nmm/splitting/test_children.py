@@ -10,7 +10,7 @@ from covers.approximation.own_rule import own_rule
 from nmm.assembly.motion import initial_state, vertex_points
 from nmm.splitting.cuts import pieces
 from nmm.splitting.division import replaced
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 BLOCK = """
 title = "block"

@@ -14,7 +14,7 @@ from nmm.effects.base import Instant, Span
 from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 COVERS = {
     "block": 'type = "block"',

@@ -8,7 +8,7 @@ from nmm.effects.base import Instant
 from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 E, Y, H = 200e9, 250e6, 20e9
 

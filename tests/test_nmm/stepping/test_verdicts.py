@@ -8,7 +8,7 @@ import nmm
 from nmm.cli.app import app
 from nmm.stepping.drive.static_theorem import carried
 from nmm.stepping.drive.verdict import EXIT_CODES, MEANT
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 BLOCKS = """
 plane = "stress"

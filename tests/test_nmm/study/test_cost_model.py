@@ -8,7 +8,7 @@ import nmm
 from nmm.cli.app import app
 from nmm.errors import NmmError
 from nmm.shipped import starter
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 from nmm.study.cost.calibrate import BEAM, Kind, measured, wall
 from nmm.study.cost.cost_model import (
     MeasuredRun,

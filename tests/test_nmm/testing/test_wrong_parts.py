@@ -23,7 +23,7 @@ from nmm.outputs.base import Output
 from nmm.outputs.stresses import VonMises
 from nmm.quantity import Quantity
 from nmm.solvers.libraries.superlu import SuperLU
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 from nmm.testing import (
     check_cover,
     check_effect,

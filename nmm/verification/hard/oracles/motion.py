@@ -63,7 +63,7 @@ def prepared(scene: Document) -> "Simulation":
     """Return a scene of tables, compiled and not run."""
     from nmm.formulation import Formulation
     from nmm.scene import parse_scene
-    from nmm.stepping.simulation import prepare
+    from nmm.stepping.prepare import prepare
     from nmm.verification.hard.running.files import toml
 
     read = parse_scene(toml(scene), "hard case")

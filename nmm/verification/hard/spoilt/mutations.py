@@ -90,7 +90,7 @@ def verdict(text: str, kind: str = "scene", longest: float = LONGEST) -> Mutatio
 
 
 def _read(text: str, kind: str) -> tuple[str, str]:
-    from nmm.stepping.simulation import prepare
+    from nmm.stepping.prepare import prepare
 
     model: Scene | Formulation
     if kind == "scene":

@@ -8,8 +8,8 @@ from nmm.contact.mortar.face_means import FaceMeans
 from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
+from nmm.stepping.prepare import prepare
 from nmm.stepping.run import run
-from nmm.stepping.simulation import prepare
 from nmm.verification import text
 from nmm.verification.text import G
 

@@ -6,7 +6,7 @@ import pytest
 import nmm
 from nmm.contact.points.contact_points import rows
 from nmm.formulation import Formulation
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 from nmm.verification import text
 
 SCENE = text.scene(

@@ -13,7 +13,7 @@ from covers.mathematical.triangles import Triangles
 from nmm.contact.enforcement.penalty import Penalty
 from nmm.formulation import Formulation
 from nmm.scene import parse_scene
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 from nmm.verification import text
 
 SCENE = text.scene(

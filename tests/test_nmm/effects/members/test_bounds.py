@@ -5,7 +5,7 @@ import pytest
 import nmm
 from nmm.formulation import Formulation
 from nmm.stepping.drive.static_theorem import load_bound
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 SLIDING = """
 plane = "stress"

@@ -9,7 +9,7 @@ from scipy.sparse.linalg import splu
 import nmm
 from integration.rules import polygon_rule
 from nmm.effects.base import Instant
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 # Density, Lame's constants equal (Poisson's ratio 1/4), and so the speeds of both waves.
 SHEAR = 1.0

@@ -7,7 +7,7 @@ import nmm
 from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 # A bar of 0.5 m x 0.1 m x 0.1 m with a crack across it: ft = 3 MPa, GF = 100 J/m2.
 STRENGTH, ENERGY, AREA, MODULUS = 3e6, 100.0, 0.01, 30e9

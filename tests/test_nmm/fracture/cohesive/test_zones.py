@@ -7,7 +7,7 @@ import nmm
 from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 # A beam of 100 mm, span 400, notch 30 mm, in three-point bending.
 BEAM = """

@@ -5,7 +5,7 @@ import pytest
 import nmm
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
-from nmm.stepping.simulation import prepare
+from nmm.stepping.prepare import prepare
 
 SCENE = """plane = "strain"
 [materials.rock]

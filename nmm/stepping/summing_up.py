@@ -1,0 +1,79 @@
+"""The summary of a run that has ended."""
+
+import resource
+from dataclasses import replace
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from nmm.assembly.motion import State
+from nmm.formulation import Formulation
+from nmm.results.summary import Summary
+from nmm.stepping.audits.base import Ended
+from nmm.stepping.audits.judge import audit, judged
+from nmm.stepping.drive.verdict import RunVerdict
+from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.step.stepper import scaled_load
+
+if TYPE_CHECKING:
+    from nmm.scene.model import Scene
+
+
+def summed_up(
+    known: Summary,
+    recorder: Recorder,
+    start: State,
+    state: State,
+    verdict: RunVerdict,
+    asked: tuple["Scene", Formulation],
+    begun: float,
+) -> Summary:
+    """Return the summary of a run, which its audits have judged.
+
+    Parameters
+    ----------
+    known
+        What was known before it began.
+    start, state
+        The first state and the last accepted one.
+    verdict
+        How it ended.
+    asked
+        Scene and formulation.
+    begun
+        When its preparation began (s).
+    """
+    stepper, totals = recorder.stepper, recorder.totals
+    condition, start = stepper.condition(state), totals.since or start
+    findings = audit(Ended(*asked, stepper, recorder, start, state, verdict, condition))
+    verdict, growth = judged(verdict, findings), stepper.plan.fracture
+    load = None if verdict.load_factor is None else scaled_load(stepper, verdict.load_factor)
+    return replace(
+        known,
+        warnings=[*known.warnings, *(one.sentence for one in findings if one.warns)],
+        audits={one.name: one.value for one in findings},
+        status=verdict.code,
+        sentence=verdict.sentence,
+        steps=recorder.steps,
+        passes=totals.passes,
+        frames=totals.frames,
+        seconds=_with_rest(stepper.seconds, perf_counter() - begun),
+        effect_seconds=dict(stepper.plan.seconds),
+        peak_memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
+        equilibrium_residual=totals.residual,
+        largest_penetration=totals.penetration,
+        energy_balance=totals.ledger.balance,
+        condition_estimate=condition,
+        failure_load=load,
+        failure_factor=verdict.load_factor,
+        failure_tolerance=verdict.tolerance,
+        largest_contacts=dict(totals.largest),
+        change_energy=totals.ledger.change_energy if totals.changes else None,
+        changes=list(totals.changes),
+        fracture_energy=None if growth is None else growth.energy_taken,
+        freed_energy=None if growth is None else totals.ledger.freed(growth.name),
+    )
+
+
+def _with_rest(seconds: dict[str, float], total: float) -> dict[str, float]:
+    """Return seconds by phase with what no phase has counted, so that they sum to the total."""
+    return {**seconds, "rest": max(total - sum(seconds.values()), 0.0)}
