@@ -17,6 +17,8 @@ from nmm.scene.units import EXAMPLES, UnitError, convert
 
 # What is further from 1 than this is a slip of the pen, and its products overflow or vanish.
 LARGEST, SMALLEST = 10**30, 1e-30
+# Of things that are counted.
+MOST = 10**18
 # Tables within tables; deeper ones are no data of ours.
 DEEPEST = 16
 
@@ -117,9 +119,16 @@ Acceleration = Annotated[float, quantity("m/s^2")]
 AngularVelocity = Annotated[float, quantity("rad/s")]
 AnyQuantity = Annotated[float, quantity("any")]
 
+
+def _countable(number: int) -> int:
+    """Refuse what 64 bits do not hold: counts are kept in arrays. A bound of a field stays."""
+    if abs(number) > MOST:
+        raise fault(number, f"a whole number of at most {MOST:.0e}", "give a smaller one")
+    return number
+
+
 # Strict: 1.5, "3" and true are no numbers of things, "yes" is no truth value.
-# No more than 64 bits hold, as what counts is kept in arrays.
-Count = Annotated[int, Field(strict=True, le=10**18)]
+Count = Annotated[int, Field(strict=True), AfterValidator(_countable)]
 Flag = Annotated[bool, Field(strict=True)]
 
 

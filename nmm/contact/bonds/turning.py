@@ -19,6 +19,8 @@ def counted(contacts: ContactPoints, jump: Floats) -> Floats:
     The share is the column ``TIED``. A point whose joint has no other whole bond has its own jump.
     """
     tied = np.flatnonzero(contacts.tied)
+    if not len(tied):
+        return jump
     found = jump.copy()
     found[tied] = counting(contacts.take(tied)) @ jump[tied]
     return found

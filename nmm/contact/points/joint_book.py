@@ -145,7 +145,8 @@ def follow_joints(
     kept = seam | (apart & ~cracks.part(middle))
     joints, seam = joints.take(kept), seam[kept]
     interface = interface_of(joints.edge_a, joints.edge_b)
-    refuse_loose(joints.start[seam & ~((interface >= 0) & bonded[interface])])
+    firm = (interface >= 0) & bonded[np.maximum(interface, 0)]
+    refuse_loose(joints.start[seam & ~firm])
     wanted = (interface >= 0) & makes_joints[np.maximum(interface, 0)]
     joints, interface = joints.take(wanted), interface[wanted]
     distance = _distance(model, joints)
