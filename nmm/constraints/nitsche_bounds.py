@@ -58,12 +58,11 @@ def edge_bound(
 
 def _largest(rows: Floats, energy: Floats) -> float:
     """Largest eigenvalue of ``rows energy^-1 rows^T``, all of them full."""
-    from scipy.linalg import eigh, solve_triangular
+    from scipy.linalg import eigh
 
-    half = solve_triangular(np.linalg.cholesky(energy), rows.T, lower=True)
-    ratio = half @ half.T if len(half) < len(rows) else half.T @ half
+    ratio = rows @ np.linalg.solve(energy, rows.T)  # integrated energies need not be definite
     last = len(ratio) - 1
-    return float(eigh(ratio, eigvals_only=True, subset_by_index=[last, last])[0])
+    return float(eigh((ratio + ratio.T) / 2, eigvals_only=True, subset_by_index=[last, last])[0])
 
 
 def _estimate(rows: csr_array, energy: csc_array, position: Floats) -> float:

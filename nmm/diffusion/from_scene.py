@@ -146,7 +146,7 @@ def _place(setup: Setup, given: Given) -> Place:
     order = 2 * manifold.degree + 2
     place = on_segment(manifold, np.array(item.segment), setup.regions(item.block), order)
     if not len(place):
-        where = setup.scene.source.of_name(given.key, item.name)
+        where = setup.scene.source.of_name(given.key, item.name, "segment")
         expected = "a part of the boundary of a block"
         raise SceneError(Fault(where, str(item.segment), expected, "move it onto an edge"))
     return place

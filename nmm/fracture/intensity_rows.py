@@ -60,6 +60,7 @@ class IntensityRows:
         volume = list(about.over_elements())
         faces = list(about.over_faces(face_traction))
         weighed = [part for part, _ in volume] + [p for p in faces if isinstance(p, Weighed)]
+        weighed = [part for part in weighed if len(part.points)]
         fixed = sum((p for p in faces if not isinstance(p, Weighed)), start=np.zeros(2))
         stiff = 8 * shear / (kappa + 1)
         total = np.sum([_on_unknowns(model, part) for part in weighed], axis=0)

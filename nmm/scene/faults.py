@@ -44,13 +44,13 @@ class Source:
         where = f"{self.name}:{line}" if line else self.name
         return f"{where}: {dotted}" if dotted else where
 
-    def of_name(self, key: str, name: str) -> str:
-        """`place` of the table ``[[key]]`` of a name, wherever it stands among the others."""
+    def of_name(self, key: str, name: str, *below: str) -> str:
+        """`place` in the table ``[[key]]`` of a name, wherever it stands among the others."""
         rows: Any = []
         with suppress(tomllib.TOMLDecodeError):
             rows = tomllib.loads(self.text).get(key, [])
         number = [n for n, row in enumerate(rows) if row.get("name") == name]
-        return self.place(key, *number[:1])
+        return self.place(key, *number[:1], *(below if number else ()))
 
     def line(self, *path: str | int) -> int:
         """Line of the nearest key that is in the file, 0 if there is none."""

@@ -13,6 +13,7 @@ TABLES = {
     "damping": ("damping",),
     "contact": ("contact",),
     "fracture": ("fracture",),
+    "fracture in time": ("fracture",),
     "cohesive zones": ("cohesive_zones",),
     "splitting": ("splitting",),
     "initial velocity": ("initial_velocities",),

@@ -140,7 +140,7 @@ maximum_factor = 40
 events = ["bond_breaks"]
 {checkpoint}
 [formulation.loading]
-increment = 1
+increment = 0.1
 tolerance = 0.01
 """
 )
