@@ -30,6 +30,7 @@ LIBRARIES = {
 ROOMS = (
     "errors",
     "frozen",
+    "progress",
     "trust",
     "registry",
     "quantity",
