@@ -126,10 +126,10 @@ class Transfer:
         weighty = csc_array(strain.T @ new.times(weighed).matrix(n))
         side = strain.T @ stress.ravel() - weighty @ np.where(free, 0.0, found)
         matrix, mass = self._among(weighty), self._among(self._mass)
-        size = matrix.diagonal().sum() / mass.diagonal().sum()
-        if not size > 0:
+        stiff, heavy = matrix.diagonal().sum(), mass.diagonal().sum()
+        if not stiff > 0:  # no material that both have is strained
             return found
-        held = NormalEquations(csc_array(matrix + HELD * size * mass))
+        held = NormalEquations(csc_array(matrix + HELD * stiff / heavy * mass))
         start = found[free]
         found[free] = held.iterated(matrix, side[free], start, self._without_rigid)
         return found

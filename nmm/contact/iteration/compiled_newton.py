@@ -4,7 +4,6 @@ Residual, solution, mixing and judging of a pass call no Python. What it finds i
 loop finds, to the last digits.
 """
 
-from dataclasses import astuple
 from typing import Any
 
 import numba as nb
@@ -51,9 +50,14 @@ def run(
     decomposition = factor.decomposition
     assert isinstance(decomposition, FrontalFactor)
     outside, plan = decomposition.for_loops
-    steady = astuple(patience or NEVER)
+    x, force, size = start
+    wait, (depth, growth) = patience or NEVER, steer
+    # Of one type each, so that the loop is compiled once: options may give whole numbers.
+    given = float(size), int(budget), float(tolerance)
+    steady = float(wait.ahead), float(wait.below), int(wait.look)
+    turn = int(depth), float(growth)
     with one_thread():
-        found = _run(*start, budget, tolerance, steady, steer, factor.scale, outside, plan, columns)
+        found = _run(x, force, *given, steady, turn, factor.scale, outside, plan, columns)
     increment, force, size, solves = found
     return increment, force, float(size), int(solves)
 
