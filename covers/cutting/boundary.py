@@ -33,6 +33,10 @@ class BoundaryEdges:
     def __len__(self) -> int:
         return len(self.element)
 
+    def at(self, edge: Ints, parameter: Floats) -> Floats:
+        """Places (m, 2) in the reference on edges (m,), from 0 at their start to 1 at their end."""
+        return self.start[edge] + parameter[:, None] * (self.end[edge] - self.start[edge])
+
 
 def ring_edges(polygons: Polygons, body: Ints) -> BoundaryEdges:
     """Return all edges of all rings as boundary: the case of one element a body."""

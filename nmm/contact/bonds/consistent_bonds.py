@@ -70,10 +70,7 @@ class ConsistentBonds:
         points, number = joints.take(wanted), np.where(wanted, np.cumsum(wanted) - 1, -1)
         edges, area = model.manifold.boundary, points.length * model.thickness
         both = (points.edge_a, points.parameter_a), (points.edge_b, points.parameter_b)
-        places = [
-            edges.start[edge] + share[:, None] * (edges.end[edge] - edges.start[edge])
-            for edge, share in both
-        ]
+        places = [edges.at(edge, share) for edge, share in both]
         elements = [edges.element[edge] for edge, _ in both]
         reach = [_reach(model, own, points, area) for own in elements]
         found = AverageTraction.of(model, elements, places, -points.normal, area, reach)
@@ -151,10 +148,8 @@ def _reach(model: Model, elements: Ints, points: ContactPoints, area: Floats) ->
     At least half of the mean over all joints of an element: the middle of a hollow one may lie
     behind an edge.
     """
-    boundary, middle = model.manifold.boundary, centroids(model.manifold.elements)
-    place = boundary.start[points.edge_a] + points.parameter_a[:, None] * (
-        boundary.end[points.edge_a] - boundary.start[points.edge_a]
-    )
+    middle = centroids(model.manifold.elements)
+    place = model.manifold.boundary.at(points.edge_a, points.parameter_a)
     far = np.abs(np.einsum("ij,ij->i", middle[elements] - place, points.normal))
     whole = np.bincount(elements, area)
     mean = np.bincount(elements, area * far) / np.where(whole > 0, whole, 1.0)

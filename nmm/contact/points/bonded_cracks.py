@@ -48,9 +48,7 @@ class BondedCracks:
 
     def points(self, manifold: Manifold, points: ContactPoints) -> Bools:
         """Which contact points (m,) lie on them."""
-        edges, share = manifold.boundary, points.parameter_a[:, None]
-        start = edges.start[points.edge_a]
-        return self.hold(start + share * (edges.end[points.edge_a] - start))
+        return self.hold(manifold.boundary.at(points.edge_a, points.parameter_a))
 
 
 def refuse_loose(places: Floats) -> None:

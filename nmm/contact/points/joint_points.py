@@ -104,9 +104,8 @@ class JointSites:
 
 def _material(sides: Sides, edge: Ints, parameter: Floats) -> MaterialPoints:
     """Points of the material that lie at fractions of edges in the reference place."""
-    boundary, s = sides.manifold.boundary, parameter[:, None]
-    place = boundary.start[edge] + s * (boundary.end[edge] - boundary.start[edge])
-    return material_points(sides.manifold, boundary.element[edge], place)
+    boundary = sides.manifold.boundary
+    return material_points(sides.manifold, boundary.element[edge], boundary.at(edge, parameter))
 
 
 def _differ(values: Floats, others: Floats) -> bool:

@@ -21,14 +21,13 @@ from nmm.fracture.cohesive.nucleus import Nuclei
 from nmm.fracture.cohesive.pieces import extended, with_nucleus
 from nmm.fracture.cohesive.strength import element_strength
 from nmm.fracture.cohesive.zone_fronts import zone_fronts
+from nmm.fracture.growth.fronts import may_grow
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.effects.change import Change
     from nmm.effects.view import View
 
-# Part of a length by which sums of pieces are rounded.
-ROUNDING = 1e-6
 # Cells by which a zone goes on beyond where it opens: a crack without functions of its tip acts as
 # if it ended up to a cell and a half before it.
 LAG = 2.5
@@ -149,17 +148,19 @@ class CohesiveZones(Effect):
         if contacts is None or not len(contacts):
             return np.asarray(short)
         given = contacts.take(given_way(contacts))
-        edges = self._setup.model.manifold.boundary
-        start, share = edges.start[given.edge_a], given.parameter_a[:, None]
-        place = start + share * (edges.end[given.edge_a] - start)
+        place = self._setup.model.manifold.boundary.at(given.edge_a, given.parameter_a)
         away = np.hypot(*np.moveaxis(tips[:, None] - place, -1, 0))
         return np.asarray(short | (zone & (away < self._lag).any(axis=1)))
 
     def _free(self, front: Ints) -> Bools:
         """Which fronts (k,) have not grown as far as they may."""
         most = np.inf if self._table.max_growth is None else self._table.max_growth
-        grown = np.array([self._grown.get(self._fronts.name[one], 0.0) for one in front])
-        return np.asarray(grown < most * (1 - ROUNDING))
+        return may_grow(self._lengths[front], most)
+
+    @property
+    def _lengths(self) -> Floats:
+        """How far each front has grown (n,) (m)."""
+        return np.array([self._grown.get(name, 0.0) for name in self._fronts.name])
 
     def event(self, view: "View") -> Event | None:
         """Ask for new pieces where the stress calls for them, else for a nucleus."""
@@ -206,11 +207,9 @@ class CohesiveZones(Effect):
 
     def history(self, state: State) -> Mapping[str, float]:
         """Place and growth of every front (m)."""
-        places = self._fronts.points(self._setup.geometry.cracks) + self._setup.origin
-        row = {"growth": sum(self._grown.values())}
-        for name, (x, y) in zip(self._fronts.name, places, strict=True):
-            row |= {f"{name}:x": x, f"{name}:y": y, f"{name}:growth": self._grown.get(name, 0.0)}
-        return {key: float(value) for key, value in row.items()}
+        cracks, origin = self._setup.geometry.cracks, self._setup.origin
+        total = {"growth": float(sum(self._grown.values()))}
+        return total | self._fronts.history(cracks, origin, self._lengths)
 
     def carried(self) -> Mapping[str, float]:
         """How far each front has grown (m)."""

@@ -10,6 +10,8 @@ from integration.arrays import Bools, Floats, Ints
 
 # A tip is the end of a polyline that lies within so many of the lengths by which a cut may move it.
 MOVED = 4.0
+# Part of a length by which sums of pieces are rounded.
+ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
@@ -60,3 +62,16 @@ class CrackFronts:
     def gained(self, before: Sequence[Floats], after: Sequence[Floats]) -> Floats:
         """Length (n,) by which each front has gone on from one set of polylines to another (m)."""
         return np.asarray(np.hypot(*(self.points(after) - self.points(before)).T))
+
+    def history(self, cracks: Sequence[Floats], origin: Floats, grown: Floats) -> dict[str, float]:
+        """Place in the scene's axes and growth (n,) of every front (m), by its name."""
+        row: dict[str, float] = {}
+        places = self.points(cracks) + origin
+        for name, (x, y), length in zip(self.name, places.tolist(), grown.tolist(), strict=True):
+            row |= {f"{name}:x": x, f"{name}:y": y, f"{name}:growth": length}
+        return row
+
+
+def may_grow(grown: Floats, most: float) -> Bools:
+    """Which fronts (n,) have not grown as far as they may (m)."""
+    return np.asarray(grown < most * (1 - ROUNDING))

@@ -189,15 +189,13 @@ class GrowingCracks(Effect):
         The opening is the largest between the faces of a crack, the energy what growth took.
         """
         found = self.intensities(state)
-        places = self._fronts.points(self._setup.geometry.cracks) + self._setup.origin
+        cracks = self._setup.geometry.cracks
         row = {"growth": float(self._sofar.length.sum()), "energy": self._sofar.energy}
         opening = self._faces.apart(state)[1]
         for number, crack in enumerate(self._setup.scene.cracks):  # a handful
-            line = self._setup.geometry.cracks[number]
-            row[f"{crack.name}:length"] = np.hypot(*np.diff(line, axis=0).T).sum()
+            row[f"{crack.name}:length"] = np.hypot(*np.diff(cracks[number], axis=0).T).sum()
             row[f"{crack.name}:opening"] = opening[self._faces.crack == number].max(initial=0.0)
-        for name, (x, y), grown in zip(self._fronts.name, places, self._sofar.length, strict=True):
-            row |= {f"{name}:x": x, f"{name}:y": y, f"{name}:growth": grown}
+        row |= self._fronts.history(cracks, self._setup.origin, self._sofar.length)
         for number, front in enumerate(found.front):
             name = self._fronts.name[front]
             row[f"{name}:K_I"], row[f"{name}:K_II"] = found.opening[number], found.sliding[number]

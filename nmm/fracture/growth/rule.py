@@ -7,6 +7,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.fracture.criteria.base import CRITERIA, Criterion, Kink
+from nmm.fracture.growth.fronts import may_grow
 from nmm.fracture.toughness import Toughness
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ class GrowthRule:
 
     def free(self, grown: Floats) -> Bools:
         """Which fronts (n,) have not grown as far as they may."""
-        return np.asarray(grown < self.most * (1 - ROUNDING))
+        return may_grow(grown, self.most)
 
     def growing(self, share: Floats, grown: Floats) -> Bools:
         """Which fronts (n,) grow: none before one is critical, then all that nearly are."""

@@ -1,6 +1,6 @@
 """Sound scenes of what acts on bodies and in them, one table or more of every effect among them."""
 
-from nmm.verification.hard.spoilt.sound_texts import HEAD, HELD, SQUARE
+from nmm.verification.hard.spoilt.sound_texts import HEAD, HELD, SQUARE, UPPER
 
 SHAKEN = f"""duration = 0.02
 {HEAD}{SQUARE}[records.quake]
@@ -61,11 +61,7 @@ budget = "10 min"
 max_steps = 100
 """
 MEMBERS = f"""duration = 0.01
-{HEAD}{SQUARE}[[blocks]]
-name = "c"
-material = "m"
-vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
-[interfaces.i]
+{HEAD}{SQUARE}{UPPER}[interfaces.i]
 friction_angle = 0.5
 damping = 0.1
 [contact]
@@ -251,11 +247,7 @@ type = "triangles"
 size = 0.5
 degree = 1
 """
-JOINTS_UNDER_WATER = f"""{HEAD}{SQUARE}[[blocks]]
-name = "c"
-material = "m"
-vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
-{HELD}[interfaces.i]
+JOINTS_UNDER_WATER = f"""{HEAD}{SQUARE}{UPPER}{HELD}[interfaces.i]
 friction_angle = "30 deg"
 residual_friction_angle = "20 deg"
 normal_stiffness = "10 GPa/m"
@@ -289,11 +281,7 @@ direction = [0, -1]
 increment = "1 um"
 end = "5 um"
 """
-SOFTENING = f"""{HEAD}{SQUARE}[[blocks]]
-name = "c"
-material = "m"
-vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
-{HELD}[interfaces.i]
+SOFTENING = f"""{HEAD}{SQUARE}{UPPER}{HELD}[interfaces.i]
 law = "bilinear_softening"
 friction_angle = "30 deg"
 cohesion = "2 MPa"
@@ -318,11 +306,7 @@ bond_stiffness = 2.0
 shear_ratio = 0.5
 max_passes = 30
 """
-PULLED = f"""{HEAD}{SQUARE}[[blocks]]
-name = "c"
-material = "m"
-vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
-{HELD}[interfaces.i]
+PULLED = f"""{HEAD}{SQUARE}{UPPER}{HELD}[interfaces.i]
 friction_angle = "30 deg"
 cohesion = "2 MPa"
 tensile_strength = "1 MPa"
@@ -432,11 +416,7 @@ velocity = [0, -5]
 type = "newmark"
 step = "1 ms"
 """
-STAGED = f"""{HEAD}{SQUARE}{HELD}[[blocks]]
-name = "c"
-material = "m"
-vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
-[interfaces.i]
+STAGED = f"""{HEAD}{SQUARE}{HELD}{UPPER}[interfaces.i]
 friction_angle = 0.5
 [contact]
 [gravity]

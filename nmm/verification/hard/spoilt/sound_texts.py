@@ -11,6 +11,11 @@ name = "b"
 material = "m"
 vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
 """
+UPPER = """[[blocks]]
+name = "c"
+material = "m"
+vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
+"""
 HELD = """[[supports]]
 name = "s"
 segment = [[0, 0], [1, 0]]
