@@ -35,6 +35,7 @@ ROOMS = (
     "registry",
     "quantity",
     "capacity",
+    "compiled",
     "shipped",
     "scene",
     "geometry",
@@ -370,14 +371,14 @@ def test_help_imports_nothing_heavy():
 SELDOM = ("special", "linalg", "spatial", "optimize", "sparse.linalg", "sparse.csgraph")
 
 
-def test_preparing_blocks_in_contact_imports_no_part_of_scipy_that_it_does_not_call():
+def test_preparing_blocks_in_contact_imports_no_compiler_and_no_part_of_scipy_not_called():
     code = (
         "import nmm; from nmm.stepping.prepare import prepare\n"
         "scene = nmm.read_scene('examples/incline/slide.toml')\n"
         "prepare(scene, scene.formulation).identity()\n"
         "print()"
     )
-    assert not all_modules_after(code) & {f"scipy.{name}" for name in SELDOM}
+    assert not all_modules_after(code) & {"numba", *(f"scipy.{name}" for name in SELDOM)}
 
 
 def test_the_public_face_is_lazy():

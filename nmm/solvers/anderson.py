@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass, field
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.compiled import compiled
 
 RIDGE = 1e-12
 """Part of the trace that keeps the least squares regular."""
@@ -73,7 +73,7 @@ class FixedPoint:
         return np.asarray(point + self.history.mixed(correction, -correction))
 
 
-@nb.njit(cache=True)
+@compiled
 def add_step(
     sums: Floats,
     corrections: Floats,
@@ -97,7 +97,7 @@ def add_step(
         gram[at, j] = gram[j, at] = total
 
 
-@nb.njit(cache=True)
+@compiled
 def mixed_step(
     sums: Floats, corrections: Floats, gram: Floats, used: int, correction: Floats, force: Floats
 ) -> Floats:

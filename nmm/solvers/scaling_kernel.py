@@ -1,12 +1,12 @@
 """Scaled copy of a matrix in one sweep of compiled code."""
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Floats, Index
+from nmm.compiled import compiled
 
 
-@nb.njit(cache=True)
+@compiled
 def scaled_data(
     indptr: Index, indices: Index, data: Floats, scale: Floats, shift: float
 ) -> tuple[Floats, int]:

@@ -2,13 +2,13 @@
 
 import math
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.compiled import compiled
 
 
-@nb.njit(cache=True)
+@compiled
 def _thickness(start: Floats, end: Floats, body: Ints) -> Floats:
     """Twice the area over the perimeter (B,) of bodies, as `Surface.thickness`."""
     count = 0
@@ -28,7 +28,7 @@ def _thickness(start: Floats, end: Floats, body: Ints) -> Floats:
     return twice
 
 
-@nb.njit(cache=True)
+@compiled
 def can_meet(
     start: Floats,
     end: Floats,

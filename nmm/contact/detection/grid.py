@@ -2,17 +2,15 @@
 
 import math
 
-import numba
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.compiled import compiled
 from nmm.contact.detection.tolerances import REENTRANT
 
-_compiled = numba.njit(cache=True, nogil=True)
 
-
-@_compiled
-def _column(a, b, left, right, reach):  # type: ignore[no-untyped-def]
+@compiled
+def _column(a: Floats, b: Floats, left: float, right: float, reach: float) -> tuple[float, float]:
     """Range of y that a segment inflated by ``reach`` may take over a column of the grid."""
     if a[0] > b[0]:
         a, b = b, a
@@ -25,8 +23,18 @@ def _column(a, b, left, right, reach):  # type: ignore[no-untyped-def]
     return min(low, high) - reach, max(low, high) + reach
 
 
-@_compiled
-def _entries(start, end, reaches, cell, rows, mask, count, edges, keys):  # type: ignore[no-untyped-def]
+@compiled
+def _entries(
+    start: Floats,
+    end: Floats,
+    reaches: Floats,
+    cell: float,
+    rows: int,
+    mask: int,
+    count: Ints,
+    edges: Ints,
+    keys: Ints,
+) -> None:
     """Visit the cells of every edge: count them by bucket, or store them when ``edges`` has room.
 
     A bucket holds several cells, so each entry keeps the key of its cell.
@@ -46,19 +54,19 @@ def _entries(start, end, reaches, cell, rows, mask, count, edges, keys):  # type
                 count[bucket] += 1
 
 
-@_compiled
-def _key(i, j):  # type: ignore[no-untyped-def]
+@compiled
+def _key(i: int, j: int) -> int:
     return (i << 32) ^ (j & 0xFFFFFFFF)
 
 
-@_compiled
-def _bucket(i, j, rows, mask):  # type: ignore[no-untyped-def]
+@compiled
+def _bucket(i: int, j: int, rows: int, mask: int) -> int:
     """Cells in rows, wrapped around: neighbours stay neighbours, empty space costs nothing."""
     return (i * rows + j) & mask
 
 
-@_compiled
-def _distance2(p, a, b):  # type: ignore[no-untyped-def]
+@compiled
+def _distance2(p: Floats, a: Floats, b: Floats) -> float:
     dx, dy = b[0] - a[0], b[1] - a[1]
     px, py = p[0] - a[0], p[1] - a[1]
     length2 = dx * dx + dy * dy
@@ -66,11 +74,11 @@ def _distance2(p, a, b):  # type: ignore[no-untyped-def]
         s = min(max((px * dx + py * dy) / length2, 0.0), 1.0)
         px -= s * dx
         py -= s * dy
-    return px * px + py * py
+    return float(px * px + py * py)
 
 
-@_compiled
-def _apart(start, end, following, previous, v, e):  # type: ignore[no-untyped-def]
+@compiled
+def _apart(start: Floats, end: Floats, following: Ints, previous: Ints, v: int, e: int) -> bool:
     """Whether vertex and edge of one body can meet: across a reentrant corner at the nearest."""
     before = previous[v]
     if e in (v, before):
@@ -82,18 +90,29 @@ def _apart(start, end, following, previous, v, e):  # type: ignore[no-untyped-de
     return True
 
 
-@_compiled
-def _reentrant(a, b, c):  # type: ignore[no-untyped-def]
+@compiled
+def _reentrant(a: Floats, b: Floats, c: Floats) -> bool:
     """Whether a corner turns to the right, or straight back as the tip of a slit does."""
     ux, uy, wx, wy = b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]
     turn, size = ux * wy - uy * wx, math.sqrt((ux * ux + uy * uy) * (wx * wx + wy * wy))
-    return turn <= REENTRANT * size and (turn < 0.0 or ux * wx + uy * wy < 0.0)
+    return bool(turn <= REENTRANT * size and (turn < 0.0 or ux * wx + uy * wy < 0.0))
 
 
-@_compiled
-def _search(  # type: ignore[no-untyped-def]
-    start, end, body, following, previous, reaches, within, cell, rows, offset, edges, keys
-):
+@compiled
+def _search(
+    start: Floats,
+    end: Floats,
+    body: Ints,
+    following: Ints,
+    previous: Ints,
+    reaches: Floats,
+    within: bool,
+    cell: float,
+    rows: int,
+    offset: Ints,
+    edges: Ints,
+    keys: Ints,
+) -> tuple[Ints, Ints]:
     """Test each vertex against the edges of its cell; rows come sorted by vertex, then edge."""
     n = len(start)
     mask = len(offset) - 2
@@ -123,7 +142,7 @@ def _search(  # type: ignore[no-untyped-def]
     return vertex[:found].copy(), edge[:found].copy()
 
 
-@_compiled
+@compiled
 def spread(now: Floats, then: Floats) -> float:
     """Return the diagonal of the box of all displacements: no two points moved apart by more."""
     low_x = high_x = low_y = high_y = 0.0
@@ -173,8 +192,7 @@ def pairs_by_grid(
     offset = np.concatenate([[0], np.cumsum(count)])
     edges, keys = np.empty(offset[-1], np.int64), np.empty(offset[-1], np.int64)
     _entries(start, end, reaches, cell, rows, mask, offset[:-1].copy(), edges, keys)
-    pairs: tuple[Ints, Ints] = _search(
+    return _search(
         start, end, body, following, previous, reaches, within_bodies, cell, rows, offset,
         edges, keys,
     )  # fmt: skip
-    return pairs

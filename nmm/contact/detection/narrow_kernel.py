@@ -8,10 +8,10 @@ of the columns in `narrow_tables` this file has to be touched.
 
 import math
 
-import numba
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
+from nmm.compiled import compiled
 from nmm.contact.detection.narrow_tables import (
     BEFORE,
     BODY,
@@ -27,24 +27,28 @@ from nmm.contact.detection.narrow_tables import (
     THICK,
     TX,
     TY,
+    Columns,
+    Shape,
+    Small,
     describe,
     offsets,
     shape_of,
 )
 from nmm.contact.detection.tolerances import MERGED_BODIES, Rules
 
-_compiled = numba.njit(cache=True, nogil=True)
+Rays = tuple[float, float, float, float]
+Lines = tuple[int, int, int, int]
 
 _INTERIOR, _USABLE = 1, 2
 
 
-@_compiled
-def _thinner(shape, one, other):  # type: ignore[no-untyped-def]
-    return min(shape.real[one, THICK], shape.real[other, THICK])
+@compiled
+def _thinner(shape: Shape, one: int, other: int) -> float:
+    return float(min(shape.real[one, THICK], shape.real[other, THICK]))
 
 
-@_compiled
-def _measure(shape, v, e):  # type: ignore[no-untyped-def]
+@compiled
+def _measure(shape: Shape, v: int, e: int) -> tuple[float, float]:
     """Foot along the edge and signed distance of its line, both from the nearer end."""
     tx, ty = shape.real[e, TX], shape.real[e, TY]
     px, py = shape.real[v, SX], shape.real[v, SY]
@@ -56,8 +60,10 @@ def _measure(shape, v, e):  # type: ignore[no-untyped-def]
     return dx * tx + dy * ty + shape.real[e, LENGTH], -(tx * dy - ty * dx)
 
 
-@_compiled
-def _cover(shape, v, edge, low, high, s, gap, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _cover(
+    shape: Shape, v: int, edge: Ints, low: int, high: int, s: Floats, gap: Floats, rules: Rules
+) -> None:
     """Enter the flush covers of both edges at a vertex."""
     cosine = math.sqrt(1.0 - rules.sine * rules.sine)
     best_own = best_before = 0.0
@@ -76,13 +82,14 @@ def _cover(shape, v, edge, low, high, s, gap, rules):  # type: ignore[no-untyped
             shape.link[v, BEFORE], best_before = e, back
 
 
-@_compiled
-def _dot(shape, one, other):  # type: ignore[no-untyped-def]
-    return shape.real[one, TX] * shape.real[other, TX] + shape.real[one, TY] * shape.real[other, TY]
+@compiled
+def _dot(shape: Shape, one: int, other: int) -> float:
+    ax, ay = shape.real[one, TX], shape.real[one, TY]
+    return float(ax * shape.real[other, TX] + ay * shape.real[other, TY])
 
 
-@_compiled
-def _rays(shape, v, partner, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _rays(shape: Shape, v: int, partner: int, rules: Rules) -> Rays:
     """Rays of a vertex, merged with its flush neighbours as long as the union is convex."""
     p = shape.link[v, PREVIOUS]
     ox, oy = shape.real[v, TX], shape.real[v, TY]
@@ -97,8 +104,8 @@ def _rays(shape, v, partner, rules):  # type: ignore[no-untyped-def]
     return ox, oy, bx, by
 
 
-@_compiled
-def _leaves(shape, e, ox, oy, bx, by, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _leaves(shape: Shape, e: int, ox: float, oy: float, bx: float, by: float, rules: Rules) -> bool:
     """First-order entrance condition: both rays leave the edge's solid, and so does all between."""
     tx, ty = shape.real[e, TX], shape.real[e, TY]
     own, before = ox * ty - oy * tx, bx * ty - by * tx
@@ -106,8 +113,18 @@ def _leaves(shape, e, ox, oy, bx, by, rules):  # type: ignore[no-untyped-def]
     return min(own, before) >= -rules.sine and not (flat and ox * tx + oy * ty > 0.0)
 
 
-@_compiled
-def _walk(shape, v, partner, rx, ry, ax, ay, forward, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _walk(
+    shape: Shape,
+    v: int,
+    partner: int,
+    rx: float,
+    ry: float,
+    ax: float,
+    ay: float,
+    forward: bool,
+    rules: Rules,
+) -> tuple[bool, float, float]:
     """Turn one ray of a vertex over its flush neighbours; False where the union is not convex."""
     at = v
     for _ in range(MERGED_BODIES):
@@ -133,20 +150,20 @@ def _walk(shape, v, partner, rx, ry, ax, ay, forward, rules):  # type: ignore[no
     return True, rx, ry
 
 
-@_compiled
-def _aside(shape, e, x, end):  # type: ignore[no-untyped-def]
+@compiled
+def _aside(shape: Shape, e: int, x: int, end: int) -> float:
     """Distance of the start (``end`` 0) or end of an edge from the line of another."""
     px, py = (shape.real[e, SX], shape.real[e, SY])
     if end == 1:
         px, py = (shape.real[e, EX], shape.real[e, EY])
     dx, dy = px - shape.real[x, SX], py - shape.real[x, SY]
-    return shape.real[x, TX] * dy - shape.real[x, TY] * dx
+    return float(shape.real[x, TX] * dy - shape.real[x, TY] * dx)
 
 
-@_compiled
-def _closed(shape, e, x, end, aside, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _closed(shape: Shape, e: int, x: int, end: int, aside: float, rules: Rules) -> float:
     """How far from the end of an edge another one beside it, that opens, is still flush."""
-    opening = shape.real[x, TX] * shape.real[e, TY] - shape.real[x, TY] * shape.real[e, TX]
+    opening: float = shape.real[x, TX] * shape.real[e, TY] - shape.real[x, TY] * shape.real[e, TX]
     if end == 0:
         opening = -opening
     if opening <= 0.0:
@@ -154,8 +171,8 @@ def _closed(shape, e, x, end, aside, rules):  # type: ignore[no-untyped-def]
     return max(rules.flush * _thinner(shape, e, x) + rules.rounding - aside, 0.0) / opening
 
 
-@_compiled
-def _shielded(shape, v, e, s, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _shielded(shape: Shape, v: int, e: int, s: float, rules: Rules) -> bool:
     """Whether the foot is on a stretch of edge, next to its end, that a third body covers."""
     length, partner = shape.real[e, LENGTH], shape.link[v, BODY]
     room = rules.depth * shape.real[v, THICK] + rules.rounding
@@ -183,11 +200,13 @@ def _shielded(shape, v, e, s, rules):  # type: ignore[no-untyped-def]
         if distance <= covered - min(rules.depth * thin, 0.5 * covered):
             return True
         total += covered
-    return total >= length - rules.flush * shape.real[e, THICK]
+    return bool(total >= length - rules.flush * shape.real[e, THICK])
 
 
-@_compiled
-def _rank(shape, motion, v, e, s, gap, known, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _rank(
+    shape: Shape, motion: Floats, v: int, e: int, s: float, gap: float, known: bool, rules: Rules
+) -> float:
     """Smallest gap over the step in whole grains, so that rounding does not choose."""
     rank = gap
     tx, ty = shape.real[e, TX], shape.real[e, TY]
@@ -202,17 +221,29 @@ def _rank(shape, motion, v, e, s, gap, known, rules):  # type: ignore[no-untyped
     return math.floor(rank / rules.grain + 0.5)
 
 
-@_compiled
-def _inside(shape, one, other, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _inside(shape: Shape, one: int, other: int, rules: Rules) -> bool:
     """Whether the middle of one edge is not outside the line of the other."""
     mx = 0.5 * (shape.real[one, SX] + shape.real[one, EX]) - shape.real[other, SX]
     my = 0.5 * (shape.real[one, SY] + shape.real[one, EY]) - shape.real[other, SY]
     off = mx * shape.real[other, TY] - my * shape.real[other, TX]
-    return off <= 0.5 * rules.sine * (shape.real[one, LENGTH] + shape.real[other, LENGTH])
+    both = shape.real[one, LENGTH] + shape.real[other, LENGTH]
+    return bool(off <= 0.5 * rules.sine * both)
 
 
-@_compiled
-def _judge(shape, v, edge, low, high, s, gap, known, state, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _judge(
+    shape: Shape,
+    v: int,
+    edge: Ints,
+    low: int,
+    high: int,
+    s: Floats,
+    gap: Floats,
+    known: Bools,
+    state: Small,
+    rules: Rules,
+) -> None:
     """Enter for each row of a vertex whether the foot is inside and the edge can be entered."""
     p = shape.link[v, PREVIOUS]
     ox, oy = shape.real[v, TX], shape.real[v, TY]
@@ -244,8 +275,8 @@ def _judge(shape, v, edge, low, high, s, gap, known, state, rules):  # type: ign
             state[k] |= _USABLE
 
 
-@_compiled
-def _passes(shape, v, e, s, gap):  # type: ignore[no-untyped-def]
+@compiled
+def _passes(shape: Shape, v: int, e: int, s: float, gap: float) -> bool:
     """Whether one of the edges at a vertex outside an edge passes through it."""
     p = shape.link[v, PREVIOUS]
     tx, ty = shape.real[e, TX], shape.real[e, TY]
@@ -262,8 +293,20 @@ def _passes(shape, v, e, s, gap):  # type: ignore[no-untyped-def]
     return False
 
 
-@_compiled
-def _dominate(shape, v, edge, low, high, s, gap, state, rank, kept, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _dominate(
+    shape: Shape,
+    v: int,
+    edge: Ints,
+    low: int,
+    high: int,
+    s: Floats,
+    gap: Floats,
+    state: Small,
+    rank: Floats,
+    kept: Small,
+    rules: Rules,
+) -> None:
     """Keep of the rows of a vertex those over which no other edge of the same body stands."""
     both = _INTERIOR | _USABLE
     for i in range(low, high):
@@ -292,22 +335,24 @@ def _dominate(shape, v, edge, low, high, s, gap, state, rank, kept, rules):  # t
                 break
 
 
-@_compiled
-def _find(edge, offset, v, e):  # type: ignore[no-untyped-def]
+@compiled
+def _find(edge: Ints, offset: Ints, v: int, e: int) -> int:
     for k in range(offset[v], offset[v + 1]):
         if edge[k] == e:
             return k
     return -1
 
 
-@_compiled
-def _beyond(shape, w, partner, dx, dy, slop, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _beyond(
+    shape: Shape, w: int, partner: int, dx: float, dy: float, slop: float, rules: Rules
+) -> bool:
     ox, oy, bx, by = _rays(shape, w, partner, rules)
     return dx * ox + dy * oy <= slop and dx * bx + dy * by <= slop
 
 
-@_compiled
-def _best(lines, eligible, rank):  # type: ignore[no-untyped-def]
+@compiled
+def _best(lines: Lines, eligible: tuple[bool, bool, bool, bool], rank: Floats) -> int:
     """Index of the eligible line of highest rank, the first row among equals; -1 without any."""
     best = -1
     for i in range(4):
@@ -319,8 +364,19 @@ def _best(lines, eligible, rank):  # type: ignore[no-untyped-def]
     return best
 
 
-@_compiled
-def _pair(shape, v, w, edge, offset, state, rank, kept, final, rules):  # type: ignore[no-untyped-def]
+@compiled
+def _pair(
+    shape: Shape,
+    v: int,
+    w: int,
+    edge: Ints,
+    offset: Ints,
+    state: Small,
+    rank: Floats,
+    kept: Small,
+    final: Small,
+    rules: Rules,
+) -> None:
     """Judge the four lines at a pair of near vertices as a whole."""
     dx = shape.real[v, SX] - shape.real[w, SX]
     dy = shape.real[v, SY] - shape.real[w, SY]
@@ -381,8 +437,8 @@ def _pair(shape, v, w, edge, offset, state, rank, kept, final, rules):  # type: 
         final[lines[best]] = 2
 
 
-@_compiled
-def _known(edge, offset, last):  # type: ignore[no-untyped-def]
+@compiled
+def _known(edge: Ints, offset: Ints, last: Ints) -> Bools:
     """Which rows were contacts before; both lists rise, so one walk along them tells."""
     n = len(offset) - 1
     known = np.zeros(len(edge), np.bool_)
@@ -396,8 +452,10 @@ def _known(edge, offset, last):  # type: ignore[no-untyped-def]
     return known
 
 
-@_compiled
-def select(shape, vertex, edge, offset, last, motion, rules):  # type: ignore[no-untyped-def]
+@compiled
+def select(
+    shape: Shape, vertex: Ints, edge: Ints, offset: Ints, last: Ints, motion: Floats, rules: Rules
+) -> tuple[Ints, Small, Floats, Floats]:
     """Return the kept rows, and kept, along and gap of all rows, as `narrow_arrays.select`.
 
     ``last`` are the keys of the last contacts, rising as the rows do.
@@ -439,7 +497,7 @@ def find(
     last: Ints,
     motion: Floats,
     rules: Rules,
-) -> tuple[Ints, Ints, Floats, Floats, Floats, Ints, Ints, Ints, Ints]:
+) -> Columns:
     """Columns of `narrow.Contacts`; candidates in any order, ``last`` keys in any order."""
     shape = shape_of(start, end, body, following, previous, rules.sine)
     offset, rising = offsets(vertex, edge, len(start))
@@ -450,7 +508,4 @@ def find(
     if len(last) and (last[1:] < last[:-1]).any():
         last = np.sort(last)
     rows, final, s, gap = select(shape, vertex, edge, offset, last, motion, rules)
-    columns: tuple[Ints, Ints, Floats, Floats, Floats, Ints, Ints, Ints, Ints] = describe(
-        shape, vertex, edge, rows, final, s, gap, rules
-    )
-    return columns
+    return describe(shape, vertex, edge, rows, final, s, gap, rules)

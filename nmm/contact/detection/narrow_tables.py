@@ -3,12 +3,17 @@
 import math
 from typing import NamedTuple
 
-import numba
 import numpy as np
+import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
+from nmm.compiled import compiled
+from nmm.contact.detection.tolerances import Rules
 
-_compiled = numba.njit(cache=True, nogil=True)
+Small = npt.NDArray[np.int8]
+"""States of rows."""
+Columns = tuple[Ints, Ints, Floats, Floats, Floats, Ints, Ints, Ints, Ints]
+"""Those of `narrow_phase.Contacts`."""
 
 # Columns of Shape.real: start, end and unit direction, length of the edge, thickness of its body.
 SX, SY, EX, EY, TX, TY, LENGTH, THICK = range(8)
@@ -24,8 +29,10 @@ class Shape(NamedTuple):
     link: Ints  # (n, 6)
 
 
-@_compiled
-def shape_of(start, end, body, following, previous, sine):  # type: ignore[no-untyped-def]
+@compiled
+def shape_of(
+    start: Floats, end: Floats, body: Ints, following: Ints, previous: Ints, sine: float
+) -> Shape:
     """Directions, lengths, convexity of vertices and thickness of bodies."""
     n = len(start)
     real, link = np.zeros((n, 8)), np.full((n, 6), -1)
@@ -61,8 +68,8 @@ def shape_of(start, end, body, following, previous, sine):  # type: ignore[no-un
     return Shape(real, link)
 
 
-@_compiled
-def offsets(vertex, edge, count):  # type: ignore[no-untyped-def]
+@compiled
+def offsets(vertex: Ints, edge: Ints, count: int) -> tuple[Ints, bool]:
     """First row of each vertex, and whether the rows rise by vertex, then edge."""
     offset = np.zeros(count + 1, np.int64)
     rising = True
@@ -76,8 +83,17 @@ def offsets(vertex, edge, count):  # type: ignore[no-untyped-def]
     return offset, rising
 
 
-@_compiled
-def describe(shape, vertex, edge, rows, final, s, gap, rules):  # type: ignore[no-untyped-def]
+@compiled
+def describe(
+    shape: Shape,
+    vertex: Ints,
+    edge: Ints,
+    rows: Ints,
+    final: Small,
+    s: Floats,
+    gap: Floats,
+    rules: Rules,
+) -> Columns:
     """Columns of `narrow.Contacts` for the kept rows."""
     m, n = len(rows), len(shape.link)
     v, e, key = np.empty(m, np.int64), np.empty(m, np.int64), np.empty(m, np.int64)

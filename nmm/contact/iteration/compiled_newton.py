@@ -6,10 +6,10 @@ loop finds, to the last digits.
 
 from typing import Any
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.compiled import compiled
 from nmm.contact.iteration.options import Patience
 from nmm.contact.problem import residual_kernel
 from nmm.solvers.anderson import add_step, mixed_step
@@ -62,7 +62,7 @@ def run(
     return increment, force, float(size), int(solves)
 
 
-@nb.njit(cache=True)
+@compiled
 def _run(
     increment: Floats,
     force: Floats,
@@ -114,7 +114,7 @@ def _run(
     return best, best_force, best_size, solves
 
 
-@nb.njit(cache=True)
+@compiled
 def _lost(sizes: Floats, passes: int, patience: tuple[float, float, int], tolerance: float) -> bool:
     """`Patience.lost`."""
     ahead, below, look = patience

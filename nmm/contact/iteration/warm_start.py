@@ -6,10 +6,10 @@ of the last step alone, with two thirds of their contacts in a wrong state. In s
 says where a loose piece belongs: what starts from a mix may leave it anywhere.
 """
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
 
 MIX_RIDGE = 1e-10
@@ -44,7 +44,7 @@ def start_from(springs: CutSprings, known: list[Floats], mixes: bool) -> Floats:
     return mixed if springs.residual(mixed).size < residuals[best].size else points[best]
 
 
-@nb.njit(cache=True)
+@compiled
 def _mixed(points: Floats, forces: Floats, weight: Floats) -> Floats:
     """Mix (n,) of ``points`` (k, n) of the least weighted force, on lines from the first.
 

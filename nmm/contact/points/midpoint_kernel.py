@@ -3,13 +3,13 @@
 `midpoint` says the same by sparse matrices, which is what this is tested against.
 """
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.compiled import compiled
 
 
-@nb.njit(cache=True)
+@compiled
 def add_turns(
     normal: Floats,
     tangent: Floats,

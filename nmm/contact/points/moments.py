@@ -1,12 +1,12 @@
 """Moments of contact forces about bodies, compiled: one pass over the contacts."""
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.compiled import compiled
 
 
-@nb.njit(cache=True)
+@compiled
 def moments(
     start: Floats,
     end: Floats,

@@ -1,12 +1,12 @@
 """Rows of contact points, compiled: how gap and slip change with the unknowns of both sides."""
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Floats, Index, Ints
+from nmm.compiled import compiled
 
 
-@nb.njit(cache=True)
+@compiled
 def side_rows(
     unknowns: Ints,
     start: Floats,

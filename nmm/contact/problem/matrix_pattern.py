@@ -8,12 +8,12 @@ ordering sees whole blocks.
 from dataclasses import dataclass
 from typing import Any
 
-import numba as nb
 import numpy as np
 import numpy.typing as npt
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Index
+from nmm.compiled import compiled
 from nmm.contact.problem.step_problem import StepProblem
 from nmm.solvers.unchecked import made_of
 
@@ -112,7 +112,7 @@ def _members(unknowns: Index) -> tuple[Index, Index]:
     return unknowns[unknowns >= 0], contact.astype(np.int32)
 
 
-@nb.njit(cache=True)
+@compiled
 def _unknowns(ptr_a: Index, idx_a: Index, ptr_b: Index, idx_b: Index) -> Index:
     m = len(ptr_a) - 1
     width = 0
@@ -135,7 +135,7 @@ def _unknowns(ptr_a: Index, idx_a: Index, ptr_b: Index, idx_b: Index) -> Index:
     return both[:, :most].copy()
 
 
-@nb.njit(cache=True)
+@compiled
 def _pattern(
     n: int, own_ptr: Index, own_idx: Index, who_ptr: Index, who: Index, unknowns: Index
 ) -> tuple[Index, Index]:
@@ -170,7 +170,7 @@ def _pattern(
     return indptr, indices[:total].copy()
 
 
-@nb.njit(cache=True)
+@compiled
 def _places(indptr: Index, indices: Index, own_ptr: Index, own_idx: Index) -> Index:
     place = np.empty(len(own_idx), dtype=np.int32)
     for j in range(len(own_ptr) - 1):
@@ -180,7 +180,7 @@ def _places(indptr: Index, indices: Index, own_ptr: Index, own_idx: Index) -> In
     return place
 
 
-@nb.njit(cache=True)
+@compiled
 def _row_places(unknowns: Index, ptr: Index, idx: Index) -> Index:
     place = np.empty(len(idx), dtype=np.int32)
     width = unknowns.shape[1]
@@ -193,7 +193,7 @@ def _row_places(unknowns: Index, ptr: Index, idx: Index) -> Index:
     return place
 
 
-@nb.njit(cache=True)
+@compiled
 def _run_starts(indptr: Index, indices: Index, unknowns: Index) -> Index:
     m, width = unknowns.shape
     most = 0
@@ -221,7 +221,7 @@ def _run_starts(indptr: Index, indices: Index, unknowns: Index) -> Index:
     return start
 
 
-@nb.njit(cache=True)
+@compiled
 def _add_springs(
     data: Floats,
     unknowns: Index,

@@ -6,16 +6,16 @@ is tested against.
 
 from typing import Any
 
-import numba as nb
 import numpy as np
 import numpy.typing as npt
 
 from integration.arrays import Floats
+from nmm.compiled import compiled
 
 Index = npt.NDArray[Any]
 
 
-@nb.njit(cache=True)
+@compiled
 def projected(
     normal: float, shear: float, tension: float, cohesion: float, friction: float
 ) -> tuple[float, float]:
@@ -30,7 +30,7 @@ def projected(
     return normal, min(max(shear, -bound), bound)
 
 
-@nb.njit(cache=True)
+@compiled
 def residual(
     increment: Floats,
     load: Floats,
@@ -90,7 +90,7 @@ def residual(
     return force, np.sqrt(rest_size / largest) if largest > 0.0 else 0.0
 
 
-@nb.njit(cache=True)
+@compiled
 def weighted(
     pointers: Index,
     rows: Index,
@@ -121,7 +121,7 @@ def weighted(
     return found
 
 
-@nb.njit(cache=True)
+@compiled
 def meeting_forces(
     increment: Floats,
     load: Floats,

@@ -2,12 +2,12 @@
 
 from typing import Any
 
-import numba as nb
 import numpy as np
 import numpy.typing as npt
 from scipy.sparse import csr_array
 
 from integration.arrays import Floats
+from nmm.compiled import compiled
 
 Index = npt.NDArray[Any]
 
@@ -47,7 +47,7 @@ def pushed(
     return np.asarray(_pushed(*pointed, normal, shear, n.shape[1]))
 
 
-@nb.njit(cache=True)
+@compiled
 def _along(pointers: Index, columns: Index, entries: Floats, x: Floats, found: Floats) -> None:
     for c in range(len(pointers) - 1):
         total = 0.0
@@ -56,7 +56,7 @@ def _along(pointers: Index, columns: Index, entries: Floats, x: Floats, found: F
         found[c] = total
 
 
-@nb.njit(cache=True)
+@compiled
 def _pushed(
     normal_pointers: Index,
     normal_columns: Index,

@@ -8,9 +8,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from llvmlite import ir  # type: ignore[import-untyped]
-from numba import types
-from numba.extending import get_cython_function_address, intrinsic
 
 from integration.arrays import Floats, Index, Ints
 
@@ -20,6 +17,8 @@ LETTERS, SCALARS = np.frombuffer(b"LNRTU", dtype=np.uint8), np.array([1.0, -1.0,
 @cache
 def addresses(lapack: str, *blas: str) -> Ints:
     """Return the addresses of kernels by name, which compiled code takes as arguments."""
+    from numba.extending import get_cython_function_address
+
     found = [get_cython_function_address("scipy.linalg.cython_lapack", lapack)]
     found += [get_cython_function_address("scipy.linalg.cython_blas", name) for name in blas]
     return np.array(found, dtype=np.int64)
@@ -30,8 +29,19 @@ def words() -> tuple[npt.NDArray[np.uint8], Index, Floats]:
     return LETTERS, np.empty(4, dtype=np.int32), SCALARS
 
 
+def __getattr__(name: str) -> Any:
+    """Make ``call5``, which calls a function of five pointers, and the like, as numba asks."""
+    if not (name.startswith("call") and name[4:].isdecimal()):
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return _caller(int(name[4:]))
+
+
+@cache
 def _caller(count: int) -> Any:
-    """Intrinsic ``call(address, p_1, ..., p_count)`` of a C function that takes pointers."""
+    """Intrinsic ``call(address, (p_1, ..., p_count))`` of a C function that takes pointers."""
+    from llvmlite import ir  # type: ignore[import-untyped]
+    from numba import types
+    from numba.extending import intrinsic
 
     def call(typing: Any, address: Any, pointers: Any) -> Any:
         def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -45,7 +55,3 @@ def _caller(count: int) -> Any:
         return types.void(address, pointers), build
 
     return intrinsic(call)
-
-
-call5, call6, call8 = _caller(5), _caller(6), _caller(8)
-call10, call11, call13 = _caller(10), _caller(11), _caller(13)

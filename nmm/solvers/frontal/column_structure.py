@@ -1,12 +1,12 @@
 """Elimination tree and rows of the factor below every node (Liu 1990; George, Liu 1981)."""
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Index, Ints
+from nmm.compiled import compiled
 
 
-@nb.njit(cache=True)
+@compiled
 def elimination_tree(ptr: Index, graph: Index, order: Ints) -> tuple[Ints, Ints]:
     """Return the parent (n,) of every node of an order, -1 at roots, and a postorder (n,)."""
     n = len(order)
@@ -52,7 +52,7 @@ def elimination_tree(ptr: Index, graph: Index, order: Ints) -> tuple[Ints, Ints]
     return parent, post
 
 
-@nb.njit(cache=True)
+@compiled
 def structures(ptr: Index, graph: Index, order: Ints, parent: Ints) -> tuple[Ints, Ints]:
     """Rows below every node in the factor, ascending."""
     n = len(order)

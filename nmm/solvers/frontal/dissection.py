@@ -6,10 +6,10 @@ lighter ones separate the part; they are eliminated after it. Parts that are sma
 separates well, are left to minimum degree.
 """
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Bools, Floats, Index, Ints
+from nmm.compiled import compiled
 
 LANDMARKS = 8
 SMALL_PART = 100
@@ -51,7 +51,7 @@ def _places(distance: Floats) -> Floats:
     return np.ascontiguousarray((directions[:, -2:].T @ centred).T)
 
 
-@nb.njit(cache=True)
+@compiled
 def _distances(ptr: Index, graph: Index, number: int) -> Floats:
     """Steps (k, n) from landmarks, each as far from the others as a node can be."""
     n = len(ptr) - 1
@@ -85,7 +85,7 @@ def _distances(ptr: Index, graph: Index, number: int) -> Floats:
     return found
 
 
-@nb.njit(cache=True)
+@compiled
 def _bisected(
     ptr: Index, graph: Index, place: Floats, weight: Floats, shifts: Floats
 ) -> tuple[Ints, Bools]:
@@ -116,7 +116,7 @@ def _bisected(
     return order, parted
 
 
-@nb.njit(cache=True)
+@compiled
 def _best_line(
     ptr: Index,
     graph: Index,
@@ -151,7 +151,7 @@ def _best_line(
     return best
 
 
-@nb.njit(cache=True)
+@compiled
 def _separator(
     ptr: Index, graph: Index, mine: Ints, side: Ints, weight: Floats, mark: Ints
 ) -> tuple[Bools, int, float]:

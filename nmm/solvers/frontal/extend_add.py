@@ -1,11 +1,10 @@
 """How the update of a child's front joins the front of its parent: by stretches of rows."""
 
-import numba as nb
-
 from integration.arrays import Floats, Ints
+from nmm.compiled import compiled
 
 
-@nb.njit(cache=True)
+@compiled
 def runs(rows: Ints, local: Ints, c: int, start: Ints, shift: Ints) -> int:
     """Stretches of rows that stay neighbours in a front, none across its pivot block's end.
 
@@ -21,7 +20,7 @@ def runs(rows: Ints, local: Ints, c: int, start: Ints, shift: Ints) -> int:
     return count
 
 
-@nb.njit(cache=True)
+@compiled
 def collect_lower(
     panel: Floats,
     update: Floats,
@@ -44,7 +43,7 @@ def collect_lower(
                 _add(into, c, child[j * size :], j, q, start, shift, n_runs)
 
 
-@nb.njit(cache=True)
+@compiled
 def collect_whole(
     panel: Floats,
     beside: Floats,
@@ -75,7 +74,7 @@ def collect_whole(
                     beside[(i + shift[p]) * r + column] += child[j * size + i]
 
 
-@nb.njit(cache=True, inline="always")
+@compiled
 def _add(
     into: Floats,
     above: int,

@@ -6,12 +6,12 @@ the transpose of ``U`` beside the pivot block is kept behind all panels. What di
 whether there is room for exchanges, ``swaps``; the two share all that runs over fronts.
 """
 
-import numba as nb
 import numpy as np
 import numpy.typing as npt
 
 from integration.arrays import Floats, Index, Ints
-from nmm.solvers.frontal.blas import call5, call6, call8, call10, call11, call13
+from nmm.compiled import compiled
+from nmm.solvers.frontal import blas
 from nmm.solvers.frontal.extend_add import collect_lower, collect_whole, runs
 
 Outside = tuple[Ints, npt.NDArray[np.uint8], Index, Floats]
@@ -20,7 +20,7 @@ Inside = tuple[Ints, Ints, Ints, Ints, Ints, Ints, Floats, Index]
 """A plan and the numbers of a factor on it, as `solve` takes them."""
 
 
-@nb.njit(cache=True)
+@compiled
 def factorise(
     kernels: Ints,
     letters: npt.NDArray[np.uint8],
@@ -81,26 +81,28 @@ def factorise(
         sizes[0], sizes[1], sizes[2] = c, r, c + r
         block = panel.ctypes.data
         if symmetric:
-            call5(kernels[0], (low, n_c, block, n_h, info))
+            blas.call5(kernels[0], (low, n_c, block, n_h, info))
         else:
-            call6(kernels[0], (n_c, n_c, block, n_h, swap.ctypes.data, info))
+            blas.call6(kernels[0], (n_c, n_c, block, n_h, swap.ctypes.data, info))
         if sizes[3] != 0:
             return int(first[s] + sizes[3] - 1)
         if r > 0:
             left, new = panel[c:].ctypes.data, update.ctypes.data
             if symmetric:
-                call11(
+                blas.call11(
                     kernels[1], (right, low, turned, plain, n_r, n_c, one, block, n_h, left, n_h)
                 )
-                call10(kernels[2], (low, plain, n_r, n_c, minus, left, n_h, one, new, n_r))
+                blas.call10(kernels[2], (low, plain, n_r, n_c, minus, left, n_h, one, new, n_r))
             else:
                 _exchange(beside, swap, r)
                 top = beside.ctypes.data
-                call11(
+                blas.call11(
                     kernels[1], (right, high, plain, plain, n_r, n_c, one, block, n_h, left, n_h)
                 )
-                call11(kernels[1], (right, low, turned, high, n_r, n_c, one, block, n_h, top, n_r))
-                call13(
+                blas.call11(
+                    kernels[1], (right, low, turned, high, n_r, n_c, one, block, n_h, top, n_r)
+                )
+                blas.call13(
                     kernels[2],
                     (plain, turned, n_r, n_r, n_c, minus, left, n_h, top, n_r, one, new, n_r),
                 )
@@ -114,7 +116,7 @@ def factorise(
     return -1
 
 
-@nb.njit(cache=True)
+@compiled
 def _exchange(beside: Floats, swap: Index, r: int) -> None:
     for k in range(len(swap)):
         other = swap[k] - 1  # LAPACK counts from one
@@ -124,7 +126,7 @@ def _exchange(beside: Floats, swap: Index, r: int) -> None:
                 beside[k * r + i], beside[other * r + i] = b, a
 
 
-@nb.njit(cache=True)
+@compiled
 def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> None:
     """Fill in the solution for one right-hand side: arrays are slow to return."""
     kernels, letters, sizes, scalars = outside
@@ -151,12 +153,14 @@ def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> No
                 x[k], x[other] = x[other], x[k]
         own, block = x[first[s] :].ctypes.data, panels[panel_start[s] :].ctypes.data
         if symmetric:
-            call8(kernels[3], (low, plain, plain, n_c, block, n_h, own, step))
+            blas.call8(kernels[3], (low, plain, plain, n_c, block, n_h, own, step))
         else:  # the diagonal of L is ones
-            call8(kernels[3], (low, plain, high, n_c, block, n_h, own, step))
+            blas.call8(kernels[3], (low, plain, high, n_c, block, n_h, own, step))
         if r > 0:
             left = panels[panel_start[s] + c :].ctypes.data
-            call11(kernels[4], (plain, n_r, n_c, minus, left, n_h, own, step, zero, ends, step))
+            blas.call11(
+                kernels[4], (plain, n_r, n_c, minus, left, n_h, own, step, zero, ends, step)
+            )
             for k in range(r):
                 x[rows[row_start[s] + k]] += work[k]
     for s in range(count - 1, -1, -1):
@@ -168,12 +172,16 @@ def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> No
         if symmetric:
             if r > 0:
                 left = panels[panel_start[s] + c :].ctypes.data
-                call11(kernels[4], (turned, n_r, n_c, minus, left, n_h, ends, step, one, own, step))
-            call8(kernels[3], (low, turned, plain, n_c, block, n_h, own, step))
+                blas.call11(
+                    kernels[4], (turned, n_r, n_c, minus, left, n_h, ends, step, one, own, step)
+                )
+            blas.call8(kernels[3], (low, turned, plain, n_c, block, n_h, own, step))
         else:
             if r > 0:
                 top = panels[beside_start[s] :].ctypes.data
-                call11(kernels[4], (turned, n_r, n_c, minus, top, n_r, ends, step, one, own, step))
-            call8(kernels[3], (high, plain, plain, n_c, block, n_h, own, step))
+                blas.call11(
+                    kernels[4], (turned, n_r, n_c, minus, top, n_r, ends, step, one, own, step)
+                )
+            blas.call8(kernels[3], (high, plain, plain, n_c, block, n_h, own, step))
     for k in range(n):
         solution[order[k]] = x[k]

@@ -1,10 +1,10 @@
 """The graph that is ordered: a node for each group of unknowns with nearly equal columns."""
 
-import numba as nb
 import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Index, Ints
+from nmm.compiled import compiled
 
 ALIKE_COLUMNS = 0.75
 """Part of their rows that columns share which are eliminated together. Entries that round to zero
@@ -26,7 +26,7 @@ def node_graph(indptr: Index, indices: Index, mirrored: bool) -> tuple[Ints, Ind
     return node_of, *((graph_ptr, graph) if mirrored else _both_ways(graph_ptr, graph))
 
 
-@nb.njit(cache=True)
+@compiled
 def _groups(indptr: Index, indices: Index) -> Ints:
     """Node of every column: columns follow each other into one that differ by few rows.
 
@@ -57,7 +57,7 @@ def _groups(indptr: Index, indices: Index) -> Ints:
     return node_of
 
 
-@nb.njit(cache=True)
+@compiled
 def _quotient(indptr: Index, indices: Index, node_of: Ints, n: int) -> tuple[Index, Index]:
     """Graph of the nodes, each with itself, rows ascending."""
     ptr = np.zeros(n + 1, dtype=np.int32)

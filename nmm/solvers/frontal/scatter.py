@@ -1,9 +1,9 @@
 """Where the entries of a matrix go in the panels of its factor."""
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Index, Ints
+from nmm.compiled import compiled
 
 Shape = tuple[Ints, Ints, Ints, Ints]
 """First places, row starts, rows and panel starts of supernodes."""
@@ -26,7 +26,7 @@ def upper_places(
     return _places(*_turned(indptr, indices), order, *shape, beside_start)
 
 
-@nb.njit(cache=True)
+@compiled
 def _turned(indptr: Index, indices: Index) -> tuple[Index, Index, Ints]:
     """Pattern of the transpose, and which entry stands at every place of it."""
     n = len(indptr) - 1
@@ -46,7 +46,7 @@ def _turned(indptr: Index, indices: Index) -> tuple[Index, Index, Ints]:
     return ptr, columns, entry
 
 
-@nb.njit(cache=True)
+@compiled
 def _places(
     indptr: Index,
     indices: Index,

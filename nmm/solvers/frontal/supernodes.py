@@ -1,12 +1,12 @@
 """Supernodes: columns of nested structure that are eliminated as one (Ashcraft, Grimes 1989)."""
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Ints
+from nmm.compiled import compiled
 
 
-@nb.njit(cache=True)
+@compiled
 def supernodes(start: Ints, structure: Ints, parent: Ints, weight: Ints) -> Ints:
     """First node of every supernode, and the number of nodes at the end.
 
@@ -73,7 +73,7 @@ def in_unknowns(
     return first, np.concatenate([[0], np.cumsum(below)]), rows, panels
 
 
-@nb.njit(cache=True)
+@compiled
 def stack_of_updates(first: Ints, row_start: Ints, rows: Ints) -> tuple[Ints, int]:
     """Children of every supernode, and the largest stack of their updates."""
     count = len(first) - 1

@@ -1,12 +1,12 @@
 """Whether a sparse matrix is its own mirror image."""
 
-import numba as nb
 import numpy as np
 
 from integration.arrays import Floats, Index
+from nmm.compiled import compiled
 
 
-@nb.njit(cache=True)
+@compiled
 def skew(indptr: Index, indices: Index, data: Floats) -> tuple[float, bool]:
     """Largest difference of a matrix with sorted rows from its mirror image; alike in pattern."""
     n = len(indptr) - 1
