@@ -106,7 +106,8 @@ class ContactMethod(PartTable):
     points: Literal["auto", "vertices", "faces"] = Field(
         default="auto",
         description='"auto", "vertices" or "faces": where contacts that are no joints act: at '
-        "corners alone, or spread over the faces that lie on each other; auto is faces for meshes",
+        "corners alone, or spread over the faces that lie on each other; auto is faces for meshes, "
+        "and vertices for the springs of energy_momentum",
         examples=["faces"],
     )
     joint_points: Literal["auto", "corners", "gauss"] = Field(

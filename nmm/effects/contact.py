@@ -122,9 +122,16 @@ class Contact(Effect):
         state: State,
         request: StepRequest,
         midpoint: State | None = None,
+        end: State | None = None,
     ) -> ContactSolution:
-        """Solve one step; forces act at ``midpoint``, at the start of the step when None."""
-        rows = self.geometry.rows(contacts, state, midpoint)
+        """Solve one step; forces act at ``midpoint``, at the start of the step when None.
+
+        ``end`` is where the step is foreseen to end, of bodies that bend by any angle.
+        """
+        if end is None:
+            rows = self.geometry.rows(contacts, state, midpoint)
+        else:
+            rows = self.geometry.conserving(contacts, state, end)
         surface = self.partners.surface(state)
 
         def besides(present: ContactPoints) -> list[Transform]:

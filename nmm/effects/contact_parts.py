@@ -17,6 +17,7 @@ from nmm.effects.base import Setup
 from nmm.errors import SceneError
 from nmm.formulation import ContactMethod
 from nmm.geometry.tessellation.cover_types import piece_glue
+from nmm.integrators.base import make_integrator
 from nmm.interfaces.from_scene import interface_law
 
 # Lengths by which a cut may move a crack, within which an edge lies on it.
@@ -58,7 +59,8 @@ def contact_parts(setup: Setup) -> ContactParts:
     method, manifold = setup.formulation.contact, setup.model.manifold
     given = {"max_passes": method.max_passes} if "max_passes" in method.model_fields_set else {}
     enforcement = make_enforcement(method.enforcement, dict(method.options), given)
-    laws, points = _laws(setup), face_points(manifold, method.points)
+    springs = _conserves(setup) and not enforcement.exact
+    laws, points = _laws(setup), face_points(manifold, method.points, springs)
     # Fields of blocks follow what single points ask for; a mean has no stiffness of its own.
     means = enforcement.multipliers and manifold.shared_covers and points > 0 and not laws.stiff
     partners = Partners(
@@ -72,6 +74,12 @@ def contact_parts(setup: Setup) -> ContactParts:
     stations, cracks = _stations(method, laws), _cracks(setup)
     held, bends = _held(setup), points > 2
     return ContactParts(laws, partners, enforcement, stations, cracks, held, bends, means)
+
+
+def _conserves(setup: Setup) -> bool:
+    """Whether steps in time keep the energy of what is elastic."""
+    moves = setup.scene.inertia is not None
+    return moves and make_integrator(setup.formulation.integrator).conserves
 
 
 def _cracks(setup: Setup) -> BondedCracks:

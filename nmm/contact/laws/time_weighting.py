@@ -55,6 +55,10 @@ class TimeWeighting(Transform):
         slip = np.where(parted, answer.slip, answer.slip - lead)
         return replace(answer, gap=answer.gap - self._lead(problem), slip=slip)
 
+    def missed(self, answer: StepAnswer, problem: StepProblem) -> Floats | None:
+        """Return what lines in place of springs missed of their forces (m,): they are none."""
+        return None
+
     def _lead(self, problem: StepProblem) -> Floats:
         stretch = problem.gap - self.lift
         held = np.where(self.pulls, stretch, np.minimum(stretch, 0.0))

@@ -58,13 +58,14 @@ class Overlaps:
     length: Floats
 
 
-def face_points(manifold: Manifold, wanted: str) -> int:
+def face_points(manifold: Manifold, wanted: str, conserves: bool = False) -> int:
     """Points an overlap that integrate a uniform pressure on the traces of fields exactly.
 
     0 where corners carry contact: ``wanted`` is "vertices", or "auto" and every block has covers of
-    its own; edges of meshes are short and many.
+    its own, or springs are to keep energy (``conserves``): the stiffness of stretches changes as
+    bodies slide, with no work that pays for it. Edges of meshes are short and many.
     """
-    if wanted == "vertices" or (wanted == "auto" and not manifold.shared_covers):
+    if wanted == "vertices" or (wanted == "auto" and (conserves or not manifold.shared_covers)):
         return 0
     degree = manifold.trace_degree
     if degree is None:

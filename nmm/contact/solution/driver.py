@@ -44,6 +44,8 @@ class PosedStep:
         Springs, limits and rows of the contact points.
     transforms
         In the order of their application.
+    springs
+        That of springs over the time of the step, the first of them; None where none is.
     dashpots
         Dampers among them; None without.
     weight
@@ -52,8 +54,13 @@ class PosedStep:
 
     problem: StepProblem
     transforms: list[Transform]
+    springs: TimeWeighting | None
     dashpots: Dashpots | None
     weight: Floats
+
+    def missed(self, answer: StepAnswer) -> Floats | None:
+        """See `ContactSolution.missed`."""
+        return None if self.springs is None else self.springs.missed(answer, self.problem)
 
     def loss(self, contacts: ContactPoints, answer: StepAnswer) -> float:
         """Energy (J) that dampers took in the step."""
@@ -148,7 +155,8 @@ class ContactSolver:
             brittle = broken & self._laws.brittle[contacts.interface]
             if not broken.any():
                 loss += iteration.loss(answer, sliding) + posed.loss(contacts, answer)
-                return with_parts(found, loss=loss, sliding=sliding, rows=rows)
+                missed = posed.missed(answer)
+                return with_parts(found, loss=loss, sliding=sliding, rows=rows, missed=missed)
             if request.near is not None and not request.near(answer.increment):
                 return found
             if request.breaking == "stop" and brittle.any():
@@ -224,10 +232,9 @@ class ContactSolver:
             compliant=own,
             start=start,
         )
-        transforms: list[Transform] = []
         weight = end_shares(request.weight, exact, own, iteration.softening)
-        if (weight < 1).any():
-            transforms.append(TimeWeighting(weight, iteration.before.rise, contacts.bonded))
+        springs = _weighted(weight, iteration.before.rise, problem, contacts, request.foreseen)
+        transforms: list[Transform] = [] if springs is None else [springs]
         dashpots = None
         if request.step is not None and laws.damps:
             damping = laws.damping(contacts)
@@ -237,7 +244,7 @@ class ContactSolver:
             transforms.append(RaisedFaces(iteration.response.rise))
         if (asymmetric := iteration.asymmetric) is not None:
             transforms.append(asymmetric)
-        return PosedStep(problem, [*transforms, *more], dashpots, weight)
+        return PosedStep(problem, [*transforms, *more], springs, dashpots, weight)
 
     def _enforced(
         self, transforms: list[Transform], solver: LinearSolver, problem: StepProblem
@@ -253,6 +260,23 @@ class ContactSolver:
             answer = solve_rebalanced(self._enforcement, started, solver, self.memory, body)
         self.memory.answered = self.last = problem, answer
         return answer
+
+
+def _weighted(
+    weight: Floats,
+    rise: Floats,
+    problem: StepProblem,
+    contacts: ContactPoints,
+    foreseen: Floats | None,
+) -> TimeWeighting | None:
+    """Return how springs act over the time of a step; None where they act as at its end."""
+    if not (weight < 1).any():
+        return None
+    if foreseen is None:
+        return TimeWeighting(weight, rise, contacts.bonded)
+    from nmm.contact.laws.conserving_springs import ConservingSprings
+
+    return ConservingSprings(weight, rise, contacts.bonded, problem.gaps(foreseen))
 
 
 def _stored(

@@ -44,6 +44,11 @@ class ContactGeometry:
         """Whether any contact acts at a point of the material instead of on a chord."""
         return self.bends or self._stations is not None
 
+    @property
+    def conserves(self) -> bool:
+        """Whether all contacts act on chords, or none: see `conserving`."""
+        return self.bends or self._stations is None
+
     def rows(
         self, contacts: ContactPoints, state: State, midpoint: State | None = None
     ) -> ContactRows:
@@ -59,6 +64,13 @@ class ContactGeometry:
     @cached_property
     def _projection(self) -> Floats | None:
         return body_projection(self.sides, self.model)
+
+    def conserving(self, contacts: ContactPoints, before: State, after: State) -> ContactRows:
+        """Return the rows of contacts between two states of bodies whose axes do not turn."""
+        from nmm.contact.points.conserving_rows import conserving_rows
+
+        stations = JointSites.at(self.sides, contacts) if self.bends else None
+        return conserving_rows(contacts, self.sides, (before, after), stations)
 
     def apart(self, state: State, surface: Surface) -> Apart:
         """Return how far apart the sides of joints are in a state."""

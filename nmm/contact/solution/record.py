@@ -36,6 +36,9 @@ class ContactSolution:
         (m,) how far contacts slid under load (m); empty when the step is not accepted.
     rows
         What the forces acted through.
+    missed
+        (m,) normal forces that springs would have had at their gaps beyond those of the lines that
+        stood for them (N); None where these are what they are.
     """
 
     contacts: ContactPoints
@@ -45,6 +48,7 @@ class ContactSolution:
     stopped: bool = False
     sliding: Floats = field(default_factory=lambda: np.zeros(0))
     rows: ContactRows | None = None
+    missed: Floats | None = None
 
     @property
     def pushing(self) -> Ints:

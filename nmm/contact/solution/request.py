@@ -35,6 +35,9 @@ class StepRequest:
         one that does. None: none does.
     time
         At its end (s); None where nothing hangs on it.
+    foreseen
+        (n,) an increment near the answer, about which springs conserve energy; None where they are
+        posed as lines from the start.
     """
 
     matrix: csc_array
@@ -46,3 +49,4 @@ class StepRequest:
     breaking: Breaking = "all"
     near: Callable[[Floats], bool] | None = None
     time: float | None = None
+    foreseen: Floats | None = None

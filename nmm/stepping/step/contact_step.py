@@ -78,10 +78,17 @@ class Touching:
         """Drop what is kept for speed alone."""
         self._held = None
 
-    def attempt(self, equations: Equations, breaking: "Breaking", reach: float) -> Attempt:
+    def attempt(
+        self,
+        equations: Equations,
+        breaking: "Breaking",
+        reach: float,
+        foreseen: Attempt | None = None,
+    ) -> Attempt:
         """Solve a step; ``breaking`` says which bonds break at a time.
 
-        Contacts are sought up to ``reach`` (m) at first.
+        Contacts are sought up to ``reach`` (m) at first. Those of bodies that bend by any angle act
+        between where the step begins and where it was ``foreseen`` to end.
 
         Raises
         ------
@@ -89,12 +96,13 @@ class Touching:
             Where the load moves a part that nothing holds.
         """
         contact, state = self.contact, equations.state
+        near = self._near(equations, foreseen)
         passes, halves, looks = 0, 0, 0
         contacts, midpoint = self.candidates(state, reach, equations.step), None
         crossed: Pairs | None = None
         held = self._conditions(equations)
         while True:
-            solved = self._solve(equations, contacts, breaking, midpoint, held, reach)
+            solved = self._solve(equations, contacts, breaking, midpoint, held, reach, near)
             passes += solved.passes
             verdict = solved.answer.verdict
             result, rest = self._judged(equations, solved, held)
@@ -115,6 +123,8 @@ class Touching:
                     midpoint, halves = half, halves + 1
                     continue
                 result = self._kept(equations, solved, result, rest)
+            if good and near is not None:
+                result = with_parts(result, missed=self._missed(state, solved, result.state))
             passage = "" if motion is None else contact.partners.passage(motion)
             return with_parts(
                 result,
@@ -196,6 +206,7 @@ class Touching:
         midpoint: State | None,
         held: "NullSpace | None",
         reach: float,
+        foreseen: Attempt | None = None,
     ) -> "ContactSolution":
         def near(increment: Floats) -> bool:
             return self._mover.after(equations, increment).motion <= reach
@@ -210,9 +221,27 @@ class Touching:
             breaking=breaking,
             near=near,
             time=equations.end.time,
+            foreseen=None if foreseen is None else foreseen.increment,
         )
+        end = None if foreseen is None else foreseen.state
         with self._clock.phase("solve"):
-            return self.contact.solve(contacts, equations.state, request, midpoint)
+            return self.contact.solve(contacts, equations.state, request, midpoint, end)
+
+    def _near(self, equations: Equations, foreseen: Attempt | None) -> Attempt | None:
+        """Return what is foreseen of a step in time of bodies that bend by any angle; else None."""
+        bends = self._mover.kinematics.finite and self.contact.geometry.conserves
+        if equations.step is None or not bends:
+            return None
+        still = np.zeros(len(equations.force))
+        return foreseen or Attempt(True, "", equations.state, still, 0.0, 0.0, 0)
+
+    def _missed(self, state: State, solved: "ContactSolution", end: State) -> Floats:
+        """Return the contact forces (n,) at the end that was found beyond those of a solution."""
+        assert solved.rows is not None
+        rows = self.contact.geometry.conserving(solved.contacts, state, end)
+        normal, shear = solved.answer.normal_force, solved.answer.shear_force
+        whole = normal if solved.missed is None else normal + solved.missed
+        return rows.push(whole, shear) - solved.rows.push(normal, shear)
 
     def _judged(
         self, equations: Equations, solved: "ContactSolution", held: "NullSpace | None"

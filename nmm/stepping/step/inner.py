@@ -135,8 +135,7 @@ class Inner:
         matter = self._model.matter
         self.flows = matter is not None and matter.flows
         self._conserves = step is not None and rule.conserves
-        # A tangent that is made symmetric falls short: contact keeps less of the energy itself.
-        self.tolerance = CONSERVED if self._conserves and not symmetric else BALANCED
+        self.tolerance = CONSERVED if self._conserves else BALANCED
         self.searches = matter is None or matter.flows
         even = matter is None or (matter.symmetric and not self._conserves)
         self._even = all(one.symmetric for one in self._plan.bent.values())
@@ -194,15 +193,25 @@ class Inner:
         effects = InnerPart(np.zeros_like(still), lambda: nothing)
         return Iterate(still, matter, effects, pull, history, self._state.memory)
 
-    def imbalance(self, now: Iterate, then: Iterate, scale: Floats, applied: Floats) -> float:
+    def imbalance(
+        self,
+        now: Iterate,
+        then: Iterate,
+        scale: Floats,
+        applied: Floats,
+        touching: Floats | None = None,
+    ) -> float:
         """Return what the tangents at ``now`` missed at ``then``, as a share of the forces.
 
         Effects are held to their own forces: those that hold supports may be far larger.
-        ``scale`` (n,) are factors by which forces compare, ``applied`` (n,) those of the step.
+        ``scale`` (n,) are factors by which forces compare, ``applied`` (n,) those of the step,
+        ``touching`` (n,) what contact missed of its own.
         """
         way, shares = then.increment - now.increment, [0.0]
         if self._model.matter is not None:
             missed = then.matter.missed(now.matter, way)
+            if touching is not None:
+                missed = missed + touching / self._span.weight
             size = max(_size(scale * one) for one in (then.matter.force, self.start, applied))
             shares.append(_size(scale * missed) / size if size else 0.0)
         if self._lines:

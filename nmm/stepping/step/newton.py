@@ -21,6 +21,8 @@ from nmm.stepping.step.inner import Inner, Iterate
 from nmm.stepping.step.trial import Attempt
 
 Solution = tuple[Equations, Attempt]
+Solve = Callable[[Linearisation | None, Attempt | None], Solution]
+"""From internal forces made lines, and what the last iteration found, to a solution."""
 
 # Out-of-balance force of matter, as a share of the forces, that is taken for a solution where it
 # falls no more for rounding.
@@ -40,7 +42,7 @@ FLOWS = 1e-2
 def newton(
     inner: Inner,
     state: State,
-    solve: Callable[[Linearisation | None], Solution],
+    solve: Solve,
     clock: Clock,
 ) -> Solution:
     """Solve a step from ``state`` with its ``inner`` forces; ``solve`` does with these linearised.
@@ -54,10 +56,11 @@ def newton(
     scale = _scale(inner.elastic)
     way, passes = np.zeros_like(inner.start), 0
     now = at(way)
+    found: Attempt | None = None
     imbalances: list[float] = []
     while True:
         line = _line(inner, now, clock)
-        equations, found = solve(line)
+        equations, found = solve(line, found)
         passes += found.passes
         if not found.converged and not _goes_on(found):
             flows = _flow(elastic, line, way)
@@ -65,7 +68,7 @@ def newton(
             found = replace(found, sentence=said, singular=found.singular or bool(flows))
             return equations, replace(found, passes=passes, imbalances=tuple(imbalances))
         then = at(found.increment, now)
-        imbalances.append(inner.imbalance(now, then, scale, equations.force))
+        imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
         found = replace(found, passes=passes, imbalances=tuple(imbalances))
         if _balanced(imbalances, inner.tolerance):
             after = replace(found.state, history=then.history, memory=then.memory)

@@ -1,6 +1,5 @@
 """One step: assemble what is constant in it, solve, judge. Nothing is kept unless accepted."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -26,7 +25,7 @@ from nmm.stepping.step.equations import Assembly, Equations, Linearisation
 from nmm.stepping.step.free_step import Alone
 from nmm.stepping.step.inner import Inner
 from nmm.stepping.step.mover import Mover
-from nmm.stepping.step.newton import Solution, newton
+from nmm.stepping.step.newton import Solution, Solve, newton
 from nmm.stepping.step.remap import Lay, remapped, with_stress, with_stress_so_far
 from nmm.stepping.step.trial import Attempt
 
@@ -182,11 +181,11 @@ class Stepper:
         """
         self.budget.check()
 
-        def solve(matter: Linearisation | None) -> Solution:
+        def solve(matter: Linearisation | None, before: Attempt | None = None) -> Solution:
             with self.clock.phase("assembly"):
                 rule = self._rule
                 equations = self._assembly.of(state, end, step, rule, self.anchored, matter)
-            return equations, self._solved(equations, breaking)
+            return equations, self._solved(equations, breaking, before)
 
         if self.model.matter is None and not self.plan.bent:
             equations, found = solve(None)
@@ -207,7 +206,7 @@ class Stepper:
         state: State,
         end: Instant,
         step: float | None,
-        solve: Callable[[Linearisation | None], Solution],
+        solve: Solve,
     ) -> Solution:
         """Solve a step whose internal forces are not linear."""
         current, moves, clock = self._current, self.kinematics, self.clock
@@ -257,12 +256,14 @@ class Stepper:
         more, now = (self.plan.force(state, Instant(time, at)) for at in (factor + 1.0, factor))
         return more - now
 
-    def _solved(self, equations: Equations, breaking: "Breaking") -> Attempt:
-        """Solve equations, with contact where the scene has it."""
+    def _solved(
+        self, equations: Equations, breaking: "Breaking", before: Attempt | None
+    ) -> Attempt:
+        """Solve equations, with contact where the scene has it, near an answer ``before``."""
         try:
             if self._touching is None:
                 return self._alone.attempt(equations)
-            return self._touching.attempt(equations, breaking, self._carried.reach)
+            return self._touching.attempt(equations, breaking, self._carried.reach, before)
         except SolveError as fault:
             return _failed(equations.state, fault)
 

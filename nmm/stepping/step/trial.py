@@ -37,6 +37,9 @@ class Attempt:
         Whether the load moves a part that nothing holds, or matter flows without end.
     imbalances
         Relative out-of-balance force of matter after each iteration; empty where it is linear.
+    missed
+        (n,) contact forces where the step ends less those where it was foreseen to end (N); None
+        where they act at a place that is known.
     """
 
     converged: bool
@@ -50,3 +53,4 @@ class Attempt:
     booked: Booked | None = None
     singular: bool = False
     imbalances: tuple[float, ...] = ()
+    missed: Floats | None = None

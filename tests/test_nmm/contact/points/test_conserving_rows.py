@@ -1,0 +1,100 @@
+"""Rows of contacts between two states: their product with a step is what gaps and slips change."""
+
+import numpy as np
+import pytest
+
+from nmm.formulation import parse_formulation
+from nmm.frozen import with_parts
+from nmm.scene.read import parse_scene
+from nmm.stepping.prepare import prepare
+
+SCENE = """
+plane = "strain"
+duration = 1.0
+[materials.m]
+young_modulus = 1000.0
+poisson_ratio = 0.3
+density = 1.0
+[interfaces.s]
+friction_angle = 0.3
+[[blocks]]
+name = "a"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "b"
+material = "m"
+vertices = [[1.02, 0.3], [2, 0.3], [2, 1.3], [1.02, 1.3]]
+[inertia]
+[contact]
+"""
+FORMULATION = """
+[cover]
+type = "quads"
+size = 0.5
+degree = {degree}
+[rotation]
+update = "finite"
+[contact]
+points = "{points}"
+"""
+
+
+def two_states(degree, points, seed):
+    """Contact, its points, and two states that are bent and turned by a third of their size."""
+    made = prepare(
+        parse_scene(SCENE), parse_formulation(FORMULATION.format(degree=degree, points=points))
+    )
+    contact, draws = made.stepper.plan.contact, np.random.default_rng(seed)
+    start = made.start
+
+    def bent():
+        more = 0.1 * draws.normal(size=len(start.deformation))
+        return with_parts(start, deformation=start.deformation + more)
+
+    return contact, contact.candidates(start, 0.2, None), bent(), bent()
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("points", ["vertices", "faces"])
+def test_a_step_changes_gaps_by_what_rows_say_however_far_it_goes(seed, points):
+    contact, found, before, after = two_states(0, points, seed)
+    rows = contact.geometry.conserving(found, before, after)
+    gaps, places, lengths = [], [], []
+    for state in (before, after):
+        surface = contact.partners.surface(state)
+        low, high = surface.start[found.edge_b], surface.end[found.edge_b]
+        apart = surface.at(found.edge_a, found.parameter_a) - low
+        way = high - low
+        length = np.hypot(*way.T)
+        gaps.append((apart[:, 0] * way[:, 1] - apart[:, 1] * way[:, 0]) / length)
+        places.append((apart * way).sum(axis=1) / length**2)
+        lengths.append(length)
+    step = after.deformation - before.deformation
+    assert len(found) > 2
+    # rounding of lengths of about one, in some ten sums and products
+    np.testing.assert_allclose(rows.normal @ step, gaps[1] - gaps[0], rtol=0, atol=1e-14)
+    slip = -(lengths[0] + lengths[1]) / 2 * (places[1] - places[0])
+    np.testing.assert_allclose(rows.tangent @ step, slip, rtol=0, atol=1e-14)
+
+
+def test_where_faces_bend_the_gap_is_that_of_the_material():
+    contact, found, before, after = two_states(1, "faces", 3)
+    rows = contact.geometry.conserving(found, before, after)
+    gaps = []
+    for state in (before, after):
+        surface = contact.partners.surface(state)
+        here = with_parts(found, normal=surface.normal[found.edge_b])
+        gaps.append(contact.geometry.gaps(here, state))
+    step = after.deformation - before.deformation
+    np.testing.assert_allclose(rows.normal @ step, gaps[1] - gaps[0], rtol=0, atol=1e-13)
+
+
+def test_forces_cancel_in_sum():
+    contact, found, before, after = two_states(0, "vertices", 4)
+    rows = contact.geometry.conserving(found, before, after)
+    modes = contact.geometry.model.manifold.rigid_modes.tocsc()
+    for part in (rows.normal, rows.tangent):
+        for axis in (0, 1):
+            shift = sum(modes[:, [3 * body + axis]] for body in (0, 1)).toarray().ravel()
+            np.testing.assert_allclose(part @ shift, 0.0, rtol=0, atol=1e-14)
