@@ -1,7 +1,7 @@
 """The equations of a field of a scene, whatever the field is: temperature or water head."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -44,12 +44,15 @@ class Given:
         Of the field, where it is held, given or surrounds.
     amount
         A flux, a source, or a coefficient of exchange.
+    besides
+        From the points of an edge that is held to a flux (m,) that they have besides.
     """
 
     key: str
     item: Any
     values: Values | None = None
     amount: float = 0.0
+    besides: Callable[[Place], Floats] | None = None
 
     @property
     def factor(self) -> Factor:
@@ -161,7 +164,8 @@ def _edges(setup: Setup, space: ScalarSpace, tables: FieldTables) -> Iterator[Ed
             place = _place(setup, one)
             values = one.values(place.position)
             fixed = (space, model, tables.conductivity, place, values, one.item.name)
-            yield held(*fixed, one.factor)
+            edge = held(*fixed, one.factor)
+            yield edge if one.besides is None else replace(edge, inflow=one.besides(place))
     for one in (*tables.inflows, *tables.exchanges):  # a handful
         place = _place(setup, one)
         rows, area = space.values(place.elements, place.position), place.weight * model.thickness

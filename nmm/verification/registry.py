@@ -152,6 +152,7 @@ CASES = Registry[type[Case]](
         "WA9": f"{_HOME}.seepage:RisingWater",
         "WA10": f"{_HOME}.seepage:PorousCylinder",
         "WA11": f"{_HOME}.seepage:Layers",
+        "WA12": f"{_HOME}.seepage:SeepingDam",
         "B9 damping": f"{_HOME}.time_integration:SpringBlock",
         "B9 order": f"{_HOME}.time_integration:IntegratorOrder",
     },

@@ -26,7 +26,9 @@ Seeping = Annotated[float, quantity("m/s")]
 class SeepageTable(Frozen):
     """Water that seeps through the blocks by Darcy's law; its pressure acts in effective stress.
 
-    Water fills all pores, above the water table under suction. Head is the height to which water
+    Water fills all pores, above the water table under suction; with a `free_surface`, which is
+    steady, pores above it are empty, and edges with a head are open to the air above the water: it
+    leaves there, and none comes in. Head is the height to which water
     would rise, in the scene's y. It is steady at every instant of `history` unless it is transient;
     then it has a `duration` of its own in a scene without inertia, of which the load factor is the
     share that has passed. Faces without a condition, cracks and joints are tight unless their
@@ -35,6 +37,11 @@ class SeepageTable(Frozen):
 
     unit_weight: ForceDensity = Field(
         default=WATER, gt=0, description="a weight of water in N/m3, > 0", examples=["9.81 kN/m^3"]
+    )
+    free_surface: Flag = Field(
+        default=False,
+        description="true or false: whether pores above the water table are empty",
+        examples=[True],
     )
     transient: Flag = Field(
         default=False, description="true or false: whether water is stored", examples=[True]
@@ -52,6 +59,9 @@ class SeepageTable(Frozen):
             if getattr(self, key) is not None and not self.transient:
                 expected = "transient = true"
                 raise fault(f"{key} of steady seepage", expected, f"add it, or remove {key}")
+        if self.transient and self.free_surface:
+            expected = "steady seepage"
+            raise fault("a free_surface that is transient", expected, "remove one of them")
         if self.transient and self.initial is None:
             raise fault("no initial head", "a head in m at the start", "give initial")
         return self

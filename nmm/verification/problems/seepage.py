@@ -160,6 +160,42 @@ class PorousCylinder(SceneCase):
         return checks | {"widening inside (m)": Check(widening, strain, 0.01, aim)}
 
 
+class SeepingDam(SceneCase):
+    """An upright dam through which water seeps below a free surface, to a seepage face."""
+
+    name, title = "WA12", "Seepage with a free surface"
+    source = "Dupuit's discharge, exact by Charny (1951): k (h1^2 - h2^2) / (2 L)"
+    formulations = ("manifold", "manifold degree 2", "quads", "splines")
+
+    def scene(self) -> str:
+        """Return a dam 8 m long under 10 m of water on one side and 2 m on the other."""
+        return text.scene(
+            'title = "Dam"\nplane = "strain"\n[seepage]\nfree_surface = true\n',
+            [
+                porous("soil", 50e6, 0.3),
+                text.box("dam", (0, 0), (8, 12), "soil"),
+                rollers("low", [(0, 0), (8, 0)], "y"),
+                pinned((0.0, 0.0), "x", "foot"),
+                head("up", np.array([0, 0]), np.array([0, 12]), 10.0),
+                head("down", np.array([8, 0]), np.array([8, 12]), 2.0),
+            ],
+        )
+
+    def formulation(self, scene: "Scene", name: str) -> "Formulation":
+        """Return the formulation with cells of a metre."""
+        return finer(super().formulation(scene, name), 1.0)
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare discharge, balance, and a pressure near the base."""
+        flow, out = (run.history[f"seepage:taken:{name}"][-1] for name in ("up", "down"))
+        exact = 1e-6 * (10.0**2 - 2.0**2) / 16
+        why = "exact whatever the cells; the level on the face may cut one"
+        return {
+            "flow (m2/s)": Check(flow, exact, 2e-3, why),
+            "in and out": limit(abs(flow + out) / flow, 1e-9, "conserved"),
+        }
+
+
 def total_stress(r: float) -> tuple[float, float]:
     """Radial and hoop stress (Pa) of `PorousCylinder`: p = 1e6 ln(2 / r) / ln 2, b = .8."""
     # E alpha T / (1 - nu) = b p (1 - 2 nu) / (1 - nu).
