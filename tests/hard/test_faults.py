@@ -368,8 +368,8 @@ def test_the_summary_of_another_program_makes_no_run_folder(tmp_path, content):
 def test_a_folder_of_a_later_layout_is_told(tmp_path, write_run):
     write_run(RunFolder(tmp_path / "run"), blocks=10, frames=1)
     mark = json.loads((tmp_path / "run/run.json").read_text())
-    (tmp_path / "run/run.json").write_text(json.dumps(mark | {"format": 2, "new": []}))
-    with pytest.raises(StorageError, match=r"run.json: format 2: expected 1 at most: read it with"):
+    (tmp_path / "run/run.json").write_text(json.dumps(mark | {"format": 3, "new": []}))
+    with pytest.raises(StorageError, match=r"run.json: format 3: expected 2 at most: read it with"):
         read_run(tmp_path / "run")
 
 

@@ -7,8 +7,9 @@ from dataclasses import asdict, dataclass, field
 
 from nmm.errors import StorageError
 
-FORMAT = 1
-"""Version of the layout that this version writes, and the latest that it reads."""
+FORMAT = 2
+"""Version of the layout that this version writes, and the latest that it reads: since the second
+frames are packed."""
 
 KIND = "nmm run"
 

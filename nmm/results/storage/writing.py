@@ -7,18 +7,16 @@ end (`ToDisk`), so that a power cut costs at most its last seconds.
 """
 
 import errno
-import io
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from time import monotonic
-from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 
 from nmm.errors import StorageError
+from nmm.results.storage.archive import to_bytes
 
 INTERVAL = 5.0  # s between two times at which files are brought to the disk
 
@@ -85,12 +83,11 @@ def write_text(path: Path, content: str) -> None:
     write_bytes(path, content.encode())
 
 
-def write_arrays(path: Path, arrays: Mapping[str, npt.ArrayLike], to_disk: bool = False) -> None:
+def write_arrays(
+    path: Path, arrays: Mapping[str, npt.ArrayLike], to_disk: bool = False, packed: bool = False
+) -> None:
     """Write an .npz as `write_bytes` does; the same arrays give the same bytes."""
-    buffer = io.BytesIO()
-    named: dict[str, Any] = {name: np.asarray(array) for name, array in arrays.items()}
-    np.savez(buffer, **named)
-    write_bytes(path, buffer.getvalue(), to_disk)
+    write_bytes(path, to_bytes(arrays, packed), to_disk)
 
 
 class ToDisk:

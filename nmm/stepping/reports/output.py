@@ -100,7 +100,7 @@ class Storage:
     frames
         How many at most, those of events left out; None when the run decides.
     bytes
-        Of one frame without contacts, on disk and in memory alike.
+        Of one frame without contacts in memory; on disk, where it is packed, it takes less.
     events
         Whether there is a frame for each event too.
     """
@@ -110,7 +110,9 @@ class Storage:
     events: bool = False
 
     def __str__(self) -> str:
-        one = f"{_size(self.bytes)} each on disk and in memory, and {CONTACT} bytes a contact point"
+        one = (
+            f"{_size(self.bytes)} each in memory, and {CONTACT} bytes a contact point, less on disk"
+        )
         more = " and one for each event" if self.events else ""
         if self.frames is None:
             return f"frames: as many as the run comes to, {one}"
