@@ -63,6 +63,8 @@ class Model:
         (n, n) of masses at points, which joins the mass; None without any.
     finite
         Whether strain is finite: all elements then have material points.
+    bonded
+        Numbers of the cracks whose faces begin bonded.
     """
 
     manifold: Manifold
@@ -78,6 +80,7 @@ class Model:
     plane: str = "strain"
     point_mass: csc_array | None = None
     finite: bool = False
+    bonded: tuple[int, ...] = ()
 
     @cached_property
     def stiffness(self) -> csc_array:

@@ -91,7 +91,7 @@ def covered(
     in_pieces
         Whether covers of blocks divide none of them further.
     bonded
-        Numbers of the cracks whose tips carry no functions.
+        Numbers of the cracks whose faces begin bonded: their tips carry no functions.
     finite
         Whether strain is finite.
     """
@@ -113,6 +113,7 @@ def covered(
         law=of_element,
         plane=plane,
         finite=finite,
+        bonded=tuple(bonded),
     )
 
 

@@ -24,10 +24,13 @@ class ModelTips:
         (n,) in words.
     functions
         (n,) whether the covers about each carry its functions.
+    cohesive
+        (n,) whether its faces begin bonded: stress is bounded there, and no function is missed.
     """
 
     places: list[str]
     functions: "Bools"
+    cohesive: "Bools"
 
 
 def tips_of(model: "Model") -> ModelTips | None:
@@ -41,15 +44,15 @@ def tips_of(model: "Model") -> ModelTips | None:
     for tip, point in enumerate(cut.tips.point):  # a handful of tips
         functions[tip] = (singular == point).all(axis=1).any()
     places = [f"[{x:.6g}, {y:.6g}]" for x, y in cut.tips.point]
-    return ModelTips(places, functions)
+    return ModelTips(places, functions, np.isin(cut.tips.crack, model.bonded))
 
 
 def tip_warnings(model: "Model") -> list[str]:
     """Return what tips without functions do to stress intensities, in a sentence."""
     tips = tips_of(model)
-    if tips is None or tips.functions.all():
+    plain = np.flatnonzero([] if tips is None else ~(tips.functions | tips.cohesive))
+    if tips is None or not len(plain):
         return []
-    plain = np.flatnonzero(~tips.functions)
     return [
         f"{len(plain)} crack tips without tip functions, {_named(tips, plain)}: cracks act as "
         "if they ended before the cell of their tip, and stress intensities come out too "
@@ -60,13 +63,13 @@ def tip_warnings(model: "Model") -> list[str]:
 
 
 def tip_lines(model: "Model") -> Iterator[str]:
-    """Yield a line for each tip: whether it carries functions."""
+    """Yield a line for each tip: whether it carries functions, and whether it is to."""
     tips = tips_of(model)
     if tips is None:
         return
-    for place, has in zip(tips.places, tips.functions, strict=True):
+    for place, has, whole in zip(tips.places, tips.functions, tips.cohesive, strict=True):
         said = "carries tip functions" if has else "without tip functions"
-        yield f"crack tip {place}: {said}"
+        yield f"crack tip {place}: {'cohesive, without a singularity' if whole else said}"
 
 
 def _named(tips: ModelTips, which: "Ints") -> str:

@@ -6,6 +6,9 @@ import pytest
 import nmm
 from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
+from nmm.model.solver_settings import warnings
+from nmm.model.tips import tip_lines
+from nmm.scene.cover_tables import EnrichmentTable
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
 
@@ -144,3 +147,17 @@ def test_tips_of_bonded_cracks_carry_no_singular_functions():
     model = prepare(short, net()).stepper.model
     assert len(model.cut.tips) == 1
     assert not len(model.manifold.singular)
+
+
+def test_a_cohesive_tip_misses_no_functions_and_is_not_warned_of():
+    text = BAR.format(law="linear", contact="[contact]", increment=1e-6, end=1e-5)
+    short = text.replace("[0.23, 0.11]", "[0.23, 0.05]")
+    model = prepare(parse_scene(short), net()).stepper.model
+    assert warnings(model) == []
+    assert list(tip_lines(model)) == ["crack tip [0.23, 0.05]: cohesive, without a singularity"]
+    # The same crack with free faces is one whose functions are missed.
+    free = parse_scene(short.replace("[0.23, 0.05]]\nbonded = true", "[0.23, 0.05]]"))
+    bare = net().model_copy(
+        update={"cover": net().cover.model_copy(update={"enrichment": EnrichmentTable(tips=False)})}
+    )
+    assert "without tip functions" in warnings(prepare(free, bare).stepper.model)[0]
