@@ -79,7 +79,11 @@ def _rays_of_blocks(faces: Faces) -> _Rays:
     several = np.bincount(block, minlength=n)[block] > 1
 
     tip = (degree == 1) & ~anchored[block] & ~several
-    ending = np.flatnonzero(tip[half.origin])
+    # Lines that lead out of all cells divide nothing there.
+    outside = np.zeros(half.n_loops, dtype=bool)
+    outside[half.loop[np.repeat(faces.on_mesh, 2)]] = True
+    outside &= faces.cell < 0
+    ending = np.flatnonzero(tip[half.origin] & ~outside[half.loop])
     backward = faces.steps[half.head[ending]] - faces.steps[half.origin[ending]]
     loose = np.flatnonzero((degree > 0) & several & ~anchored[block])
     return _joined(
@@ -127,7 +131,7 @@ def _with_closures(
 ) -> Lines:
     """Lines with the rays that hit another line, drawn up to it."""
     ray, edge, share, distance = _hits(faces, rays, reach)
-    start, end = faces.edges[edge].T
+    start, end = _ends(faces, edge)
     place = faces.steps[start] + share[:, None] * (faces.steps[end] - faces.steps[start])
     lines, target = lines.with_points(place, resolution.points(place))
     for corner in (start, end):
@@ -146,7 +150,7 @@ def _hits(faces: Faces, rays: _Rays, reach: float) -> tuple[Ints, Ints, Floats, 
     ray, edge = shapely.STRtree(_boxes(faces.steps[faces.edges])).query(_boxes(corners))
     own = (faces.edges[edge] == rays.origin[ray][:, None]).any(axis=1)
     ray, edge = ray[~own], edge[~own]
-    start, end = faces.steps[faces.edges[edge]].swapaxes(0, 1)
+    start, end = (faces.steps[side] for side in _ends(faces, edge))
     along, away, direction = end - start, start - begin[ray], unit[ray]
     with np.errstate(divide="ignore", invalid="ignore"):
         slope = _cross(direction, along)
@@ -159,6 +163,13 @@ def _hits(faces: Faces, rays: _Rays, reach: float) -> tuple[Ints, Ints, Floats, 
     order = np.lexsort((distance, ray))
     first = order[np.unique(ray[order], return_index=True)[1]]
     return ray[first], edge[first], share[first], distance[first]
+
+
+def _ends(faces: Faces, edge: Ints) -> tuple[Ints, Ints]:
+    """Ends (r,) of edges, the one further to the left first: no place hangs on their numbers."""
+    one, two = faces.edges[edge].T
+    turned = (faces.steps[one] - faces.steps[two]) @ np.array([1.0, 1e-3]) > 0
+    return np.where(turned, two, one), np.where(turned, one, two)
 
 
 def _boxes(corners: Floats) -> Floats:

@@ -14,28 +14,55 @@ no line touches keep their shape.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from covers.cutting.closures import closed_faces
-from covers.cutting.cracks import clipped, crack_segments, settled
-from covers.cutting.cut_boundary import boundary_of
-from covers.cutting.cut_cells import CutCells, Layer, assembled
-from covers.cutting.domain import Domain, Segments, domain_of
-from covers.cutting.faces import BOUNDARY, CRACK, MESH, Cells, Sources
-from covers.cutting.pieces import joins_of, pieces_of
+from covers.cutting.cracks import crack_segments
+from covers.cutting.cut_cells import CutCells, assembled
+from covers.cutting.domain import domain_of
+from covers.cutting.layers.arranged import arranged
+from covers.cutting.layers.lines import TOUCH, CutLines, lines_of
 from covers.cutting.resolution import Resolution, resolution_of
-from covers.cutting.snap_rounding import lines_between, node
-from covers.cutting.touched_cells import region_of_cells, touched_cells
 from covers.mathematical.base import Cover
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats, Ints
 from integration.polygons import Polygons, diameters
 
-# Lines within this many steps of the resolution of a cell touch it.
-TOUCH = 8
 # Cells must be larger than this many steps of the resolution.
 COARSE = 1e4
+
+
+@dataclass(frozen=True, eq=False)
+class Cutting:
+    """A cut with what it was made of, from which a cut by longer cracks may go on.
+
+    Attributes
+    ----------
+    cover : Cover
+    regions : Polygons
+        as they were given.
+    group : (R,)
+        regions of one number share physical covers.
+    resolution : Resolution
+    moved : float
+        greatest distance by which cracks are moved, m.
+    tolerance, smallest : float
+        see `cut`.
+    layers : tuple of CutLines
+    cells : CutCells
+        what came of it.
+    """
+
+    cover: Cover
+    regions: Polygons
+    group: Ints
+    resolution: Resolution
+    moved: float
+    tolerance: float
+    smallest: float
+    layers: tuple[CutLines, ...]
+    cells: CutCells
 
 
 def cut(
@@ -78,6 +105,19 @@ def cut(
         Invalid regions or cracks, a cover that does not reach around a region, or cells that are
         too small to be told from rounding.
     """
+    return cutting(cover, regions, cracks, glue=glue, tolerance=tolerance, smallest=smallest).cells
+
+
+def cutting(
+    cover: Cover,
+    regions: Polygons | npt.ArrayLike,
+    cracks: Sequence[npt.ArrayLike] = (),
+    *,
+    glue: npt.ArrayLike | None = None,
+    tolerance: float = 1e-8,
+    smallest: float = 1e-15,
+) -> Cutting:
+    """Cut as `cut` does, and return what another cut may go on from as well."""
     polygons = regions if isinstance(regions, Polygons) else Polygons.from_shapely(regions)
     if not len(polygons):
         raise ValueError("regions: none: at least one expected: give the material to be cut")
@@ -90,18 +130,33 @@ def cut(
         )
     domain = domain_of(polygons, glue, TOUCH * resolution.step)
     moved = max(tolerance * float(size.min()), TOUCH * resolution.step)
-    layers = [
-        _cut_layer(cover, domain, layer, crack_segments(cracks), resolution, moved, smallest, size)
+    segments = crack_segments(cracks)
+    layers = tuple(
+        lines_of(cover, domain, layer, segments, resolution, moved)
         for layer in range(int(domain.layer.max()) + 1)
+    )
+    parts = [
+        arranged(
+            cover,
+            lines.cells,
+            lines.boundary,
+            lines.cracks,
+            2 * lines.margin,
+            resolution,
+            smallest,
+            domain.group,
+        )
+        for lines in layers
     ]
-    return assembled(cover, domain, layers, resolution, moved)
+    found = assembled(cover, domain, parts, resolution, moved)
+    given = tolerance, smallest
+    return Cutting(cover, polygons, domain.group, resolution, moved, *given, layers, found)
 
 
 def _extremes(cover: Cover, regions: Polygons) -> Floats:
     """Two corners of the box of the regions and of the cells that may be cut by them."""
     low, high = regions.points.min(axis=0), regions.points.max(axis=0)
-    corners = cover.vertices[cover.cell_vertices]
-    first, last = corners.min(axis=1), corners.max(axis=1)
+    first, last = cover.cell_boxes
     near = ((first <= high) & (last >= low)).all(axis=1)
     if not near.any():
         raise ValueError(
@@ -111,66 +166,3 @@ def _extremes(cover: Cover, regions: Polygons) -> Floats:
     return np.stack(
         [np.minimum(low, first[near].min(axis=0)), np.maximum(high, last[near].max(axis=0))]
     )
-
-
-def _cut_layer(
-    cover: Cover,
-    domain: Domain,
-    layer: int,
-    cracks: Segments,
-    resolution: Resolution,
-    tolerance: float,
-    smallest: float,
-    size: Floats,
-) -> Layer:
-    boundary = domain.boundary(layer)
-    members = np.flatnonzero(domain.layer == layer)
-    low, high = boundary.start.min(axis=0), boundary.start.max(axis=0)
-    margin = float(size.max())
-    cracks = clipped(cracks, low - margin, high + margin)
-
-    chop = float(np.median(size))
-    near = touched_cells(cover, cracks, 3 * tolerance, chop)
-    touched = near | touched_cells(cover, boundary, TOUCH * resolution.step, chop)
-    touched |= _at_the_rim(cover)
-    cracks = _settled(cover, cracks, boundary, near, tolerance)
-    cells = Cells(cover.edges, touched, region_of_cells(cover, domain.shapes, members, touched))
-
-    mesh = np.unique(cover.edges.of_cell[touched])
-    lines = [_mesh_segments(cover, mesh), boundary, cracks]
-    sources = Sources(
-        np.repeat([MESH, BOUNDARY, CRACK], [len(part) for part in lines]),
-        np.concatenate([part.owner for part in lines]),
-    )
-    start = np.concatenate([part.start for part in lines])
-    end = np.concatenate([part.end for part in lines])
-    count = np.arange(len(start))
-    graph = lines_between(np.concatenate([start, end]), resolution, count, count + len(start))
-    graph = node(graph, count >= len(mesh), resolution)
-    faces = closed_faces(graph, sources, cells, resolution, 2 * margin)
-
-    pieces = pieces_of(cover, cells, faces, smallest, resolution.step)
-    joins = joins_of(cover, cells, faces, pieces, domain.group)
-    edges, tips = boundary_of(faces, pieces, domain.group)
-    return Layer(pieces, joins, edges, tips, touched)
-
-
-def _at_the_rim(cover: Cover) -> Bools:
-    """Cells (C,) with a corner on the rim of the mesh: the boundary runs there, if anywhere."""
-    outer = (cover.edges.left < 0) | (cover.edges.right < 0)
-    rim = np.zeros(len(cover.vertices), dtype=bool)
-    rim[cover.edges.start[outer]] = rim[cover.edges.end[outer]] = True
-    return np.asarray(rim[cover.cell_vertices].any(axis=1))
-
-
-def _settled(
-    cover: Cover, cracks: Segments, boundary: Segments, near: Bools, tolerance: float
-) -> Segments:
-    vertices = np.unique(cover.cell_vertices[near])
-    edges = _mesh_segments(cover, np.unique(cover.edges.of_cell[near]))
-    return settled(cracks, boundary, cover.vertices[vertices], edges, tolerance)
-
-
-def _mesh_segments(cover: Cover, edges: Ints) -> Segments:
-    start, end = cover.edges.start[edges], cover.edges.end[edges]
-    return Segments(cover.vertices[start], cover.vertices[end], edges)

@@ -12,8 +12,6 @@ from covers.cutting.faces import Faces
 from covers.cutting.pieces import Pieces, joined_sides, neighbours
 from integration.arrays import Bools, Floats, Ints
 
-MAX_TURNS = 10_000
-
 
 @dataclass(frozen=True)
 class CutBoundary(BoundaryEdges):
@@ -57,8 +55,16 @@ class CrackTips:
         return len(self.element)
 
 
-def boundary_of(faces: Faces, pieces: Pieces, group: Ints) -> tuple[CutBoundary, CrackTips]:
+def boundary_of(
+    faces: Faces, pieces: Pieces, group: Ints, part: bool
+) -> tuple[CutBoundary, CrackTips]:
     """Return the boundary edges of a layer, bodies still to be filled in, and its crack tips.
+
+    Parameters
+    ----------
+    part : bool
+        whether the faces are those of a part of the cells: what follows an edge may then be missing
+        at its rim, -1.
 
     Raises
     ------
@@ -71,11 +77,14 @@ def boundary_of(faces: Faces, pieces: Pieces, group: Ints) -> tuple[CutBoundary,
     joined = joined_sides(faces, pieces, element, across, group)
     is_rim = (element >= 0) & ~joined
     rim = np.flatnonzero(is_rim)
+    x, y = faces.points[half.origin[rim]].T
+    rim = rim[np.lexsort((y, x, element[rim]))]
     number = np.full(len(element), -1, dtype=np.int64)
     number[rim] = np.arange(len(rim))
-    following = number[_next_on_rim(faces, rim, is_rim)]
-    previous = np.empty_like(following)
-    previous[following] = np.arange(len(rim))
+    ahead = _next_on_rim(faces, rim, is_rim, part)
+    following = np.where(ahead >= 0, number[ahead], -1)
+    previous = np.full(len(rim), -1, dtype=np.int64)
+    previous[following[ahead >= 0]] = np.flatnonzero(ahead >= 0)
     parted = (across >= 0) & (group[pieces.region[element]] == group[pieces.region[across]])
     crack = np.where(parted, np.repeat(faces.crack, 2), -1)
     boundary = CutBoundary(
@@ -91,18 +100,23 @@ def boundary_of(faces: Faces, pieces: Pieces, group: Ints) -> tuple[CutBoundary,
     return boundary, _tips(faces, element, rim, crack)
 
 
-def _next_on_rim(faces: Faces, rim: Ints, is_rim: Bools) -> Ints:
+def _next_on_rim(faces: Faces, rim: Ints, is_rim: Bools, part: bool) -> Ints:
     """Following edge of the boundary: turn about the head through joined faces."""
-    following = faces.half.next[rim]
-    for _ in range(MAX_TURNS):  # passes over all edges at once, as many as faces about a point
-        inner = np.flatnonzero(~is_rim[following])
-        if not len(inner):
-            return following
-        following[inner] = faces.half.next[following[inner] ^ 1]
-    raise ValueError(
-        f"boundary: no following edge at {faces.points[faces.half.head[rim[inner[0]]]].tolist()}: "
-        "a closed boundary expected: report the regions and cracks that lead here"
-    )
+    half = faces.half
+    following = half.next[rim]
+    first, inner = following.copy(), np.flatnonzero(~is_rim[following])
+    while len(inner):  # passes over all edges at once, as many as faces about a point
+        following[inner] = half.next[following[inner] ^ 1]
+        round_about = inner[following[inner] == first[inner]]
+        if len(round_about) and not part:
+            place = faces.points[half.head[rim[round_about[0]]]].tolist()
+            raise ValueError(
+                f"boundary: no following edge at {place}: a closed boundary expected: report the "
+                "regions and cracks that lead here"
+            )
+        following[round_about] = -1
+        inner = inner[(following[inner] >= 0) & ~is_rim[following[inner]]]
+    return following
 
 
 def _tips(faces: Faces, element: Ints, rim: Ints, crack: Ints) -> CrackTips:
@@ -116,6 +130,8 @@ def _tips(faces: Faces, element: Ints, rim: Ints, crack: Ints) -> CrackTips:
     back = np.flatnonzero(
         ((ends == 1) & ~outer)[half.origin] & np.isin(np.arange(2 * len(faces.edges)), cracked)
     )
+    x, y = faces.points[half.origin[back]].T
+    back = back[np.lexsort((y, x, crack[back]))]
     tip = half.origin[back]
     ahead = faces.steps[tip] - faces.steps[half.head[back]]
     direction = ahead / np.hypot(*ahead.T)[:, None]

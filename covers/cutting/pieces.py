@@ -48,6 +48,8 @@ class Pieces:
 
 # Faces less than about twice this many steps of the resolution wide are rounding.
 THIN = 1.0
+# Decimals, in sizes of their cell, to which middles of faces are told apart for their order.
+DECIMALS = 6
 
 
 def pieces_of(cover: Cover, cells: Cells, faces: Faces, smallest: float, step: float) -> Pieces:
@@ -73,7 +75,8 @@ def pieces_of(cover: Cover, cells: Cells, faces: Faces, smallest: float, step: f
     loops, whole_cells = np.flatnonzero(material & ~sliver), np.flatnonzero(cells.whole)
     cell = np.concatenate([faces.cell[loops], whole_cells])
     region = np.concatenate([faces.region[loops], cells.region[whole_cells]])
-    order = np.lexsort((region, cell))
+    x, y = np.pad(_middles(cover, faces, loops), ((0, len(whole_cells)), (0, 0))).T
+    order = np.lexsort((y, x, region, cell))
     rank = np.empty(len(order), dtype=np.int64)
     rank[order] = np.arange(len(order))
     of_loop = np.full(half.n_loops, -1, dtype=np.int64)
@@ -100,7 +103,10 @@ def joins_of(cover: Cover, cells: Cells, faces: Faces, pieces: Pieces, group: In
     across = neighbours(faces, pieces, element)
     joined = np.flatnonzero(joined_sides(faces, pieces, element, across, group))
     # Edges between two faces are seen from both sides, those to a whole cell from one.
-    once = joined[(pieces.of_loop[half.loop[joined ^ 1]] < 0) | (joined % 2 == 0)]
+    alone = pieces.of_loop[half.loop[joined ^ 1]] < 0
+    once = joined[alone | (element[joined] < across[joined])]
+    begin = faces.points[half.origin[once]]
+    once = once[np.lexsort((begin[:, 1], begin[:, 0], across[once], element[once]))]
     edges = cells.edges
     left, right = pieces.of_cell[edges.left], pieces.of_cell[edges.right]
     inner = np.flatnonzero((edges.left >= 0) & (edges.right >= 0) & (left >= 0) & (right >= 0))
@@ -143,16 +149,39 @@ def _loop_sizes(faces: Faces) -> tuple[Floats, Floats]:
     return np.asarray(area, dtype=float), np.asarray(perimeter, dtype=float)
 
 
+def _middles(cover: Cover, faces: Faces, loops: Ints) -> Floats:
+    """Middles (m, 2) of faces in sizes of their cells, rounded.
+
+    They order the pieces of a cell, whatever the order in which lines were put together.
+    """
+    half = faces.half
+    row = np.full(half.n_loops, -1, dtype=np.int64)
+    row[loops] = np.arange(len(loops))
+    member = np.flatnonzero(row[half.loop] >= 0)
+    which, cell = row[half.loop[member]], faces.cell[half.loop[member]]
+    size = np.sqrt(cover.cells.areas[cell])[:, None]
+    corner = cover.vertices[cover.cell_vertices[cell, 0]]
+    one = (faces.points[half.origin[member]] - corner) / size
+    two = (faces.points[half.head[member]] - corner) / size
+    doubled = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    total = np.bincount(which, doubled, minlength=len(loops))
+    moment = [np.bincount(which, doubled * part, minlength=len(loops)) for part in (one + two).T]
+    middle = np.stack(moment, axis=1) / np.maximum(3 * total, np.finfo(float).tiny)[:, None]
+    return np.asarray(np.round(middle, DECIMALS))
+
+
 def _rings(cover: Cover, faces: Faces, of_loop: Ints, of_cell: Ints) -> tuple[Polygons, Bools]:
     """Rings of all elements and whether each is its whole cell."""
     half, corners = faces.half, cover.cell_vertices.shape[1]
     member = np.flatnonzero(of_loop[half.loop] >= 0)
     length = np.bincount(half.loop[member], minlength=half.n_loops)
     uncut = np.bincount(half.loop[member[faces.on_mesh[member // 2]]], minlength=half.n_loops)
-    # A cell's corner 0 comes first in its rings, so that whole cells keep the cell's order.
+    # A cell's corner 0 comes first in its rings, so that whole cells keep the cell's order; where
+    # that is cut off, the point furthest to the left.
     zero = cover.vertices[cover.cell_vertices[faces.cell[half.loop[member]], 0]]
     begins = (faces.points[half.origin[member]] == zero).all(axis=1)
-    order = np.lexsort((member, ~begins, half.loop[member]))
+    x, y = faces.points[half.origin[member]].T
+    order = np.lexsort((member, y, x, ~begins, half.loop[member]))
     loops, first = np.unique(half.loop[member[order]], return_index=True)
     walk = walks(half.next, member[order][first], length[loops])
 

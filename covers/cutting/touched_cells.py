@@ -26,14 +26,19 @@ def touched_cells(cover: Cover, lines: Segments, distance: float, size: float) -
     pieces = _chopped(lines, size)
     low = np.minimum(pieces[:, 0], pieces[:, 1]) - distance
     high = np.maximum(pieces[:, 0], pieces[:, 1]) + distance
-    corners = cover.vertices[cover.cell_vertices]
-    first, last = corners.min(axis=1), corners.max(axis=1)
-    candidates = np.flatnonzero(_near_bins(first, last, low, high, size))
+    first, last = cover.cell_boxes
+    candidates = np.flatnonzero(
+        ((first <= high.max(axis=0)) & (last >= low.min(axis=0))).all(axis=1)
+    )
     if not len(candidates):
         return touched
-    boxes = shapely.STRtree(_boxes(first[candidates], last[candidates]))
-    piece, row = boxes.query(_boxes(low, high))
-    shapes = np.asarray(shapely.polygons(corners[candidates]))
+    first, last = first[candidates], last[candidates]
+    close = _near_bins(first, last, low, high, size)
+    candidates, first, last = candidates[close], first[close], last[close]
+    if not len(candidates):
+        return touched
+    piece, row = shapely.STRtree(_boxes(first, last)).query(_boxes(low, high))
+    shapes = np.asarray(shapely.polygons(cover.vertices[cover.cell_vertices[candidates]]))
     chopped = np.asarray(shapely.linestrings(pieces))
     near = np.asarray(shapely.dwithin(chopped[piece], shapes[row], distance))
     touched[candidates[row[near]]] = True

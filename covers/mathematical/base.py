@@ -151,6 +151,12 @@ class Cover(CoverType, ABC):
         return Polygons(points, np.arange(0, n * corners + 1, corners), np.arange(n + 1))
 
     @cached_property
+    def cell_boxes(self) -> tuple[Floats, Floats]:
+        """Lowest and highest coordinates (C, 2) of the cells, m."""
+        corners = self.vertices[self.cell_vertices]
+        return corners.min(axis=1), corners.max(axis=1)
+
+    @cached_property
     def edges(self) -> MeshEdges:
         """Edges of the mesh of cells with the cells on either side."""
         return mesh_edges(self.cell_vertices)

@@ -24,6 +24,7 @@ from nmm.materials.base import History, Law
 from nmm.solvers.unchecked import product
 
 if TYPE_CHECKING:
+    from covers.cutting.cut import Cutting
     from nmm.assembly.finite_strain.finite_matter import FiniteMatter
     from nmm.assembly.motion import State
 
@@ -65,6 +66,9 @@ class Model:
         Whether strain is finite: all elements then have material points.
     bonded
         Numbers of the cracks whose faces begin bonded.
+    cutting
+        What the next cut of the same blocks may go on from; None where there is nothing of the
+        kind.
     """
 
     manifold: Manifold
@@ -81,6 +85,7 @@ class Model:
     point_mass: csc_array | None = None
     finite: bool = False
     bonded: tuple[int, ...] = ()
+    cutting: "Cutting | None" = None
 
     @cached_property
     def stiffness(self) -> csc_array:

@@ -18,6 +18,7 @@ from nmm.model.enriching import with_growing_tips
 from nmm.model.from_polygons import covered
 
 if TYPE_CHECKING:
+    from covers.cutting.cut import Cutting
     from nmm.formulation import Formulation
     from nmm.geometry.blocks import Regions
     from nmm.scene.matter.materials import Material
@@ -36,10 +37,17 @@ WHERE_GIVEN = (
 
 
 def setup_of(
-    scene: "Scene", formulation: "Formulation", geometry: Geometry, origin: Floats
+    scene: "Scene",
+    formulation: "Formulation",
+    geometry: Geometry,
+    origin: Floats,
+    before: "Cutting | None" = None,
 ) -> Setup:
-    """Return what effects are built from, with a model of all blocks at rest."""
-    model = build_model(scene, formulation, geometry)
+    """Return what effects are built from, with a model of all blocks at rest.
+
+    ``before`` is the last cut of the same blocks.
+    """
+    model = build_model(scene, formulation, geometry, before)
     start = replace(initial_state(model.manifold), history=model.history())
     if scene.inertia is not None:
         start = replace(start, load_factor=1.0)
@@ -67,7 +75,8 @@ def kinematics_of(scene: "Scene", formulation: "Formulation") -> Kinematics:
 
 def reshaped(setup: Setup, geometry: Geometry) -> Setup:
     """Return what effects are built from on another geometry of the same blocks."""
-    new = setup_of(setup.scene, setup.formulation, geometry, setup.origin)
+    before = setup.model.cutting
+    new = setup_of(setup.scene, setup.formulation, geometry, setup.origin, before)
     return replace(setup, model=new.model, geometry=geometry, start=new.start)
 
 
@@ -78,8 +87,13 @@ def geometry_of(scene: "Scene", regions: "Regions") -> Geometry:
     return Geometry(regions, lines, bonded=bonded)
 
 
-def build_model(scene: "Scene", formulation: "Formulation", geometry: Geometry) -> Model:
-    """Cover a geometry and give the elements their materials."""
+def build_model(
+    scene: "Scene",
+    formulation: "Formulation",
+    geometry: Geometry,
+    before: "Cutting | None" = None,
+) -> Model:
+    """Cover a geometry and give the elements their materials; ``before`` see `setup_of`."""
     materials = scene.materials.values()
     moves = scene.loading is not None and scene.loading.motion_after_failure is not None
     has_mass = scene.gravity is not None or scene.inertia is not None or moves
@@ -98,6 +112,7 @@ def build_model(scene: "Scene", formulation: "Formulation", geometry: Geometry) 
         lumped=formulation.integrator.mass == "lumped",
         in_pieces=geometry.in_pieces,
         finite=kinematics_of(scene, formulation).finite,
+        before=before,
     )
 
 

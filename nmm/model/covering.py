@@ -17,6 +17,7 @@ from nmm.geometry.tessellation.cover_types import block_cover
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from covers.cutting.cut import Cutting
     from covers.cutting.cut_cells import CutCells
     from covers.mathematical.base import Cover as MathematicalCover
     from nmm.formulation import CoverTable
@@ -25,11 +26,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Covering:
-    """A manifold, how the cut left the cover, and the cover itself where blocks have none."""
+    """A manifold, how the cut left the cover, and the cover itself where blocks have none.
+
+    ``cutting`` is what the next cut of the same blocks may go on from.
+    """
 
     manifold: Manifold
     cut: "CutCells"
     laid: "MathematicalCover | None" = None
+    cutting: "Cutting | None" = None
 
 
 def cover_regions(
@@ -39,6 +44,7 @@ def cover_regions(
     kappa: Floats | None = None,
     in_pieces: bool = False,
     bonded: "Sequence[int]" = (),
+    before: "Cutting | None" = None,
 ) -> Covering:
     """Make the manifold that a formulation's ``[cover]`` names.
 
@@ -56,6 +62,8 @@ def cover_regions(
         Whether covers of blocks divide no block further.
     bonded
         Numbers of the cracks whose tips carry no functions: what holds them has no singularity.
+    before
+        The last cut of the same blocks.
 
     Raises
     ------
@@ -85,7 +93,7 @@ def cover_regions(
         blocks, region = whole.divided(regions.polygons, cover.size, cover.angle, cover.shift)
         manifold = block_manifold(blocks, region, functions)
         return Covering(manifold, uncut(manifold))
-    return _mesh(regions, cover, functions, lines, kappa, bonded)
+    return _mesh(regions, cover, functions, lines, kappa, bonded, before)
 
 
 def local_functions(cover: "CoverTable") -> LocalFunctions:
@@ -117,6 +125,7 @@ def _mesh(
     lines: "Sequence[Floats]",
     kappa: Floats | None,
     bonded: "Sequence[int]",
+    before: "Cutting | None",
 ) -> Covering:
     from covers.approximation.mesh_manifold import mesh_manifold
     from nmm.model.degrees import kinds_by_region
@@ -128,9 +137,10 @@ def _mesh(
             f'[cover] size: not given: expected the size of a cell in m with type = "{cover.type}"'
         )
     try:
-        laid, pieces = laid_and_cut(regions, cover, lines)
+        net = laid_and_cut(regions, cover, lines, before)
     except (ValueError, TypeError, ImportError) as fault:
         raise FormulationError(f"[cover] {fault}") from fault
+    laid, pieces = net.cover, net.cells
     try:
         extra = enrichments(pieces, cover, kappa, bonded)
     except ValueError as fault:
@@ -143,4 +153,4 @@ def _mesh(
             "displacements hold constants only, so that no strain is approached however small the "
             "cells: expected a linear field: use degree = 1, or weights that hold one"
         )
-    return Covering(found, pieces, laid)
+    return Covering(found, pieces, laid, net.cutting)

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,9 @@ from nmm.formulation import CoverTable
 from nmm.geometry.blocks import Regions
 from nmm.materials.base import Law
 from nmm.model.covering import Covering, cover_regions
+
+if TYPE_CHECKING:
+    from covers.cutting.cut import Cutting
 
 
 def solid(
@@ -81,6 +85,7 @@ def covered(
     in_pieces: bool = False,
     bonded: Sequence[int] = (),
     finite: bool = False,
+    before: "Cutting | None" = None,
 ) -> Model:
     """Cover regions and give the elements the numbers of their materials.
 
@@ -94,10 +99,12 @@ def covered(
         Numbers of the cracks whose faces begin bonded: their tips carry no functions.
     finite
         Whether strain is finite.
+    before
+        The last cut of the same regions.
     """
     own = np.asarray(regions.material)
     kappa = np.array([law.kolosov(plane) for law in laws])
-    covering = cover_regions(regions, cover, cracks, kappa[own], in_pieces, bonded)
+    covering = cover_regions(regions, cover, cracks, kappa[own], in_pieces, bonded, before)
     of_element = own[covering.manifold.element_region]
     covering = _numbered(covering, regions)
     return Model(
@@ -114,6 +121,7 @@ def covered(
         plane=plane,
         finite=finite,
         bonded=tuple(bonded),
+        cutting=covering.cutting,
     )
 
 

@@ -1,12 +1,14 @@
 """The nets of a formulation: one over all blocks, and those that blocks have of their own."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from inspect import signature
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from covers.cutting.cut import cut
+from covers.cutting.again.recut import cut_again
+from covers.cutting.cut import Cutting, cut, cutting
 from covers.cutting.cut_cells import CutCells
 from covers.cutting.several_meshes import joined_cover, joined_cut
 from covers.mathematical.base import Cover as MathematicalCover
@@ -21,10 +23,25 @@ if TYPE_CHECKING:
     from nmm.geometry.blocks import Regions
 
 
+@dataclass(frozen=True)
+class LaidAndCut:
+    """Nets as one cover, what cutting made of them, and what the next cut may go on from."""
+
+    cover: MathematicalCover
+    cells: CutCells
+    cutting: Cutting | None = None
+
+
 def laid_and_cut(
-    regions: "Regions", cover: "CoverTable", lines: Sequence[Floats]
-) -> tuple[MathematicalCover, CutCells]:
+    regions: "Regions",
+    cover: "CoverTable",
+    lines: Sequence[Floats],
+    before: Cutting | None = None,
+) -> LaidAndCut:
     """Lay the nets of ``[cover]`` over the blocks and cut them by blocks and lines.
+
+    One net that was cut ``before`` by the same blocks is not laid again, and cut where lines have
+    grown.
 
     Raises
     ------
@@ -32,12 +49,7 @@ def laid_and_cut(
         A net that cannot be laid or cut, or that names no block.
     """
     if not cover.nets:
-        whole = _laid(cover, None, regions.box)
-
-        def again(other: MathematicalCover) -> CutCells:
-            return cut(other, regions.polygons, lines)
-
-        return whole.settled(again(whole), again)
+        return _one_net(regions, cover, lines, before)
     members = _members(regions, cover.nets)
     parts = [(net, own) for net, own in zip([None, *cover.nets], members, strict=True) if len(own)]
     nets, cuts = [], []
@@ -52,7 +64,25 @@ def laid_and_cut(
             )
         nets.append(laid)
         cuts.append(cut(laid, blocks, lines))
-    return joined_cover(nets), joined_cut(nets, cuts, [own for _, own in parts])
+    whole = joined_cut(nets, cuts, [own for _, own in parts])
+    return LaidAndCut(joined_cover(nets), whole)
+
+
+def _one_net(
+    regions: "Regions", cover: "CoverTable", lines: Sequence[Floats], before: Cutting | None
+) -> LaidAndCut:
+    if before is not None and before.regions is regions.polygons:
+        found = cut_again(before, lines)
+        return LaidAndCut(found.cover, found.cells, found)
+    whole = _laid(cover, None, regions.box)
+    if isinstance(whole, PolynomialCover):
+        found = cutting(whole, regions.polygons, lines)
+        return LaidAndCut(whole, found.cells, found)
+
+    def again(other: MathematicalCover) -> CutCells:
+        return cut(other, regions.polygons, lines)
+
+    return LaidAndCut(*whole.settled(again(whole), again))
 
 
 def _members(regions: "Regions", nets: "Sequence[CoverNet]") -> list[Ints]:

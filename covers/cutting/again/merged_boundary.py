@@ -1,0 +1,89 @@
+"""Boundary edges and tips that were kept and those that are new."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from covers.cutting.again.merged_elements import MergedElements
+from covers.cutting.cut_boundary import CrackTips, CutBoundary
+from integration.arrays import Ints
+
+
+def merged_boundary(
+    old: CutBoundary, local: CutBoundary, parts: MergedElements
+) -> CutBoundary | None:
+    """Merge edges, bodies still to be filled in; None where they cannot be linked."""
+    stays = np.flatnonzero(parts.kept[old.element] >= 0)
+    new = np.flatnonzero(parts.fresh[local.element])
+    element = np.concatenate([parts.kept[old.element[stays]], parts.made[local.element[new]]])
+    start = np.concatenate([old.start[stays], local.start[new]])
+    order = np.lexsort((start[:, 1], start[:, 0], element))
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    was = np.full(len(old) + 1, -1, dtype=np.int64)  # the last place serves for -1
+    was[stays] = rank[: len(stays)]
+    now = np.full(len(local) + 1, -1, dtype=np.int64)
+    now[new] = rank[len(stays) :]
+    beside = np.flatnonzero(~parts.fresh[local.element])
+    twin, known = _twins(old, stays, local, beside, parts)
+    now[beside[known]] = was[twin[known]]
+
+    linked = {}
+    for name in ("next", "previous", "opposite"):
+        links = np.full(len(order), -1, dtype=np.int64)
+        there = now[:-1] >= 0
+        links[now[:-1][there]] = now[getattr(local, name)[there]]
+        mine = was[getattr(old, name)[stays]]
+        # What led to an edge that is gone leads where the new cut says.
+        links[was[stays]] = np.where(mine >= 0, mine, links[was[stays]])
+        lost = (links < 0).any() if name != "opposite" else False
+        lost |= bool(((getattr(old, name)[stays] >= 0) & (links[was[stays]] < 0)).any())
+        if lost:
+            return None
+        linked[name] = links
+    return CutBoundary(
+        start=start[order],
+        end=np.concatenate([old.end[stays], local.end[new]])[order],
+        element=element[order],
+        body=np.full(len(order), -1, dtype=np.int64),
+        crack=np.concatenate([old.crack[stays], local.crack[new]])[order],
+        **linked,
+    )
+
+
+def _twins(
+    old: CutBoundary, stays: Ints, local: CutBoundary, beside: Ints, parts: MergedElements
+) -> tuple[Ints, Ints]:
+    """Old edge (k,) of each local one ``beside`` the new ones, and the rows that have one.
+
+    They are edges of one element that begin in one place.
+    """
+    near = stays[np.isin(parts.kept[old.element[stays]], parts.made[local.element[beside]])]
+    rows = [
+        np.column_stack([element, edges.start[chosen]])
+        for element, edges, chosen in (
+            (parts.kept[old.element[near]], old, near),
+            (parts.made[local.element[beside]], local, beside),
+        )
+    ]
+    _, which = np.unique(np.concatenate(rows), axis=0, return_inverse=True)
+    which = which.ravel()
+    place = np.full(int(which.max(initial=-1)) + 1, -1, dtype=np.int64)
+    place[which[: len(near)]] = near
+    found = place[which[len(near) :]]
+    return found, np.flatnonzero(found >= 0)
+
+
+def merged_tips(old: CrackTips, local: CrackTips, parts: MergedElements) -> CrackTips:
+    """Merge the ends of cracks."""
+    stays = np.flatnonzero(parts.kept[old.element] >= 0)
+    new = np.flatnonzero(parts.fresh[local.element])
+    point = np.concatenate([old.point[stays], local.point[new]])
+    crack = np.concatenate([old.crack[stays], local.crack[new]])
+    order = np.lexsort((point[:, 1], point[:, 0], crack))
+    return CrackTips(
+        point[order],
+        np.concatenate([old.direction[stays], local.direction[new]])[order],
+        np.concatenate([parts.kept[old.element[stays]], parts.made[local.element[new]]])[order],
+        crack[order],
+    )
