@@ -10,7 +10,7 @@ import json
 from pathlib import Path
 from typing import Literal
 
-from pydantic import Field, PrivateAttr
+from pydantic import Field, PrivateAttr, model_validator
 
 from nmm.errors import FormulationError
 from nmm.scene.cover_tables import OWN, PartTable
@@ -20,11 +20,15 @@ from nmm.scene.cover_tables import CoverTable as CoverTable
 from nmm.scene.cover_tables import EnrichmentTable as EnrichmentTable
 from nmm.scene.document import parse, read_text
 from nmm.scene.faults import Source
-from nmm.scene.fields import Count, Frozen, Number, PartName, Text, Time
+from nmm.scene.fields import Count, Frozen, Number, PartName, Text, Time, TimeOrAuto, fault
 
 # Nitsche's ghost term in (lambda + 2 mu) / h^2: measured to keep the matrix positive down to cuts
 # of 1e-6 of a cell.
 GHOST = 0.5
+
+
+# What says how steps are chosen, beside step = "auto".
+CHOOSING = ("error", "error_of", "shortest", "longest")
 
 
 class SupportMethod(Frozen):
@@ -127,7 +131,40 @@ class IntegratorTable(PartTable):
         f'"central_differences" {OWN}',
         examples=["newmark"],
     )
-    step: Time = Field(default=1e-3, gt=0, description="a step in s, > 0", examples=["1 ms"])
+    step: TimeOrAuto = Field(
+        default=1e-3,
+        description='a step in s, > 0, or "auto": steps of which each is as long as its error lets',
+        examples=["1 ms"],
+    )
+    error: Number | None = Field(
+        default=None,
+        ge=1e-7,
+        le=0.3,
+        description='with step = "auto": what a cycle of vibration may err by, in places and '
+        "speeds, as a share of the largest in the run, from 1e-7 to 0.3; 0.01 by default",
+        examples=[1e-3],
+    )
+    error_of: Literal["auto", "points", "bodies"] | None = Field(
+        default=None,
+        description='with step = "auto": "auto", "points" or "bodies": whose places and speeds are '
+        "compared, of all points, or of bodies as if rigid, so that waves within them do not "
+        "count; auto is bodies where blocks of one element may touch, else points",
+        examples=["bodies"],
+    )
+    shortest: Time | None = Field(
+        default=None,
+        gt=0,
+        description='with step = "auto": a step in s, > 0, that is taken whatever it errs by; '
+        "1e-7 of the duration by default",
+        examples=["1 us"],
+    )
+    longest: Time | None = Field(
+        default=None,
+        gt=0,
+        description='with step = "auto": a step in s, > 0, that none exceeds; a tenth of the '
+        "duration by default",
+        examples=["10 ms"],
+    )
     mass: Literal["consistent", "lumped"] = Field(
         default="consistent",
         description='"consistent" or "lumped": a block for each cover',
@@ -136,6 +173,23 @@ class IntegratorTable(PartTable):
     kinetic_factor: Number = Field(
         default=1.0, ge=0, le=1, description="a kept fraction of velocity in [0, 1]", examples=[1.0]
     )
+
+    @property
+    def fixed_step(self) -> float | None:
+        """The length of all steps (s); None where their error chooses."""
+        return None if self.step == "auto" else self.step
+
+    @model_validator(mode="after")
+    def _chosen(self) -> IntegratorTable:
+        given = [key for key in CHOOSING if getattr(self, key) is not None]
+        if self.step != "auto" and given:
+            expected = f'step = "auto" beside {", ".join(given)}'
+            remedy = 'write step = "auto", or remove them'
+            raise fault(f"a step of {self.step:g} s", expected, remedy)
+        if self.shortest and self.longest and self.shortest > self.longest:
+            between = f"shortest {self.shortest:g} s, longest {self.longest:g} s"
+            raise fault(between, "a shortest step below the longest", "exchange them")
+        return self
 
 
 class Rotation(Frozen):

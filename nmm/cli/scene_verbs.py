@@ -246,19 +246,29 @@ def _bound(place: Path, formulation: Path | None) -> None:
     tell_next(f"nmm run {place}")
 
 
+def _steps(chosen: "Formulation") -> str:
+    """Say how long steps are, or what chooses it."""
+    table = chosen.integrator
+    if table.fixed_step is not None:
+        return f"step {table.fixed_step:g} s"
+    from nmm.stepping.adaptive.control import ERROR
+
+    return f"steps by an error of {table.error or ERROR:g} a cycle, of three solutions each"
+
+
 def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) -> Iterator[str]:
     """Yield the lines that say what kind of run it is."""
     dynamic = scene.inertia is not None
     kind = "dynamic" if dynamic else "quasi-static, over time" if scene.in_time else "static"
     yield f"run: {kind}, plane {scene.plane}"
     if dynamic:
-        yield f"integrator: {chosen.integrator.type}, step {chosen.integrator.step:g} s"
+        yield f"integrator: {chosen.integrator.type}, {_steps(chosen)}"
         if scene.contact is not None:
             yield from _rule_among_contacts(chosen)
         if scene.duration is not None:
             yield f"duration: {scene.duration:g} s"
     elif scene.in_time:
-        yield f"duration: {scene.duration:g} s, step {chosen.integrator.step:g} s, no inertia"
+        yield f"duration: {scene.duration:g} s, {_steps(chosen)}, no inertia"
     elif scene.loading is not None:
         yield f"loading: until {scene.loading.until}, increment {chosen.loading.increment:g}"
     if scene.strength_reduction is not None:

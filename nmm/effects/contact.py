@@ -209,6 +209,11 @@ class Contact(Effect):
         self._found = None
 
     @property
+    def exact(self) -> bool:
+        """Whether nothing penetrates, so that speeds jump at an impact."""
+        return self._exact
+
+    @property
     def standing(self) -> ContactPoints:
         """The contact points that are known between two steps."""
         book, known = self.record.book, self.record.known

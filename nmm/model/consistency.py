@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import fields
+from math import inf
 from typing import TYPE_CHECKING
 
 from nmm import capacity
@@ -30,11 +31,12 @@ def check_together(scene: "Scene", formulation: "Formulation") -> None:
     NmmError
         All faults of this kind, one line each.
     """
-    faults = [*_steps(scene, formulation), *_references(scene)]
+    faults = [*_steps(scene, formulation), *_chosen(scene, formulation), *_references(scene)]
     if faults:
         raise SceneError(*faults)
-    if scene.in_time and scene.duration is not None:
-        steps = scene.duration / formulation.integrator.step
+    step = formulation.integrator.fixed_step
+    if scene.in_time and scene.duration is not None and step is not None:
+        steps = scene.duration / step
         place = formulation.source.place("integrator", "step")
         capacity.refuse(place, f"{steps:.3g} steps", steps * capacity.STEP, "take longer steps")
 
@@ -110,11 +112,35 @@ def _damping(scene: "Scene") -> list[str]:
 
 
 def _steps(scene: "Scene", formulation: "Formulation") -> Iterator[Fault]:
-    step, duration = formulation.integrator.step, scene.duration
-    if scene.in_time and duration is not None and step > (1 + 1e-9) * duration:
+    step, duration = formulation.integrator.fixed_step, scene.duration
+    if step is None or duration is None or not scene.in_time:
+        return
+    if step > (1 + 1e-9) * duration:
         place = formulation.source.place("integrator", "step")
         value = f"{step:g} s, longer than the duration of {duration:g} s"
         yield Fault(place, value, "a part of the duration", "take shorter steps")
+
+
+def _chosen(scene: "Scene", formulation: "Formulation") -> Iterator[Fault]:
+    """Yield what steps cannot be chosen by their error with."""
+    from nmm.integrators.base import make_integrator
+
+    table, place = formulation.integrator, formulation.source.place("integrator", "step")
+    if table.fixed_step is not None:
+        return
+    explicit = make_integrator(table).limit < inf
+    beside = {
+        f'type = "{table.type}", whose steps are bounded by stability': explicit,
+        "a kinetic_factor, which damps each step whatever its length": table.kinetic_factor < 1,
+        '[rotation] update = "linear", whose steps cannot be undone': (
+            formulation.rotation.update == "linear"
+        ),
+        "[[free_fields]], whose columns have steps of one length": bool(scene.free_fields),
+    }
+    for what, there in beside.items():
+        if there:
+            remedy = "give a step in s, or remove it"
+            yield Fault(place, f'"auto" with {what}', "steps that may have any length", remedy)
 
 
 def _references(scene: "Scene") -> Iterator[Fault]:

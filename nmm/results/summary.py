@@ -88,6 +88,9 @@ class Summary:
         than what is stored and what others took. None without growing cracks.
     condition_estimate
         Estimated 1-norm condition number of the last system matrix.
+    smallest_step, largest_step, rejected_steps
+        Bounds of the accepted steps (s), and how many were tried and undone, where errors choose
+        their lengths; else None.
     failure_load, failure_factor, failure_tolerance
         Largest sum of the scaled loads (N) found in equilibrium, its load factor, and how far
         above it, relative to it, the smallest load was found that is not.
@@ -127,6 +130,9 @@ class Summary:
     fracture_energy: float | None = None
     freed_energy: float | None = None
     condition_estimate: float | None = None
+    smallest_step: float | None = None
+    largest_step: float | None = None
+    rejected_steps: int | None = None
     failure_load: float | None = None
     failure_factor: float | None = None
     failure_tolerance: float | None = None
@@ -286,6 +292,9 @@ def rows(summary: Summary) -> list[tuple[str, str]]:
         ("unknowns", f"{summary.unknowns:,}"),
         ("cures", _counts(summary.cures)),
         ("steps", f"{summary.steps:,}"),
+        ("smallest step", _or_none(summary.smallest_step, _second)),
+        ("largest step", _or_none(summary.largest_step, _second)),
+        ("rejected steps", _or_none(summary.rejected_steps, lambda v: f"{v:,}")),
         ("contact passes", f"{summary.passes:,}"),
         ("failure load", _or_none(summary.failure_load, _newton)),
         (
@@ -331,6 +340,10 @@ def _or_none(value: Any, text: Any) -> str | None:
 
 def _number(value: float) -> str:
     return f"{value:.4g}"
+
+
+def _second(value: float) -> str:
+    return f"{value:.3g} s"
 
 
 def _metre(value: float) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
 from pydantic_core import PydanticCustomError
@@ -63,6 +63,17 @@ def quantity(unit: str, smallest: float = 0.0) -> BeforeValidator:
     return BeforeValidator(read, json_schema_input_type=float | str)
 
 
+def _time_or_auto(value: object) -> object:
+    """A time above zero in s, or the word "auto"."""
+    if value == "auto":
+        return value
+    time = quantity("s", SMALLEST).func(value)  # type: ignore[call-arg]
+    if not (isinstance(time, float) and time > 0):
+        remedy = 'write for example step = "1 ms", or step = "auto"'
+        raise fault(repr(value), 'a step in s, > 0, or "auto"', remedy)
+    return time
+
+
 def _listed(value: object) -> object:
     """Arrays given from Python become lists."""
     return value.tolist() if hasattr(value, "tolist") else value
@@ -105,6 +116,7 @@ Number = Annotated[float, quantity("1")]
 Coordinate = Annotated[float, quantity("m")]
 Length = Annotated[float, quantity("m", SMALLEST)]
 Time = Annotated[float, quantity("s", SMALLEST)]
+TimeOrAuto = Annotated[float | Literal["auto"], BeforeValidator(_time_or_auto)]
 Angle = Annotated[float, quantity("rad")]
 FrictionAngle = Annotated[Angle, AfterValidator(_friction)]
 Force = Annotated[float, quantity("N", SMALLEST)]

@@ -9,7 +9,8 @@ from nmm.formulation import Formulation
 from nmm.integrators.base import make_integrator
 from nmm.progress import Progress
 from nmm.results.tee import FramesOnly
-from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
+from nmm.stepping.drive.dynamics import run_in_time
+from nmm.stepping.drive.in_time import InTime, Schedule
 from nmm.stepping.drive.verdict import RunVerdict
 from nmm.stepping.reports.output import FRAMES_AFTER_FAILURE, choice_in_time
 from nmm.stepping.reports.recorder import Recorder, Totals
@@ -47,7 +48,7 @@ def show_failure(
     )
     quiet.budget = stepper.budget
     factor = (verdict.load_factor or 0.0) * (1 + 2 * (verdict.tolerance or 0.0))
-    times = Schedule(duration, formulation.integrator.step, factor, "failure", False)
+    times = Schedule.of(quiet, formulation, duration, factor, "failure", events=False)
     shown = FramesOnly(recorder.sink)
     asked = choice_in_time(scene.output, state.time, duration, FRAMES_AFTER_FAILURE)
     known = Totals(frames=recorder.totals.frames)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar, cast
 
 from nmm.results.storage.values import Arrays
-from nmm.stepping.drive.dynamics import InTime
+from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.statics import UnderLoad
 from nmm.stepping.reports.output import Choice

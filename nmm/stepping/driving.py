@@ -11,7 +11,8 @@ from nmm.formulation import Formulation
 from nmm.progress import Progress
 from nmm.stepping.after_failure import show_failure
 from nmm.stepping.checkpoints import Checkpoints
-from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
+from nmm.stepping.drive.dynamics import run_in_time
+from nmm.stepping.drive.in_time import InTime, Schedule
 from nmm.stepping.drive.statics import Beyond, LoadSchedule, UnderLoad, run_load, unseen
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
@@ -128,7 +129,7 @@ class Drive:
 
     def _times(self, stage: str = "dynamic") -> Schedule:
         assert self.scene.duration is not None
-        return Schedule(self.scene.duration, self.formulation.integrator.step, stage=stage)
+        return Schedule.of(self.stepper, self.formulation, self.scene.duration, stage=stage)
 
     def _load_schedule(self) -> LoadSchedule:
         loading, steps = self.scene.loading, self.formulation.loading

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from nmm.results.storage.values import Arrays, Kinds, decoded, encoded
-from nmm.stepping.drive.dynamics import InTime
+from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.statics import UnderLoad
 from nmm.stepping.reports.recorder import Totals
@@ -101,10 +101,12 @@ _PLACES = {
     "nmm.contact.points.joint_book": ("JointBook",),
     "nmm.geometry.blocks": ("Regions",),
     "nmm.geometry.geometry": ("Geometry",),
-    "nmm.stepping.drive.dynamics": ("InTime",),
+    "nmm.stepping.adaptive.control": ("Chosen",),
+    "nmm.stepping.drive.in_time": ("InTime",),
     "nmm.stepping.drive.stages": ("StagesSoFar",),
     "nmm.stepping.drive.statics": ("UnderLoad", "Rest"),
     "nmm.stepping.reports.ledger": ("Ledger", "Rise"),
+    "nmm.stepping.reports.lengths": ("StepLengths",),
     "nmm.stepping.reports.output": ("Watch",),
     "nmm.stepping.reports.recorder": ("Totals",),
     "nmm.stepping.run_state": ("RunState",),

@@ -232,7 +232,7 @@ class Simulation:
         elements, duration = self.stepper.model.manifold.elements, self.scene.duration
         times = None
         if self.scene.in_time and duration is not None:
-            times = duration, self.formulation.integrator.step
+            times = duration, self.formulation.integrator.fixed_step
         return storage(self._choice(), times, len(elements.points), len(elements))
 
     def identity(self) -> Summary:

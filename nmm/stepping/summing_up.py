@@ -43,6 +43,7 @@ def summed_up(
         When its preparation began (s).
     """
     stepper, totals = recorder.stepper, recorder.totals
+    lengths = totals.lengths
     condition, start = stepper.condition(state), totals.since or start
     findings = audit(Ended(*asked, stepper, recorder, start, state, verdict, condition))
     verdict, growth = judged(verdict, findings), stepper.plan.fracture
@@ -63,6 +64,9 @@ def summed_up(
         largest_penetration=totals.penetration,
         energy_balance=totals.ledger.balance,
         condition_estimate=condition,
+        smallest_step=None if lengths is None else lengths.smallest,
+        largest_step=None if lengths is None else lengths.largest,
+        rejected_steps=None if lengths is None else lengths.rejected,
         failure_load=load,
         failure_factor=verdict.load_factor,
         failure_tolerance=verdict.tolerance,

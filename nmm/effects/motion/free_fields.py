@@ -89,7 +89,8 @@ def _side(setup: Setup, table: "FreeFieldTable") -> FreeField:
     height, element = _layers(place, 1 if linear else FINER)
     damping = setup.scene.damping
     factors = (None if damping is None else damping.coefficients) or (0.0, 0.0)
-    step = setup.formulation.integrator.step
+    step = setup.formulation.integrator.fixed_step
+    assert step is not None  # others are refused
     columns = []
     for axis, entry in enumerate((2, 0)):  # shear along x, pressure along y
         modulus = model.elasticity[element, entry, entry]

@@ -49,6 +49,12 @@ class Ended:
         """Whether it had inertia."""
         return self.scene.inertia is not None
 
+    @property
+    def longest_step(self) -> float:
+        """Length (s) of the steps, of the longest where errors chose them."""
+        fixed, lengths = self.formulation.integrator.fixed_step, self.recorder.totals.lengths
+        return fixed or (lengths.largest if lengths else np.inf)
+
 
 @dataclass(frozen=True)
 class AuditFinding:

@@ -116,7 +116,8 @@ def _lost(run: Ended) -> Findings:
         if lost > 0.01 * share * ledger.throughput
     )
     # Both fall with the first power of the step, what contact takes once impacts are resolved.
-    kept = rule.step * THRESHOLDS["energy_lost"].warns / max(share, 1e-300)
+    step = rule.fixed_step or run.state.time / max(ledger.steps, 1)
+    kept = step * THRESHOLDS["energy_lost"].warns / max(share, 1e-300)
     lasts = impact_lasts(run)
     if lasts is not None and ledger.contact_loss > 0.5 * share * ledger.throughput:
         kept = min(kept, lasts / RESOLVED)
@@ -127,5 +128,5 @@ def _lost(run: Ended) -> Findings:
         share,
         f"{percent(share)} of the turnover was lost to no friction or damper"
         + (f": {told}" if told else ""),
-        f"steps of some {kept:.2g} s in place of {rule.step:g} s would keep it{other}",
+        f"steps of some {kept:.2g} s in place of {step:.3g} s would keep it{other}",
     )

@@ -15,11 +15,25 @@ def steps(run: Ended) -> Findings:
     """Audit time steps and load increments."""
     yield from _impacts(run) if run.dynamic else _increments(run)
     yield from _records(run) if run.dynamic else ()
+    yield from _unresolved(run)
+
+
+def _unresolved(run: Ended) -> Findings:
+    """Tell steps that erred by more than was asked for and were to be no shorter."""
+    lengths = run.recorder.totals.lengths
+    if lengths is not None and lengths.unresolved:
+        yield AuditFinding(
+            "step_error",
+            float(lengths.unresolved),
+            f"{lengths.unresolved} steps of the shortest length, down to {lengths.smallest:.2g} s, "
+            "erred by more than [integrator] error",
+            "contact that jumps is resolved by springs only; else lower [integrator] shortest",
+        )
 
 
 def _records(run: Ended) -> Findings:
     """Tell records whose samples the steps pass over."""
-    step = run.formulation.integrator.step
+    step = run.longest_step
     for name, effect in run.stepper.plan.effects.items():
         if effect.resolves is not None:
             yield AuditFinding(
@@ -44,9 +58,9 @@ def impact_lasts(run: Ended) -> float | None:
 
 
 def _impacts(run: Ended) -> Findings:
-    ledger, step = run.recorder.ledger, run.formulation.integrator.step
+    ledger, step = run.recorder.ledger, run.formulation.integrator.fixed_step
     lasts = impact_lasts(run)
-    if run.formulation.integrator.kinetic_factor < 1 or lasts is None:
+    if run.formulation.integrator.kinetic_factor < 1 or lasts is None or step is None:
         return
     if ledger.contact_loss <= LOST * ledger.throughput:
         return

@@ -110,6 +110,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "dynamics with records",
     ),
+    "step_error": Threshold(
+        "steps that erred by more than was asked for and were to be no shorter",
+        0.0,
+        None,
+        'runs with `[integrator] step = "auto"`',
+    ),
     "failure_tolerance": Threshold(
         "width of the bracket of a failure load over `[loading] tolerance`",
         1.01,

@@ -1,13 +1,13 @@
 """Steps in time: a step that does not converge is cut; one that cannot be cut ends the run."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.frozen import with_parts
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import Stands, asked, with_events
+from nmm.stepping.drive.in_time import ROUNDING, InTime, Schedule
 from nmm.stepping.drive.stable_step import longest_step, singular_mass
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
@@ -15,71 +15,10 @@ from nmm.stepping.step.budget import BudgetSpentError
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
-if TYPE_CHECKING:
-    from nmm.contact.points.contact_points import ContactPoints
-
-# Of a step, about what sums of many steps are off by: 20 000 steps are 20 000, not one more of
-# 1e-12 s at the end.
-ROUNDING = 1e-6
+# The state before the last attempt of a step, the attempt, how the run goes on, and why it was cut.
+Taken = tuple[State, Attempt, InTime, str]
 # A step is halved down to this power of two of the chosen step before the run is given up: 1/1024.
 CUTS = 10
-
-
-@dataclass(frozen=True)
-class Schedule:
-    """Times of a dynamic run.
-
-    Attributes
-    ----------
-    duration, step
-        s.
-    load_factor
-        Factor on the scaled loads, constant in dynamics.
-    stage
-        Name of the frames' stage.
-    events
-        Whether effects may change what is solved.
-    """
-
-    duration: float
-    step: float
-    load_factor: float = 1.0
-    stage: str = "dynamic"
-    events: bool = True
-
-
-@dataclass(frozen=True)
-class InTime:
-    """Where a run in time stands.
-
-    Attributes
-    ----------
-    state, contacts
-        The last accepted state, and its contacts as left.
-    begin
-        Time at which the run began (s).
-    step
-        Length of the next step, before it is cut (s).
-    cuts, why
-        Number of steps that were cut so far, and when and why the last one was.
-    """
-
-    state: State
-    contacts: "ContactPoints | None"
-    begin: float
-    step: float
-    cuts: int = 0
-    why: str = ""
-
-    @classmethod
-    def at_start(cls, state: State, schedule: Schedule) -> "InTime":
-        """Return the start of a run from ``state``."""
-        return cls(state, None, state.time, schedule.step)
-
-    def rest(self, schedule: Schedule) -> float:
-        """Return the time that is left (s); zero at the end."""
-        rest = self.begin + schedule.duration - self.state.time
-        return rest if rest > ROUNDING * schedule.step else 0.0
 
 
 def run_in_time(
@@ -97,6 +36,8 @@ def run_in_time(
     The last accepted state and the verdict.
     """
     verdict = _unstable(stepper, at.state, schedule)
+    if schedule.control is not None:
+        recorder.choosing()
     while verdict is None and at.rest(schedule):
         found = _next(stepper, recorder, at, schedule, progress)
         if isinstance(found, RunVerdict):
@@ -134,22 +75,20 @@ def _next(
     progress: Progress,
 ) -> InTime | RunVerdict:
     """Return where the next step ends, or why there is none."""
-    state, rest = at.state, at.rest(schedule)
-    length = rest if rest < (1 + ROUNDING) * at.step else at.step
+    take = _fixed if schedule.control is None else _by_error
     try:
-        attempt, why = _step_or_cut(stepper, state, length, schedule)
+        before, attempt, to, why = take(recorder, at, schedule)
     except BudgetSpentError as spent:
-        return RunVerdict(SPENT, f"stopped at {state.time:.6g} s: {spent}")
+        return RunVerdict(SPENT, f"stopped at {at.state.time:.6g} s: {spent}")
     if not attempt.converged:
-        return RunVerdict(FAILED, _failure(attempt, state, schedule))
+        return RunVerdict(FAILED, _failure(attempt, at.state, schedule))
     after, contacts = stepper.accept(attempt)
     stands = Stands(after, contacts)
     events = asked(recorder, stands) if schedule.events else ()
-    said = recorder.step(state, attempt, contacts, after)
-    taken = attempt.state.time - state.time
-    cuts, last = at.cuts, at.why
+    said = recorder.step(before, attempt, contacts, after)
     if why:
-        cuts, last = cuts + 1, f"at {state.time:.6g} s: {why}"
+        taken = attempt.state.time - at.state.time
+        to = to.with_cut(f"at {at.state.time:.6g} s: {why}")
         said = f"{said}  cut to {taken:.3g} s: {why}"
     recorder.offer(after, schedule.stage, contacts)
     stands = with_events(recorder, stands, events, schedule.stage)
@@ -157,9 +96,32 @@ def _next(
     parts = [f"time {after.time:.4g} s of {end:.4g} s", said, stands.what]
     text = "  ".join(filter(None, parts))
     progress((after.time - at.begin) / schedule.duration, text)
+    return with_parts(to, state=stands.state, contacts=stands.contacts)
+
+
+def _fixed(recorder: Recorder, at: InTime, schedule: Schedule) -> Taken:
+    """Take a step of the length that was chosen, or shorter where it must be."""
+    state, rest = at.state, at.rest(schedule)
+    length = rest if rest < (1 + ROUNDING) * at.step else at.step
+    attempt, why = _step_or_cut(recorder.stepper, state, length, schedule)
+    taken = attempt.state.time - state.time
     # After a cut the step grows back slowly: what made it fail is rarely over at once.
     step = min(schedule.step, 2 * taken) if taken < schedule.step else schedule.step
-    return InTime(stands.state, stands.contacts, at.begin, step, cuts, last)
+    return state, attempt, with_parts(at, step=step), why
+
+
+def _by_error(recorder: Recorder, at: InTime, schedule: Schedule) -> Taken:
+    """Take a step as long as its error lets, in two halves; it ends where a frame is asked for."""
+    from nmm.stepping.adaptive.trial_step import TrialStep
+
+    control, state = schedule.control, at.state
+    assert control is not None
+    assert at.chosen is not None
+    stop = min(at.begin + schedule.duration, recorder.next_frame(state.time))
+    trial = TrialStep(recorder, control, state, schedule.load_factor, schedule.stage)
+    found = trial.take(at.chosen, at.step, stop)
+    to = with_parts(at, step=found.next, chosen=found.chosen)
+    return found.middle, found.second, to, found.cut
 
 
 def _arrived(at: InTime) -> RunVerdict:
@@ -192,7 +154,9 @@ def _halves(step: float, smallest: float) -> Iterator[float]:
 
 
 def _failure(attempt: Attempt, state: State, schedule: Schedule) -> str:
+    control = schedule.control
+    shortest = schedule.step / 2**CUTS if control is None else control.shortest
     return (
         f"the step at {state.time:.6g} s did not converge, though cut to "
-        f"{schedule.step / 2**CUTS:.3g} s: {attempt.sentence}"
+        f"{shortest:.3g} s: {attempt.sentence}"
     )

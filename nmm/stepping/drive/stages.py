@@ -10,7 +10,8 @@ from nmm.assembly.motion import State
 from nmm.frozen import with_parts
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import difference, follow
-from nmm.stepping.drive.dynamics import InTime, Schedule, run_in_time
+from nmm.stepping.drive.dynamics import run_in_time
+from nmm.stepping.drive.in_time import InTime, Schedule
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import CONVERGED, RunVerdict
 from nmm.stepping.reports.output import choice_in_time, choice_under_loads
@@ -173,7 +174,7 @@ def _solved(
     stage, output, steps = staged.stage, staged.stage.scene.output, staged.stage.formulation
     if stage.duration is not None:
         recorder.choice = choice_in_time(output, state.time, stage.duration)
-        times = Schedule(stage.duration, steps.integrator.step)
+        times = Schedule.of(stepper, steps, stage.duration)
         moving = at or keeps.begin(InTime.at_start(state, times))
         assert isinstance(moving, InTime)
         return run_in_time(stepper, recorder, moving, times, progress, keeps.keep)

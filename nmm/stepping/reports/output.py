@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import floor
+from math import floor, inf
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -45,6 +45,10 @@ class Choice:
         due = self.steps is not None and steps % self.steps == 0
         due |= self.periods(time) > periods
         return due or not self.events.isdisjoint(happened)
+
+    def next(self, periods: int) -> float:
+        """Return the time (s) of the frame after so many periods; infinite where none counts."""
+        return inf if self.period is None else self.begin + (periods + 1) * self.period
 
     def periods(self, time: float) -> int:
         """Return how many periods have passed."""
@@ -121,19 +125,22 @@ class Storage:
 
 
 def storage(
-    choice: Choice, times: tuple[float, float] | None, points: int, elements: int
+    choice: Choice, times: tuple[float, float | None] | None, points: int, elements: int
 ) -> Storage:
-    """Return what frames of a run take; ``times`` are its duration and step, None under loads."""
+    """Return what frames of a run take; ``times`` are its duration and step, None under loads.
+
+    The step is None where errors choose it.
+    """
     size = 8 * (6 * points + 3 * elements) + HEADERS
-    if times is None:
+    if times is None or (times[1] is None and choice.steps is not None):
         return Storage(None, size)
     duration, step = times
-    steps, count = duration / step, 2.0
+    steps, count = inf if step is None else duration / step, 2.0
     if choice.period is not None:
         count += min(duration / choice.period, steps)
     if choice.steps is not None:
         count += steps / choice.steps
-    return Storage(min(int(count), int(steps) + 2), size, bool(choice.events))
+    return Storage(int(min(count, steps + 2)), size, bool(choice.events))
 
 
 def _size(count: float) -> str:

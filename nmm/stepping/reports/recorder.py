@@ -17,6 +17,7 @@ from nmm.results.frame import Frame
 from nmm.results.sink import Sink
 from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.ledger import Ledger
+from nmm.stepping.reports.lengths import StepLengths
 from nmm.stepping.reports.output import Choice, Watch
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
@@ -82,6 +83,8 @@ class Totals:
         What events have changed so far, in words.
     since
         The state that the last change of what is solved has left; None before any.
+    lengths
+        Of the steps, where their error chooses them; else None.
     """
 
     ledger: Ledger = field(default_factory=Ledger)
@@ -98,6 +101,7 @@ class Totals:
     stored: bool = True
     changes: tuple[str, ...] = ()
     since: State | None = None
+    lengths: StepLengths | None = None
 
 
 @dataclass
@@ -155,6 +159,7 @@ class Recorder:
             residual=max(totals.residual, attempt.residual),
             taken=totals.taken + 1,
             stored=False,
+            lengths=totals.lengths and totals.lengths.seen(after.time - before.time),
         )
         self.stepper.budget.taken += 1
         row = {
@@ -183,6 +188,22 @@ class Recorder:
         held = [f"{count} {name}" for name, count in self.totals.counts.items() if count]
         noun = "pass" if attempt.passes == 1 else "passes"
         return f"{attempt.passes} {noun}, contacts: {', '.join(held)}" if held else ""
+
+    def choosing(self) -> None:
+        """Count from now on how long steps are."""
+        if self.totals.lengths is None:
+            self.totals = with_parts(self.totals, lengths=StepLengths())
+
+    def tried(self, rejected: int = 0, unresolved: int = 0) -> None:
+        """Count steps that erred too much: those undone, and those taken all the same."""
+        lengths = self.totals.lengths or StepLengths()
+        rejected, unresolved = rejected + lengths.rejected, unresolved + lengths.unresolved
+        lengths = with_parts(lengths, rejected=rejected, unresolved=unresolved)
+        self.totals = with_parts(self.totals, lengths=lengths)
+
+    def next_frame(self, time: float) -> float:
+        """Return when (s) the next frame is asked for; infinite where no time counts."""
+        return self.choice.next(self.choice.periods(time))
 
     def brought_to(self, state: State) -> None:
         """Book a state to which loose blocks were brought besides the steps of the run."""

@@ -120,6 +120,13 @@ class Stepper:
         self.plan.carry(carried.effects)
         self.forget()
 
+    def return_to(self, carried: CarriedOver) -> None:
+        """Take back what was accepted since `carried` was this; what is kept for speed stays."""
+        self._carried = replace(carried, laid=None, geometry=None, effects={})
+        self.plan.carry(carried.effects)
+        if self.plan.contact is not None:
+            self.plan.contact.restore(self.plan.contact.record)
+
     def forget(self) -> None:
         """Drop the workspace: factors, patterns, lists and starts that are kept for speed alone."""
         for part in (self._assembly, *self._solvers, self.plan):

@@ -179,10 +179,11 @@ def size_of(simulation: "Simulation", steps: float) -> Size:
 
 
 def steps_of(simulation: "Simulation") -> float | None:
-    """Return the number of steps of a run; None when the load at failure decides."""
+    """Return the number of steps of a run; None when the load at failure, or errors decide."""
     scene, formulation = simulation.scene, simulation.formulation
     if scene.inertia is not None and scene.duration is not None:
-        return float(np.ceil(scene.duration / formulation.integrator.step))
+        step = formulation.integrator.fixed_step
+        return None if step is None else float(np.ceil(scene.duration / step))
     if scene.loading is None:
         return 1.0
     if scene.loading.until == "failure":

@@ -4,6 +4,8 @@ They are read by tests as a file beside them; together they have every effect th
 something from step to step.
 """
 
+import re
+
 HEAD = """
 title = "restart"
 plane = "strain"
@@ -738,11 +740,21 @@ increment = 0.1
 SHI = 'step = "2 ms"'
 NEWMARK = 'type = "newmark"\nstep = "2 ms"'
 OWN_NEWMARK = 'type = "newmark"\nstep = "2 ms"\n[formulation.integrator.options]\ngamma = 0.6'
+BY_ERROR = 'type = "newmark"\nstep = "auto"\nerror = 0.1\nshortest = "0.1 ms"'
 ALPHA = 'type = "generalized_alpha"\nstep = "2 ms"'
+
+
+def by_error(scene: str) -> str:
+    """Return a scene whose steps are as long as a large error lets."""
+    rule = r"(\[formulation\.integrator\][^\[]*?)\bstep = [^\n]*"
+    return re.sub(rule, r'\1step = "auto"\nerror = 0.3', scene)
+
 
 SCENES = {
     "wall": WALL.replace("{integrator}", SHI).replace("{enforcement}", "penalty"),
     "wall newmark": WALL.replace("{integrator}", NEWMARK).replace("{enforcement}", "penalty"),
+    "wall by error": WALL.replace("{integrator}", BY_ERROR).replace("{enforcement}", "penalty"),
+    "cone by error": WALL.replace("{integrator}", BY_ERROR).replace("{enforcement}", "cone"),
     "wall alpha": WALL.replace("{integrator}", ALPHA).replace("{enforcement}", "penalty"),
     "wall carried": WALL.replace("{integrator}", OWN_NEWMARK).replace("{enforcement}", "cone"),
     "wall cone": WALL.replace("{integrator}", SHI).replace("{enforcement}", "cone"),
@@ -757,10 +769,12 @@ SCENES = {
     "relaxed": RELAXED,
     "plastic": PLASTIC_LOADED,
     "plastic in time": PLASTIC_MOVING,
+    "plastic by error": by_error(PLASTIC_MOVING),
     "classical update": CLASSICAL,
     "glued": GLUED,
     "stages": STAGED,
     "shaken": SHAKEN.replace("{duration}", "0.03").replace("{stages}", ""),
+    "stone by error": by_error(SHAKEN_ON_ROCK),
     "shaken stages": SHAKEN.replace("duration = {duration}", "").replace("{stages}", SHAKEN_STAGES),
     "shaken stone": SHAKEN_ON_ROCK,
     "left standing": LEFT_STANDING,

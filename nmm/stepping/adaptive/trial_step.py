@@ -1,0 +1,178 @@
+"""A step as two halves, beside the same in one: what they differ by is its error.
+
+The halves are what the run keeps. The second goes on from what stepper and effects carry after the
+first, which is accepted for the time being and undone with it where the step errs too much. A step
+that is halved then has its whole already: it is the first half.
+"""
+
+from dataclasses import dataclass
+from math import floor, inf, isinf, log2
+
+import numpy as np
+
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+from nmm.frozen import with_parts
+from nmm.stepping.adaptive.control import Chosen, StepControl
+from nmm.stepping.adaptive.followed import Followed
+from nmm.stepping.adaptive.provisional import Provisional
+from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.step.trial import Attempt
+
+# A step that would end so near a stop, as a share of itself, ends there.
+NEAR = 1e-9
+# Share of the largest speed in the run: contacts that change speeds by more in a step make an
+# impact.
+SUDDEN = 0.1
+
+
+@dataclass(frozen=True)
+class Halves:
+    """A step whose first half is accepted and whose second is to be.
+
+    Attributes
+    ----------
+    middle, second
+        The state between them and the attempt from there; what failed where no step was found.
+    next
+        How long the next step may be (s).
+    chosen
+        What the control carries on.
+    cut
+        Why a longer step that was tried was not solved; empty where all were.
+    """
+
+    middle: State
+    second: Attempt
+    next: float
+    chosen: Chosen
+    cut: str = ""
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """What came of a step: the last attempt, the state before it, its error over the bound.
+
+    ``first`` is the whole of a step half as long; None where it is not known.
+    """
+
+    middle: State
+    second: Attempt
+    ratio: float = inf
+    seen: Chosen | None = None
+    first: Attempt | None = None
+
+
+@dataclass(frozen=True)
+class TrialStep:
+    """Tries steps from one state until one errs little enough.
+
+    Attributes
+    ----------
+    recorder
+        Takes the first half.
+    control
+        What steps are chosen by.
+    state
+        Where the step begins.
+    load_factor, stage
+        Of its instants and frames.
+    """
+
+    recorder: Recorder
+    control: StepControl
+    state: State
+    load_factor: float
+    stage: str
+
+    def take(self, chosen: Chosen, asked: float, stop: float) -> Halves:
+        """Take a step of ``asked`` (s) or less that does not pass the time ``stop`` (s).
+
+        Raises
+        ------
+        BudgetSpentError
+            When the run may cost no more; nothing is left of what was tried.
+        """
+        start, shortest = self.state.time, self.control.shortest
+        end, whole, cut, tried = _landing(start, asked, stop), None, "", False
+        while True:  # trials of one step
+            length, last = end - start, (end - start) / 2 < shortest
+            trial = self._trial(chosen, end, whole, last)
+            if not trial.second.converged:
+                cut = cut or trial.second.sentence
+            if trial.seen is not None:
+                after = self.control.after(length, trial.ratio, chosen.last)
+                # A step that was short to end at a stop says nothing against longer ones.
+                after = min(after, length) if tried else max(after, asked)
+                return Halves(trial.middle, trial.second, after, trial.seen, cut)
+            if last:
+                return Halves(trial.middle, trial.second, length, chosen, cut)
+            self.recorder.tried(rejected=1)
+            count = 1 if isinf(trial.ratio) else self.control.halvings(trial.ratio)
+            count = max(1, min(count, floor(log2(length / shortest))))
+            end, tried = start + length / 2**count, True
+            whole = trial.first if count == 1 else None
+
+    def _trial(self, chosen: Chosen, end: float, whole: Attempt | None, last: bool) -> _Trial:
+        """Try both halves, and keep the first where they err little enough, or are the ``last``."""
+        state, stepper = self.state, self.recorder.stepper
+        whole = whole or self._attempt(state, end)
+        if not whole.converged:
+            return _Trial(state, whole)
+        first = self._attempt(state, state.time + (end - state.time) / 2)
+        if not first.converged:
+            return _Trial(state, first)
+        known = Provisional.begin(self.recorder)
+        try:
+            middle, contacts = stepper.accept(first)
+            self.recorder.step(state, first, contacts, middle)
+            self.recorder.offer(middle, self.stage, contacts)
+            second = self._attempt(middle, end)
+        except BaseException:
+            known.undo()
+            raise
+        if not second.converged:
+            known.undo()
+            return _Trial(middle, second)
+        seen, ratio = self._error(chosen, whole, first, second)
+        if ratio > 1 and not last:
+            known.undo()
+            return _Trial(middle, second, ratio, first=first)
+        known.keep()
+        if ratio > 1:
+            self.recorder.tried(unresolved=1)
+        return _Trial(middle, second, ratio, seen)
+
+    def _error(
+        self, chosen: Chosen, whole: Attempt, first: Attempt, second: Attempt
+    ) -> tuple[Chosen, float]:
+        """Return what the control carries on from both halves, and their error over the bound.
+
+        Vibrations that steps do not resolve are nearly nothing in places, and much in speeds: these
+        count in an impact alone, where contacts close or open or turn speeds by much.
+        """
+        points = Followed(self.recorder.stepper, self.control.rigid)
+        seen = chosen.seen(*points.sizes(first.state)).seen(*points.sizes(second.state))
+        pushing = [one.solved.pushing for one in (first, second, whole) if one.solved is not None]
+        struck = any(not np.array_equal(one, chosen.pushing) for one in pushing)
+        if any(map(len, pushing)) and not struck:
+            struck = points.faster(self.state, second.state) > SUDDEN * seen.speed
+        counts = struck and self.control.impacts
+        faster = points.faster(whole.state, second.state) if counts else 0.0
+        length = whole.state.time - self.state.time
+        apart = points.apart(whole.state, second.state)
+        ratio = self.control.ratio(seen, apart, faster, length)
+        last = pushing[1] if pushing else chosen.pushing
+        return with_parts(seen, last=ratio, pushing=last), ratio
+
+    def _attempt(self, state: State, end: float) -> Attempt:
+        instant = Instant(end, self.load_factor)
+        return self.recorder.stepper.attempt(state, instant, end - state.time)
+
+
+def _landing(start: float, asked: float, stop: float) -> float:
+    """Return where a step of ``asked`` (s) ends: at a stop that it reaches, or half way to one."""
+    rest = stop - start
+    if asked >= (1 - NEAR) * rest:
+        return stop
+    return start + (asked if 2 * asked <= rest else rest / 2)
