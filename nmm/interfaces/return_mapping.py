@@ -31,19 +31,23 @@ def mapped(
     """See `InterfaceLaw.update`."""
     after = _after(law, history, gap, slip, stiffness)
     traction, slope = _traction(law, history, after, gap, slip, stiffness)
-    tangent = np.zeros((len(gap), 2, 2))
-    tangent[:, 0, 0], tangent[:, 1, 1] = slope, stiffness[1]
-    # While the history stands springs are linear; what it changes is differenced.
-    for column, there in enumerate((gap, slip)):
-        nudge = NUDGE * (np.abs(there) + 1e-3 * np.abs(there).max(initial=1e-12))
-        sides = []
-        for sign in (1, -1):
-            moved = [gap, slip]
-            moved[column] = there + sign * nudge
-            other = _after(law, history, moved[0], moved[1], stiffness)
-            sides.append(_traction(law, history, other, gap, slip, stiffness)[0])
-        tangent[:, :, column] += (sides[0] - sides[1]) / (2 * nudge[:, None])
-    return Traction(traction, tangent, after)
+
+    def slopes() -> Floats:
+        tangent = np.zeros((len(gap), 2, 2))
+        tangent[:, 0, 0], tangent[:, 1, 1] = slope, stiffness[1]
+        # While the history stands springs are linear; what it changes is differenced.
+        for column, there in enumerate((gap, slip)):
+            nudge = NUDGE * (np.abs(there) + 1e-3 * np.abs(there).max(initial=1e-12))
+            sides = []
+            for sign in (1, -1):
+                moved = [gap, slip]
+                moved[column] = there + sign * nudge
+                other = _after(law, history, moved[0], moved[1], stiffness)
+                sides.append(_traction(law, history, other, gap, slip, stiffness)[0])
+            tangent[:, :, column] += (sides[0] - sides[1]) / (2 * nudge[:, None])
+        return tangent
+
+    return Traction(traction, after, slopes)
 
 
 def _after(
@@ -62,17 +66,19 @@ def _after(
     over, under = slid(least)[1], slid(most)[1]
     slides = over > 0
     over, under = np.where(slides, over, 0.0), np.where(slides, under, -1.0)
-    at = np.zeros_like(trial)
-    for _ in range(ROUNDS):  # regula falsi; the end that stays counts half (Illinois)
+    at, side = np.zeros_like(trial), np.zeros_like(trial)
+    after, _ = slid(at)
+    for _ in range(ROUNDS if slides.any() else 0):  # regula falsi
         chord = np.minimum(under - over, -np.finfo(float).tiny)
         at = np.where(slides, most - under * (most - least) / chord, 0.0)
-        excess = slid(at)[1]
-        more = excess > 0
-        if not slides.any() or np.abs(excess[slides]).max() <= close:
+        after, excess = slid(at)
+        if np.abs(excess[slides]).max() <= close:
             break
-        least, over = np.where(more, at, least), np.where(more, excess, over / 2)
-        most, under = np.where(more, most, at), np.where(more, under / 2, excess)
-    after, _ = slid(at)
+        # An end that stays once more counts half (Illinois).
+        part, side = np.where(np.sign(excess) == side, 0.5, 1.0), np.sign(excess)
+        more = excess > 0
+        least, over = np.where(more, at, least), np.where(more, excess, part * over)
+        most, under = np.where(more, most, at), np.where(more, part * under, excess)
     force, _ = _traction(law, history, after, gap, slip, stiffness)
     breaks = history["bonded"] & (law.overload(force[:, 0], force[:, 1]) > 1)
     broken = law.broken(after) | {"plastic_slip": slip}

@@ -6,8 +6,9 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.contact.bonds.tied_step import TiedBonds
-from nmm.contact.following.newton import PathProblem, PathStep, follow
+from nmm.contact.following.by_parts import follow
 from nmm.contact.following.path_equation import PathEquation
+from nmm.contact.following.path_problem import PathProblem, PathStep
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.laws.tractions import ContactForces, contact_forces

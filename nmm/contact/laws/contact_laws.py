@@ -203,7 +203,7 @@ class ContactLaws:
             over &= ~brittle | (load >= load[brittle].max() * (1 - TIE))
         return over
 
-    def overload(self, contacts: ContactPoints, answer: StepAnswer) -> Floats:
+    def overload(self, contacts: ContactPoints, answer: "StepAnswer | ContactPoints") -> Floats:
         """Return load over strength (m,) of the bonds that break or begin to soften above one."""
         load = np.zeros(len(contacts))
         bonds = np.flatnonzero(contacts.bonded)

@@ -1,14 +1,17 @@
 """Forces of contact points as their laws answer a gap and a slip, with tangents and history."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import History
+from nmm.interfaces.response import Traction
 
 # Normal and shear stiffness (m,) in N/m, and which are a law's own.
 Springs = tuple[Floats, Floats, Bools]
@@ -22,15 +25,20 @@ class ContactForces:
     ----------
     force
         (m, 2) pull and shear (N).
-    tangent
-        (m, 2, 2) by gap and slip (N/m).
     history
         Of the laws, afterwards.
+    slopes
+        Gives `tangent` where it is asked for.
     """
 
     force: Floats
-    tangent: Floats
     history: History
+    slopes: Callable[[], Floats]
+
+    @cached_property
+    def tangent(self) -> Floats:
+        """Derivatives (m, 2, 2) of the force by gap and slip (N/m)."""
+        return self.slopes()
 
 
 def contact_forces(
@@ -41,7 +49,7 @@ def contact_forces(
     Bonds that break at once are springs here: when they break is judged elsewhere.
     """
     m = len(contacts)
-    force, tangent = np.zeros((m, 2)), np.zeros((m, 2, 2))
+    force, answers = np.zeros((m, 2)), list[tuple[Ints, Traction]]()
     after = {name: column.copy() for name, column in contacts.history.items()}
     area = np.where(contacts.is_joint, contacts.length * laws.thickness, 1.0)
     whole = contacts.bonded & laws.brittle[contacts.interface]
@@ -55,13 +63,21 @@ def contact_forces(
             total = slip[some] + known["plastic_slip"]
             found = _lasting(law, joints).update(known, gap[some], total, stiff)
             force[some] = found.traction * area[some, None]
-            tangent[some] = found.tangent * area[some, None, None]
+            answers.append((some, found))
             for name, column in found.history.items():
                 after[name][some] = column
     for axis, way in enumerate((gap, slip)):
         force[whole, axis] = springs[axis][whole] * way[whole]
-        tangent[whole, axis, axis] = springs[axis][whole]
-    return ContactForces(force, tangent, after)
+
+    def slopes() -> Floats:
+        tangent = np.zeros((m, 2, 2))
+        for some, found in answers:
+            tangent[some] = found.tangent * area[some, None, None]
+        for axis in range(2):
+            tangent[whole, axis, axis] = springs[axis][whole]
+        return tangent
+
+    return ContactForces(force, after, slopes)
 
 
 def _lasting(law: InterfaceLaw, joints: bool) -> InterfaceLaw:

@@ -14,14 +14,22 @@ from nmm.stepping.drive.verdict import RunVerdict
 
 @dataclass(frozen=True)
 class Reached:
-    """Where a change of the load ends: where bonds give way, or else at the largest load."""
+    """Where a change of the load ends: where bonds give way, or else at the largest load.
+
+    ``at_once`` says that they give way without one, as bonds that no load holds.
+    """
 
     tried: Tried
     event: bool
+    at_once: bool = False
 
 
 def next_event(trials: Trials, at: OnPath, most: float) -> Reached | RunVerdict:
-    """Change the load to where the next bond is at its limit, or to a factor of ``most``."""
+    """Change the load to where the next bond is at its limit, or to a factor of ``most``.
+
+    Where no load holds all bonds, those that are loaded most under the load as it stands give way
+    at once: `Reached.at_once`.
+    """
     standing = trials.standing(at)
 
     def try_(change: float) -> Tried:
@@ -34,6 +42,11 @@ def next_event(trials: Trials, at: OnPath, most: float) -> Reached | RunVerdict:
     if abs(still.over) > ABOVE:
         first = factor * (1 / still.load - 1) if factor and still.load else 1.0
         other = outward(try_, still, first or 1.0)
+        if still.over > 0 and (other is None or not other.attempt.converged):
+            # Less load that loads bonds more: the path goes on under a larger one.
+            other = outward(try_, still, -first) or other
+        if other is None and still.over > 0:
+            return Reached(still, event=True, at_once=True)
         if other is None or not other.attempt.converged:
             end = no_event(at) if other is None else no_balance(at, other.attempt)
             return _at_most(try_, most - factor) or end

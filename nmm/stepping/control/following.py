@@ -13,7 +13,7 @@ import numpy as np
 from nmm.assembly.motion import State
 from nmm.contact.controls.base import Control, Standing
 from nmm.progress import Progress
-from nmm.stepping.control.events import next_event
+from nmm.stepping.control.events import Reached, next_event
 from nmm.stepping.control.locating import ABOVE, Tried, located
 from nmm.stepping.control.position import OnPath, PathEnd
 from nmm.stepping.control.trials import Trials
@@ -107,12 +107,8 @@ class _Following:
 
     def _event_within(self, at: Standing, end: Tried) -> Tried | None:
         """Return where on a step the first bond is at its limit; None where it is not found."""
-        now = self.trials.of_load(at, 0.0).each
-        return located(
-            lambda way: self.trials.along(at, self.control.path(at, way)),
-            Tried(0.0, end.attempt, np.minimum(now, 1.0)),
-            end,
-        )
+        now = Tried(0.0, end.attempt, np.minimum(self.trials.loads(), 1.0))
+        return located(lambda way: self.trials.along(at, self.control.path(at, way)), now, end)
 
     def _shorter(self, at: OnPath, step: float, attempt: Attempt) -> OnPath | RunVerdict:
         """Try half of a step, or end."""
@@ -122,7 +118,12 @@ class _Following:
 
     def _to_event(self, at: OnPath) -> OnPath | RunVerdict:
         """Change the load to where the next bond is at its limit, or to the largest."""
-        found = next_event(self.trials, at, self.end.factor)
+        trials = self.trials
+        found = next_event(trials, at, self.end.factor)
+        while isinstance(found, Reached) and found.at_once:
+            trials.give_way(found.tried.attempt)
+            at = replace(at, events=at.events + 1)
+            found = next_event(trials, at, self.end.factor)
         if isinstance(found, RunVerdict):
             return found
         if not found.event:

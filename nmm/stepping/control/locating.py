@@ -37,15 +37,15 @@ class Tried:
 
 
 def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried | None:
-    """Return the trial between two, of which one load is above one and the other not.
+    """Return the trial at one between two, of which the load of ``high`` is above one.
 
-    None where a trial in between has no solution.
+    Of ``low`` only its loads are read. None where a trial in between has no solution, or loads pass
+    one by a jump.
     """
-    best = min(low, high, key=lambda one: abs(one.over))
-    stays, beyond = [1.0, 1.0], None
+    best, stays, beyond = high, [1.0, 1.0], None
     for _ in range(MOST):
         if abs(best.over) <= CLOSE or low.way == high.way:
-            return best
+            break
         found = try_(_crossing(low, high, stays))
         if not found.attempt.converged:
             return None
@@ -57,7 +57,7 @@ def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried | 
             high, stays = found, [part * stays[0], 1.0]
         else:
             low, stays = found, [1.0, part * stays[1]]
-    return best
+    return best if abs(best.over) <= ABOVE else None
 
 
 def _crossing(low: Tried, high: Tried, counts: list[float]) -> float:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from nmm.stepping.control.locating import Tried
 from nmm.stepping.control.position import OnPath
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
 
 # Share of the largest load over strength within which bonds give way together.
 TIE = 1e-6
@@ -41,6 +45,13 @@ class Trials:
         """Try a step by which the load factor changes so much."""
         return self.along(at, PathEquation(at.load, 0 * at.way, 1.0, change))
 
+    def loads(self) -> Floats:
+        """Return load over strength of the points of joints where the path stands."""
+        contact = self.stepper.plan.contact
+        assert contact is not None
+        points = contact.standing
+        return _in_order(points, contact.laws.overload(points, points))
+
     def may_give_way(self) -> bool:
         """Whether any bond is left that breaks at once, or begins to soften, at a limit."""
         contact = self.stepper.plan.contact
@@ -63,12 +74,9 @@ class Trials:
         return bool(contact.laws.brittle[solved.contacts.interface[gone]].any()), shed
 
     def _by_joint(self, attempt: Attempt) -> Floats:
-        """Return load over strength of the points of joints, in their order."""
+        """Return load over strength of the points of joints."""
         assert attempt.solved is not None
-        contacts = attempt.solved.contacts
-        joints = contacts.is_joint
-        found = self._overload(attempt)[joints]
-        return np.asarray(found[np.argsort(-contacts.key[joints])])
+        return _in_order(attempt.solved.contacts, self._overload(attempt))
 
     def _overload(self, attempt: Attempt) -> Floats:
         """Return load over strength (m,) of the bonds of an attempt."""
@@ -76,3 +84,9 @@ class Trials:
         assert contact is not None
         assert solved is not None
         return contact.overload(solved)
+
+
+def _in_order(contacts: "ContactPoints", load: Floats) -> Floats:
+    """Return the loads (m,) of points of joints alone, in the joints' order."""
+    joints = contacts.is_joint
+    return np.asarray(load[joints][np.argsort(-contacts.key[joints])])

@@ -83,6 +83,23 @@ def test_an_opened_bond_goes_back_to_the_origin_on_its_secant():
     assert found.tangent[0, 0, 0] == pytest.approx(STRENGTH / 2 / there[0], rel=1e-9)
 
 
+def test_a_bond_that_opens_and_slides_is_answered_by_few_evaluations(monkeypatch):
+    """What slides, and what opening and sliding take of the strength, has one kink: 37 before."""
+    asked, evolved = [], LinearSoftening.evolved
+
+    def counted(*arguments):
+        asked.append(1)
+        return evolved(*arguments)
+
+    monkeypatch.setattr(LinearSoftening, "evolved", counted)
+    damage, gap, slip = np.array([0.0455, 0.2]), np.array([3.878e-6, 1e-5]), np.array([-2e-6, 4e-6])
+    spring = np.full(2, 5.418e12)
+    found = LINEAR.update(remembered(LINEAR, damage), gap, slip, (spring, spring))
+    assert len(asked) <= 12
+    left = 1 - found.history["damage"]
+    assert np.abs(found.traction[:, 1]) == pytest.approx(left * LINEAR.cohesion, rel=1e-9)
+
+
 def test_sliding_takes_cohesion_by_its_own_energy():
     """ws = 2 GF2 / c = 2 * 200 / 4e6 = 1e-4 m: 2.5e-5 m of sliding is damage 0.25."""
     law = replace(LINEAR, shear_fracture_energy=200.0)

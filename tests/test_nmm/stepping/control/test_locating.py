@@ -50,3 +50,10 @@ def test_a_trial_without_a_solution_is_told_from_loads_that_do_not_change():
     found = outward(trial, still, 0.1)
     assert found is not None
     assert found.over >= 0
+
+
+def test_loads_that_pass_one_by_a_jump_are_no_event():
+    def trial(way):
+        return Tried(way, SimpleNamespace(converged=True), np.array([0.9 if way < 1.7 else 1.2]))
+
+    assert located(trial, trial(0.0), trial(3.0)) is None

@@ -1,0 +1,64 @@
+"""A step along a path, at once or in parts that Newton's method can go.
+
+Contacts that stick and slide, open and close by turns can send Newton's method to and fro. From an
+iterate whose forces are out of balance by ``r`` there is a line of problems that want ``t r`` less
+than all of it, with the path's target as far on: at ``t = 0`` the iterate solves its problem, and
+each solution is a guess near that of a slightly larger ``t`` (Newton homotopy; Allgower and Georg
+1990). Where no part of the way can be gone, however small, solutions turn back before the target,
+as friction lets them: the step is given up.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from nmm.contact.following.newton import newton
+from nmm.contact.following.path_equation import PathEquation
+from nmm.contact.following.path_problem import PathProblem, PathStep
+from nmm.solvers.linear import LinearSolver
+
+# The first part of the way, and the smallest.
+FIRST_PART, LEAST_PART = 0.25, 2.0**-30
+# Solutions of parts after which a step is given up.
+WAYPOINTS = 60
+
+
+def follow(problem: PathProblem, path: PathEquation, solver: LinearSolver) -> PathStep:
+    """Solve a step along a path.
+
+    Raises
+    ------
+    SolveError
+        Where nothing holds a part.
+    """
+    begin = problem.at(path, np.zeros_like(problem.force), 0.0)
+    if begin.converged and path.target == 0:
+        return begin
+    found = newton(problem, path, solver, begin)
+    return found if found.converged else _by_parts(problem, path, solver, begin, found)
+
+
+def _by_parts(
+    problem: PathProblem,
+    path: PathEquation,
+    solver: LinearSolver,
+    begin: PathStep,
+    lost: PathStep,
+) -> PathStep:
+    """Return the solution at the end of the way from the start, or the one that was lost."""
+    at, gone, part, iterations = begin, 0.0, FIRST_PART, lost.iterations
+    for _ in range(WAYPOINTS):
+        ahead = min(gone + part, 1.0)
+        short = problem.short_of((1 - ahead) * begin.rest)
+        guess = short.at(path, at.increment, at.change)
+        found = newton(short, replace(path, target=ahead * path.target), solver, guess)
+        iterations += found.iterations
+        if not found.converged:
+            part /= 4
+        elif ahead == 1.0:
+            return replace(found, iterations=iterations)
+        else:
+            at, gone, part = found, ahead, 2 * part
+        if part < LEAST_PART:
+            break
+    return replace(lost, iterations=iterations)

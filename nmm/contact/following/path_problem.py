@@ -1,0 +1,114 @@
+"""Balance of a step along a path, and an iterate of it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, diags_array
+
+from integration.arrays import Floats
+from nmm.contact.following.path_equation import PathEquation
+from nmm.contact.laws.tractions import ContactForces
+from nmm.contact.points.midpoint import ContactRows
+
+# Out-of-balance force over the largest one below which iterations without gain are rounding.
+ROUNDED = 1e-8
+
+# From gaps and slips (m,) to forces.
+Law = Callable[[Floats, Floats], ContactForces]
+
+
+@dataclass(frozen=True)
+class PathStep:
+    """An iterate of a step, or its solution.
+
+    Attributes
+    ----------
+    increment
+        (n,) unknowns.
+    change
+        Of the load factor.
+    contacts
+        What contacts answer.
+    gap, slip
+        (m,) at the end (m).
+    rest
+        (n,) out-of-balance force (N).
+    residual
+        Its size over that of the largest force.
+    iterations
+        Linear systems solved.
+    """
+
+    increment: Floats
+    change: float
+    contacts: ContactForces
+    gap: Floats
+    slip: Floats
+    rest: Floats
+    residual: float
+    iterations: int = 0
+
+    @property
+    def converged(self) -> bool:
+        """Whether forces are in balance."""
+        return self.residual <= ROUNDED
+
+    @property
+    def out(self) -> float:
+        """Size of the out-of-balance force (N)."""
+        return float(np.linalg.norm(self.rest))
+
+
+@dataclass(frozen=True)
+class PathProblem:
+    """Balance of a step along a path.
+
+    Attributes
+    ----------
+    matrix, force
+        (n, n) and (n,) of all but contacts, at the load factor of the start.
+    rows
+        Of the contacts.
+    gap, slip
+        (m,) at the start (m).
+    law
+        What contacts answer.
+    scale
+        Force (N) beside which what is out of balance is small; that of contacts and load besides.
+    """
+
+    matrix: csc_array
+    force: Floats
+    rows: ContactRows
+    gap: Floats
+    slip: Floats
+    law: Law
+    scale: float
+
+    def at(self, path: PathEquation, increment: Floats, change: float) -> PathStep:
+        """Return the iterate at an increment (n,) and a change of the load factor."""
+        gap = self.gap + self.rows.normal @ increment
+        slip = self.slip + self.rows.tangent @ increment
+        contacts = self.law(gap, slip)
+        inner = self.matrix @ increment + self.rows.push(*contacts.force.T)
+        rest = np.asarray(self.force + change * path.load - inner)
+        pushed = float(np.linalg.norm(self.rows.push(*np.abs(contacts.force.T))))
+        size = max(self.scale, pushed, abs(change) * float(np.linalg.norm(path.load)))
+        residual = float(np.linalg.norm(rest)) / (size or 1.0)
+        return PathStep(increment, change, contacts, gap, slip, rest, residual)
+
+    def tangent(self, contacts: ContactForces) -> csc_array:
+        """Return the matrix (n, n) by which forces answer a further increment."""
+        normal, tangent = self.rows.normal, self.rows.tangent
+        slope, total = contacts.tangent, self.matrix
+        if not len(slope):
+            return total
+        for one, row in ((0, normal), (1, tangent)):
+            part = diags_array(slope[:, one, 0]) @ normal + diags_array(slope[:, one, 1]) @ tangent
+            total = csc_array(total + csr_array(row).T @ part)
+        return total
+
+    def short_of(self, force: Floats) -> "PathProblem":
+        """Return the problem without a part of its force (n,)."""
+        return replace(self, force=self.force - force)
