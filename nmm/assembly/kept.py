@@ -27,3 +27,17 @@ class KeptOfStates(Generic[T]):
     def forget(self) -> None:
         """Keep nothing: what values are made with has changed."""
         self._known = []
+
+
+class KeptOfPlaces(KeptOfStates[T]):
+    """Values made of where material is alone, be its rates or the time what they may."""
+
+    def of(self, state: State) -> T:
+        """Return the value of a state, made where none is kept of the same place."""
+        frames, deformation = state.frames, state.deformation
+        for known, value in self._known:
+            if known.frames is frames and known.deformation is deformation:
+                return value
+        value = self._make(state)
+        self._known = [*self._known[-1:], (state, value)]
+        return value

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, vstack
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition
@@ -34,7 +35,7 @@ class TiedInterfaces(Effect):
         self.ties = list(ties)
         self._n = n_unknowns
         self._kept: tuple[Floats, csc_array] | None = None  # the matrix, at angles
-        self._known: list[tuple[State, list[Floats]]] = []
+        self._motions = KeptOfPlaces(self._moved)
         self._spaces = list({id(t.shared): t.shared for t in ties if t.shared}.values())
         turning = [t.interface.bodies for t in ties if t.turns]
         self._stresses: Sequence[StressAt] = ()
@@ -119,7 +120,8 @@ class TiedInterfaces(Effect):
 
     def forget(self) -> None:
         """See `Effect.forget`."""
-        self._kept, self._known = None, []
+        self._kept = None
+        self._motions.forget()
 
     def energy(self, state: State) -> float:
         """Energy (J) stored in ``state``, with places of its own instant."""
@@ -157,17 +159,12 @@ class TiedInterfaces(Effect):
         return np.unique(np.concatenate(none + [tie.tied_unknowns for tie in self.ties]))
 
     def _jumps(self, state: State, end: Instant) -> list[Floats]:
-        pairs = zip(self.ties, self._motions(state), strict=True)
+        pairs = zip(self.ties, self._motions.of(state), strict=True)
         return [tie.interface.jump(motion, end) for tie, motion in pairs]
 
-    def _motions(self, state: State) -> list[Floats]:
-        """How far the sides have moved apart; those at both ends of a step are kept."""
-        for known, motions in self._known:
-            if known is state:
-                return motions
-        motions = [tie.interface.motion(state) for tie in self.ties]
-        self._known = [*self._known[-1:], (state, motions)]
-        return motions
+    def _moved(self, state: State) -> list[Floats]:
+        """How far the sides have moved apart."""
+        return [tie.interface.motion(state) for tie in self.ties]
 
 
 _NOTHING = (np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))

@@ -6,6 +6,7 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
@@ -23,6 +24,7 @@ class Gravity(Effect):
         self._model = model
         self._acceleration = acceleration
         self._volume = DeadLoad(model, model.density[:, None] * acceleration)
+        self._weights = KeptOfPlaces(self._weight)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -32,6 +34,9 @@ class Gravity(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the weight in the bodies' axes."""
+        return self._weights.of(state)
+
+    def _weight(self, state: State) -> Floats:
         body, along_x, along_y = self._unit
         down = state.frames.to_body(*self._everywhere)
         return np.asarray(along_x * down[body, 0] + along_y * down[body, 1])
@@ -52,5 +57,8 @@ class Gravity(Effect):
 
     def work(self, before: State, after: State) -> float:
         """Weight times the motion of the mass, be it in frames or in the unknowns."""
-        here = Instant.of(after)
-        return self._volume.work(before, after, (self.force(before, here), self.force(after, here)))
+        return self._volume.work(before, after, (self._weights.of(before), self._weights.of(after)))
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._weights.forget()

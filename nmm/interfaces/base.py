@@ -70,6 +70,7 @@ class InterfaceLaw(ABC):
     def response(self, history: History, stiffness: Floats) -> InterfaceResponse:
         """Return springs and limits of contacts while their ``history`` stands.
 
+        They hang on bonds and on the law's own `columns`, not on the plastic slip.
         ``stiffness`` (m,) is that of the whole bonds in the normal direction (Pa/m).
         """
 

@@ -6,6 +6,7 @@ What a scene does not name is not imported and has no arrays.
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
+from math import isfinite
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
@@ -113,7 +114,8 @@ class Plan:
                     f"{name}: the force has the shape {part.shape}: expected {shape}, one "
                     "number an unknown: correct Effect.force"
                 )
-            if not np.isfinite(part).all():
+            # A sum is infinite or no number where a part of it is; one that overflows is looked at.
+            if not isfinite(np.add.reduce(part)) and not np.isfinite(part).all():
                 raise SolveError(
                     f"{name} at {end.time:.6g} s: the force is infinite or no number: "
                     "expected finite numbers: correct its magnitude, history or place"

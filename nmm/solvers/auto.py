@@ -39,6 +39,10 @@ class Auto(DefiniteSolver):
         """Factorise a scaled matrix; `RankDeficientError` at a zero pivot."""
         return self._chosen(matrix.shape[0]).decompose(matrix)
 
+    def in_full(self, unknowns: int) -> bool:
+        """See `LinearSolver.in_full`."""
+        return unknowns < FEW and not self.shift
+
     def describe(self, unknowns: int) -> str:
         """See `LinearSolver.describe`."""
         return f"{self.name}: {self._chosen(unknowns).describe(unknowns)}"

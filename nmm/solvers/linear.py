@@ -63,6 +63,10 @@ class LinearSolver(ABC):
         """Return the solver with settings for nearly symmetric matrices with good pivots."""
         return self.indefinite()
 
+    def in_full(self, unknowns: int) -> bool:
+        """Return whether matrices of so many unknowns are regular and factorised in full."""
+        return False
+
     def beside(self, compiled: bool) -> "LinearSolver":
         """Return the solver for runs that import compiled code anyway, or do not."""
         return self

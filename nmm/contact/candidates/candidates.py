@@ -16,8 +16,14 @@ from nmm.contact.detection.tolerances import FLUSH
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import JointBook
-from nmm.contact.points.reference_gap import counted
-from nmm.contact.points.tracking import answered, remember, searched_points
+from nmm.contact.points.reference_gap import counted, counted_on
+from nmm.contact.points.tracking import (
+    answered,
+    continued,
+    continues,
+    remember,
+    searched_points,
+)
 from nmm.contact.problem.step_problem import Limits
 from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.record import ContactRecord, ContactSolution
@@ -52,17 +58,29 @@ class Candidates:
         statics: bodies in flight meet where they fly to. ``crossed`` are pairs of a vertex and an
         edge that are contacts in any case (`overlooked`).
         """
-        surface = self.partners.surface(state)
         joints = self.joints(record.book, state)
-        found, interface = self.partners.search(
-            state, 2 * reach, step, record.book, record.found, crossed
+        found = self.partners.search(state, 2 * reach, step, record.book, record.found, crossed)
+        if record.known is not None and not self._laws.stiff and continues(record.found, found):
+            points = continued(record.known, found)
+            points = counted_on(with_parts(points, gap=self._geometry.gaps(points, state)))
+        else:
+            found, points = self._anew(record, state, found)
+        return found, concatenate([joints, points])
+
+    def _anew(
+        self, record: ContactRecord, state: State, found: Contacts
+    ) -> tuple[Contacts, ContactPoints]:
+        """Return those of the found contacts that may be, and their points."""
+        surface = self.partners.surface(state)
+        found, interface = self.partners.meeting(
+            surface, found, record.book, first=record.found is None
         )
         loose = np.zeros(len(found), dtype=bool)
         new = searched_points(found, interface, self._laws.initial(interface, loose), surface)
         if self._laws.stiff:
             new = self._laws.sized(new, surface)
         new = with_parts(new, gap=self._geometry.gaps(new, state))
-        return found, concatenate([joints, self._followed(record, new, found)])
+        return found, self._followed(record, new, found)
 
     def joints(self, book: JointBook, state: State) -> ContactPoints:
         """Return the contact points of joints as they stand."""
@@ -86,8 +104,7 @@ class Candidates:
         Which edge a corner meets first is judged by where bodies seem to go; contacts on the way
         may send them elsewhere.
         """
-        found = crossings_in(motion, FLUSH)
-        if not len(found):
+        if motion.harmless or not len(found := crossings_in(motion, FLUSH)):
             return None
         surface, book = motion.before, record.book
         known = contacts.take(~contacts.is_joint)
@@ -109,10 +126,12 @@ class Candidates:
         """
         bonded = self._laws.bonded[solved.contacts.interface]
         done = answered(solved.contacts, solved.answer, bonded)
-        surface = self.partners.surface(state)
-        apart = self._geometry.apart(state, surface)
-        book = record.book.keep(done.take(done.is_joint), surface, apart)
-        after = ContactRecord(book, found, done.take(~done.is_joint), solved.answer.stored)
+        book, known = record.book, done
+        if len(book.points) or len(book.lost):
+            surface, joints = self.partners.surface(state), done.is_joint
+            book = book.keep(done.take(joints), surface, self._geometry.apart(state, surface))
+            known = done.take(~joints)
+        after = ContactRecord(book, found, known, solved.answer.stored)
         return after, concatenate([done, book.lost])
 
     def _followed(

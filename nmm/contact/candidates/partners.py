@@ -3,7 +3,7 @@
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.kept import KeptOfStates
+from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.candidates.pairs import GLUED, MISSING, Pairs, no_interface
@@ -58,7 +58,7 @@ class Partners:
         self._within_bodies, self._face_points = within_bodies, face_points
         self._origin, self._whole_faces = origin, whole_faces
         self._neighbours: NeighbourList | None = None
-        self._surfaces = KeptOfStates(self._surface)
+        self._surfaces = KeptOfPlaces(self._surface)
         boundary = model.manifold.boundary
         self._region = model.manifold.element_region[boundary.element]
 
@@ -90,8 +90,8 @@ class Partners:
         book: JointBook,
         before: Contacts | None,
         crossed: tuple[Ints, Ints] | None = None,
-    ) -> tuple[Contacts, Ints]:
-        """Find the contacts of a step but for those of joints, and their interfaces (m,).
+    ) -> Contacts:
+        """Find the contacts of a step, those of joints and of bodies that never meet among them.
 
         Parameters
         ----------
@@ -104,11 +104,6 @@ class Partners:
         crossed
             Vertex and edge (k,) of pairs that an answer to the step has let through each other:
             they are contacts too.
-
-        Raises
-        ------
-        SceneError, SolveError
-            Where bodies touch whose materials have no interface: at the start, later.
         """
         surface, motion = self.surface(state), self._flight(state, step)
         if self._neighbours is None or self._neighbours.skin < 2 * reach:
@@ -120,11 +115,23 @@ class Partners:
         if self._face_points:
             joints = book.edges(len(surface))
             found = faced(surface, found, self._face_points, joints, self._whole_faces)
+        return found
+
+    def meeting(
+        self, surface: Surface, found: Contacts, book: JointBook, first: bool
+    ) -> tuple[Contacts, Ints]:
+        """Return found contacts but for those of joints, and their interfaces (m,).
+
+        Raises
+        ------
+        SceneError, SolveError
+            Where bodies touch whose materials have no interface: at the ``first`` search, later.
+        """
         interface = self.interfaces(found.vertex, found.edge)
         missing = (interface == MISSING) & (found.gap <= 0)
         if missing.any():
             x, y = surface.start[found.vertex[missing]][0] + self._origin
-            raise (SceneError if before is None else SolveError)(no_interface(x, y))
+            raise (SceneError if first else SolveError)(no_interface(x, y))
         meets = (interface >= 0) & ~book.hides(found)
         return (found, interface) if meets.all() else (found.take(meets), interface[meets])
 
@@ -140,9 +147,9 @@ class Partners:
 
     def passage(self, motion: Motion) -> str:
         """Say where a body went through another in a step; empty if none did."""
-        found, start = crossings_in(motion, DEPTH), motion.before
-        if not len(found):
+        if motion.harmless or not len(found := crossings_in(motion, DEPTH)):
             return ""
+        start = motion.before
         first = np.array([int(found.fraction.argmin())])
         x, y = start.start[found.vertex[first]][0] + self._origin
         if self.interfaces(found.vertex[first], found.edge[first])[0] == MISSING:

@@ -58,6 +58,11 @@ class Motion:
     pairs: tuple[Ints, Ints]
     near: Ints
 
+    @property
+    def harmless(self) -> bool:
+        """Whether nothing can have crossed anything."""
+        return not len(self.near)
+
 
 def find_crossings(
     before: Surface,

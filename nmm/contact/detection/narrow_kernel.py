@@ -486,6 +486,31 @@ def select(
     return rows, final, s, gap
 
 
+@compiled
+def _contacts(
+    start: Floats,
+    end: Floats,
+    body: Ints,
+    following: Ints,
+    previous: Ints,
+    vertex: Ints,
+    edge: Ints,
+    last: Ints,
+    motion: Floats,
+    rules: Rules,
+) -> tuple[bool, Columns]:
+    """Whether both lists rise, and if so the columns of `narrow.Contacts`."""
+    offset, rising = offsets(vertex, edge, len(start))
+    for k in range(1, len(last)):
+        rising &= last[k] >= last[k - 1]
+    if not rising:
+        vertex, edge = vertex[:0], edge[:0]
+        offset[:] = 0
+    shape = shape_of(start, end, body, following, previous, rules.sine)
+    rows, final, s, gap = select(shape, vertex, edge, offset, last, motion, rules)
+    return rising, describe(shape, vertex, edge, rows, final, s, gap, rules)
+
+
 def find(
     start: Floats,
     end: Floats,
@@ -499,13 +524,10 @@ def find(
     rules: Rules,
 ) -> Columns:
     """Columns of `narrow.Contacts`; candidates in any order, ``last`` keys in any order."""
-    shape = shape_of(start, end, body, following, previous, rules.sine)
-    offset, rising = offsets(vertex, edge, len(start))
+    surface = start, end, body, following, previous
+    rising, columns = _contacts(*surface, vertex, edge, last, motion, rules)
     if not rising:
         key = np.unique(vertex * len(start) + edge)
         vertex, edge = key // len(start), key % len(start)
-        offset, _ = offsets(vertex, edge, len(start))
-    if len(last) and (last[1:] < last[:-1]).any():
-        last = np.sort(last)
-    rows, final, s, gap = select(shape, vertex, edge, offset, last, motion, rules)
-    return describe(shape, vertex, edge, rows, final, s, gap, rules)
+        _, columns = _contacts(*surface, vertex, edge, np.sort(last), motion, rules)
+    return columns

@@ -1,17 +1,13 @@
 """Solve again when the componentwise backward error of a body is too large."""
 
-from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
-
-import numpy as np
 
 from integration.arrays import Ints
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.options import SMALL
-from nmm.contact.problem.balance import length, weights
-from nmm.contact.problem.residual_kernel import meeting_forces
+from nmm.contact.problem.balance import weights
+from nmm.contact.problem.residual_kernel import unevenness
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.frozen import with_parts
 from nmm.solvers.linear import LinearSolver
@@ -67,14 +63,7 @@ def imbalance_of_bodies(problem: StepProblem, answer: StepAnswer, body: Ints) ->
     brick that falls upright is not asked for rest aside. What is in balance beside the whole
     scene to `FLOOR` does not count.
     """
-    matrix, normal, tangent = problem.matrix, problem.normal_rows, problem.tangent_rows
-    sparse = matrix, normal, tangent
-    parts: Iterator[Any] = (part for one in sparse for part in (one.indptr, one.indices, one.data))
-    forces = answer.normal_force, answer.shear_force
-    rest, whole = meeting_forces(answer.increment, problem.force, *forces, *parts)
-    weight = weights(problem)
-    whole, rest = weight * whole, weight * np.abs(rest)
-    largest = np.zeros(body.max() + 1)
-    np.maximum.at(largest, body, whole)
-    counts = rest > FLOOR * length(whole)
-    return float((rest[counts] / largest[body[counts]]).max(initial=0.0))
+    forces, matrix = (answer.normal_force, answer.shear_force), problem.matrix
+    compressed = matrix.indptr, matrix.indices, matrix.data
+    given = answer.increment, problem.force, weights(problem), forces, compressed
+    return float(unevenness(*given, problem.compressed_rows, body, FLOOR))

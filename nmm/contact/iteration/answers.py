@@ -6,7 +6,7 @@ from integration.arrays import Floats
 from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.options import DEFAULT, IterationOptions
-from nmm.contact.problem.coulomb import label
+from nmm.contact.problem.answer_kernel import ended
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.rounding import rounding
 from nmm.contact.problem.step_problem import StepAnswer, Verdict
@@ -34,29 +34,29 @@ def spring_answer(
 
 def answer(found: IterationResult, linear: LinearSolver, verdict: Verdict) -> StepAnswer:
     """Answer with the forces of the springs at what was found."""
-    springs, problem = found.springs, found.springs.problem
-    gap, slip = problem.gaps(found.increment), problem.slips(found.increment)
-    trial = springs.stretched(gap, slip)
-    normal, shear = springs.cut(*trial)
-    is_open, sliding = springs.states_of(*trial)
+    springs, p = found.springs, found.springs.problem
+    gap, slip, normal, shear, state = ended(
+        found.increment,
+        *p.compressed_rows,
+        (p.gap, p.slip),
+        (springs.normal_stiffness, springs.shear_stiffness),
+        (springs.normal_shift, springs.shear_shift),
+        (p.limits.tension, p.limits.cohesion, p.limits.friction),
+        p.state,
+    )
     return StepAnswer(
         increment=found.increment,
         normal_force=normal,
         shear_force=shear,
         gap=gap,
-        slip=kept_slip(found, shear),
-        state=label(problem, is_open, sliding),
+        slip=slip,
+        state=state,
         passes=found.solves,
         residual=found.size,
         verdict=verdict,
         factorisations=found.factorisations,
         solver=linear.name,
     )
-
-
-def kept_slip(found: IterationResult, shear: Floats) -> Floats:
-    """(m,) slip that the shear springs carry (m): what remains of the slip of exact contacts."""
-    return (shear - found.springs.shear_shift) / found.springs.shear_stiffness
 
 
 def judge(

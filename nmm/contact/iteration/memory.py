@@ -15,6 +15,10 @@ from nmm.solvers.linear import Factor, LinearSolver
 
 STEP = ("force", "gap", "slip")
 """What stays from solution to solution of one step."""
+PROBLEM = STEP + tuple(
+    part.name for part in fields(StepProblem) if part.name not in (*STEP, "start")
+)
+"""All that the answer to a problem hangs on, what changes in every step first."""
 
 
 @dataclass
@@ -157,9 +161,8 @@ class Memory:
 
 
 def _same(a: StepProblem, b: StepProblem) -> bool:
-    names = (item.name for item in fields(a) if item.name != "start")
     return a.n_contacts == b.n_contacts and all(
-        _equal(getattr(a, name), getattr(b, name)) for name in names
+        _equal(getattr(a, name), getattr(b, name)) for name in PROBLEM
     )
 
 

@@ -6,11 +6,14 @@ of the last step alone, with two thirds of their contacts in a wrong state. In s
 says where a loose piece belongs: what starts from a mix may leave it anywhere.
 """
 
+from typing import Any
+
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
+from nmm.contact.problem.residual_kernel import residual
 
 MIX_RIDGE = 1e-10
 """Part of the trace that keeps the least squares regular where the last steps were alike."""
@@ -33,15 +36,32 @@ def start_from(springs: CutSprings, known: list[Floats], mixes: bool) -> Floats:
     points = [np.zeros_like(springs.problem.force), *known[: None if mixes else 1]]
     if len(points) == 1:
         return points[0]
-    residuals = [springs.residual(point) for point in points]
-    best = min(range(len(points)), key=lambda i: residuals[i].size)
+    found: Floats = _nearest(np.stack(points), mixes, springs.columns)
+    return found
+
+
+@compiled
+def _nearest(points: Floats, mixes: bool, columns: Any) -> Floats:
+    """Unknowns (n,) of the least out-of-balance force among ``points`` (k, n) and their mix."""
+    count, weight = len(points), columns[1]
+    forces, sizes, order = np.empty_like(points), np.empty(count), np.arange(count)
+    for i in range(count):
+        forces[i], sizes[i] = residual(points[i], *columns)
+    best = 0
+    for i in range(1, count):
+        if sizes[i] < sizes[best]:
+            best = i
     if not mixes:
-        return points[best]
-    others = [i for i in range(len(points)) if i != best]
-    order = [best, *others]
-    forces = [residuals[i].force for i in order]
-    mixed: Floats = _mixed(np.stack([points[i] for i in order]), np.stack(forces), springs.weight)
-    return mixed if springs.residual(mixed).size < residuals[best].size else points[best]
+        alone: Floats = points[best].copy()
+        return alone
+    for i in range(best, 0, -1):
+        order[i] = i - 1
+    order[0] = best
+    mixed: Floats = _mixed(points[order], forces[order], weight)
+    _, size = residual(mixed, *columns)
+    if not size < sizes[best]:
+        mixed = points[best].copy()
+    return mixed
 
 
 @compiled

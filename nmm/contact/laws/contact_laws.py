@@ -10,6 +10,7 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.contact_points import TIED, ContactPoints
+from nmm.contact.points.kept import KeptOfPairs
 from nmm.contact.problem.step_problem import BROKEN, Limits, StepAnswer
 from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import KEPT, History, HistoryColumn
@@ -62,11 +63,21 @@ class ContactLaws:
 
         ``stiffness`` (m,) is that of the whole bonds (N/m).
         """
+        if not self.evolving and stiffness is self.springs(contacts)[0]:
+            return self._responses.of(contacts)
+        return self._response_of(contacts, stiffness)
+
+    @cached_property
+    def _responses(self) -> KeptOfPairs[InterfaceResponse]:
+        """Responses of laws that remember nothing but their bonds."""
+        return KeptOfPairs(lambda points: self._response_of(points, self.springs(points)[0]))
+
+    def _response_of(self, contacts: ContactPoints, stiffness: Floats) -> InterfaceResponse:
         m = len(contacts)
         tension, cohesion, friction, rise = (np.zeros(m) for _ in range(4))
         open_share = np.ones(m)
         # Cohesion is lost with the joint: what is found by search has none.
-        area = self._areas(contacts)
+        area = self._areas.of(contacts)
         for law, index, history in self.by_law(contacts):
             own = law.response(history, _over(stiffness, area)[index])
             tension[index] = _times(own.limits.tension, area[index])
@@ -80,14 +91,17 @@ class ContactLaws:
     ) -> History:
         """Return the history after a step; see `InterfaceLaw.evolved`.
 
-        ``stiffness`` (m,) is that of the whole bonds (N/m).
+        ``stiffness`` (m,) is that of the whole bonds (N/m). Columns that stay are the same objects.
         """
-        after = {name: column.copy() for name, column in contacts.history.items()}
-        area = self._areas(contacts)
+        after, spring = dict(contacts.history), _over(stiffness, self._areas.of(contacts))
         for law, index, history in self.by_law(contacts):
-            spring = _over(stiffness, area)[index]
-            for name, column in law.evolved(history, gap[index], sliding[index], spring).items():
-                after[name][index] = column
+            given = gap[index], sliding[index], spring[index]
+            for name, column in law.evolved(history, *given).items():
+                if len(index) == len(contacts):
+                    after[name] = column
+                elif not np.array_equal(column, history[name]):
+                    after[name] = after[name].copy()
+                    after[name][index] = column
         tied = contacts.tied
         for name, column in contacts.history.items() if tied.any() else ():
             after[name] = np.where(tied, column, after[name])
@@ -116,6 +130,13 @@ class ContactLaws:
 
     def springs(self, contacts: ContactPoints) -> tuple[Floats, Floats, Bools]:
         """Return normal and shear stiffness (N/m) of whole bonds, and which are a law's own."""
+        return self._springs.of(contacts)
+
+    @cached_property
+    def _springs(self) -> KeptOfPairs[tuple[Floats, Floats, Bools]]:
+        return KeptOfPairs(self._springs_of)
+
+    def _springs_of(self, contacts: ContactPoints) -> tuple[Floats, Floats, Bools]:
         own = contacts.is_joint.copy()
         normal = np.where(own, self.normal_bond, self.normal_penalty) * contacts.spring_factor
         shear = np.where(own, self.shear_bond, self.shear_penalty) * contacts.spring_factor
@@ -242,9 +263,12 @@ class ContactLaws:
             slip=np.where(broken, 0.0, contacts.slip),
         )
 
-    def _areas(self, contacts: ContactPoints) -> Floats:
-        """Return the area (m,) in m2 of joints; zero of what is found by search."""
-        return np.where(contacts.is_joint, contacts.length * self.thickness, 0.0)
+    @cached_property
+    def _areas(self) -> KeptOfPairs[Floats]:
+        """Areas (m,) in m2 of joints; zero of what is found by search."""
+        return KeptOfPairs(
+            lambda points: np.where(points.is_joint, points.length * self.thickness, 0.0)
+        )
 
     def _stiff_laws(self, contacts: ContactPoints) -> list[tuple[InterfaceLaw, Ints]]:
         return [
@@ -255,10 +279,22 @@ class ContactLaws:
 
     def by_law(self, contacts: ContactPoints) -> Iterator[tuple[InterfaceLaw, Ints, History]]:
         """Yield each law with its contacts and their history, columns of its own alone."""
-        for number, law in enumerate(self.laws):
-            index = np.flatnonzero(contacts.interface == number)
-            names = [*KEPT, *law.columns]
-            yield law, index, {name: contacts.history[name][index] for name in names}
+        for law, index in self._members.of(contacts):
+            names, known = (*KEPT, *law.columns), contacts.history
+            if len(index) == len(contacts):
+                yield law, index, {name: known[name] for name in names}
+            else:
+                yield law, index, {name: known[name][index] for name in names}
+
+    @cached_property
+    def _members(self) -> KeptOfPairs[list[tuple[InterfaceLaw, Ints]]]:
+        """Each law with its contacts."""
+        return KeptOfPairs(
+            lambda points: [
+                (law, np.flatnonzero(points.interface == number))
+                for number, law in enumerate(self.laws)
+            ]
+        )
 
 
 def _over(force: Floats, area: Floats) -> Floats:

@@ -61,6 +61,12 @@ def counted(
     return with_parts(new, gap=new.gap - reference, reference=reference)
 
 
+def counted_on(points: ContactPoints) -> ContactPoints:
+    """Return points that all go on, their gaps as measured (m), with gaps counted as they were."""
+    reference = np.maximum(np.minimum(points.gap, 0.0), points.reference)
+    return with_parts(points, gap=points.gap - reference, reference=reference)
+
+
 def _from_stretch(gap: Floats, stretch: Floats) -> Floats:
     """Reference (m,) with which contacts are stretched by so much, or as far as they overlap."""
     return np.minimum(gap - np.minimum(stretch, 0.0), 0.0)

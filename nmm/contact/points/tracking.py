@@ -80,6 +80,21 @@ def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> Conta
     return with_parts(new, history=history, **kept)
 
 
+def continues(old: Contacts | None, new: Contacts) -> bool:
+    """Whether search has found the pairs of the last step, corners before edges alone."""
+    if old is None or type(old) is not Contacts or type(new) is not Contacts:
+        return False
+    return len(old.key) == len(new.key) and bool((old.key == new.key).all())
+
+
+def continued(old: ContactPoints, found: Contacts) -> ContactPoints:
+    """Return the points of the last step where search finds them now, gaps as measured.
+
+    All else are the same objects, which tells that nothing made of them alone has changed.
+    """
+    return with_parts(old, parameter_b=found.parameter, normal=found.normal, gap=found.gap)
+
+
 def answered(points: ContactPoints, answer: StepAnswer, once_bonded: Bools) -> ContactPoints:
     """Return the points as an answer leaves them; ``once_bonded`` (m,) had a bond at the start."""
     parted = once_bonded & points.is_joint & (answer.state == OPEN)

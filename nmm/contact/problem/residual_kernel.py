@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
 
 Index = npt.NDArray[Any]
@@ -122,37 +122,59 @@ def weighted(
 
 
 @compiled
-def meeting_forces(
+def unevenness(
     increment: Floats,
     load: Floats,
-    normal: Floats,
-    shear: Floats,
-    pointers: Index,
-    rows: Index,
-    entries: Floats,
-    normal_pointers: Index,
-    normal_columns: Index,
-    normal_entries: Floats,
-    tangent_pointers: Index,
-    tangent_columns: Index,
-    tangent_entries: Floats,
-) -> tuple[Floats, Floats]:
-    """Out-of-balance force (n,) of given contact forces, and the sum of the sizes of its parts.
+    weight: Floats,
+    forces: tuple[Floats, Floats],
+    matrix: tuple[Index, Index, Floats],
+    rows: tuple[tuple[Index, Index, Floats], tuple[Index, Index, Floats]],
+    body: Ints,
+    floor: float,
+) -> float:
+    """Largest out-of-balance force of an unknown over the largest part of one of its body.
 
-    A contact counts in the sizes with both its forces through either row.
+    Of given normal and shear ``forces`` (m,) through both ``rows``. All is weighted; what is below
+    the share ``floor`` of the length of all parts does not count. A contact counts in the parts
+    with both its forces through either row.
     """
     rest, whole = -load, np.abs(load)
+    pointers, numbers, entries = matrix
     for j in range(len(increment)):
         for k in range(pointers[j], pointers[j + 1]):
             part = entries[k] * increment[j]
-            rest[rows[k]] += part
-            whole[rows[k]] += abs(part)
-    for c in range(len(normal)):
-        pressed = abs(normal[c]) + abs(shear[c])
-        for k in range(normal_pointers[c], normal_pointers[c + 1]):
-            rest[normal_columns[k]] += normal_entries[k] * normal[c]
-            whole[normal_columns[k]] += abs(normal_entries[k]) * pressed
-        for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
-            rest[tangent_columns[k]] += tangent_entries[k] * shear[c]
-            whole[tangent_columns[k]] += abs(tangent_entries[k]) * pressed
-    return rest, whole
+            rest[numbers[k]] += part
+            whole[numbers[k]] += abs(part)
+    pressed = np.abs(forces[0]) + np.abs(forces[1])
+    _add_forces(*rows[0], forces[0], pressed, rest, whole)
+    _add_forces(*rows[1], forces[1], pressed, rest, whole)
+    last, square = -1, 0.0
+    for i in range(len(rest)):
+        rest[i], whole[i] = weight[i] * abs(rest[i]), weight[i] * whole[i]
+        square += whole[i] ** 2
+        last = max(last, body[i])
+    largest = np.zeros(last + 1)
+    for i in range(len(rest)):
+        largest[body[i]] = max(largest[body[i]], whole[i])
+    found, least = 0.0, floor * np.sqrt(square)
+    for i in range(len(rest)):
+        if rest[i] > least:
+            found = max(found, rest[i] / largest[body[i]])
+    return found
+
+
+@compiled
+def _add_forces(
+    pointers: Index,
+    columns: Index,
+    entries: Floats,
+    force: Floats,
+    pressed: Floats,
+    rest: Floats,
+    whole: Floats,
+) -> None:
+    """Add forces (m,) through rows to ``rest`` (n,), and what is ``pressed`` by size to another."""
+    for c in range(len(force)):
+        for k in range(pointers[c], pointers[c + 1]):
+            rest[columns[k]] += entries[k] * force[c]
+            whole[columns[k]] += abs(entries[k]) * pressed[c]

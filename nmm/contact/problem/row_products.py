@@ -16,7 +16,7 @@ def stretched(normal_rows: csr_array, tangent_rows: csr_array, increment: Floats
     """(2, m) how far each contact opens and slips (m) under unknowns (n,)."""
     moved = np.empty((2, normal_rows.shape[0]))
     for rows, found in zip((normal_rows, tangent_rows), moved, strict=True):
-        _along(rows.indptr, rows.indices, rows.data, increment, found)
+        products_along(rows.indptr, rows.indices, rows.data, increment, found)
     return moved
 
 
@@ -27,14 +27,14 @@ def terms_of_stretches(
     sizes, found = np.abs(increment), np.empty((2, normal_rows.shape[0]))
     # Not abs(rows): scipy merges and sorts the entries of what it is asked of.
     for rows, one in zip((normal_rows, tangent_rows), found, strict=True):
-        _along(rows.indptr, rows.indices, np.abs(rows.data), sizes, one)
+        products_along(rows.indptr, rows.indices, np.abs(rows.data), sizes, one)
     return found
 
 
 def along(rows: csr_array, increment: Floats) -> Floats:
     """(m,) ``rows @ increment``."""
     found = np.empty(rows.shape[0])
-    _along(rows.indptr, rows.indices, rows.data, increment, found)
+    products_along(rows.indptr, rows.indices, rows.data, increment, found)
     return found
 
 
@@ -48,7 +48,10 @@ def pushed(
 
 
 @compiled
-def _along(pointers: Index, columns: Index, entries: Floats, x: Floats, found: Floats) -> None:
+def products_along(
+    pointers: Index, columns: Index, entries: Floats, x: Floats, found: Floats
+) -> None:
+    """Write the products of compressed rows with ``x`` (n,) to ``found`` (m,)."""
     for c in range(len(pointers) - 1):
         total = 0.0
         for k in range(pointers[c], pointers[c + 1]):

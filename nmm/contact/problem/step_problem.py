@@ -21,6 +21,10 @@ from nmm.interfaces.limits import Limits as Limits
 OPEN, STICK, SLIDE, BONDED, BROKEN = ContactState
 
 
+Compressed = tuple[Any, Any, Floats]
+"""Pointers, numbers and entries of a compressed matrix."""
+
+
 @dataclass(frozen=True)
 class StepProblem:
     """Balance of one step with ``n`` unknowns and ``m`` contact points.
@@ -82,6 +86,12 @@ class StepProblem:
             return np.zeros(self.n_contacts, dtype=bool)
         return self.compliant
 
+    @property
+    def compressed_rows(self) -> tuple[Compressed, Compressed]:
+        """Normal and tangent rows as compiled code takes them."""
+        n, t = self.normal_rows, self.tangent_rows
+        return (n.indptr, n.indices, n.data), (t.indptr, t.indices, t.data)
+
     def gaps(self, increment: Floats) -> Floats:
         """(m,) gaps at the end of the step."""
         return self.gap + along(self.normal_rows, increment)
@@ -98,21 +108,19 @@ class StepProblem:
     @property
     def _is_sound(self) -> bool:
         """Whether `check` has nothing to say, asked without what it would name."""
-        m, limits = len(self.gap), self.limits
-        bounds = limits.tension, limits.cohesion, limits.friction
-        columns = (
-            *(self.gap, self.slip, self.normal_stiffness, self.shear_stiffness, limits.friction),
-            *(self.normal_force, self.shear_force, self.state, *bounds[:2]),
-        )
-        matrices = self.normal_rows, self.tangent_rows, self.matrix
-        n = len(self.force)
-        finite = (self.force, *columns[:5], *(one.data for one in matrices))
-        return (
-            all(len(column) == m for column in columns)
-            and tuple(one.shape for one in matrices) == ((m, n), (m, n), (n, n))
-            and all(np.logical_and.reduce(np.isfinite(one)) for one in finite)
-            and all(np.minimum.reduce(one, initial=1.0) > 0 for one in columns[2:4])
-            and all(np.minimum.reduce(one, initial=0.0) >= 0 for one in bounds)
+        from nmm.contact.problem.soundness import sound
+
+        m, n, limits = len(self.gap), len(self.force), self.limits
+        matrix, normal, tangent = self.matrix, self.normal_rows, self.tangent_rows
+        shaped = normal.shape == tangent.shape == (m, n) and matrix.shape == (n, n)
+        return shaped and sound(
+            self.force,
+            (matrix.data, normal.data, tangent.data),
+            (self.gap, self.slip),
+            (self.normal_stiffness, self.shear_stiffness),
+            (limits.tension, limits.cohesion, limits.friction),
+            (self.normal_force, self.shear_force),
+            self.state,
         )
 
     def check(self) -> None:

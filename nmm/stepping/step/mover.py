@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.kept import KeptOfStates
+from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, vertex_points
@@ -51,7 +51,7 @@ class Mover:
 
     def _follow(self, model: Model) -> None:
         self.vertices = vertex_points(model.manifold)
-        self._places = KeptOfStates(self._placed)
+        self._places = KeptOfPlaces(self._placed)
 
     def forget(self) -> None:
         """Drop what is kept for speed alone."""

@@ -1,0 +1,174 @@
+"""Semismooth Newton on few unknowns in one compiled function: full matrices, Gauss's elimination.
+
+`semismooth_newton` says the same by sparse matrices and factors of a solver, which cost a hundred
+times their arithmetic where two blocks meet. What has no regular matrix is left to it.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from integration.arrays import Floats
+from nmm.compiled import compiled
+from nmm.contact.problem.cut_springs import CutSprings
+from nmm.contact.problem.residual_kernel import residual
+from nmm.solvers.factor import PIVOT
+
+Index = npt.NDArray[Any]
+REFINED = 2
+"""Most steps of iterative refinement of a Newton step."""
+
+
+def newton_in_full(
+    springs: CutSprings, increment: Floats, tolerance: float, budget: int
+) -> tuple[Floats, float, int] | None:
+    """Return unknowns, relative out-of-balance force there, and steps taken; None if singular."""
+    found, size, taken = _newton(increment, springs.columns, tolerance, budget)
+    return None if taken < 0 else (found, size, taken)
+
+
+@compiled
+def _newton(increment: Floats, columns: Any, tolerance: float, budget: int) -> Any:
+    """Newton steps while each halves the out-of-balance force; -1 steps where a pivot vanishes."""
+    force, size = residual(increment, *columns)
+    taken = 0
+    while taken < budget and size > tolerance:
+        matrix = _matrix(increment, columns)
+        step, regular = _solved(matrix, force)
+        if not regular:
+            return increment, size, -1
+        taken += 1
+        tried = increment - step
+        rest, left = residual(tried, *columns)
+        if not left < 0.5 * size:
+            break
+        increment, force, size = tried, rest, left
+    return increment, size, taken
+
+
+@compiled
+def _matrix(increment: Floats, columns: Any) -> Floats:
+    """Matrix (n, n) of the step and of the tangents of its springs (Alart, Curnier 1991)."""
+    pointers, rows, entries = columns[2], columns[3], columns[4]
+    n, m = len(increment), len(columns[11])
+    found = np.zeros((n, n))
+    for j in range(n):
+        for k in range(pointers[j], pointers[j + 1]):
+            found[rows[k], j] += entries[k]
+    normal, tangent = np.empty(n), np.empty(n)
+    for c in range(m):
+        pull = _trial(c, increment, columns[5], columns[6], columns[7], normal)
+        drag = _trial(c, increment, columns[8], columns[9], columns[10], tangent)
+        stiff, hard = columns[13][c], columns[14][c]
+        pull = stiff * (pull + columns[11][c]) + columns[15][c]
+        drag = hard * (drag + columns[12][c]) + columns[16][c]
+        tension, cohesion, friction = columns[17][c], columns[18][c], columns[19][c]
+        is_open = pull > tension
+        held = min(pull, tension)
+        bound = friction * max(-held, 0.0) + (0.0 if is_open and tension <= 0.0 else cohesion)
+        mixed = 0.0
+        if abs(drag) > bound:
+            slope = friction if held < 0.0 and not is_open else 0.0
+            mixed, hard = -math.copysign(slope, drag) * stiff, 0.0
+        if is_open:
+            stiff = 0.0
+            hard = 0.0 if tension <= 0.0 else hard
+        for k in range(n):
+            along, across = stiff * normal[k] + mixed * tangent[k], hard * tangent[k]
+            if along != 0.0 or across != 0.0:
+                for j in range(n):
+                    found[k, j] += along * normal[j] + across * tangent[j]
+    return found
+
+
+@compiled
+def _trial(
+    c: int, increment: Floats, pointers: Index, columns: Index, entries: Floats, row: Floats
+) -> float:
+    """Write row ``c`` in full to ``row`` (n,); return its product with the unknowns."""
+    row[:] = 0.0
+    moved = 0.0
+    for k in range(pointers[c], pointers[c + 1]):
+        row[columns[k]] += entries[k]
+        moved += entries[k] * increment[columns[k]]
+    return moved
+
+
+@compiled
+def _solved(matrix: Floats, load: Floats) -> tuple[Floats, bool]:
+    """Solution (n,) refined with the matrix itself, and whether there is one."""
+    n = len(load)
+    scale = np.empty(n)
+    for i in range(n):
+        if not 0.0 < abs(matrix[i, i]) < math.inf:
+            return load, False
+        scale[i] = 1.0 / math.sqrt(abs(matrix[i, i]))
+    triangles, order = np.empty((n, n)), np.arange(n)
+    for i in range(n):
+        for j in range(n):
+            triangles[i, j] = scale[i] * matrix[i, j] * scale[j]
+        triangles[i, i] += PIVOT
+    if not _eliminated(triangles, order):
+        return load, False
+    found, rest = np.zeros(n), load.copy()
+    best, least = found, math.inf
+    for _ in range(REFINED + 1):
+        found = found + scale * _substituted(triangles, order, scale * rest)
+        square = 0.0
+        for i in range(n):
+            total = load[i]
+            for j in range(n):
+                total -= matrix[i, j] * found[j]
+            rest[i] = total
+            square += (scale[i] * total) ** 2
+        if not square < least:
+            break
+        # Rounding has the last word where a turn does not halve what is left.
+        stays = square > 0.25 * least
+        best, least = found, square
+        if stays:
+            break
+    return best, least < math.inf
+
+
+@compiled
+def _eliminated(triangles: Floats, order: Index) -> bool:
+    """Whether a matrix has both triangles, made in place with rows exchanged for the pivots."""
+    n = len(order)
+    for k in range(n):
+        pivot = k
+        for i in range(k + 1, n):
+            if abs(triangles[i, k]) > abs(triangles[pivot, k]):
+                pivot = i
+        if not abs(triangles[pivot, k]) > 0.0:
+            return False
+        if pivot != k:
+            order[k], order[pivot] = order[pivot], order[k]
+            for j in range(n):
+                held = triangles[k, j]
+                triangles[k, j], triangles[pivot, j] = triangles[pivot, j], held
+        for i in range(k + 1, n):
+            share = triangles[i, k] / triangles[k, k]
+            triangles[i, k] = share
+            if share != 0.0:
+                for j in range(k + 1, n):
+                    triangles[i, j] -= share * triangles[k, j]
+    return True
+
+
+@compiled
+def _substituted(triangles: Floats, order: Index, load: Floats) -> Floats:
+    """Solution (n,) by triangles whose rows were exchanged to ``order`` (n,)."""
+    n = len(load)
+    found = np.empty(n)
+    for i in range(n):
+        found[i] = load[order[i]]
+        for j in range(i):
+            found[i] -= triangles[i, j] * found[j]
+    for i in range(n - 1, -1, -1):
+        for j in range(i + 1, n):
+            found[i] -= triangles[i, j] * found[j]
+        found[i] /= triangles[i, i]
+    return found
