@@ -128,6 +128,9 @@ class Contact(Effect):
 
         ``end`` is where the step is foreseen to end, of bodies that bend by any angle.
         """
+        apart = self.solver.apart(contacts, request)
+        if apart is not None:
+            return apart
         if end is None:
             rows = self.geometry.rows(contacts, state, midpoint)
         else:
@@ -233,7 +236,9 @@ class Contact(Effect):
         record = self.record
         known = [] if record.known is None else [record.known]
         points = concatenate([record.book.points, *known])
-        total = self.laws.energy(points, own_only=self._exact) + record.stored
+        total = record.stored
+        if len(points):
+            total += self.laws.energy(points, own_only=self._exact)
         if self._bonds is None:
             return total
         joints = self._candidates.joints(record.book, state)

@@ -29,6 +29,7 @@ from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
 from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.request import StepRequest
+from nmm.contact.solution.untouched import Untouched
 from nmm.errors import SolveError
 from nmm.frozen import with_parts
 from nmm.solvers.linear import LinearSolver
@@ -78,8 +79,10 @@ class ContactSolver:
     ----------
     memory
         What is kept from solution to solution; see `Memory`.
+    untouched
+        Solves steps in which nothing is near anything.
     last
-        The problem that the enforcement solved last, and its answer.
+        The problem that the enforcement solved last, and its answer; None after such a step.
 
     Parameters
     ----------
@@ -103,6 +106,7 @@ class ContactSolver:
     ) -> None:
         self.memory = enforcement.memory()
         self.last: tuple[StepProblem, StepAnswer] | None = None
+        self.untouched = Untouched()
         self._laws, self._softness, self._enforcement = laws, softness, enforcement
         self._mass, self._unknown_body = mass, unknown_body
 
@@ -119,7 +123,15 @@ class ContactSolver:
     def forget(self) -> None:
         """Drop what is kept for speed alone, and the last problem with its answer."""
         self.memory.forget_all()
+        self.untouched.forget()
         self.last = None
+
+    def apart(self, contacts: ContactPoints, request: StepRequest) -> ContactSolution | None:
+        """Solve a step in time in which nothing is near anything; None where something is."""
+        if len(contacts) or request.step is None or request.null_space is not None:
+            return None
+        self.last = None
+        return self.untouched.solve(contacts, request)
 
     def solve(
         self,
@@ -187,6 +199,8 @@ class ContactSolver:
 
     def condition(self, solver: LinearSolver) -> float | None:
         """Estimate the condition number of the last system with the springs that acted in it."""
+        if self.last is None and self.untouched.factor is not None:
+            return self.untouched.factor.condition()
         matrix = self.acting()
         try:
             return None if matrix is None else solver.factorise(matrix).condition()

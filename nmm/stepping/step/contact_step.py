@@ -122,8 +122,9 @@ class Touching:
                 if half is not None and halves < MIDPOINT_SOLUTIONS:
                     midpoint, halves = half, halves + 1
                     continue
-                result = self._kept(equations, solved, result, rest)
-            if good and near is not None:
+                if solved.rows is not None:
+                    result = self._kept(equations, solved, result, rest)
+            if good and near is not None and solved.rows is not None:
                 result = with_parts(result, missed=self._missed(state, solved, result.state))
             passage = "" if motion is None else contact.partners.passage(motion)
             return with_parts(

@@ -1,0 +1,53 @@
+"""A step in time in which nothing comes near anything: one linear system, its factor kept."""
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.problem.step_problem import StepAnswer, Verdict
+from nmm.contact.solution.record import ContactSolution
+from nmm.contact.solution.request import StepRequest
+from nmm.solvers.linear import Factor
+
+SETTLED = Verdict(True, "converged", "nothing is near anything")
+
+
+class Untouched:
+    """Solves steps without contact points.
+
+    Attributes
+    ----------
+    factor
+        Of the last system; None before the first.
+    """
+
+    def __init__(self) -> None:
+        self.factor: Factor | None = None
+
+    def forget(self) -> None:
+        """Drop the factor."""
+        self.factor = None
+
+    def solve(self, contacts: ContactPoints, request: StepRequest) -> ContactSolution:
+        """Solve a step of no ``contacts``.
+
+        Raises
+        ------
+        SolveError
+            Where the load moves a part that has no mass.
+        """
+        factor = self.factor
+        kept = factor is not None and factor.matrix is request.matrix
+        if factor is None or not kept:
+            factor = self.factor = request.solver.factorise(request.matrix)
+        increment = factor.solve(request.force)
+        residual = factor.relative_residual(increment, request.force)
+        answer = _answer(increment, residual, int(not kept), request.solver.name)
+        return ContactSolution(contacts, answer, passes=1, loss=0.0)
+
+
+def _answer(increment: Floats, residual: float, made: int, solver: str) -> StepAnswer:
+    """Return the answer of a step of no contacts."""
+    none, states = np.zeros(0), np.zeros(0, dtype=np.int64)
+    forces = none, none, none, none
+    return StepAnswer(increment, *forces, states, 1, residual, SETTLED, made, solver)
