@@ -10,13 +10,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.contact.islands.warm_start import start_from
 from nmm.contact.iteration.alternation import Alternation
+from nmm.contact.iteration.apart import apart_in, solve_apart
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.options import DEFAULT, SMALL, IterationBudget, IterationOptions
 from nmm.contact.iteration.semismooth_newton import polish
-from nmm.contact.iteration.warm_start import start_from
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.solvers.linear import LinearSolver
 
@@ -37,23 +38,48 @@ def solve_springs(
     SolveError
         When even with all springs acting the load moves a free part.
     """
-    budget = budget or IterationBudget()
+    islands = apart_in(springs, memory, options.islands)
     near = springs.problem.start if start is None else None
     given = near if start is None else start
-    small = len(springs.problem.force) <= SMALL
-    increment = start_from(springs, memory.found, memory.moving) if given is None else given
+    if given is None:
+        given = start_from(springs, memory.found, memory.moving, islands)
+    budget = budget or IterationBudget()
+
+    def together(part: CutSprings, kept: Memory, at: Floats) -> IterationResult:
+        return _together(part, linear, kept, tolerance, at, near is not None, budget, options)
+
+    if islands is None:
+        found = together(springs, memory, given)
+    else:
+        found = solve_apart(springs, islands, memory, tolerance, given, together, options.islands)
+    memory.keep(found.increment, springs.problem.force)
+    return found
+
+
+def _together(
+    springs: CutSprings,
+    linear: LinearSolver,
+    memory: Memory,
+    tolerance: float,
+    increment: Floats,
+    near: bool,
+    budget: IterationBudget,
+    options: IterationOptions,
+) -> IterationResult:
+    """Best of all ways from an increment; ``near`` one that is known to be near the end."""
+    small = len(increment) <= SMALL
     ways = _WaysToForces(springs, linear, memory, tolerance, options)
-    if small or (near is not None and springs.problem.n_contacts <= options.springs.few):
+    if small or (near and springs.problem.n_contacts <= options.springs.few):
         quick = ways.polished(increment)
         if quick.size <= tolerance:
-            return _kept(quick, memory)
+            return quick
     # In statics no step is like the last: what goes first is thorough.
     thorough = ways.by_cost if memory.moving else ways.in_order
     found = (thorough if budget.interior else ways.alternated)(increment, budget)
     if small and found.size <= tolerance:
         end = ways.polished(found.increment)
         found = replace(found, increment=end.increment, size=end.size)
-    return _kept(found, memory)
+    return found
 
 
 @dataclass(frozen=True)
@@ -84,7 +110,7 @@ class _WaysToForces:
         rest = replace(budget, factors=options.springs.first, cost=options.ways.finish)
         ended = self.inside(found, goals, rest)
         if not ended.size <= self.tolerance:
-            return _joined(ended, self.in_order(increment, budget))
+            return ended.then(self.in_order(increment, budget))
         if not near:
             ways.interior_took(_less(ended, found), options.ways)
         return ended
@@ -116,11 +142,11 @@ class _WaysToForces:
             method = InteriorPoint(sides, pattern, self.linear, options.interior)
             if best.size > balance:
                 goal = Goal(max(balance, self.tolerance))
-                best = _joined(best, method.run(start, rest.interior, goal))
+                best = best.then(method.run(start, rest.interior, goal))
                 start = method.reached if best.size <= balance else start
             if best.size <= self.tolerance:
                 break
-            best = _joined(best, self.alternated(best.increment, rest))
+            best = best.then(self.alternated(best.increment, rest))
             memory.ways.finishes = best.size <= self.tolerance
             if best.size <= self.tolerance:
                 break
@@ -156,16 +182,6 @@ def inside_start(
     return sides.start(increment, np.stack(alike.forces(increment)), options.interior.within)
 
 
-def _joined(before: IterationResult, then: IterationResult) -> IterationResult:
-    """The better of two, with the cost of both."""
-    return replace(
-        then if then.size < before.size else before,
-        solves=before.solves + then.solves,
-        factorisations=before.factorisations + then.factorisations,
-        story=f"{before.story}, then {then.story}",
-    )
-
-
 def _less(whole: IterationResult, part: IterationResult) -> IterationResult:
     """The whole with the cost of what came after the part alone."""
     return replace(
@@ -173,8 +189,3 @@ def _less(whole: IterationResult, part: IterationResult) -> IterationResult:
         solves=whole.solves - part.solves,
         factorisations=whole.factorisations - part.factorisations,
     )
-
-
-def _kept(found: IterationResult, memory: Memory) -> IterationResult:
-    memory.keep(found.increment, found.springs.problem.force)
-    return found

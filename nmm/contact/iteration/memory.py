@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
+from nmm.contact.islands.partition import Islands
 from nmm.contact.iteration.options import MemoryOptions
 from nmm.contact.iteration.ways import Ways
 from nmm.contact.problem.cut_springs import CutSprings
@@ -71,7 +72,7 @@ class Memory:
     found
         Unknowns found for the last steps, latest first, from which the next one may start.
     moving
-        Whether inertia determines the motion of every body (`nmm.contact.iteration.warm_start`).
+        Whether inertia determines the motion of every body (`nmm.contact.islands.warm_start`).
     kept
         Last factors with all springs acting: rounds of multipliers use springs of several
         stiffnesses in one step.
@@ -82,6 +83,8 @@ class Memory:
         What the ways to the forces of springs cost in the last steps.
     barrier_width
         Width of the barrier chosen in the first step (m). It is no cache: answers depend on it.
+    apart
+        What is kept of islands solved apart, by their unknowns, latest last.
     options
         How much is kept, and how long it serves.
     """
@@ -93,8 +96,10 @@ class Memory:
     answered: tuple[StepProblem, StepAnswer] | None = None
     ways: Ways = field(default_factory=Ways)
     barrier_width: float | None = None
+    apart: dict[bytes, "Memory"] = field(default_factory=dict)
     options: MemoryOptions = field(default_factory=MemoryOptions)
     _load: Floats | None = None
+    _islands: tuple[SpringPattern, Islands] | None = None
 
     def known(self, problem: StepProblem) -> StepAnswer | None:
         """Answer of the last solution if it was of the same problem; it took no passes."""
@@ -107,6 +112,22 @@ class Memory:
         if self.pattern is None or not self.pattern.fits(problem):
             self.pattern = SpringPattern.of(problem)
         return self.pattern
+
+    def islands_of(self, springs: CutSprings) -> Islands:
+        """Islands of a problem, found anew when its pattern changed."""
+        pattern = self.pattern_of(springs.problem)
+        if self._islands is None or self._islands[0] is not pattern:
+            self._islands = pattern, Islands.of(springs)
+        return self._islands[1]
+
+    def of_part(self, unknowns: Ints) -> "Memory":
+        """Memory of the islands that have these ``unknowns``; the oldest of many is dropped."""
+        key = unknowns.tobytes()
+        found = self.apart.pop(key, None) or Memory(options=self.options)
+        found.moving, self.apart[key] = self.moving, found
+        for old in list(self.apart)[: -self.options.parts]:
+            del self.apart[old]
+        return found
 
     def factor_of(self, springs: CutSprings, solver: LinearSolver) -> tuple[KeptFactor, bool]:
         """Factor with all springs acting, and whether it was made just now."""
@@ -132,7 +153,7 @@ class Memory:
         """Drop what is kept for speed alone: patterns, factors and starts."""
         self.forget_answers()
         self.pattern, self.kept, self.moving, self._load = None, [], False, None
-        self.ways = Ways()
+        self.ways, self.apart, self._islands = Ways(), {}, None
 
     def keep(self, increment: Floats, load: Floats) -> None:
         """Keep the unknowns found under a load, in place of what was found under it before."""

@@ -323,12 +323,35 @@ class MemoryOptions:
         Most factors kept.
     steps
         Last steps from which the next one may start.
+    parts
+        Most islands solved apart of which anything is kept.
     """
 
     drift: float = above_zero(1.25)
     turn: float = above_zero(1e-3)
     factors: int = above_zero(4)
     steps: int = above_zero(2)
+    parts: int = above_zero(16)
+
+
+@dataclass(frozen=True)
+class IslandOptions:
+    """Of islands that are solved apart (`nmm.contact.iteration.apart`).
+
+    Attributes
+    ----------
+    rounds
+        Most times that islands are solved apart in a step, since held bodies pass a little on; all
+        is solved together then. 0 always does.
+    alone
+        Unknowns from which on an island is solved alone; smaller ones are solved as one.
+    most
+        Part (-) of all unknowns from which on all is solved together.
+    """
+
+    rounds: int = 4
+    alone: int = above_zero(600)
+    most: float = 0.8
 
 
 @dataclass(frozen=True)
@@ -342,6 +365,7 @@ class IterationOptions:
     rounds: RoundOptions = field(default_factory=RoundOptions)
     barrier: BarrierOptions = field(default_factory=BarrierOptions)
     memory: MemoryOptions = field(default_factory=MemoryOptions)
+    islands: IslandOptions = field(default_factory=IslandOptions)
 
 
 DEFAULT = IterationOptions()

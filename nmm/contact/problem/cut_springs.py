@@ -145,3 +145,12 @@ class IterationResult:
     factorisations: int
     story: str
     error: float = 0.0
+
+    def then(self, after: "IterationResult") -> "IterationResult":
+        """The better of this and what was found ``after``, with the cost of both."""
+        return replace(
+            after if after.size < self.size else self,
+            solves=self.solves + after.solves,
+            factorisations=self.factorisations + after.factorisations,
+            story=f"{self.story}, then {after.story}",
+        )

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from nmm.contact.islands.warm_start import start_from
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.options import Patience
-from nmm.contact.iteration.warm_start import start_from
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.testing.contact_oracle import random_problem
 

@@ -1,0 +1,97 @@
+"""Part of a problem: some unknowns and contacts, the rest held where it is."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.sparse import csc_array, csr_array
+
+from integration.arrays import Floats, Ints
+from nmm.compiled import compiled
+from nmm.contact.problem.cut_springs import CutSprings
+from nmm.contact.problem.row_products import pushed
+from nmm.contact.problem.step_problem import Limits
+from nmm.solvers.unchecked import made_of
+
+Compressed = tuple[npt.NDArray[Any], npt.NDArray[Any], Floats]
+
+
+def part_of(springs: CutSprings, unknowns: Ints, contacts: Ints, increment: Floats) -> CutSprings:
+    """Return springs of ``contacts`` between ``unknowns``, both ascending.
+
+    All other unknowns stay at ``increment`` (n,), all other contacts keep the forces that they have
+    there.
+    """
+    p, n = springs.problem, len(unknowns)
+    place = np.full(len(increment), -1)
+    place[unknowns] = np.arange(n)
+    *matrix, pulled = _between(*_parts(p.matrix), unknowns, place, increment)
+    *normal_rows, opened = _between(*_parts(p.normal_rows), contacts, place, increment)
+    *tangent_rows, slid = _between(*_parts(p.tangent_rows), contacts, place, increment)
+    forces = np.stack(springs.forces(increment))
+    forces[:, contacts] = 0.0
+    pushes = pushed(p.normal_rows, p.tangent_rows, *forces)
+    shape = len(contacts), n
+    problem = replace(
+        p,
+        matrix=_matrix(csc_array, matrix, (n, n)),
+        force=p.force[unknowns] - pulled - pushes[unknowns],
+        normal_rows=_matrix(csr_array, normal_rows, shape),
+        tangent_rows=_matrix(csr_array, tangent_rows, shape),
+        gap=p.gap[contacts] + opened,
+        slip=p.slip[contacts] + slid,
+        normal_stiffness=p.normal_stiffness[contacts],
+        shear_stiffness=p.shear_stiffness[contacts],
+        limits=Limits(**{name: bound[contacts] for name, bound in vars(p.limits).items()}),
+        state=p.state[contacts],
+        normal_force=p.normal_force[contacts],
+        shear_force=p.shear_force[contacts],
+        compliant=None if p.compliant is None else p.compliant[contacts],
+        start=None,
+    )
+    return CutSprings(
+        problem,
+        springs.normal_stiffness[contacts],
+        springs.shear_stiffness[contacts],
+        springs.normal_shift[contacts],
+        springs.shear_shift[contacts],
+    )
+
+
+def _parts(one: csr_array | csc_array) -> Compressed:
+    return one.indptr, one.indices, one.data
+
+
+def _matrix(kind: Any, parts: list[Any], shape: tuple[int, int]) -> Any:
+    pointers, indices, data = parts
+    return made_of(kind, data, indices, pointers, shape)
+
+
+@compiled
+def _between(
+    pointers: npt.NDArray[Any],
+    indices: npt.NDArray[Any],
+    data: Floats,
+    chosen: Ints,
+    place: Ints,
+    increment: Floats,
+) -> tuple[npt.NDArray[Any], npt.NDArray[Any], Floats, Floats]:
+    """Entries of ``chosen`` rows in columns that have a place; what the others make of unknowns."""
+    most = 0
+    for row in chosen:
+        most += pointers[row + 1] - pointers[row]
+    starts = np.zeros(len(chosen) + 1, dtype=np.int32)
+    columns, entries = np.empty(most, dtype=np.int32), np.empty(most)
+    rest = np.zeros(len(chosen))
+    total = 0
+    for i in range(len(chosen)):
+        for k in range(pointers[chosen[i]], pointers[chosen[i] + 1]):
+            at = place[indices[k]]
+            if at >= 0:
+                columns[total], entries[total] = at, data[k]
+                total += 1
+            else:
+                rest[i] += data[k] * increment[indices[k]]
+        starts[i + 1] = total
+    return starts, columns[:total], entries[:total], rest

@@ -1,0 +1,165 @@
+"""Which unknowns and contacts depend on each other, but for what goes through held bodies.
+
+A body whose own matrix is much stiffer than the springs of its contacts, as one that supports hold,
+hardly moves whatever its neighbours do: islands that share it are solved one after the other.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Index, Ints
+from nmm.compiled import compiled
+from nmm.contact.problem.cut_springs import CutSprings
+from nmm.contact.problem.step_problem import StepProblem
+
+STIFF = 0.05
+"""Largest stiffness of contacts over that of the matrix (-) at every unknown of a held body. What
+one island does to another through it is less than the square of that."""
+
+
+@dataclass(frozen=True)
+class Islands:
+    """Unknowns and contacts by island; each held body is an island besides.
+
+    Attributes
+    ----------
+    unknown, contact
+        (n,) and (m,) number of the island. A contact belongs to what is not held of its two sides.
+    held
+        (I,) islands that are one held body.
+    """
+
+    unknown: Ints
+    contact: Ints
+    held: Bools
+
+    @classmethod
+    def of(cls, springs: CutSprings) -> "Islands":
+        """Find the islands of a problem."""
+        p = springs.problem
+        diagonal = p.matrix.diagonal()
+        stiff = springs.weight**-2 - diagonal <= STIFF * diagonal
+        rows = (p.normal_rows.indptr, p.normal_rows.indices)
+        more = (p.tangent_rows.indptr, p.tangent_rows.indices)
+        found = _labels(p.matrix.indptr, p.matrix.indices, *rows, *more, stiff)
+        return cls(*found)
+
+    @property
+    def count(self) -> int:
+        """Number of islands."""
+        return len(self.held)
+
+    @property
+    def apart(self) -> bool:
+        """Whether there is anything to be solved apart."""
+        return int((~self.held).sum()) > 1
+
+    def balance(
+        self, springs: CutSprings, increment: Floats, force: Floats
+    ) -> tuple[Floats, Floats]:
+        """(I,) out-of-balance ``force`` (n,) of each island, and the largest of its own parts.
+
+        See `nmm.contact.problem.residual_kernel.residual`, which says the same of the whole.
+        """
+        found = balances(increment, force, self.unknown, self.count, springs.columns)
+        return np.asarray(found[0]), np.asarray(found[1])
+
+    def sizes(self, springs: CutSprings, increment: Floats, force: Floats) -> Floats:
+        """(I,) the first of `balance` over the second."""
+        rest, largest = self.balance(springs, increment, force)
+        return np.divide(rest, largest, out=np.zeros_like(rest), where=largest > 0)
+
+    def around(self, problem: StepProblem, chosen: Bools) -> tuple[Ints, Ints]:
+        """Unknowns of ``chosen`` islands (I,) and of held bodies they touch, and their contacts."""
+        within, contacts = chosen[self.unknown], np.flatnonzero(chosen[self.contact])
+        also = np.zeros(self.count, dtype=bool)
+        for rows in (problem.normal_rows, problem.tangent_rows):
+            _touched(rows.indptr, rows.indices, contacts, self.unknown, also)
+        within |= (also & self.held)[self.unknown]
+        return np.flatnonzero(within), contacts
+
+
+@compiled
+def balances(
+    increment: Floats, force: Floats, island: Ints, islands: int, columns: Any
+) -> tuple[Floats, Floats]:
+    """See `Islands.balance`; ``columns`` as `nmm.contact.problem.residual_kernel.residual`."""
+    load, weight, pointers, indices, entries = columns[:5]
+    rest, largest = np.zeros(islands), np.zeros((3, islands))
+    for i in range(len(increment)):
+        inner = 0.0
+        for k in range(pointers[i], pointers[i + 1]):
+            inner += entries[k] * increment[indices[k]]
+        one, square = island[i], weight[i] ** 2
+        rest[one] += square * force[i] ** 2
+        largest[0, one] += square * inner**2
+        largest[1, one] += square * (force[i] + load[i] - inner) ** 2
+        largest[2, one] += square * load[i] ** 2
+    return np.sqrt(rest), np.sqrt(np.maximum(np.maximum(largest[0], largest[1]), largest[2]))
+
+
+@compiled
+def _touched(pointers: Index, columns: Index, contacts: Ints, island: Ints, also: Bools) -> None:
+    for c in contacts:
+        for k in range(pointers[c], pointers[c + 1]):
+            also[island[columns[k]]] = True
+
+
+@compiled
+def _root(parent: Ints, at: int) -> int:
+    while parent[at] != at:
+        parent[at] = parent[parent[at]]
+        at = parent[at]
+    return at
+
+
+@compiled
+def _labels(
+    pointers: Index,
+    indices: Index,
+    normal_pointers: Index,
+    normal_columns: Index,
+    tangent_pointers: Index,
+    tangent_columns: Index,
+    stiff: Bools,
+) -> tuple[Ints, Ints, Bools]:
+    """Islands in the order of their first unknowns."""
+    n, m = len(stiff), len(normal_pointers) - 1
+    parent = np.arange(n)
+    for j in range(n):
+        for k in range(pointers[j], pointers[j + 1]):
+            a, b = _root(parent, j), _root(parent, indices[k])
+            parent[max(a, b)] = min(a, b)
+    fixed = np.ones(n, dtype=np.bool_)  # at the root of a body: whether all of it is stiff
+    for j in range(n):
+        fixed[_root(parent, j)] &= stiff[j]
+    owner = np.full(m, -1)
+    for c in range(m):
+        for pointer, column in (
+            (normal_pointers, normal_columns),
+            (tangent_pointers, tangent_columns),
+        ):
+            for k in range(pointer[c], pointer[c + 1]):
+                root = _root(parent, column[k])
+                if owner[c] < 0 or fixed[owner[c]]:
+                    owner[c] = root if owner[c] < 0 or not fixed[root] else owner[c]
+                elif not fixed[root]:
+                    own = _root(parent, owner[c])
+                    parent[max(own, root)] = min(own, root)
+                    owner[c] = min(own, root)
+    number = np.full(n, -1)
+    unknown, contact = np.empty(n, dtype=np.int64), np.zeros(m, dtype=np.int64)
+    held = np.empty(n, dtype=np.bool_)
+    count = 0
+    for j in range(n):
+        root = _root(parent, j)
+        if number[root] < 0:
+            number[root], held[count] = count, fixed[root]
+            count += 1
+        unknown[j] = number[root]
+    for c in range(m):
+        if owner[c] >= 0:
+            contact[c] = number[_root(parent, owner[c])]
+    return unknown, contact, held[:count].copy()
