@@ -282,6 +282,23 @@ IDLE: dict[str, Idle] = {
         bricks,
         bars=[{**_BOLT, "young_modulus": 1e-20, "bond": {"law": "linear", "stiffness": 1e-20}}],
     ),
+    "a dowel of no stiffness": Idle(
+        ("bars", "dowels"),
+        bricks,
+        _more(
+            bricks,
+            bars=[
+                {
+                    "name": "b",
+                    **_BRICK,
+                    "diameter": 0.02,
+                    "young_modulus": 1e-20,
+                    "dowel": {"bedding_stiffness": 1e-20},
+                }
+            ],
+        ),
+        within=1e-8,
+    ),
     "a bolt in a wall at rest": Idle(("bars",), bricks, _more(bricks, bars=[_BOLT]), within=None),
     "a foundation of no stiffness": _idle(
         "foundations",

@@ -46,6 +46,7 @@ CALLED_BY = {
     "springs": "[[springs]]",
     "dashpots": "[[dashpots]]",
     "bars": "[[bars]]",
+    "dowels": "[bars.dowel]",
     "foundations": "[[foundations]]",
     "masses": "[[masses]]",
     "splitting": "[splitting.MATERIAL]",

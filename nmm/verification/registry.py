@@ -79,6 +79,7 @@ CASES = Registry[type[Case]](
         "BO1": f"{_HOME}.anchored:ShearLag",
         "BO2": f"{_HOME}.anchored:PullOut",
         "BO4": f"{_HOME}.anchored:GroutedBolt",
+        "BO4 dowel": f"{_HOME}.anchored:DoweledJoint",
         "BO5 plane": f"{_HOME}.anchored:BoltedBlock",
         "BO5 roof": f"{_HOME}.anchored:HungBlock",
         "C1": f"{_HOME}.beams:PlainBeam",

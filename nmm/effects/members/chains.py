@@ -8,6 +8,7 @@ knows the axial forces and their tangent alone. Links without slips, springs, ar
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
@@ -67,6 +68,13 @@ class Chains:
     bond: Fibres
     left: Ints
     right: Ints
+
+    @classmethod
+    def without_slip(cls, axial: Fibres) -> Self:
+        """Return links each of which is a chain of its own."""
+        none = Fibres.of([], np.zeros(0), np.zeros(0))
+        fixed = np.full(len(axial), -1)
+        return cls(axial, none, fixed, fixed)
 
     @cached_property
     def opening(self) -> csr_array:

@@ -13,7 +13,6 @@ from nmm.effects.members.links import Links
 
 # Of a place of memory: slip, plastic slip and its length, plastic stretch and its length.
 SLIP, BOND, AXIAL, WIDTH = 0, slice(1, 3), slice(3, 5), 5
-NO_BOND = Fibres.of([], np.zeros(0), np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -45,10 +44,9 @@ class Members:
         cls, names: tuple[str, ...], places: tuple[int, ...], links: Links, axial: Fibres
     ) -> Self:
         """Return members of so many links each, none of which slips."""
-        m = len(links)
-        chains = Chains(axial, NO_BOND, np.full(m, -1), np.full(m, -1))
         owner = np.repeat(np.arange(len(names)), places)
-        return cls(names, places, links, chains, owner, np.arange(m), NONE)
+        chains, all_of_them = Chains.without_slip(axial), np.arange(len(links))
+        return cls(names, places, links, chains, owner, all_of_them, NONE)
 
     @property
     def slip_owner(self) -> Ints:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
@@ -153,6 +154,29 @@ class BondTable(Frozen):
     )
 
 
+class DowelTable(Frozen):
+    """The resistance of a bar to a way across it, at joints that it crosses."""
+
+    bedding_stiffness: Stress = Field(
+        gt=0,
+        description="force over length of the bar over its deflection in Pa, > 0, of what it is "
+        "bedded in",
+        examples=["50 MPa"],
+    )
+    bending_stiffness: Number | None = Field(
+        default=None,
+        gt=0,
+        description="E I of a bar in N m2, > 0; that of a round bar of the diameter if not given",
+        examples=[3800.0],
+    )
+    yield_force: Force | None = Field(
+        default=None,
+        gt=0,
+        description="a shear force in N that a bar yields at, > 0",
+        examples=["60 kN"],
+    )
+
+
 def _ends(value: object) -> object:
     """Two ends alike are written as one word."""
     return (value, value) if isinstance(value, str) else value
@@ -200,6 +224,10 @@ class BarTable(Between):
         examples=[["fixed", "free"]],
     )
     bond: BondTable | None = Field(default=None, description="a table [bars.bond]")
+    dowel: DowelTable | None = Field(
+        default=None,
+        description="a table [bars.dowel]: that joints which slide across the bar are resisted",
+    )
 
     @model_validator(mode="after")
     def _sound(self) -> BarTable:
@@ -208,9 +236,23 @@ class BarTable(Between):
             raise fault(given, "diameter or area", "give one of them")
         if self.bond is not None and self.diameter is None and self.perimeter is None:
             raise fault("area and bond, no perimeter", "a perimeter", "add perimeter or diameter")
+        stiff = self.dowel is None or self.dowel.bending_stiffness is not None
+        if self.diameter is None and not stiff:
+            raise fault("area and dowel", "a bending_stiffness", "add it to [bars.dowel]")
         if self.bond is None and "free" in self.held:
             raise fault("a free end, no bond", "a bar that is held", "add a bond, or fix the end")
         return self
+
+    @property
+    def thickness(self) -> float:
+        """Its diameter, or that of a round bar of its area (m)."""
+        return self.diameter or float((4 * (self.area or 0.0) / math.pi) ** 0.5)
+
+    @property
+    def bending_stiffness(self) -> float:
+        """``E I`` of one bar (N m2), ``pi d^4 / 64`` the ``I`` of a round one."""
+        given = None if self.dowel is None else self.dowel.bending_stiffness
+        return given or self.young_modulus * math.pi * self.thickness**4 / 64
 
     @property
     def held(self) -> tuple[End, End]:

@@ -171,6 +171,62 @@ class GroutedBolt(SceneCase):
         return {"force across the joint (N)": Check(force, 48844.636, 4e-3, reason)}
 
 
+DOWEL = """
+[[bars]]
+name = "bolt"
+points = [[-0.9, 0], [0.9, 0]]
+diameter = "25 mm"
+young_modulus = "200 GPa"
+ends = "free"
+bond = { stiffness = 1 }
+dowel = { bedding_stiffness = "50 MPa" }
+[[supports]]
+name = "left"
+block = "left"
+fix = ["x", "y"]
+[[supports]]
+name = "right"
+block = "right"
+fix = ["x", "y"]
+displacement = [0, "12.089477 mm"]
+"""
+
+
+@dataclass(frozen=True)
+class DoweledJoint(SceneCase):
+    """A bolt across a joint that slides bends against its bed on both sides."""
+
+    name: ClassVar[str] = "BO4 dowel"
+    title: ClassVar[str] = "Dowel action of a bolt across a sliding joint"
+    source: ClassVar[str] = (
+        "w = 4 V l / k, M = 0.3224 V / l, l = (k / (4 E I))^(1/4) (Hetenyi 1946)"
+    )
+    formulations: ClassVar[tuple[str, ...]] = ("dda", "manifold", "degree 2")
+
+    def scene(self) -> str:
+        """Return two blocks, one of which moves along the joint by what 20 kN take."""
+        return text.scene(
+            'plane = "stress"',
+            [
+                text.material("rock", modulus=1e13, poisson=0.0, density=None),
+                text.block("left", "rock", text.rectangle((-1, -0.5), (0, 0.5))),
+                text.block("right", "rock", text.rectangle((0, -0.5), (1, 0.5))),
+                DOWEL,
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the shear force of the bolt and its largest moment."""
+        shear, moment = (
+            float(run.history[f"dowels:bolt:{what}"][-1]) for what in ("shear", "moment")
+        )
+        reason = "printed digits, and what the blocks strain"
+        return {
+            "shear force (N)": Check(shear, 20e3, 1e-4, reason),
+            "largest moment (N m)": Check(moment, 853.362, 1e-4, reason),
+        }
+
+
 @dataclass(frozen=True)
 class BoltedBlock(SceneCase):
     """A block slides down a plane until its bolt takes what friction does not."""

@@ -1,0 +1,124 @@
+"""Dowels: bars that resist a joint that slides across them.
+
+On both sides of a joint the bar is a long beam on the ground that it is bedded in, of a stiffness
+``k`` to its length. A way ``w`` across bends it against both, with the shear force and the largest
+moment, at ``pi / (4 l)`` from the joint,
+
+    V = k w / (4 l),    M = e^(-pi/4) sin(pi/4) V / l,    l = (k / (4 E I))^(1/4)
+
+(Winkler 1867; Hetenyi 1946). The force acts between the two bodies at the joint.
+"""
+
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.motion import State
+from nmm.effects.base import Setup
+from nmm.effects.members.chains import NONE, Chains
+from nmm.effects.members.crossings import JointsCrossed
+from nmm.effects.members.ends import Ends
+from nmm.effects.members.fibres import Fibres
+from nmm.effects.members.linked import Linked
+from nmm.effects.members.links import Links
+from nmm.effects.members.member_set import Members
+from nmm.materials.uniaxial import Uniaxial
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.members import BarTable
+
+# Places of memory of a bar: joints that it crosses, at most one to each of these parts of it.
+PLACES = 200
+
+
+class Dowels(Linked):
+    """The bars of a scene that have a ``[bars.dowel]``, at the joints that they cross.
+
+    A dowel is a link of the length ``1 / l`` along which the bodies slide: what a joint opens
+    turns it by little.
+    """
+
+    name = "dowels"
+
+    def __init__(self, setup: Setup, members: Members, decay: Floats) -> None:
+        super().__init__(setup.model, members)
+        self._decay = decay
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the ``[[bars]]``."""
+        bars = [one for one in setup.scene.bars if one.dowel is not None]
+        manifold = setup.model.manifold
+        ends = np.array([one.points for one in bars])
+        found = [
+            JointsCrossed.of(manifold, first, last, one.thickness)
+            for one, (first, last) in zip(bars, ends, strict=True)
+        ]
+        owner = np.repeat(np.arange(len(bars)), [len(one.share) for one in found])
+        share, before, after = (
+            np.concatenate([getattr(one, name) for one in found])
+            for name in ("share", "before", "after")
+        )
+        along = ends[:, 1] - ends[:, 0]
+        along /= np.hypot(*along.T)[:, None]
+        across = np.stack([-along[:, 1], along[:, 0]], axis=1)[owner]
+        decay = np.array([_decay(one) for one in bars])
+        half = across / (2 * decay[owner, None])
+        position = ends[owner, 0] + share[:, None] * (ends[:, 1] - ends[:, 0])[owner]
+        links = Links.of(
+            Ends.at(setup, position - half, before),
+            Ends.at(setup, position + half, after),
+            setup.small,
+        )
+        laws = [_law(bars[one], decay[one]) for one in owner]
+        number = np.array([one.number for one in bars])
+        axial = Fibres.of(laws, np.ones(len(owner)), number[owner])
+        members = Members(
+            tuple(f"{one.name} dowel" for one in bars),
+            (PLACES,) * len(bars),
+            links,
+            Chains.without_slip(axial),
+            owner,
+            _places(owner, share),
+            NONE,
+        )
+        return cls(setup, members, decay)
+
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        return f"{len(self.members.owner)} joints crossed"
+
+    def history(self, state: State) -> dict[str, float]:
+        """Return the largest shear force of each bar (N), and the moment that it bends by (N m)."""
+        found = super().history(state)
+        lever = np.exp(-np.pi / 4) * np.sin(np.pi / 4) / self._decay
+        forces = [found[f"{name}:force"] for name in self.members.names]
+        names = [name.removesuffix(" dowel") for name in self.members.names]
+        row = {f"{name}:shear": force for name, force in zip(names, forces, strict=True)}
+        return row | {
+            f"{name}:moment": force * arm
+            for name, force, arm in zip(names, forces, lever.tolist(), strict=True)
+        }
+
+
+def _decay(bar: "BarTable") -> float:
+    """Return ``l`` (1/m)."""
+    assert bar.dowel is not None
+    return float((bar.dowel.bedding_stiffness / (4 * bar.bending_stiffness)) ** 0.25)
+
+
+def _law(bar: "BarTable", decay: float) -> Uniaxial:
+    assert bar.dowel is not None
+    stiffness, limit = bar.dowel.bedding_stiffness / (4 * decay), bar.dowel.yield_force
+    flowed, yields = ((), ()) if limit is None else ((0.0,), (limit,))
+    return Uniaxial(stiffness, flowed, yields)
+
+
+def _places(owner: Ints, share: Floats) -> Ints:
+    """Return the place (m,) of memory of each crossing, by where it is on its bar."""
+    place = owner * PLACES + np.minimum((share * PLACES).astype(np.int64), PLACES - 1)
+    # Of two in one part the later one has the next; crossings rise along each bar.
+    rise = np.arange(len(place))
+    return np.asarray(np.maximum.accumulate(place - rise) + rise)
