@@ -6,12 +6,13 @@ formulation's ``[glue]`` says how it holds: by springs, by Nitsche's method or b
 act at Gauss points of the shared edges, whatever the covers on either side.
 """
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, nearest
@@ -55,13 +56,11 @@ class BondedInterfaces(TiedInterfaces):
     def follow(self, change: "Change") -> "BondedInterfaces":
         """Return those of the new model; a block that is new is tied free of stress as it lies."""
         new, state, fresh = type(self).from_setup(change.setup), change.state, change.parentage
-        known = [(tie.interface.first.position, _anchor(tie.interface)) for tie in self.ties]
+        known = [_Anchors.of(change.old, tie.interface) for tie in self.ties]
         for number, tie in enumerate(new.ties):
-            interface, place = tie.interface, tie.interface.first.position
-            anchor = _anchor(interface)
-            if known:
-                positions, values = (np.concatenate(part) for part in zip(*known, strict=True))
-                anchor = nearest(place, positions, values)
+            interface = tie.interface
+            own = _Anchors.of(change.new, interface)
+            anchor = own.nearest(known) if known else own.values
             arrived = np.any([fresh.new_bodies[side.points.body] for side in interface.sides], 0)
             anchor = np.where(arrived[:, None], interface.motion(state), anchor)
             new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
@@ -73,9 +72,54 @@ class BondedInterfaces(TiedInterfaces):
         return super().about or "no shared edges"
 
 
-def _anchor(interface: Interface) -> Floats:
-    """Jump (m, 2) at which the sides of an interface are free of stress (m)."""
-    return np.array(np.broadcast_to(interface.anchor, (len(interface), 2)))
+@dataclass(frozen=True)
+class _Anchors:
+    """Jumps at which points of an interface are free of stress, whichever of its sides is first.
+
+    Attributes
+    ----------
+    regions
+        (m, 2) regions of the sides, the lower first.
+    position
+        (m, 2) reference place (m).
+    values
+        (m, 2) jumps, of the lower region less the other (m).
+    sign
+        (m, 1) -1 where the first side of the interface is the other.
+    """
+
+    regions: Ints
+    position: Floats
+    values: Floats
+    sign: Floats
+
+    @classmethod
+    def of(cls, model: Model, interface: Interface) -> Self:
+        """Read those of an interface."""
+        of_sides = [model.manifold.element_region[side.elements] for side in interface.sides]
+        regions = np.stack(of_sides, axis=1)
+        sign = np.where(regions[:, :1] > regions[:, 1:], -1.0, 1.0)
+        values = sign * np.broadcast_to(interface.anchor, (len(interface), 2))
+        return cls(np.sort(regions, axis=1), interface.first.position, values, sign)
+
+    def nearest(self, known: Sequence[Self]) -> Floats:
+        """Jumps (m, 2) of the first sides, at the nearest known points between the same regions.
+
+        Where none is known between them it is zero.
+        """
+        regions, position, values = (
+            np.concatenate([getattr(one, name) for one in known])
+            for name in ("regions", "position", "values")
+        )
+        _, pair = np.unique(np.concatenate([regions, self.regions]), axis=0, return_inverse=True)
+        old, new = np.split(pair.ravel(), [len(regions)])
+        far = 2 * float(np.ptp(np.concatenate([position, self.position]), axis=0).sum())
+        places = (
+            np.column_stack([position, far * old]),
+            np.column_stack([self.position, far * new]),
+        )
+        found = nearest(places[1], places[0], values)
+        return self.sign * np.where(np.isin(new, old)[:, None], found, 0.0)
 
 
 def glue_edges(model: Model, joints: Joints, part: "Glue", size: float | None) -> list[Imposition]:

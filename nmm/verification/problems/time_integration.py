@@ -142,3 +142,48 @@ class IntegratorOrder(Case):
         scene = parse_scene(oscillator(self.integrator, duration / steps, duration, options))
         done = run(scene, chosen("rigid", scene.formulation))
         return float(abs(way(done, "middle")[-1, 0] * FREQUENCY - np.sin(1.3)))
+
+
+# Omega: spectral radii of generalised alpha by its radius at infinity.
+RADII = {
+    0.1: {1.0: 1.0, 0.8: 0.99999993, 0.5: 0.99999816, 0.0: 0.99995192},
+    1.0: {1.0: 1.0, 0.8: 0.99947461, 0.5: 0.98931279, 0.0: 0.90656333},
+    np.pi: {1.0: 1.0, 0.8: 0.98595438, 0.5: 0.86823387, 0.0: 0.54575749},
+    10.0: {1.0: 1.0, 0.8: 0.92979177, 0.5: 0.68252842, 0.0: 0.24253563},
+    100.0: {1.0: 1.0, 0.8: 0.83463761, 0.5: 0.53717362, 0.0: 0.04783128},
+}
+
+
+@dataclass(frozen=True)
+class DampedSpring(SceneCase):
+    """A block thrown against a spring loses by generalised alpha what its options ask for."""
+
+    name: ClassVar[str] = "IN1"
+    title: ClassVar[str] = "Spectral radii of generalised alpha"
+    source: ClassVar[str] = "Eigenvalues of the step of Chung and Hulbert (1993)"
+    formulations: ClassVar[tuple[str, ...]] = ("rigid",)
+    omega: float = 1.0
+    rho_inf: float = 0.8
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return radii at infinity at steps from a sixtieth to sixteen periods."""
+        return [cls(omega, rho) for omega, known in RADII.items() for rho in known]
+
+    @property
+    def variant(self) -> str:
+        """Frequency times step, and the radius at infinity."""
+        return f"Omega {self.omega:.4g}, radius {self.rho_inf:g} at infinity"
+
+    def scene(self) -> str:
+        """Return the oscillator for 12 steps."""
+        step, options = self.omega / FREQUENCY, f"options = {{ rho_inf = {self.rho_inf} }}\n"
+        return oscillator("generalized_alpha", step, 12 * step, options)
+
+    def measure(self, run: "Run") -> Checks:
+        """Fit a recurrence of three terms: place, velocity and acceleration are carried."""
+        u = way(run, "middle")[:, 0]
+        terms = np.column_stack([u[2:-1], u[1:-2], u[:-3]])
+        roots = np.roots([1.0, *-np.linalg.lstsq(terms, u[3:], rcond=None)[0]])
+        radius = float(np.abs(roots).max())
+        return {"spectral radius": Check(radius, RADII[self.omega][self.rho_inf], 1e-6, ROUNDING)}

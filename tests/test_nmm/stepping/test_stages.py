@@ -344,51 +344,6 @@ def test_keys_that_no_cover_has_are_told():
         run(COLUMN + '[[stages]]\nname = "one"\ncover = { sise = 1 }\n', MESHES["quads"])
 
 
-def rectangle(name, material, left, right, bottom, top):
-    ring = [[left, bottom], [right, bottom], [right, top], [left, top]]
-    return f'[[blocks]]\nname = "{name}"\nmaterial = "{material}"\nvertices = {ring}\n'
-
-
-def columns():
-    """Columns A (1 GPa, width 2) and B (3 GPa, width 1, in halves) under a stiff cap."""
-    text = 'plane = "stress"\n[contact]\n[interfaces.any]\nfriction_angle = 0.0\n'
-    for name, modulus in (("soft", 1e9), ("stiff", 3e9), ("cap", 1e13)):
-        text += f"[materials.{name}]\nyoung_modulus = {modulus}\npoisson_ratio = 0.0\n"
-    for name, kind, ends in (
-        ("A", "soft", (-1, 1)),
-        ("left", "stiff", (-1.75, -1.25)),
-        ("right", "stiff", (1.25, 1.75)),
-    ):
-        text += rectangle(name, kind, *ends, 0, 4)
-        text += f'[[supports]]\nname = "under {name}"\nblock = "{name}"\nfix = ["x", "y"]\n'
-        text += f"segment = [[{ends[0]}, 0], [{ends[1]}, 0]]\n"
-    text += rectangle("cap", "cap", -2, 2, 4, 5)
-    text += '[[supports]]\nname = "guide"\nblock = "cap"\npoint = [0, 5]\nfix = ["x"]\n'
-    for name, force in (("first", 1e6), ("more", 2e6)):
-        text += f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = [[-2, 5], [2, 5]]\n'
-        text += f"traction = [0, {-force / 4}]\n"
-    text += '[[monitors]]\nname = "cap"\npoint = [0, 5]\n'
-    text += '[[stages]]\nname = "A"\nblocks = ["A", "cap"]\nloads = ["first"]\n'
-    text += '[[stages]]\nname = "B too"\nadd = ["left", "right"]\n'
-    text += '[[stages]]\nname = "more"\nloads = ["first", "more"]\n'
-    return text + '[[stages]]\nname = "B alone"\nremove = ["A"]\n'
-
-
-@pytest.mark.parametrize("cover", ["linear blocks", "quads"])
-def test_a_column_put_in_under_load_takes_its_share_of_what_comes_later_alone(cover):
-    table = MESHES.get(cover, {"type": "block", "functions": "monomials", "degree": 1})
-    found = run(columns(), table, contact={"normal_penalty": 1000})
-    assert found.summary.status == "converged", found.summary.sentence
-    history = found.history
-    shared = history["reaction:under left:y"] + history["reaction:under right:y"]
-    # Compliances 4 / (1e9 2) and 4 / (3e9 1) share the later 2 MN as 0.8 and 1.2; springs of
-    # contact and the cap are soft by 1e-4.
-    atol = 3e-4 * 3e6
-    np.testing.assert_allclose(history["reaction:under A:y"][:3], [1e6, 1e6, 1.8e6], atol=atol)
-    np.testing.assert_allclose(shared[1:], [0, 1.2e6, 3e6], atol=atol)
-    np.testing.assert_allclose(history["monitor:cap:uy"], [-2e-3, -2e-3, -3.6e-3, -6e-3], rtol=5e-4)
-
-
 FLOWING = BAR.replace(
     "poisson_ratio = 0.3",
     'poisson_ratio = 0.3\nlaw = "von_mises"\nyield_stress = 8e5\nhardening_modulus = 1e8',

@@ -1,0 +1,1 @@
+"""Problems of excavation and construction: what leaves, what arrives, and in which order."""
