@@ -61,7 +61,7 @@ def pull(run: "Run", count: int) -> Floats:
 
 
 @dataclass(frozen=True)
-class Columns(SceneCase):
+class PlatenColumns(SceneCase):
     """Columns of three heights between platens: each break drops the force by one of them."""
 
     name: ClassVar[str] = "PA3"
