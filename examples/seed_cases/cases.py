@@ -30,16 +30,6 @@ RIGID = (
     '\n[formulation.cover]\nfunctions = "rigid"\n\n[formulation.contact]\nbonds = "spring"\n'
     'bond_stiffness = 1\njoint_points = "gauss"\n'
 )
-SPLITTING = (
-    '[splitting.concrete]\ntensile_strength = "2.9 MPa"\ncohesion = "4.7 MPa"\n'
-    'friction_angle = "37 deg"\nsmallest_block = "{smallest}"\n\n[[monitors]]'
-)
-CRACK = (
-    '[[cracks]]\nname = "notch"\npoints = [["200 mm", 0], ["200 mm", "10 mm"]]\n\n'
-    '[fracture]\ncriterion = "hoop_stress"\nenergy = "100 J/m^2"\nincrement = "5 mm"\n'
-    'max_growth = "80 mm"\ncontrol = "toughness"\n\n[[monitors]]'
-)
-MESH = '\n[formulation.cover]\ntype = "quads"\ndegree = 0\nsize = "6.3 mm"\n'
 
 
 @dataclass(frozen=True)
@@ -71,22 +61,9 @@ def beam(height: float = 100.0, blocks: int = 130, energy: float | None = None) 
     return text.replace("bonded = true\n", law)
 
 
-def splitting(text: str, smallest: str) -> str:
-    """Return a scene whose blocks split besides joints that break, under a growing load."""
-    text = re.sub(r"\[loading.control\]\n(.+\n)*", "", text)
-    return text.replace("[[monitors]]", SPLITTING.format(smallest=smallest), 1)
-
-
-def cracked() -> str:
-    """Return the plain beam as one body with a notch of 10 mm that grows."""
-    text = re.sub(r"motion_after_failure.*\n|maximum_factor.*\n", "", BEAM)
-    region = '[["0 mm", 0], ["400 mm", 0], ["400 mm", "100 mm"], [0, "100 mm"]]'
-    whole = f'[[blocks]]\nname = "beam"\nmaterial = "concrete"\nvertices = {region}\n\n'
-    text = re.sub(r"\[\[tessellations\]\]\n(.+\n)+\n", whole, text)
-    text = text.replace("[contact]\n", "").replace('until = "failure"', "until = 1")
-    text = re.sub(r"\[interfaces.concrete\]\n(.+\n)+\n", "", text)
-    text = text[: text.index("[[reference]]")]
-    return text.replace("[[monitors]]", CRACK) + MESH
+def plain(way: str) -> str:
+    """Return the plain beam, 130 blocks, by one of the ways in ``plain_beam``."""
+    return (HERE / "plain_beam" / f"{way}.toml").read_text()
 
 
 def loose() -> str:
@@ -96,10 +73,11 @@ def loose() -> str:
 
 
 CASES: dict[str, tuple[str, Callable[[], str]]] = {
-    "beam bonds": ("bonds between blocks", beam),
-    "beam rigid": ("rigid blocks and springs", lambda: beam() + RIGID),
-    "beam splitting": ("joints that break, blocks that split", lambda: splitting(beam(), "9 mm")),
-    "beam crack": ("crack that grows from a notch of 10 mm", cracked),
+    "beam bonds": ("bonds between blocks", lambda: plain("bonds")),
+    "beam springs": ("rigid blocks and springs", lambda: plain("springs")),
+    "beam splitting": ("joints that break, blocks that split", lambda: plain("splitting")),
+    "beam crack": ("crack that grows from a notch of 10 mm", lambda: plain("notch")),
+    "beam cohesive": ("cohesive crack from a notch of 10 mm", lambda: plain("cohesive")),
     "pull-out bonds": ("bonds between blocks, k = infinity", lambda: PULL_OUT),
     "pull-out free bonds": ("bonds between blocks, k = 0", loose),
     "pull-out rigid": ("rigid blocks and springs, k = infinity", lambda: PULL_OUT + RIGID),

@@ -10,6 +10,8 @@ from nmm.cli.terminal import console, faults_told, progress_bar, tell_files
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
+    from nmm.scene import Scene
+    from nmm.study.cases.variants import StudyCase
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene file, TOML.", metavar="SCENE")]
 Formulations = Annotated[
@@ -90,21 +92,26 @@ def cost(
 def compare(
     scene: SceneFile,
     formulations: Formulations = None,
+    beside: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--beside", "-b", help="Another scene of the same case, with its own formulation."
+        ),
+    ] = None,
     memory: Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")] = True,
     out: Out = None,
     quiet: Quiet = False,
     allow_code: AllowCode = None,
 ) -> None:
-    """Draw a scene under several formulations side by side, with a table."""
+    """Draw a scene under several formulations, or scenes of one case, side by side with a table."""
     with faults_told(), allowed(scene, allow_code):
         _one_thread()
-        import nmm
-        from nmm.study.compare import compare_formulations, comparison_page, write_comparison
+        from nmm.study.comparison.page import comparison_page, write_comparison
+        from nmm.study.comparison.runs import compare_cases
 
         with progress_bar(quiet) as progress:
-            study = compare_formulations(
-                nmm.read_scene(scene), _formulations(scene, formulations or []), memory, progress
-            )
+            cases = _compared_cases(scene, formulations or [], beside or [])
+            study = compare_cases(cases, memory, progress)
         files = write_comparison(study, out or Path("runs") / f"{scene.stem}-compare")
         if not quiet:
             for line in comparison_page(study, "").splitlines():
@@ -256,6 +263,30 @@ def _formulations(scene: Path, paths: list[Path]) -> "dict[str, Formulation]":
         return read_formulations(paths)
     own = nmm.read_scene(scene).formulation or Formulation()
     return {own.title or "the scene's own": own}
+
+
+def _compared_cases(scene: Path, formulations: list[Path], beside: list[Path]) -> "list[StudyCase]":
+    """Return a scene under formulations, and others of its case under their own."""
+    import nmm
+    from nmm.formulation import Formulation
+    from nmm.study.cases.variants import StudyCase
+
+    first = nmm.read_scene(scene)
+    if beside and not formulations:
+        named = {_scene_name(first, scene): first.formulation or Formulation()}
+    else:
+        named = _formulations(scene, formulations)
+    cases = [StudyCase(name, first, one) for name, one in named.items()]
+    for path in beside:  # a handful of scenes
+        other = nmm.read_scene(path)
+        name = _scene_name(other, path)
+        cases.append(StudyCase(name, other, other.formulation or Formulation()))
+    return cases
+
+
+def _scene_name(scene: "Scene", path: Path) -> str:
+    own = scene.formulation
+    return own.title if own is not None and own.title else scene.title or path.stem
 
 
 def _listed(text: str | None) -> list[str]:

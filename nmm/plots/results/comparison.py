@@ -31,6 +31,8 @@ class Shown:
         Images of the size of displacement (m) and of the von Mises stress (Pa).
     contact_position, contact_vector
         (C, 2) m and N.
+    cracks
+        Lines (n, 2) of what broke (m).
     x, y
         Curve of a history column.
     """
@@ -42,6 +44,7 @@ class Shown:
     stress: Floats
     contact_position: Floats
     contact_vector: Floats
+    cracks: Sequence[Floats]
     x: Floats
     y: Floats
 
@@ -75,7 +78,8 @@ def comparison(
     columns = len(runs) + len(differences)
     contacts = any(len(one.contact_vector) for one in runs)
     curves = any(len(one.x) > 1 for one in runs)
-    figure, panels = _panels(2 + contacts, columns, extent, curves)
+    broken = any(len(one.cracks) for one in runs)
+    figure, panels = _panels(2 + broken + contacts, columns, extent, curves)
     looks = styles([one.family for one in runs], [one.method for one in runs])
     shades = [colour for colour, _ in looks]
     rows: list[tuple[str, str, list[Floats], list[Floats]]] = [
@@ -90,8 +94,10 @@ def comparison(
     for axes, one, shade in zip(panels[0][len(runs) :], runs[1:], shades[1:], strict=True):
         words = f"{one.name}\nless {runs[0].name}"
         axes.set_title(words, loc="left", fontsize=SMALL, color=shade)
+    if broken:
+        _cracks(panels[2], runs, shades, extent)
     if contacts:
-        _contacts(panels[2], runs, shades, extent)
+        _contacts(panels[2 + broken], runs, shades, extent)
     if curves:
         _curves(panels[-1][0], runs, shades, curve)
     if title:
@@ -169,6 +175,21 @@ def _label_places(row: "Sequence[Axes]") -> None:
             axes.spines[side].set_visible(False)
 
 
+def _cracks(
+    row: "Sequence[Axes]", runs: Sequence[Shown], shades: Sequence[str], extent: Floats
+) -> None:
+    """Draw what broke over the outline of what is drawn above."""
+    from matplotlib.collections import LineCollection
+
+    for axes, one, shade in zip(row, runs, shades, strict=False):
+        box = (extent[0, 0], extent[1, 0], extent[0, 1], extent[1, 1])
+        inside = np.isfinite(one.displacement)
+        axes.imshow(inside, origin="lower", extent=box, cmap="Greys", vmin=0, vmax=8)
+        axes.add_collection(LineCollection(list(one.cracks), colors=shade, linewidths=1.6))
+        axes.set_title("what broke", loc="left", fontsize=SMALL - 1)
+    _frame_pictures(row, len(runs), extent)
+
+
 def _contacts(
     row: "Sequence[Axes]", runs: Sequence[Shown], shades: Sequence[str], extent: Floats
 ) -> None:
@@ -195,11 +216,16 @@ def _contacts(
             loc="left",
             fontsize=SMALL - 1,
         )
+    _frame_pictures(row, len(runs), extent)
+
+
+def _frame_pictures(row: "Sequence[Axes]", shown: int, extent: Floats) -> None:
+    """Give pictures of lines the frame of the images above them, and hide those of differences."""
     _label_places(row)
     for number, axes in enumerate(row):
         axes.set_aspect("equal")
         axes.set(xlim=extent[:, 0], ylim=extent[:, 1])
-        axes.set_visible(number < len(runs))
+        axes.set_visible(number < shown)
 
 
 def _curves(

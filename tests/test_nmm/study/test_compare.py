@@ -7,7 +7,9 @@ from typer.testing import CliRunner
 import nmm
 from integration.polygons import Polygons
 from nmm.cli.app import app
-from nmm.study.compare import compare_formulations, comparison_page, write_comparison
+from nmm.study.cases.variants import StudyCase
+from nmm.study.comparison.page import comparison_page, write_comparison
+from nmm.study.comparison.runs import compare_cases
 from nmm.study.samples import elements_at, fields, raster
 
 # With it a bar held along its end in x is under uniform tension, which every formulation holds
@@ -62,7 +64,8 @@ def test_fields_of_uniform_tension_are_exact(bar, name):
 
 def test_the_page_holds_table_differences_and_faults(bar, tmp_path):
     broken = nmm.Formulation.model_validate({"cover": {"functions": "none_such"}})
-    study = compare_formulations(bar, {**KINDS, "broken": broken}, memory=False)
+    cases = [StudyCase(name, bar, kind) for name, kind in {**KINDS, "broken": broken}.items()]
+    study = compare_cases(cases, memory=False)
     files = write_comparison(study, tmp_path)
     assert [path.name for path in files] == ["compare.md", "compare.png"]
     page = comparison_page(study, "compare.png")
@@ -84,3 +87,18 @@ def test_the_verb_writes_the_page(tmp_path, pulled):
     assert result.exit_code == 0, result.output
     assert "| family | DDA | DDA |" in result.stdout
     assert (tmp_path / "compare.png").exists()
+
+
+def test_scenes_of_one_case_are_columns_beside_each_other(tmp_path, bar_text):
+    """Half of the load beside all of it: displacements differ by half, energies by a quarter."""
+    whole, half = tmp_path / "whole.toml", tmp_path / "half.toml"
+    for path, pull in ((whole, 1e-3), (half, 5e-4)):
+        text = bar_text(fix='["x"]', traction=f"[{pull}, 0]", more=CORNER)
+        path.write_text(f'{text}\n[formulation]\ntitle = "{path.stem}"\n')
+    words = ["compare", whole, "--beside", half, "--no-memory", "--out", tmp_path]
+    result = CliRunner().invoke(app, [str(word) for word in words])
+    assert result.exit_code == 0, result.output
+    assert "half differs from whole by 50 % in displacement and 50 % in stress" in result.stdout
+    energy = next(x for x in result.stdout.splitlines() if x.startswith("| elastic energy"))
+    one, other = (float(cell) for cell in energy.split("|")[2:4])
+    assert other == pytest.approx(one / 4, rel=1e-3)

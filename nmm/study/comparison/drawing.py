@@ -1,0 +1,64 @@
+"""The figure of a comparison: fields, cracks and forces side by side, and a curve of each run."""
+
+from pathlib import Path
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.results.frame import Frame
+from nmm.stepping.run import Run
+from nmm.study.comparison.runs import Comparison
+
+
+def draw(study: Comparison, path: Path) -> None:
+    """Draw the page's figure."""
+    from nmm.plots.results.comparison import Shown, comparison
+    from nmm.results.viewing.paraview import contact_vectors
+
+    made, image = study.made, study.raster.image
+    x, y = curve_columns(made[0][1])
+    shown = [
+        Shown(
+            one.name,
+            one.family,
+            one.method,
+            image(np.hypot(*values.displacement.T)),
+            image(values.mises),
+            last_frame(done).contact_position,
+            contact_vectors(last_frame(done)),
+            cracks(done),
+            done.history.get(x, np.empty(0)),
+            done.history.get(y, np.empty(0)),
+        )
+        for one, done, values in made
+    ]
+    differences = [
+        (one.displacement - shown[0].displacement, one.stress - shown[0].stress)
+        for one in shown[1:]
+    ]
+    comparison(shown, differences, study.raster.extent, title=study.title, curve=(x, y), path=path)
+
+
+def cracks(run: Run) -> list[Floats]:
+    """Return lines (n, 2) in reference coordinates (m): joints that broke, ways of crack tips."""
+    from nmm.plots.results.broken import broken_parts
+    from nmm.plots.results.crack_paths import grown_paths
+
+    frame = last_frame(run)
+    topology = run.topologies[frame.topology]
+    parts = broken_parts(run.frames, topology, frame).on(topology.elements)
+    return [*parts, *grown_paths(run).values()]
+
+
+def last_frame(run: Run) -> Frame:
+    """Return the last frame of a run in equilibrium; what moves after failure is not compared."""
+    return next((one for one in reversed(run.frames) if one.stage != "failure"), run.frames[-1])
+
+
+def curve_columns(run: Run) -> tuple[str, str]:
+    """Return what grows in a run, and the monitor that moved most, else the elastic energy."""
+    known = run.history
+    clock = "load_factor" if np.ptp(known.get("load_factor", np.zeros(1))) > 0 else "time"
+    moved = [name for name in known if name.startswith("monitor:")]
+    most = max(moved, key=lambda name: float(np.nanmax(np.abs(known[name]))), default="")
+    return clock, most or "strain_energy"
