@@ -14,6 +14,7 @@ from nmm.results.storage.writing import told, write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 WIDTH = 7.0  # inches, about the text width of a page
 RESOLUTION = 200  # dots an inch
@@ -144,9 +145,33 @@ def save(axes: "Axes", path: PathLike | None) -> None:
     """Write the figure of the axes when a path is given; folders are made when missing."""
     if path is None:
         return
-    target, picture = Path(path), io.BytesIO()
+    target = Path(path)
     kind = target.suffix.removeprefix(".") or "png"
-    axes.figure.figure.savefig(picture, dpi=RESOLUTION, format=kind)
+    figure, picture = axes.figure.figure, io.BytesIO()
+    if kind == "png":
+        _draw_once(figure, picture)
+    else:
+        figure.savefig(picture, dpi=RESOLUTION, format=kind)
     with told(target.parent):
         target.parent.mkdir(parents=True, exist_ok=True)
     write_bytes(target, picture.getvalue())
+
+
+def _draw_once(figure: "Figure", picture: io.BytesIO) -> None:
+    """Write a figure as PNG.
+
+    `Figure.savefig` draws one that has a layout twice, the first time for the layout alone, which
+    measures all texts by itself. Nothing shines through, so that three channels are enough.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from PIL import Image
+
+    figure.set_dpi(RESOLUTION)
+    canvas, layout = FigureCanvasAgg(figure), figure.get_layout_engine()
+    if layout is not None:
+        layout.execute(figure)
+    figure.set_layout_engine("none")
+    canvas.draw()
+    figure.set_layout_engine(layout)
+    shown = Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])
+    shown.save(picture, format="png", dpi=(RESOLUTION, RESOLUTION))
