@@ -171,7 +171,8 @@ def _draw_once(figure: "Figure", picture: io.BytesIO) -> None:
     if layout is not None:
         layout.execute(figure)
     figure.set_layout_engine("none")
-    canvas.draw()
+    canvas.draw()  # type: ignore[no-untyped-call]
     figure.set_layout_engine(layout)
-    shown = Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])
+    pixels = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
+    shown = Image.fromarray(pixels[..., :3])
     shown.save(picture, format="png", dpi=(RESOLUTION, RESOLUTION))

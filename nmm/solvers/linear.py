@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
+import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
@@ -48,11 +49,15 @@ class LinearSolver(ABC):
         SolveError
             When an entry is not finite.
         """
-        if isinstance(matrix, csc_array) and matrix.has_sorted_indices:
+        short = matrix.indices.dtype == np.int32 if isinstance(matrix, csc_array) else False
+        if short and matrix.has_sorted_indices:
             return Factor.of(self, matrix)
         found = csc_array(matrix)
         # Decompositions sort indices in place, which scaled copies share with their original.
         found.sort_indices()
+        if not short:  # compiled code would be made anew for them
+            pattern = found.indices.astype(np.int32), found.indptr.astype(np.int32)
+            found = csc_array((found.data, *pattern), shape=found.shape)
         return Factor.of(self, found)
 
     def indefinite(self) -> "LinearSolver":

@@ -96,9 +96,9 @@ def _rays(shape: Shape, v: int, partner: int, rules: Rules) -> Rays:
     bx, by = -shape.real[p, TX], -shape.real[p, TY]
     if shape.link[v, OWN] < 0 and shape.link[v, BEFORE] < 0:
         return ox, oy, bx, by
-    good, ux, uy = _walk(shape, v, partner, ox, oy, bx, by, True, rules)
+    good, ux, uy = _walk(shape, v, partner, ox, oy, bx, by, 1.0, rules)
     if good:
-        good, wx, wy = _walk(shape, v, partner, bx, by, ux, uy, False, rules)
+        good, wx, wy = _walk(shape, v, partner, bx, by, ux, uy, -1.0, rules)
         if good:
             return ux, uy, wx, wy
     return ox, oy, bx, by
@@ -122,11 +122,14 @@ def _walk(
     ry: float,
     ax: float,
     ay: float,
-    forward: bool,
+    sense: float,
     rules: Rules,
 ) -> tuple[bool, float, float]:
-    """Turn one ray of a vertex over its flush neighbours; False where the union is not convex."""
-    at = v
+    """Turn one ray of a vertex over its flush neighbours; False where the union is not convex.
+
+    ``sense`` is 1 forward and -1 backward: of a truth that is written out each value is compiled.
+    """
+    at, forward = v, sense > 0.0
     for _ in range(MERGED_BODIES):
         x = shape.link[at, OWN] if forward else shape.link[at, BEFORE]
         if x < 0 or shape.link[x, BODY] == partner or shape.link[x, BODY] == shape.link[v, BODY]:

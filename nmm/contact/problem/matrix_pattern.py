@@ -15,6 +15,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Floats, Index
 from nmm.compiled import compiled
 from nmm.contact.problem.step_problem import StepProblem
+from nmm.solvers.ascending import ascend, extended, place_of
 from nmm.solvers.unchecked import made_of
 
 
@@ -119,15 +120,19 @@ def _unknowns(ptr_a: Index, idx_a: Index, ptr_b: Index, idx_b: Index) -> Index:
     for c in range(m):
         width = max(width, ptr_a[c + 1] - ptr_a[c] + ptr_b[c + 1] - ptr_b[c])
     both = np.full((m, width), -1, dtype=np.int32)
+    merged = np.empty(width, dtype=np.int32)
     most = 0
     for c in range(m):
-        na, nb_ = ptr_a[c + 1] - ptr_a[c], ptr_b[c + 1] - ptr_b[c]
-        merged = np.empty(na + nb_, dtype=np.int32)
-        merged[:na] = idx_a[ptr_a[c] : ptr_a[c + 1]]
-        merged[na:] = idx_b[ptr_b[c] : ptr_b[c + 1]]
-        merged.sort()
+        total = 0
+        for k in range(ptr_a[c], ptr_a[c + 1]):
+            merged[total] = idx_a[k]
+            total += 1
+        for k in range(ptr_b[c], ptr_b[c + 1]):
+            merged[total] = idx_b[k]
+            total += 1
+        ascend(merged[:total])
         count = 0
-        for k in range(na + nb_):
+        for k in range(total):
             if k == 0 or merged[k] != merged[k - 1]:
                 both[c, count] = merged[k]
                 count += 1
@@ -147,9 +152,7 @@ def _pattern(
         first = total
         need = own_ptr[j + 1] - own_ptr[j] + (who_ptr[j + 1] - who_ptr[j]) * unknowns.shape[1] + 1
         if total + need > len(indices):
-            longer = np.empty(2 * len(indices) + need, dtype=np.int32)
-            longer[:total] = indices[:total]
-            indices = longer
+            indices = extended(indices, 2 * len(indices) + need)
         mark[j] = j
         indices[total] = j
         total += 1
@@ -165,7 +168,7 @@ def _pattern(
                     mark[i] = j
                     indices[total] = i
                     total += 1
-        indices[first:total].sort()
+        ascend(indices[first:total])
         indptr[j + 1] = total
     return indptr, indices[:total].copy()
 
@@ -174,9 +177,8 @@ def _pattern(
 def _places(indptr: Index, indices: Index, own_ptr: Index, own_idx: Index) -> Index:
     place = np.empty(len(own_idx), dtype=np.int32)
     for j in range(len(own_ptr) - 1):
-        column = indices[indptr[j] : indptr[j + 1]]
         for k in range(own_ptr[j], own_ptr[j + 1]):
-            place[k] = indptr[j] + np.searchsorted(column, own_idx[k])
+            place[k] = place_of(own_idx[k], indices, indptr[j], indptr[j + 1])
     return place
 
 
@@ -209,7 +211,6 @@ def _run_starts(indptr: Index, indices: Index, unknowns: Index) -> Index:
             j = unknowns[c, spot]
             if j < 0:
                 break
-            column = indices[indptr[j] : indptr[j + 1]]
             run = -1
             for k in range(width):
                 i = unknowns[c, k]
@@ -217,7 +218,7 @@ def _run_starts(indptr: Index, indices: Index, unknowns: Index) -> Index:
                     break
                 if k == 0 or i != unknowns[c, k - 1] + 1:
                     run += 1
-                    start[c, spot, run] = indptr[j] + np.searchsorted(column, i)
+                    start[c, spot, run] = place_of(i, indices, indptr[j], indptr[j + 1])
     return start
 
 

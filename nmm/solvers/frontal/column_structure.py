@@ -4,6 +4,7 @@ import numpy as np
 
 from integration.arrays import Index, Ints
 from nmm.compiled import compiled
+from nmm.solvers.ascending import ascend, extended
 
 
 @compiled
@@ -68,9 +69,7 @@ def structures(ptr: Index, graph: Index, order: Ints, parent: Ints) -> tuple[Int
     for k in range(n):
         first = total
         if total + n > len(rows):
-            longer = np.empty(2 * len(rows) + n, dtype=np.int64)
-            longer[:total] = rows[:total]
-            rows = longer
+            rows = extended(rows, 2 * len(rows) + n)
         mark[k] = k
         for e in range(ptr[order[k]], ptr[order[k] + 1]):
             i = place[graph[e]]
@@ -87,7 +86,7 @@ def structures(ptr: Index, graph: Index, order: Ints, parent: Ints) -> tuple[Int
                     rows[total] = i
                     total += 1
             child = following[child]
-        rows[first:total].sort()
+        ascend(rows[first:total])
         start[k + 1] = total
         if parent[k] >= 0:
             following[k] = head[parent[k]]

@@ -34,13 +34,13 @@ def collect_lower(
 ) -> None:
     """Add the lower triangle of a child's update (size, size) to panel and update of a front."""
     for q in range(n_runs):
+        rows, moves = start[q : n_runs + 1], shift[q:n_runs]
         for j in range(start[q], start[q + 1]):
             column = j + shift[q]
             if column < c:
-                _add(panel[column * (c + r) :], 0, child[j * size :], j, q, start, shift, n_runs)
+                _add(panel, column * (c + r), child[j * size :], j, rows, moves)
             else:
-                into = update[(column - c) * r :]
-                _add(into, c, child[j * size :], j, q, start, shift, n_runs)
+                _add(update, (column - c) * r - c, child[j * size :], j, rows, moves)
 
 
 @compiled
@@ -60,34 +60,28 @@ def collect_whole(
     inner = 0
     while inner < n_runs and start[inner] + shift[inner] < c:
         inner += 1
+    rows, moves = start[: n_runs + 1], shift[:n_runs]
     for q in range(inner):
         for j in range(start[q], start[q + 1]):
-            into = panel[(j + shift[q]) * (c + r) :]
-            _add(into, 0, child[j * size :], 0, 0, start, shift, n_runs)
-    inside = start[inner]
+            _add(panel, (j + shift[q]) * (c + r), child[j * size :], start[0], rows, moves)
+    rows, moves = start[inner : n_runs + 1], shift[inner:n_runs]
     for q in range(inner, n_runs):
         for j in range(start[q], start[q + 1]):
             column = j + shift[q] - c
-            _add(update[column * r :], c, child[j * size :], inside, inner, start, shift, n_runs)
+            _add(update, column * r - c, child[j * size :], start[inner], rows, moves)
             for p in range(inner):
                 for i in range(start[p], start[p + 1]):
                     beside[(i + shift[p]) * r + column] += child[j * size + i]
 
 
 @compiled
-def _add(
-    into: Floats,
-    above: int,
-    column: Floats,
-    begin: int,
-    run: int,
-    start: Ints,
-    shift: Ints,
-    n_runs: int,
-) -> None:
-    """Add a column from row ``begin`` on to one that leaves out ``above`` rows."""
-    for p in range(run, n_runs):
-        a, b, off = max(begin, start[p]), start[p + 1], shift[p] - above
+def _add(into: Floats, base: int, column: Floats, begin: int, rows: Ints, moves: Ints) -> None:
+    """Add a column from row ``begin`` on; a row of it that is not moved goes to ``base`` and on.
+
+    ``begin`` is in the first of the stretches that start at ``rows``, and move by ``moves``.
+    """
+    for p in range(len(moves)):
+        a, b, off = max(begin, rows[p]), rows[p + 1], base + moves[p]
         given, taken = column[a:b], into[a + off : b + off]
         for i in range(len(given)):  # slices: plain enough for vector instructions
             taken[i] += given[i]

@@ -5,6 +5,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Index, Ints
 from nmm.compiled import compiled
+from nmm.solvers.ascending import ascend
 
 ALIKE_COLUMNS = 0.75
 """Part of their rows that columns share which are eliminated together. Entries that round to zero
@@ -77,7 +78,7 @@ def _quotient(indptr: Index, indices: Index, node_of: Ints, n: int) -> tuple[Ind
                     graph[total] = other
                     total += 1
             j += 1
-        graph[first:total].sort()
+        ascend(graph[first:total])
         ptr[node + 1] = total
     return ptr, graph[:total].copy()
 
