@@ -76,6 +76,11 @@ class ElementGroup(ABC):
     def slots(self) -> Ints:
         """(S,) place of the cover of each weighted monomial among those of an element, else -1."""
 
+    @property
+    @abstractmethod
+    def carriers(self) -> Ints:
+        """(S,) place of the cover of each function, singular ones too, among an element's."""
+
     @abstractmethod
     def values(self, index: Ints, points: Floats) -> Floats:
         """``phi_s`` (m, S) at reference points (m, 2) in elements ``index`` (m,) of the group."""
@@ -187,6 +192,11 @@ class PolynomialGroup(ElementGroup):
     @property
     def slots(self) -> Ints:
         """See `ElementGroup.slots`."""
+        return self.cover
+
+    @property
+    def carriers(self) -> Ints:
+        """See `ElementGroup.carriers`."""
         return self.cover
 
     def values(self, index: Ints, points: Floats) -> Floats:

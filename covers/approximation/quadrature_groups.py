@@ -78,6 +78,11 @@ class QuadratureGroup(ElementGroup):
         """See `ElementGroup.slots`."""
         return self.fields.monomial_slots
 
+    @property
+    def carriers(self) -> Ints:
+        """See `ElementGroup.carriers`."""
+        return self.fields.cover
+
     def values(self, index: Ints, points: Floats) -> Floats:
         """See `ElementGroup.values`."""
         return self.fields.evaluate(index, points)[0]

@@ -1,8 +1,9 @@
 """The scalar functions of a manifold with numbers of their own.
 
-A field is ``T(x) = sum_i w_i(x) sum_j f_ij(x) t_ij`` with the weights and monomials of the
-displacements, whatever unknowns combine them there. Singular functions of crack tips, which are
-made for displacements, are left out.
+A field is ``T(x) = sum_i w_i(x) sum_j f_ij(x) t_ij`` with the weights, monomials and components of
+singular functions that displacements have, whatever unknowns combine them there. Those of a crack
+tip span ``sqrt(r) sin(t / 2)`` and ``sqrt(r) cos(t / 2)``, which is how fields that spread along
+their slope behave at the end of a line that they do not cross, and of one that holds them.
 """
 
 from dataclasses import dataclass
@@ -26,14 +27,11 @@ class ScalarGroup:
     ----------
     group
         The elements and their functions ``phi_s``.
-    kept
-        (T,) which of the ``phi_s`` are weighted monomials.
     numbers
-        (n, T) number of each of them among the functions of the manifold.
+        (n, S) number of each of them among the functions of the manifold.
     """
 
     group: ElementGroup
-    kept: Ints
     numbers: Ints
 
 
@@ -58,16 +56,14 @@ class ScalarSpace:
     @classmethod
     def of(cls, manifold: Manifold) -> Self:
         """Number the functions cover by cover."""
-        known = [_covers(group, manifold.cover_offset) for group in manifold.groups]
+        covers = [_covers(group, manifold.cover_offset) for group in manifold.groups]
         size = np.zeros(manifold.n_covers, dtype=np.int64)
-        for (kept, cover), group in zip(known, manifold.groups, strict=True):  # a handful
-            places = group.slots[kept]
-            counts = np.bincount(places, minlength=int(places.max(initial=-1)) + 1)
-            size[cover] = counts[places]
+        for cover, group in zip(covers, manifold.groups, strict=True):  # a handful
+            size[cover] = np.bincount(group.carriers)[group.carriers]
         offset = np.concatenate([[0], np.cumsum(size)])
         groups = tuple(
-            ScalarGroup(group, kept, offset[cover] + _within(group.slots[kept]))
-            for (kept, cover), group in zip(known, manifold.groups, strict=True)
+            ScalarGroup(group, offset[cover] + _within(group.carriers))
+            for cover, group in zip(covers, manifold.groups, strict=True)
         )
         return cls(manifold, groups, offset)
 
@@ -117,28 +113,28 @@ class ScalarSpace:
         for number in np.unique(wanted):  # a handful of groups
             position, part = np.flatnonzero(wanted == number), self.groups[number]
             inside = index[elements[position]]
-            found = getattr(part.group, what)(inside, points[position])[:, part.kept]
-            # Gradients (m, T, 2) become (m, 2, T): functions last.
+            found = getattr(part.group, what)(inside, points[position])
+            # Gradients (m, S, 2) become (m, 2, S): functions last.
             found = np.swapaxes(found, 1, 2) if found.ndim == 3 else found
             parts.append((position, part.numbers[inside], found))
         return stack_groups(parts, len(elements))
 
 
-def _covers(group: ElementGroup, offset: Ints) -> tuple[Ints, Ints]:
-    """Which functions (T,) of a group are weighted monomials, and the cover (n, T) of each."""
-    slots = group.slots
-    kept = np.flatnonzero(slots >= 0)
+def _covers(group: ElementGroup, offset: Ints) -> Ints:
+    """Return the cover (n, S) of each function of a group."""
     owner = np.searchsorted(offset, group.unknowns, side="right") - 1
     # Unknowns stand cover after cover, as the places of the covers count.
     first = owner[0] if len(owner) else np.zeros(0, dtype=np.int64)
     begins = np.flatnonzero(np.diff(first, prepend=-1))
-    return kept, owner[:, begins[slots[kept]]]
+    return owner[:, begins[group.carriers]]
 
 
-def _within(slots: Ints) -> Ints:
-    """Place (T,) of each function among those of its cover, which follow one another."""
-    begin = np.flatnonzero(np.diff(slots, prepend=-1))
-    return np.asarray(np.arange(len(slots)) - np.repeat(begin, np.diff([*begin, len(slots)])))
+def _within(carriers: Ints) -> Ints:
+    """Place (S,) of each function among those of its cover."""
+    order, counts = np.argsort(carriers, kind="stable"), np.bincount(carriers)
+    found = np.empty_like(carriers)
+    found[order] = np.arange(len(carriers)) - np.repeat(np.cumsum(counts) - counts, counts)
+    return found
 
 
 def _matrix(numbers: Ints, values: Floats, n: int) -> csr_array:

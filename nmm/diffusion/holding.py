@@ -112,7 +112,7 @@ Slopes = Callable[[Ints, Floats, Floats], Floats]
 
 def _element_energy(space: ScalarSpace, elements: Ints, factor: Floats) -> tuple[Floats, Slopes]:
     """``int factor grad . grad`` (m, L, L) of elements, and slopes (m, L) along vectors in them."""
-    length = max((len(part.kept) for part in space.groups), default=0)
+    length = max((part.numbers.shape[1] for part in space.groups), default=0)
     total = np.zeros((len(elements), length, length))
     index = np.full(len(space.manifold.elements), -1)
     owner = np.full(len(index), -1)
@@ -123,8 +123,8 @@ def _element_energy(space: ScalarSpace, elements: Ints, factor: Floats) -> tuple
         if not len(chosen):
             continue
         product = group.gradient_products()
-        both = (product[:, 0] + product[:, 2])[:, part.kept[:, None], part.kept]
-        k = len(part.kept)
+        both = product[:, 0] + product[:, 2]
+        k = part.numbers.shape[1]
         own = elements[chosen]
         total[chosen, :k, :k] = both[group.shape[index[own]]] * factor[own][:, None, None]
 
@@ -133,8 +133,10 @@ def _element_energy(space: ScalarSpace, elements: Ints, factor: Floats) -> tuple
         for number, part in enumerate(space.groups):  # a handful of groups
             chosen = np.flatnonzero(owner[own] == number)
             if len(chosen):
-                values = part.group.gradients(index[own[chosen]], points[chosen])[:, part.kept]
-                found[chosen, : len(part.kept)] = np.einsum("msj,mj->ms", values, along[chosen])
+                values = part.group.gradients(index[own[chosen]], points[chosen])
+                found[chosen, : part.numbers.shape[1]] = np.einsum(
+                    "msj,mj->ms", values, along[chosen]
+                )
         return found
 
     return total, slopes

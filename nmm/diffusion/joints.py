@@ -44,7 +44,7 @@ def across_blocks(
     if model.manifold.n_bodies < 2:
         return
     joints = shared_edges(model)
-    joints = joints.take(~_cracked(model)[joints.edge_a])
+    joints = joints.take(~crack_faces(model)[joints.edge_a])
     region, element = model.manifold.element_region, model.manifold.boundary.element
     pairs = np.stack([region[element[joints.edge_a]], region[element[joints.edge_b]]], axis=1)
     found: list[Conductance] = [None] * len(pairs)
@@ -60,8 +60,8 @@ def across_blocks(
         yield from _joined(joining, interface.sides, interface.first.piece, values, name)
 
 
-def _cracked(model: Model) -> Bools:
-    """Which edges of the boundary are faces of cracks."""
+def crack_faces(model: Model) -> Bools:
+    """Return which edges (b,) of the boundary are faces of cracks."""
     boundary = model.cut.boundary
     if not isinstance(boundary, CutBoundary):
         return np.zeros(len(boundary), dtype=bool)

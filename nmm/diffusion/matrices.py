@@ -30,20 +30,20 @@ def integrals(space: ScalarSpace, factor: Floats) -> Floats:
     total = np.zeros(space.n)
     for part in space.groups:  # a handful of groups
         group = part.group
-        values = group.integrals()[:, part.kept][group.shape] * factor[group.elements, None]
+        values = group.integrals()[group.shape] * factor[group.elements, None]
         total += np.bincount(part.numbers.ravel(), values.ravel(), minlength=space.n)
     return total
 
 
 def element_means(space: ScalarSpace) -> csr_array:
     """Rows (E, n) of the mean of the field over each element."""
-    return _by_element(space, lambda part: part.group.integrals()[:, part.kept])
+    return _by_element(space, lambda part: part.group.integrals())
 
 
 def element_slopes(space: ScalarSpace) -> tuple[csr_array, csr_array]:
     """Rows (E, n) of the mean slopes along x and y over each element."""
     x, y = (
-        _by_element(space, lambda part, i=i: part.group.gradient_integrals()[:, part.kept, i])  # type: ignore[misc]
+        _by_element(space, lambda part, i=i: part.group.gradient_integrals()[:, :, i])  # type: ignore[misc]
         for i in (0, 1)
     )
     return x, y
@@ -59,7 +59,7 @@ def stress_coupling(space: ScalarSpace, stress: Floats) -> csr_array:
         group = part.group
         own = stress[group.elements]
         # (d, T, S, 2): integrals of phi_t times the slopes of phi_s.
-        by_slope = group.value_gradients(part.kept)[group.shape]
+        by_slope = group.value_gradients(np.arange(len(group.carriers)))[group.shape]
         tensor = own[:, [[0, 2], [2, 1]]]
         full = np.einsum("ntsj,ncj->ntsc", by_slope, tensor)
         full = full.reshape(*full.shape[:2], -1)
@@ -84,8 +84,7 @@ def _form(space: ScalarSpace, factor: Floats, of: Callable[[ScalarGroup], Floats
             return_index=True,
             return_inverse=True,
         )
-        own = of(part)[:, part.kept[:, None], part.kept]
-        matrices = own[group.shape[first]] * pairs[:, 1, None, None]
+        matrices = of(part)[group.shape[first]] * pairs[:, 1, None, None]
         parts.append(Part(part.numbers, matrices, kind.ravel()))
     return assemble(parts, space.n, space.offset)
 

@@ -144,6 +144,8 @@ CASES = Registry[type[Case]](
         "TH6": f"{_HOME}.heat_flow:ParabolicTemperature",
         "TH7": f"{_HOME}.heat_flow:Slab",
         "TH8": f"{_HOME}.heat_flow:HeatRates",
+        "TH9": f"{_HOME}.heat_at_tips:HeatAtTip",
+        "TH9 slit": f"{_HOME}.heat_at_tips:HeatAroundSlit",
         "BM1": f"{_HOME}.shaking:ShakenMass",
         "BM2": f"{_HOME}.shaking:LayerOnRock",
         "BM4": f"{_HOME}.shaking:LevelGround",

@@ -52,9 +52,24 @@ def test_there_is_one_function_where_displacements_have_two_unknowns():
     assert found.body.tolist() == [0] * found.n
 
 
-def test_singular_functions_of_tips_are_left_out_and_cracks_cut():
+def test_cracks_cut_fields_and_their_tips_carry_the_components_of_singular_functions():
     crack = np.array([[-0.5, 0.5], [1.1, 0.62]])
     plain, cut = space("triangles"), space("triangles", [crack])
     assert cut.manifold.enriched > 0
+    # Two vector functions a cover give displacements two unknowns, and fields four functions.
+    monomials = (cut.manifold.n_unknowns - 2 * cut.manifold.enriched) // 2
+    assert cut.n == monomials + 4 * cut.manifold.enriched
     assert cut.n > plain.n
-    assert 2 * cut.n < cut.manifold.n_unknowns
+
+
+def test_fields_hold_the_root_of_the_distance_on_both_sides_of_a_crack():
+    """``sqrt(r) sin(t / 2)`` jumps across the crack; in the element about the tip."""
+    tip = np.array([1.1, 0.62])
+    found = space("triangles", [np.array([[-0.5, 0.62], tip])])
+    rule = own_rule(found.manifold)
+    z = (rule.points - tip) @ np.array([1, 1j])
+    near = rule.owner == rule.owner[np.argmin(abs(z))]
+    rows = found.values(rule.owner[near], rule.points[near]).toarray()
+    for wanted in (np.sqrt(z[near]).imag, np.sqrt(z[near]).real):
+        unknowns = np.linalg.lstsq(rows, wanted, rcond=1e-13)[0]
+        assert rows @ unknowns == pytest.approx(wanted, abs=1e-9)
