@@ -2,51 +2,33 @@
 
 *One solution* assembles, factorises and solves a model of the same cells that is there already; a
 step of growth finds the load of the present cracks, lets them grow, and changes the model. Seconds
-of its phases are shares of the step.
+of its phases are shares of the step. Cutting again is measured by itself, beside cutting anew.
 """
 
 from functools import cache
 from time import process_time
 from typing import Any
 
+import numpy as np
 import pytest
 
+from covers.cutting.again.recut import cut_again
+from covers.cutting.cut import cutting
 from nmm.effects.base import Instant
-from nmm.formulation import Formulation
+from nmm.formulation import Formulation, parse_formulation
 from nmm.results.sink import MemorySink
 from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
 from nmm.stepping.simulation import Simulation
+from nmm.testing.scenes import notched_plate, turned_net
 
 SIZES = (0.05, 0.035, 0.025, 0.0175)
 """Cells of a plate of one by one."""
 PIECES = 12
 PHASES = ("change", "events", "assembly", "solve")
 
-PLATE = """
-plane = "strain"
-[materials.m]
-young_modulus = 1.0
-poisson_ratio = 0.3
-[[blocks]]
-name = "plate"
-material = "m"
-vertices = [[0, -0.5], [1, -0.5], [1, 0.5], [0, 0.5]]
-[[cracks]]
-name = "notch"
-points = [[-0.1, 0.0], [0.3, 0.0]]
-[[supports]]
-name = "floor"
-segment = [[0, -0.5], [1, -0.5]]
-fix = ["x", "y"]
-[[loads]]
-name = "up"
-kind = "edge"
-segment = [[0, 0.5], [1, 0.5]]
-traction = [0, 1.0]
-[fracture]
-toughness = 1.0
+FRACTURE = """toughness = 1.0
 increment = 0.01
 max_growth = {growth}
 control = "toughness"
@@ -55,13 +37,12 @@ control = "toughness"
 
 def plate(pieces: int) -> Scene:
     """Return the plate whose edge crack grows by so many pieces."""
-    return parse_scene(PLATE.format(growth=0.01 * pieces))
+    return parse_scene(notched_plate(FRACTURE.format(growth=0.01 * pieces)))
 
 
 def cover(size: float) -> Formulation:
     """Return the net of cells of a size."""
-    net = {"type": "triangles", "size": size, "angle": 0.3, "shift": [0.13, 0.27], "degree": 1}
-    return Formulation.model_validate({"cover": net, "supports": {"method": "nitsche"}})
+    return parse_formulation(turned_net(size))
 
 
 @cache
@@ -98,4 +79,21 @@ def test_steps_of_growth(benchmark: Any, size: float) -> None:
         "one solution, s": once,
         "a step over it": benchmark.stats.stats.min / steps / once,
         **{name: seconds[name] / total for name in PHASES},
+    }
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_cut_of_a_piece(benchmark: Any, size: float) -> None:
+    laid = prepare(plate(1), cover(size)).stepper.model.cutting
+    assert laid is not None
+    longer = [np.array([[-0.1, 0.0], [0.3, 0.0], [0.31, 0.0]])]
+    benchmark.group = "cut of a piece"
+    benchmark.pedantic(cut_again, (laid, longer), rounds=5, warmup_rounds=1)
+    begun = process_time()
+    found = cutting(laid.cover, laid.regions, longer)
+    anew = process_time() - begun
+    benchmark.extra_info |= {
+        "elements": len(found.cells.elements),
+        "anew, s": anew,
+        "anew over it": anew / benchmark.stats.stats.min,
     }

@@ -4,6 +4,48 @@ from collections.abc import Sequence
 
 from nmm.verification import text
 
+# The load of `notched_plate`: 1 Pa along its upper edge.
+PULLED = """
+[[loads]]
+name = "up"
+kind = "edge"
+segment = [[0, 0.5], [1, 0.5]]
+traction = [0, 1.0]
+"""
+
+
+def notched_plate(fracture: str, pulled: str = PULLED, tip: float = 0.3) -> str:
+    """Return a plate of 1 m by 1 m that stands on its lower edge, with a crack from the left.
+
+    Parameters
+    ----------
+    fracture
+        Keys of ``[fracture]``.
+    pulled
+        Tables of what pulls it.
+    tip
+        Where the "notch" ends (m).
+    """
+    return text.scene(
+        'plane = "strain"',
+        [
+            text.material("m", 1.0, 0.3, None),
+            text.box("plate", (0, -0.5), (1, 1), "m"),
+            f'[[cracks]]\nname = "notch"\npoints = [[-0.1, 0.0], [{tip}, 0.0]]\n',
+            edge_support("floor", (0, -0.5), (1, -0.5)),
+            pulled,
+            f"[fracture]\n{fracture}\n",
+        ],
+    )
+
+
+def turned_net(size: float) -> str:
+    """Return a formulation: triangles of degree 1 whose lines meet no edge of the scenes."""
+    return (
+        f'[cover]\ntype = "triangles"\nsize = {size}\nangle = 0.3\nshift = [0.13, 0.27]\n'
+        'degree = 1\n[supports]\nmethod = "nitsche"\n'
+    )
+
 
 def pulled_bar(
     materials: Sequence[str],

@@ -39,24 +39,38 @@ def advanced(
     length
         Of each (m).
     """
-    grown, edges = list(cracks), cut.boundary
-    begins = fronts.points(cracks)
-    start, end, body = edges.start, edges.end, edges.body
-    for front, tip, turn in zip(growing, tips, angle, strict=True):  # a handful of fronts
-        begin, ahead = begins[front], cut.tips.direction[tip]
-        c, s = np.cos(turn), np.sin(turn)
-        way = np.array([c * ahead[0] - s * ahead[1], s * ahead[0] + c * ahead[1]])
-        mine = cut.element_body[cut.tips.element[tip]]
-        near = body == mine
-        reach = _clear(begin, way, start[near], end[near], length)
-        last = begin + reach * way
-        line, crack = grown[fronts.crack[front]], fronts.crack[front]
+    ends = new_ends(cut, fronts.points(cracks)[growing], tips, angle, length)
+    return with_pieces(cracks, fronts, growing, ends)
+
+
+def with_pieces(
+    cracks: Sequence[Floats], fronts: CrackFronts, growing: Ints, ends: Floats
+) -> tuple[Floats, ...]:
+    """Return the polylines drawn on to ``ends`` (k, 2) at the fronts that grow (k,)."""
+    grown = list(cracks)
+    for front, last in zip(growing, ends, strict=True):  # a handful of fronts
+        line = grown[fronts.crack[front]]
         parts = [line, last[None]] if fronts.last[front] else [last[None], line]
-        grown[crack] = np.concatenate(parts)
-        # A piece that comes after this one may not cross it.
-        start, end = np.append(start, begin[None], axis=0), np.append(end, last[None], axis=0)
-        body = np.append(body, mine)
+        grown[fronts.crack[front]] = np.concatenate(parts)
     return tuple(grown)
+
+
+def new_ends(cut: CutCells, begin: Floats, tips: Ints, angle: Floats, length: float) -> Floats:
+    """Return where new pieces (k,) end (k, 2) that begin at tips; see `advanced`."""
+    edges, ahead = cut.boundary, cut.tips.direction[tips]
+    start, end, body = edges.start, edges.end, edges.body
+    c, s = np.cos(angle), np.sin(angle)
+    ways = np.stack([c * ahead[:, 0] - s * ahead[:, 1], s * ahead[:, 0] + c * ahead[:, 1]], axis=1)
+    found = []
+    bodies = cut.element_body[cut.tips.element[tips]]
+    for here, way, mine in zip(begin, ways, bodies, strict=True):  # a handful of fronts
+        near = body == mine
+        last = here + _clear(here, way, start[near], end[near], length) * way
+        found.append(last)
+        # A piece that comes after this one may not cross it.
+        start, end = np.append(start, here[None], axis=0), np.append(end, last[None], axis=0)
+        body = np.append(body, mine)
+    return np.array(found).reshape(-1, 2)
 
 
 def _clear(begin: Floats, way: Floats, start: Floats, end: Floats, length: float) -> float:

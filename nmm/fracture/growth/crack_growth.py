@@ -13,4 +13,4 @@ class CrackGrowth(GrowingCracks):
 
     def follow(self, change: "Change") -> "CrackGrowth":
         """Return the effect on the new geometry, with what its fronts have gained."""
-        return CrackGrowth(change.setup, self._fronts, self._grown_so_far(change))
+        return CrackGrowth(change.setup, self._grown_so_far(change))

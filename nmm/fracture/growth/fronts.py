@@ -16,7 +16,9 @@ ROUNDING = 1e-6
 
 @dataclass(frozen=True)
 class CrackFronts:
-    """Both ends of every crack of a scene; those that are no tips now have ended or never were.
+    """Both ends of every crack of a scene, and the ends of branches.
+
+    Those that are no tips now have ended or never were.
 
     Attributes
     ----------
@@ -39,6 +41,14 @@ class CrackFronts:
         n = len(names)
         return cls(tuple(both), np.repeat(np.arange(n), 2), np.tile([False, True], n))
 
+    def with_branches(self, cracks: Sequence[Floats]) -> "CrackFronts":
+        """Return these and a front at the last point of every polyline beyond those they have."""
+        first = int(self.crack.max(initial=-1)) + 1
+        more = np.arange(first, len(cracks))
+        names = tuple(f"branch {number}" for number in more - first + 1)
+        last = np.append(self.last, np.ones(len(more), dtype=bool))
+        return CrackFronts((*self.name, *names), np.append(self.crack, more), last)
+
     def __len__(self) -> int:
         return len(self.crack)
 
@@ -59,9 +69,15 @@ class CrackFronts:
         found[there] = nearest[there]
         return found
 
+    def former(self, before: Sequence[Floats], after: Sequence[Floats]) -> Floats:
+        """Points (n, 2) of the polylines ``before``; branches that are new began at their first."""
+        n = len(before)
+        then = [*before, *(line[:1] for line in after[n:])]
+        return self.points(then)
+
     def gained(self, before: Sequence[Floats], after: Sequence[Floats]) -> Floats:
         """Length (n,) by which each front has gone on from one set of polylines to another (m)."""
-        return np.asarray(np.hypot(*(self.points(after) - self.points(before)).T))
+        return np.asarray(np.hypot(*(self.points(after) - self.former(before, after)).T))
 
     def history(self, cracks: Sequence[Floats], origin: Floats, grown: Floats) -> dict[str, float]:
         """Place in the scene's axes and growth (n,) of every front (m), by its name."""

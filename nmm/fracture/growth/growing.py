@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -15,6 +15,7 @@ from nmm.effects.event import Event
 from nmm.fracture.growth.advance import advanced
 from nmm.fracture.growth.faces import CrackFaces
 from nmm.fracture.growth.fronts import CrackFronts
+from nmm.fracture.growth.grown import GrownSoFar
 from nmm.fracture.growth.intensities import Intensities, tip_moduli
 from nmm.fracture.growth.refusals import refuse
 from nmm.fracture.growth.rule import GrowthRule
@@ -28,14 +29,6 @@ if TYPE_CHECKING:
     from nmm.effects.view import View
 
 
-@dataclass(frozen=True)
-class GrownSoFar:
-    """How far each front has grown (n,) (m), and the energy that all of them took (J)."""
-
-    length: Floats
-    energy: float
-
-
 class GrowingCracks(Effect):
     """Cracks of the scene that grow by a rule; their fracture energy is what the growth takes."""
 
@@ -44,12 +37,15 @@ class GrowingCracks(Effect):
     held: ClassVar[bool] = False
     """Whether new faces are held at first."""
 
-    def __init__(self, setup: Setup, fronts: CrackFronts, sofar: GrownSoFar) -> None:
+    def __init__(self, setup: Setup, sofar: GrownSoFar | None = None) -> None:
         table = setup.scene.fracture
         assert table is not None
         self.rule = GrowthRule.of(table)
-        self._setup, self._fronts, self._sofar, self._table = setup, fronts, sofar, table
-        self._tips = fronts.tips(setup.model.cut, setup.geometry.cracks)
+        cracks, names = setup.geometry.cracks, [crack.name for crack in setup.scene.cracks]
+        self._setup, self._table = setup, table
+        self._fronts = CrackFronts.of(names).with_branches(cracks)
+        self._sofar = GrownSoFar(np.zeros(len(self._fronts)), 0.0) if sofar is None else sofar
+        self._tips = self._fronts.tips(setup.model.cut, cracks)
         self._known: tuple[Floats, Intensities] | None = None
 
     @classmethod
@@ -61,8 +57,7 @@ class GrowingCracks(Effect):
         SceneError, FormulationError
             See `refuse`.
         """
-        names = [crack.name for crack in setup.scene.cracks]
-        made = cls(setup, CrackFronts.of(names), GrownSoFar(np.zeros(2 * len(names)), 0.0))
+        made = cls(setup)
         refuse(setup, made._tips)
         return made
 
@@ -134,30 +129,26 @@ class GrowingCracks(Effect):
         rows = np.flatnonzero(self._growing(found))
         if not len(rows):
             return None
-        geometry, cut = self._setup.geometry, self._setup.model.cut
-        cracks = advanced(
-            cut,
-            geometry.cracks,
-            self._fronts,
-            found.front[rows],
-            found.tip[rows],
-            found.kink.angle[rows],
-            self.rule.increment,
-        )
-        names = ", ".join(self._fronts.name[one] for one in found.front[rows])
-        what = f"cracks grew at {names}"
+        geometry = self._setup.geometry
+        cracks, what = self._laid(found.take(rows))
         return Event(replace(geometry, cracks=cracks), what, held=self.held)
+
+    def _laid(self, found: Intensities) -> tuple[tuple[Floats, ...], str]:
+        """Polylines with new pieces at all fronts ``found``, and what happens, in words."""
+        cut, cracks = self._setup.model.cut, self._setup.geometry.cracks
+        ways = found.front, found.tip, found.kink.angle
+        laid = advanced(cut, cracks, self._fronts, *ways, self.rule.increment)
+        names = ", ".join(self._fronts.name[one] for one in found.front)
+        return laid, f"cracks grew at {names}"
 
     @abstractmethod
     def follow(self, change: "Change") -> "GrowingCracks":
         """Return the effect on the new geometry, with what its fronts have gained."""
 
     def _grown_so_far(self, change: "Change") -> GrownSoFar:
-        gained = self._fronts.gained(self._setup.geometry.cracks, change.setup.geometry.cracks)
-        model, front = self._setup.model, np.flatnonzero(self._tips >= 0)
-        stiff = tip_moduli(model, model.cut.tips.element[self._tips[front]])[1]
-        energy = model.thickness * gained[front] @ self.rule.toughness.energies(stiff)
-        return GrownSoFar(self._sofar.length + gained, self._sofar.energy + float(energy))
+        lines = self._setup.geometry.cracks, change.setup.geometry.cracks
+        fronts = self._fronts.with_branches(lines[1])
+        return self._sofar.after(self._setup.model, fronts, lines, self.rule.toughness)
 
     @cached_property
     def _faces(self) -> CrackFaces:

@@ -13,8 +13,9 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant, Setup
-from nmm.fracture.growth.fronts import CrackFronts
-from nmm.fracture.growth.growing import GrowingCracks, GrownSoFar
+from nmm.fracture.growth.branching import Branching
+from nmm.fracture.growth.growing import GrowingCracks
+from nmm.fracture.growth.grown import GrownSoFar
 from nmm.fracture.growth.held_faces import HeldFaces, newly_held
 from nmm.fracture.growth.intensities import Intensities, tip_moduli
 from nmm.fracture.growth.running import Running
@@ -30,10 +31,12 @@ class GrowthInTime(GrowingCracks):
 
     held = True
 
-    def __init__(self, setup: Setup, fronts: CrackFronts, sofar: GrownSoFar) -> None:
-        super().__init__(setup, fronts, sofar)
+    def __init__(self, setup: Setup, sofar: GrownSoFar | None = None) -> None:
+        super().__init__(setup, sofar)
         self._law = SPEEDS[self._table.speed or "freund"]
-        self._running = Running.at_rest(len(fronts), setup.start.time)
+        angle = self._table.branching
+        self._branching = None if angle is None else Branching(angle)
+        self._running = Running.at_rest(len(self._fronts), setup.start.time)
         self._held = HeldFaces.none(setup.model)
 
     @property
@@ -66,13 +69,28 @@ class GrowthInTime(GrowingCracks):
     def follow(self, change: "Change") -> "GrowthInTime":
         """Return the effect on the new geometry, with faces held where tips have gone on."""
         before, after = self._setup.geometry.cracks, change.setup.geometry.cracks
-        length = self._fronts.gained(before, after)
+        new = GrowthInTime(change.setup, self._grown_so_far(change))
+        length, was = new._fronts.gained(before, after), new._fronts.former(before, after)
         grown = np.flatnonzero(length > 0)
-        new = GrowthInTime(change.setup, self._fronts, self._grown_so_far(change))
-        new._running, span = self._running.cut(grown, length[grown])
-        held = newly_held(change, self._fronts.points(before)[grown], span)
+        # Where a tip divides, both branches run on as it ran.
+        born = was[len(self._fronts) :]
+        parents = np.argmin(np.hypot(*np.moveaxis(born[:, None] - self._points, -1, 0)), axis=1)
+        new._running, span = self._running.divided(parents).cut(grown, length[grown])
+        held = newly_held(change, was[grown], span)
         new._held = self._held.followed(change).joined(held)
         return new
+
+    def _laid(self, found: Intensities) -> tuple[tuple[Floats, ...], str]:
+        """See `GrowingCracks._laid`; with tips that divide."""
+        if self._branching is None:
+            return super()._laid(found)
+        cut, cracks = self._setup.model.cut, self._setup.geometry.cracks
+        return self._branching.laid(cut, cracks, self._fronts, found, self.rule.increment)
+
+    @property
+    def _points(self) -> Floats:
+        """Where the fronts are (n, 2)."""
+        return self._fronts.points(self._setup.geometry.cracks)
 
     def carried(self) -> tuple[Any, ...]:
         """See `GrowingCracks.carried`; and how far tips are, and what holds faces."""

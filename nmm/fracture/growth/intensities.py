@@ -1,6 +1,6 @@
 """What the tips of growing cracks have in a state, and the moduli of the material about them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -32,6 +32,13 @@ class Intensities:
     stiff: Floats
     kink: Kink
     share: Floats
+
+    def take(self, rows: Ints) -> "Intensities":
+        """Return those of some rows."""
+        kink = Kink(self.kink.angle[rows], self.kink.equivalent[rows])
+        one = (getattr(self, item.name) for item in fields(self) if item.name != "kink")
+        front, tip, opening, sliding, stiff, share = (values[rows] for values in one)
+        return Intensities(front, tip, opening, sliding, stiff, kink, share)
 
     @property
     def rate(self) -> Floats:

@@ -48,6 +48,13 @@ class Running:
             self, time=time, way=self.way + mean * rest, speed=np.where(there, speed, 0.0)
         )
 
+    def divided(self, parents: Ints) -> "Running":
+        """Return the tips with branches (k,) that run as their parents."""
+        way, speed, until = (
+            np.append(values, values[parents]) for values in (self.way, self.speed, self.until)
+        )
+        return Running(self.time, way, speed, until)
+
     def cut(self, front: Ints, length: Floats) -> tuple["Running", Floats]:
         """Return the tips where pieces (k,) of a length were cut; and how long each still takes.
 

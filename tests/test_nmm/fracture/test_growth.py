@@ -16,35 +16,9 @@ from nmm.model.from_polygons import solid
 from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
+from nmm.testing.scenes import PULLED, notched_plate, turned_net
 from nmm.verification.continuum import polygon
 
-PLATE = """
-plane = "strain"
-[materials.m]
-young_modulus = 1.0
-poisson_ratio = 0.3
-[[blocks]]
-name = "plate"
-material = "m"
-vertices = [[0, -0.5], [1, -0.5], [1, 0.5], [0, 0.5]]
-[[cracks]]
-name = "notch"
-points = [[-0.1, 0.0], [{tip}, 0.0]]
-[[supports]]
-name = "floor"
-segment = [[0, -0.5], [1, -0.5]]
-fix = ["x", "y"]
-{pulled}
-[fracture]
-{fracture}
-"""
-LOADED = """
-[[loads]]
-name = "up"
-kind = "edge"
-segment = [[0, 0.5], [1, 0.5]]
-traction = [0, 1.0]
-"""
 DRIVEN = """
 [[supports]]
 name = "up"
@@ -52,16 +26,7 @@ segment = [[0, 0.5], [1, 0.5]]
 fix = ["x", "y"]
 displacement = [0.0, 1.0]
 """
-NET = """
-[cover]
-type = "triangles"
-size = 0.125
-angle = 0.3
-shift = [0.13, 0.27]
-degree = 1
-[supports]
-method = "nitsche"
-"""
+NET = turned_net(0.125)
 FOLLOW = 'toughness = 1.0\nincrement = 0.1\nmax_growth = 0.2\ncontrol = "toughness"'
 
 
@@ -69,8 +34,8 @@ class StoppedError(Exception):
     """Raised in the middle of a run."""
 
 
-def plate(fracture: str = FOLLOW, pulled: str = LOADED, tip: float = 0.3) -> Scene:
-    return parse_scene(PLATE.format(tip=tip, pulled=pulled, fracture=fracture))
+def plate(fracture: str = FOLLOW, pulled: str = PULLED, tip: float = 0.3) -> Scene:
+    return parse_scene(notched_plate(fracture, pulled, tip))
 
 
 def net() -> Formulation:
@@ -105,9 +70,7 @@ def test_what_growth_takes_is_missing_in_the_stored_energy() -> None:
 def test_driven_edges_hold_a_crack_that_loads_would_not() -> None:
     """Under growing loads: pieces come one after the other, each at its toughness."""
     fracture = "toughness = 1.0\nincrement = 0.1\nmax_growth = 0.1"
-    scene = parse_scene(
-        PLATE.format(tip=0.3, pulled=DRIVEN, fracture=fracture) + "[loading]\nuntil = 6.0\n"
-    )
+    scene = parse_scene(notched_plate(fracture, DRIVEN) + "[loading]\nuntil = 6.0\n")
     how = parse_formulation(NET + "[loading]\nincrement = 1.0\ntolerance = 1e-2\n")
     run = nmm.run(scene, how)
     share, grown = (
@@ -126,7 +89,7 @@ def test_growth_to_the_far_side_frees_a_piece_and_ends() -> None:
 
 
 def test_a_run_that_is_stopped_goes_on_to_the_same_cracks(tmp_path: Path) -> None:
-    text = PLATE.format(tip=0.3, pulled=LOADED, fracture=FOLLOW)
+    text = notched_plate(FOLLOW)
     scene = parse_scene(text + "[output]\ncheckpoint = { every_steps = 1 }\n")
     whole, folder, left = nmm.run(scene, net(), out=tmp_path / "whole"), tmp_path / "half", [2]
 
@@ -145,7 +108,7 @@ def test_a_run_that_is_stopped_goes_on_to_the_same_cracks(tmp_path: Path) -> Non
 
 
 def test_the_critical_one_of_two_cracks_grows_first() -> None:
-    text = PLATE.format(tip=0.3, pulled=LOADED, fracture=FOLLOW)
+    text = notched_plate(FOLLOW)
     other = '[[cracks]]\nname = "short"\npoints = [[1.1, 0.2], [0.9, 0.2]]\n[[supports]]'
     run = nmm.run(parse_scene(text.replace("[[supports]]", other, 1)), net())
     # The other one follows where the first has come as far as it may.
@@ -214,7 +177,7 @@ def test_a_table_that_says_nothing_sound_is_refused(fracture: str, said: str) ->
 
 
 def test_growth_without_a_crack_is_refused() -> None:
-    text = PLATE.format(tip=0.3, pulled=LOADED, fracture=FOLLOW)
+    text = notched_plate(FOLLOW)
     head, _, rest = text.partition("[[cracks]]")
     with pytest.raises(NmmError, match="crack"):
         parse_scene(head + rest[rest.index("[[supports]]") :])
@@ -225,7 +188,7 @@ def test_growth_without_a_crack_is_refused() -> None:
     [("[gravity]\n", "gravity"), ("[contact]\n", "contact"), ("[inertia]\n", "inertia")],
 )
 def test_what_growth_does_not_go_with_is_refused(table: str, said: str) -> None:
-    text = PLATE.format(tip=0.3, pulled=LOADED, fracture=FOLLOW)
+    text = notched_plate(FOLLOW)
     with pytest.raises(NmmError, match=said):
         parse_scene(text + table)
 
@@ -239,7 +202,7 @@ def test_what_growth_does_not_go_with_is_refused(table: str, said: str) -> None:
     ],
 )
 def test_cracks_that_cannot_grow_are_refused(points: str, said: str) -> None:
-    text = PLATE.format(tip=0.3, pulled=LOADED, fracture=FOLLOW)
+    text = notched_plate(FOLLOW)
     scene = parse_scene(text.replace("[[-0.1, 0.0], [0.3, 0.0]]", points))
     with pytest.raises(NmmError, match=said):
         prepare(scene, net())

@@ -9,6 +9,8 @@ from nmm.scene.unread_rows import Finding, Tables
 
 # Tables whose stress the intensities do not know, and those in which growth is not defined yet.
 UNKNOWN = ("heat", "initial_stresses")
+# What running tips alone have: cracks in equilibrium have no speed, and do not divide.
+IN_TIME = ("speed", "branching")
 # Tables beside which loads alone do not say where the next piece begins.
 NOT_SCALED = ("contact", "gravity", "inertia", "stages")
 
@@ -21,9 +23,10 @@ def fracture_contradictions(data: Tables) -> Iterator[Finding]:
     if not data.get("cracks"):
         remedy = "add the cracks that are there from the start"
         yield ("fracture",), "no [[cracks]]", "a crack that can grow", remedy
-    if isinstance(table, Mapping) and table.get("speed") and "inertia" not in data:
-        remedy = "add [inertia], or remove it"
-        yield ("fracture", "speed"), f'"{table["speed"]}"', "a scene with [inertia]", remedy
+    for key in IN_TIME if isinstance(table, Mapping) and "inertia" not in data else ():
+        if table.get(key):
+            remedy = "add [inertia], or remove it"
+            yield ("fracture", key), f'"{table[key]}"', "a scene with [inertia]", remedy
     for key in UNKNOWN:
         if data.get(key):
             remedy = "stress intensities do not know it: remove one of the two"

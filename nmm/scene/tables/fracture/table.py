@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from nmm.scene.fields import Frozen, Length, Number, PartName, SurfaceEnergy, fault, quantity
+from nmm.scene.fields import Angle, Frozen, Length, Number, PartName, SurfaceEnergy, fault, quantity
 
 Intensity = Annotated[float, quantity("Pa m^0.5", 1e-30)]
 
@@ -51,6 +51,14 @@ class FractureTable(Frozen):
         description='in motion: "freund", the default, c_R (1 - G_c / G); "rayleigh": c_R, the '
         "speed of Rayleigh's wave, as soon as a tip is critical",
         examples=["rayleigh"],
+    )
+    branching: Angle | None = Field(
+        default=None,
+        gt=0,
+        le=1.0472,
+        description="in motion: an angle in rad, > 0, by which branches leave to either side where "
+        "a tip divides in two; that is where G reaches twice the fracture energy",
+        examples=["25 deg"],
     )
     together: Number = Field(
         default=0.02,

@@ -1,0 +1,50 @@
+"""How far fronts have grown, and what that took."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+from nmm.fracture.growth.fronts import CrackFronts
+from nmm.fracture.growth.intensities import tip_moduli
+from nmm.fracture.toughness import Toughness
+
+
+@dataclass(frozen=True)
+class GrownSoFar:
+    """How far each front has grown (n,) (m), and the energy that all of them took (J)."""
+
+    length: Floats
+    energy: float
+
+    def after(
+        self, model: Model, fronts: CrackFronts, lines: Sequence[Sequence[Floats]], rule: Toughness
+    ) -> "GrownSoFar":
+        """Return both where cracks have grown.
+
+        Parameters
+        ----------
+        model
+            Before.
+        fronts
+            After.
+        lines
+            Polylines before and after.
+        """
+        gained = fronts.gained(*lines)
+        grown = np.flatnonzero(gained > 0)
+        tip = nearest_tips(model, fronts.former(*lines)[grown])
+        stiff = tip_moduli(model, model.cut.tips.element[tip])[1]
+        energy = model.thickness * gained[grown] @ rule.energies(stiff)
+        length = np.pad(self.length, (0, len(gained) - len(self.length)))
+        return GrownSoFar(length + gained, self.energy + float(energy))
+
+
+def nearest_tips(model: Model, points: Floats) -> Ints:
+    """Number (k,) of the tip nearest to each of some points (k, 2)."""
+    if not len(points):
+        return np.zeros(0, dtype=np.int64)
+    away = np.hypot(*np.moveaxis(points[:, None] - model.cut.tips.point, -1, 0))
+    return np.asarray(np.argmin(away, axis=1))
