@@ -1,9 +1,10 @@
 """What is made of a state, kept while it is the start or the end of a step."""
 
 from collections.abc import Callable
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
-from nmm.assembly.motion import State
+if TYPE_CHECKING:
+    from nmm.assembly.motion import State
 
 T = TypeVar("T")
 
@@ -11,11 +12,11 @@ T = TypeVar("T")
 class KeptOfStates(Generic[T]):
     """Values made of the last two states that were asked for, told apart by identity."""
 
-    def __init__(self, make: Callable[[State], T]) -> None:
+    def __init__(self, make: Callable[["State"], T]) -> None:
         self._make = make
         self._known: list[tuple[State, T]] = []
 
-    def of(self, state: State) -> T:
+    def of(self, state: "State") -> T:
         """Return the value of a state, made where it is not kept."""
         for known, value in self._known:
             if known is state:
@@ -32,7 +33,7 @@ class KeptOfStates(Generic[T]):
 class KeptOfPlaces(KeptOfStates[T]):
     """Values made of where material is alone, be its rates or the time what they may."""
 
-    def of(self, state: State) -> T:
+    def of(self, state: "State") -> T:
         """Return the value of a state, made where none is kept of the same place."""
         frames, deformation = state.frames, state.deformation
         for known, value in self._known:

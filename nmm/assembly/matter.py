@@ -165,15 +165,16 @@ class Matter:
 
     def energy(self, deformation: Floats, history: History) -> float:
         """Return the stored energy (J), but for what an initial stress counts by itself."""
-        strain, initial = self.points.strain(deformation), history.get(INITIAL)
-        density = np.zeros(len(strain))
-        known = np.zeros_like(strain) if initial is None else self._initial(initial)
-        whole = history[STRESS] + known
+        initial, whole = history.get(INITIAL), history[STRESS]
+        if initial is not None:
+            whole = whole + self._initial(initial)
+        density = np.zeros(len(whole))
         for number, law in enumerate(self.laws):
             at = np.flatnonzero(self.law == number)
             density[at] = law.energy(whole[at], self._own(law, history, at), self.plane)
         if initial is not None:
-            density -= (known * (strain + initial / 2)).sum(axis=1)
+            strain = self.points.strain(deformation) + initial / 2
+            density -= (self._initial(initial) * strain).sum(axis=1)
         stored = self.thickness * float(self.points.rule.weights @ density)
         return stored + float(deformation @ (self.rest @ deformation)) / 2
 

@@ -15,6 +15,7 @@ from integration.arrays import Floats, Ints
 from integration.polygons import areas
 from nmm.assembly import element_matrices
 from nmm.assembly.blocks import Part, assemble
+from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.lumping import check_positive
 from nmm.assembly.matter import Matter
 from nmm.assembly.patches import pressures
@@ -159,7 +160,14 @@ class Model:
         q = state.deformation
         if self.matter is None:
             return float(q @ product(self.stiffness, q)) / 2
-        return self.matter.energy(q, state.history)
+        return self._stored.of(state)
+
+    @cached_property
+    def _stored(self) -> KeptOfStates[float]:
+        """Energy of the last states, which several reports ask for."""
+        matter = self.matter
+        assert matter is not None
+        return KeptOfStates(lambda state: matter.energy(state.deformation, state.history))
 
     def dissipated(self, before: "State", after: "State") -> float:
         """Work (J) of the stress in a step less what the material stores of it."""

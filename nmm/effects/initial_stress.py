@@ -10,10 +10,11 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
+    from nmm.effects.turning_stress import TurningStress
 
 
 class InitialStress(Effect):
@@ -28,8 +29,8 @@ class InitialStress(Effect):
     placed = False
     stays = True
 
-    def __init__(self, model: Model, stress: Floats) -> None:
-        self.stress = stress
+    def __init__(self, model: Model, stress: Floats, turned: "TurningStress | None" = None) -> None:
+        self.stress, self._turned = stress, turned
         self._force = -model.stress_load(stress)
         self._model = model
 
@@ -42,9 +43,9 @@ class InitialStress(Effect):
         return float(density @ (model.element_area * model.thickness))
 
     @property
-    def with_axes(self) -> str:
-        """See `Effect.with_axes`."""
-        return "a stress at the start"
+    def bends(self) -> bool:
+        """See `Effect.bends`: it does in bodies that bend by any angle."""
+        return self._turned is not None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -54,28 +55,33 @@ class InitialStress(Effect):
         for item in setup.scene.initial_stresses:  # a handful of tables
             regions = setup.regions(item.block)
             stress[slice(None) if regions is None else regions[region]] = item.stress
-        return cls(setup.model, stress)
+        return cls(setup.model, stress, _turned(setup, stress))
 
     def follow(self, change: "Change") -> Effect:
         """Return the stress of each element from those that it comes from; else as declared."""
         declared = InitialStress.from_setup(change.setup).stress
-        return InitialStress(change.new, change.parentage.elements.mean(self.stress, declared))
+        stress = change.parentage.elements.mean(self.stress, declared)
+        return InitialStress(change.new, stress, _turned(change.setup, stress))
 
     def begin(self, state: State) -> State:
         """Return the start with material points that know of the stress."""
         matter = self._model.matter
-        if matter is None:
+        if not isinstance(matter, Matter):
             return state
-        assert isinstance(matter, Matter)  # finite strain refuses the effect
         return replace(state, history=matter.prestressed(state.history, self.stress))
 
     def force(self, state: State, end: Instant) -> Floats:
-        """Return the constant internal force."""
-        return self._force
+        """Return the internal force, which is constant where bodies have axes that turn."""
+        return self._force if self._turned is None else self._turned.force(state, end)
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`."""
+        assert self._turned is not None
+        return self._turned.through(before, after, span)
 
     def mean_stress(self, state: State) -> Floats:
         """See `Effect.mean_stress`."""
-        return self.stress
+        return self.stress if self._turned is None else self._turned.mean(state)
 
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         """See `Effect.stress_at`."""
@@ -83,4 +89,20 @@ class InitialStress(Effect):
 
     def energy(self, state: State) -> float:
         """Energy (J) that the stress adds to that of the strain, ``1/2 eps : D eps``."""
+        if self._turned is not None:
+            return self._stored + self._turned.energy(state)
         return self._stored - float(self._force @ state.deformation)
+
+
+def _turned(setup: Setup, stress: Floats) -> "TurningStress | None":
+    """Return the stress (E, 3) at the points of bodies that bend by any angle; None of others."""
+    if not setup.kinematics.finite:
+        return None
+    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
+    from nmm.assembly.finite_strain.given_stress import GivenStress
+    from nmm.effects.turning_stress import TurningStress
+
+    matter = setup.model.matter
+    assert isinstance(matter, FiniteMatter)
+    at_points = stress[matter.points.rule.owner]
+    return TurningStress(GivenStress(matter), lambda time: at_points)

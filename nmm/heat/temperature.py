@@ -1,7 +1,7 @@
 """The effect: temperature in the course of a run, and what it does to the blocks."""
 
-from collections.abc import Mapping
-from typing import Self
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Self
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
@@ -9,11 +9,14 @@ from nmm.assembly.motion import State
 from nmm.diffusion.course import Course
 from nmm.diffusion.field_effect import FieldEffect, course_of
 from nmm.diffusion.from_scene import of_elements
-from nmm.effects.base import Setup
+from nmm.effects.base import Instant, Setup, Span, StepForce
 from nmm.errors import Fault, SceneError
 from nmm.heat.from_scene import heat_problem
 from nmm.heat.thermal_strain import ThermalStrain
 from nmm.quantity import Quantity
+
+if TYPE_CHECKING:
+    from nmm.effects.turning_stress import TurningStress
 
 
 class Heat(FieldEffect):
@@ -28,9 +31,11 @@ class Heat(FieldEffect):
         conductivity: Floats,
         reference: float = 0.0,
         second: float = 1.0,
+        bends: bool = False,
     ) -> None:
         super().__init__(course, strain, conductivity, second)
         self.strain, self._reference = strain, reference
+        self._turned = _turned(strain, self.acting) if bends and strain is not None else None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -45,15 +50,42 @@ class Heat(FieldEffect):
             initial = rise * space.one
         course = course_of(setup, problem, initial, second)
         conductivity = of_elements(setup, "conductivity")
-        return cls(course, _strain(setup, space), conductivity, table.reference, second)
+        bends = setup.kinematics.finite
+        return cls(course, _strain(setup, space), conductivity, table.reference, second, bends)
+
+    @property
+    def with_axes(self) -> str:
+        """See `Effect.with_axes`: nothing; its stress turns with what it strains."""
+        return ""
+
+    @property
+    def bends(self) -> bool:
+        """See `Effect.bends`: it does in bodies that bend by any angle."""
+        return self._turned is not None
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """See `Effect.force`."""
+        found = super().force(state, end)
+        return found if self._turned is None else self._turned.force(state, end)
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`."""
+        assert self._turned is not None
+        return self._turned.through(before, after, span)
+
+    def mean_stress(self, state: State) -> Floats:
+        """See `Effect.mean_stress`."""
+        return super().mean_stress(state) if self._turned is None else self._turned.mean(state)
 
     def energy(self, state: State) -> float:
         """Energy (J) of the elastic strain beyond that of the whole strain, ``1/2 e : D e``."""
         if self.strain is None:
             return 0.0
         rise = self.acting(state.time)
-        push = self.strain.force(rise)
-        return float(rise @ (self.strain.held @ rise)) / 2 - float(push @ state.deformation)
+        held = float(rise @ (self.strain.held @ rise)) / 2
+        if self._turned is not None:
+            return held + self._turned.energy(state)
+        return held - float(self.strain.force(rise) @ state.deformation)
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of the stress on minus the thermal strain, by the mean of both ends."""
@@ -62,6 +94,8 @@ class Heat(FieldEffect):
         first, last = self.acting(before.time), self.acting(after.time)
         held = self.strain.held
         stored = float(last @ (held @ last) - first @ (held @ first)) / 2
+        if self._turned is not None:
+            return stored + self._turned.work(before, after)
         push = self.strain.force(last - first)
         return stored - float(push @ (before.deformation + after.deformation)) / 2
 
@@ -81,6 +115,19 @@ class Heat(FieldEffect):
 
     def _values(self, state: State) -> Floats:
         return self._reference + self.space.vertices @ self.acting(state.time)
+
+
+def _turned(strain: ThermalStrain, rise: Callable[[float], Floats]) -> "TurningStress":
+    """Return the stress of a temperature at the points of bodies that bend by any angle."""
+    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
+    from nmm.assembly.finite_strain.given_stress import GivenStress
+    from nmm.effects.turning_stress import TurningStress
+
+    matter = strain.model.matter
+    assert isinstance(matter, FiniteMatter)
+    rule = matter.points.rule
+    rows, unit = strain.space.values(rule.owner, rule.points), strain.stress[rule.owner]
+    return TurningStress(GivenStress(matter), lambda time: -(rows @ rise(time))[:, None] * unit)
 
 
 def _strain(setup: Setup, space: ScalarSpace) -> ThermalStrain | None:

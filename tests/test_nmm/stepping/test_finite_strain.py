@@ -352,8 +352,9 @@ def refused(scene, more="", update="finite"):
 
 
 def test_what_finite_strain_does_not_know_is_refused_in_words():
-    stress = '[[initial_stresses]]\nblock = "bar"\nstress = [1, 0, 0]\n'
-    assert "a stress at the start" in refused(bar("elastic", 0.1) + stress)
+    wet = bar("elastic", 0.1).replace("density", "hydraulic_conductivity = 1.0\ndensity")
+    wet += '[seepage]\n[[heads]]\nname = "h"\nblock = "bar"\nhead = 1.0\n'
+    assert "its stress" in refused(wet)
     plastic = bar("von_mises", 0.1).replace("density", "yield_stress = 1.0\ndensity")
     assert "no potential of finite strain" in refused(plastic)
     damped = FLYING.format(material=material("elastic")) + "[damping]\nstiffness = 0.1\n"
