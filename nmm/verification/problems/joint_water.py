@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from nmm.verification import text
-from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.base import Case, Check, Checks, SceneCase, limit
+from nmm.water.network import JointNetwork
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -109,3 +110,37 @@ class LiftedBlock(SceneCase):
             "aperture (m)": Check(aperture, exact, 1e-6, "the blocks are 5000 times stiffer"),
             "pressure (Pa)": Check(run.history["joint flow:pressure"][-1], 196200.0, 1e-9, "given"),
         }
+
+
+class JointBridge(Case):
+    """Five joints between a reservoir and an outlet, joined as a bridge of resistances."""
+
+    name = "WA3"
+    title = "Heads and flows in a bridge of five joints"
+    source = "Kirchhoff's rules: h = 205/27 and 65/27 m of 10 m, cubic law"
+
+    def checks(self, formulation: str) -> Checks:
+        """Solve the network with nodes in two orders; compare heads and flows."""
+        ends = np.array([[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]])
+        length = np.array([1.0, 1.0, 1.5, 1.0, 1.0])
+        aperture = np.repeat(np.array([0.2, 0.1, 0.15, 0.1, 0.2])[:, None] * 1e-3, 2, axis=1)
+        flows = (1.574444e-5, 6.206944e-6, 9.5375e-6, 6.206944e-6, 1.574444e-5)
+        checks = {}
+        for order in ([0, 1, 2, 3], [3, 1, 0, 2]):
+            node = np.array(order)
+            network = JointNetwork(node[ends], length, 4)
+            conductance = network.conductance(aperture)
+            heads = network.heads(conductance, node[[0, 3]], np.array([10.0, 0.0]))
+            said = "as drawn" if order[0] == 0 else "in another order"
+            for name, place, known in (("B", 1, 205 / 27), ("C", 2, 65 / 27)):
+                checks[f"head at {name}, nodes {said} (m)"] = Check(
+                    float(heads[node[place]]), known, 1e-12, "rounding"
+                )
+            found = network.flows(conductance, heads)
+            inflow = float(network.inflow(conductance, heads)[node[0]])
+            off = float(np.abs(found / flows - 1).max())
+            checks[f"flows off, nodes {said}"] = limit(off, 1e-6, "digits of the table")
+            checks[f"inflow, nodes {said} (m2/s)"] = Check(
+                inflow, 2.195138889e-5, 1e-9, "digits of the table"
+            )
+        return checks

@@ -8,26 +8,10 @@ from nmm.errors import FormulationError
 from nmm.materials.drucker_prager import DruckerPragerPlasticity
 from nmm.materials.mohr_coulomb import MohrCoulombPlasticity
 from nmm.testing.laws import check_law, start_of
+from nmm.verification.problems.matter.returns import returned
 
 DEGREE = np.pi / 180
 ELASTIC = 1e5, 0.25
-
-
-def returned(law, trial, turn=0.0):
-    """Sorted principal stresses that a trial (3,) returns to, whose last one is across."""
-    stress = np.array(trial, dtype=float)
-    e, nu = law.young_modulus, law.poisson_ratio
-    strain = ((1 + nu) * stress - nu * stress.sum()) / e
-    history = start_of(law, "strain", 1)
-    history["plastic_strain"][0, 3] = -strain[2]
-    c, s = np.cos(turn), np.sin(turn)
-    axes = np.array([[c, -s], [s, c]])
-    flat = axes @ np.diag(strain[:2]) @ axes.T
-    given = np.array([[flat[0, 0], flat[1, 1], 2 * flat[0, 1]]])
-    found = law.update(given, history, "strain", 0.0)
-    xx, yy, xy = found.stress[0]
-    flat = np.linalg.eigvalsh([[xx, xy], [xy, yy]])
-    return np.sort([*flat, found.history["stress_zz"][0, 0]])[::-1]
 
 
 @pytest.mark.parametrize(("dilation", "cut"), [(30, 5.0), (10, 5.0), (0, 0.0), (30, 34.0)])
@@ -100,35 +84,6 @@ def test_random_stresses_return_inside_the_cut_pyramid(nu, dilation, cut):
     beyond = np.maximum((high - low) + (high + low) * 0.5 - 40 * np.cos(30 * DEGREE), high - cut)
     # Rounding of trials, up to 1e8 kPa at the Poisson's ratio of 0.4999.
     assert (beyond <= 1e-9 * (np.abs(three).max(axis=0) + 3e8 * np.abs(strain).max(axis=1))).all()
-
-
-# phi = 30, psi = 10 degrees, both matched in plane strain, c = 20, E = 1e5, nu = 0.25 (kPa).
-CONE = [
-    ((-50, -120, -400), (-120.876615, -165.214321, -342.565144)),
-    ((80, 75, 60), (34.641016, 34.641016, 34.641016)),
-    ((25, 20, -10), (18.119222, 14.950725, -4.060261)),
-]
-
-
-@pytest.mark.parametrize(("trial", "expected"), CONE)
-@pytest.mark.parametrize("order", [(0, 1, 2), (2, 0, 1), (1, 2, 0)])
-def test_drucker_prager_returns_to_cone_and_apex(trial, expected, order):
-    law = DruckerPragerPlasticity(*ELASTIC, 20.0, 30 * DEGREE, 10 * DEGREE)
-    found = returned(law, np.array(trial)[list(order)], 0.4)
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6)  # six digits behind the point
-
-
-@pytest.mark.parametrize(
-    ("match", "degrees", "expected"),
-    [
-        ("plane_strain", 30, (0.4803844614, 0.8320502943)),
-        ("plane_strain", 20, (0.3355408953, 0.9218910330)),
-        ("compression", 30, (0.6928203230, 1.2)),
-    ],
-)
-def test_cones_are_matched(match, degrees, expected):
-    law = DruckerPragerPlasticity(*ELASTIC, 20.0, 0.1, match=match)
-    np.testing.assert_allclose(law.slopes(degrees * DEGREE), expected, rtol=0, atol=1e-10)
 
 
 @pytest.mark.parametrize("match", ["compression", "extension"])

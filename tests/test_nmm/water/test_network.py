@@ -6,10 +6,6 @@ import pytest
 from nmm.errors import SolveError
 from nmm.water.network import JointNetwork
 
-PARALLEL = np.array([[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]])
-LENGTH = np.array([1.0, 1.0, 1.5, 1.0, 1.0])
-APERTURE = np.array([0.2, 0.1, 0.15, 0.1, 0.2]) * 1e-3
-
 
 def even(apertures):
     return np.repeat(np.asarray(apertures)[:, None], 2, axis=1)
@@ -19,21 +15,6 @@ def chain(cells, length, apertures):
     ends = np.stack([np.arange(cells), np.arange(cells) + 1], axis=1)
     network = JointNetwork(ends, np.full(cells, length / cells), cells + 1)
     return network, np.array([0, cells]), even(np.broadcast_to(apertures, cells))
-
-
-@pytest.mark.parametrize("order", [[0, 1, 2, 3], [3, 1, 0, 2]])
-def test_a_bridge_of_five_joints_has_the_heads_of_its_closed_form(order):
-    order = np.array(order)
-    network = JointNetwork(order[PARALLEL], LENGTH, 4)
-    conductance = network.conductance(even(APERTURE))
-    fixed = order[[0, 3]]
-    heads = network.heads(conductance, fixed, np.array([10.0, 0.0]))
-    assert heads[order[[1, 2]]] == pytest.approx([205 / 27, 65 / 27], rel=1e-13)
-    flows = network.flows(conductance, heads)
-    wanted = [1.574444e-5, 6.206944e-6, 9.5375e-6, 6.206944e-6, 1.574444e-5]
-    assert flows == pytest.approx(wanted, rel=1e-6)
-    inflow = network.inflow(conductance, heads)
-    assert inflow[fixed] == pytest.approx([2.195138889e-5, -2.195138889e-5], rel=1e-9)
 
 
 def test_joints_in_series_share_the_head_and_a_dead_end_has_that_of_its_root():
