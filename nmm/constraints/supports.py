@@ -117,7 +117,8 @@ class Supports(TiedInterfaces):
     def work(self, before: State, after: State) -> float:
         """Mean reaction of each driven support times the way it is driven."""
         total = super().work(before, after)
-        for number, start, end in self._driven(before, after):
+        still = self._in_time and self.steady
+        for number, start, end in () if still else self._driven(before, after):
             if (end != start).any():
                 first, last = self._ends(number, before, after)
                 total += float(np.sum((first + last) / 2 * (end - start)))

@@ -91,6 +91,8 @@ class TiedInterfaces(Effect):
 
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Conditions ``rows @ d = sides`` on the step's unknowns; None without multipliers."""
+        if not self._spaces:
+            return None
         found: dict[int, tuple[csr_array, Floats]] = {}
         for tie, jump in zip(self.ties, self._jumps(state, end), strict=True):
             if tie.shared is not None:
@@ -98,8 +100,6 @@ class TiedInterfaces(Effect):
                 before = found.get(id(tie.shared))
                 both = (rows, sides) if before is None else (before[0] + rows, before[1] + sides)
                 found[id(tie.shared)] = both
-        if not found:
-            return None
         parts = found.values()
         return csr_array(vstack([rows for rows, _ in parts])), np.concatenate([s for _, s in parts])
 

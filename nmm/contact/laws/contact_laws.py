@@ -202,6 +202,14 @@ class ContactLaws:
         """(n,) whether joints of each law hold together at the start."""
         return np.array([law.bonded for law in self.laws], dtype=bool)
 
+    def hold(self, contacts: ContactPoints) -> bool:
+        """Return whether bonds hold any of the contacts."""
+        return self._holding.of(contacts)
+
+    @cached_property
+    def _holding(self) -> KeptOfPairs[bool]:
+        return KeptOfPairs(lambda points: bool(points.bonded.any()))
+
     @cached_property
     def damps(self) -> bool:
         """Whether any law has damping."""
@@ -218,6 +226,8 @@ class ContactLaws:
         forces have moved: the order of failure then does not depend on the load increment. Whole
         bonds that begin to soften do so together, since no force jumps.
         """
+        if not self.hold(contacts):
+            return np.zeros(len(contacts), dtype=bool)
         load = self.overload(contacts, answer)
         over, brittle = load > 1, self.brittle[contacts.interface]
         if worst_only and (over & brittle).any():

@@ -1,6 +1,6 @@
 """Dampers beside the normal springs of contacts, in one step."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -9,6 +9,7 @@ from integration.arrays import Floats, Ints
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
+from nmm.frozen import with_parts
 
 
 @dataclass(frozen=True)
@@ -28,7 +29,7 @@ class Dashpots(Transform):
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """See `Transform.apply`."""
-        return replace(
+        return with_parts(
             problem,
             normal_stiffness=problem.normal_stiffness + self.stiffness,
             gap=problem.gap - self._lag(problem),
@@ -37,7 +38,7 @@ class Dashpots(Transform):
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
         """See `Transform.undo`."""
-        return replace(answer, gap=answer.gap + self._lag(problem))
+        return with_parts(answer, gap=answer.gap + self._lag(problem))
 
     def _lag(self, problem: StepProblem) -> Floats:
         stretch = problem.gap - np.maximum(self.gap, 0.0)

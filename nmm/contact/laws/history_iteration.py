@@ -58,12 +58,16 @@ class HistoryIteration:
     @property
     def softening(self) -> Bools:
         """Which contacts are bonds that lose their strength in the course of solutions."""
+        if not self._laws.hold(self.start):
+            return np.zeros(len(self.start), dtype=bool)
         whole = self.start.tied
         return self.start.bonded & ~whole & np.isfinite(self.before.limits.tension)
 
     @property
     def asymmetric(self) -> AsymmetricSprings | None:
         """Bonds that are softer open than pressed; None without any."""
+        if not self._laws.hold(self.start):
+            return None
         share = self.before.open_share
         index = np.flatnonzero(self.start.bonded & (share < 1 - 1e-9))
         return AsymmetricSprings(index, share[index]) if len(index) else None

@@ -11,13 +11,14 @@ stiff the spring and long the step, and with ``w = 1/2`` a contact that stays cl
 it. The same holds of shear springs that slide at a limit. ``w = 1`` is Shi's spring.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.contact.problem.step_problem import BROKEN, OPEN, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
+from nmm.frozen import with_parts
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ class TimeWeighting(Transform):
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """See `Transform.apply`."""
-        return replace(
+        return with_parts(
             problem,
             normal_stiffness=self.weight * problem.normal_stiffness,
             shear_stiffness=self.weight * problem.shear_stiffness,
@@ -53,7 +54,7 @@ class TimeWeighting(Transform):
         parted = (answer.state == OPEN) | (answer.state == BROKEN)
         lead = (1 / self.weight - 1) * problem.slip
         slip = np.where(parted, answer.slip, answer.slip - lead)
-        return replace(answer, gap=answer.gap - self._lead(problem), slip=slip)
+        return with_parts(answer, gap=answer.gap - self._lead(problem), slip=slip)
 
     def missed(self, answer: StepAnswer, problem: StepProblem) -> Floats | None:
         """Return what lines in place of springs missed of their forces (m,): they are none."""
@@ -79,11 +80,11 @@ class RaisedFaces(Transform):
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """See `Transform.apply`."""
-        return replace(problem, gap=problem.gap - self.lift)
+        return with_parts(problem, gap=problem.gap - self.lift)
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
         """See `Transform.undo`."""
-        return replace(answer, gap=answer.gap + self.lift)
+        return with_parts(answer, gap=answer.gap + self.lift)
 
 
 def end_shares(weight: float, exact: bool, own: Bools, soft: Bools) -> Floats:

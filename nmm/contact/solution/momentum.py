@@ -42,17 +42,22 @@ class Momentum:
         acts = solved.answer.normal_force != 0
         if not acts.any() or not self._of_blocks or self._curved:
             return None
-        half = middle(before, after)
-        was = before if used is None else used
+        half, was = middle(before, after), before if used is None else used
+        deepest = MIDPOINT_GAPS * np.abs(solved.answer.gap[acts]).max()
+        # Most steps turn no body by as much as would matter to those that touch.
+        if self._off(before, was, half, np.arange(len(self._held))) <= deepest:
+            return None
         edges, touched = self._model.manifold.boundary.body, np.zeros(len(self._held), dtype=bool)
         for edge in (solved.contacts.edge_a, solved.contacts.edge_b):
             touched[edges[edge[acts]]] = True
-        body = np.flatnonzero(touched)
-        rotation, rotated = (_largest_rotation(one, half, body) for one in (before, was))
-        shift, shifted = (_largest_displacement(one, half, body) for one in (before, was))
+        return half if self._off(before, was, half, np.flatnonzero(touched)) > deepest else None
+
+    def _off(self, before: State, was: State, half: State, body: Ints) -> float:
+        """By how much (m) gaps are off with forces where bodies ``was`` and not half way."""
+        rotation, shift = _largest_motion(before, half, body)
+        rotated, shifted = (rotation, shift) if was is before else _largest_motion(was, half, body)
         shift += rotation * float(np.sqrt(self._model.manifold.body_area[body].max()))
-        off = 2 * (rotated * shift + shifted * rotation)
-        return half if off > MIDPOINT_GAPS * np.abs(solved.answer.gap[acts]).max() else None
+        return 2 * (rotated * shift + shifted * rotation)
 
     def kept(
         self, solved: ContactSolution, before: State, after: State, step: float, balance: Floats
@@ -96,9 +101,7 @@ class Momentum:
         return np.where(np.repeat(self._held, 3), 0.0, self._compliance_of_all)
 
 
-def _largest_rotation(one: State, other: State, body: Ints) -> float:
-    return float(np.abs(other.frames.angle - one.frames.angle)[body].max())
-
-
-def _largest_displacement(one: State, other: State, body: Ints) -> float:
-    return float(np.hypot(*(other.frames.centre - one.frames.centre)[body].T).max())
+def _largest_motion(one: State, other: State, body: Ints) -> tuple[float, float]:
+    """Largest rotation (rad) and way of a centre (m) of bodies between two states."""
+    turned = np.abs(other.frames.angle - one.frames.angle)[body].max()
+    return float(turned), float(np.hypot(*(other.frames.centre - one.frames.centre)[body].T).max())
