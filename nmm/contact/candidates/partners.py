@@ -11,7 +11,7 @@ from nmm.contact.detection.crossing import Motion, crossings_in, motion_of
 from nmm.contact.detection.narrow_phase import Contacts, find_contacts, with_pairs
 from nmm.contact.detection.neighbour_list import NeighbourList
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import DEPTH, FLUSH
+from nmm.contact.detection.tolerances import DEPTH, FLUSH, SKIN
 from nmm.contact.mortar.segments import faced
 from nmm.contact.points.boundary_points import sides
 from nmm.contact.points.contact_points import ContactPoints
@@ -107,7 +107,10 @@ class Partners:
         """
         surface, motion = self.surface(state), self._flight(state, step)
         if self._neighbours is None or self._neighbours.skin < 2 * reach:
-            self._neighbours = NeighbourList(4 * reach, within_bodies=self._within_bodies)
+            # Wider where that brings hardly any pairs: they are sought to a depth in any case.
+            thinnest = float(surface.thickness.min()) if len(surface) else 0.0
+            skin = max(4 * reach, SKIN * thinnest)
+            self._neighbours = NeighbourList(skin, within_bodies=self._within_bodies)
         vertex, edge = self._neighbours.update(surface)
         found = find_contacts(surface, vertex, edge, reach, before, motion)
         if crossed is not None:

@@ -95,11 +95,12 @@ class ContactLaws:
         """
         after, spring = dict(contacts.history), _over(stiffness, self._areas.of(contacts))
         for law, index, history in self.by_law(contacts):
+            if len(index) == len(contacts):
+                after |= law.evolved(history, gap, sliding, spring)
+                continue
             given = gap[index], sliding[index], spring[index]
             for name, column in law.evolved(history, *given).items():
-                if len(index) == len(contacts):
-                    after[name] = column
-                elif not np.array_equal(column, history[name]):
+                if not np.array_equal(column, history[name]):
                     after[name] = after[name].copy()
                     after[name][index] = column
         tied = contacts.tied

@@ -6,6 +6,7 @@ geometry that the search sees, whatever the degree of the approximation.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -35,6 +36,13 @@ class Sides:
             next=edges.next,
             previous=edges.previous,
         )
+
+    @cached_property
+    def whole(self) -> bool:
+        """Whether the starts of the edges are the vertices of all elements, in their order."""
+        elements, edges = self.manifold.elements, self.manifold.boundary
+        same = np.array_equal(elements.points, edges.start)
+        return same and np.array_equal(elements.polygon_of_point, edges.element)
 
     @property
     def repeats(self) -> bool:

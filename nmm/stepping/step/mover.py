@@ -73,6 +73,10 @@ class Mover:
         return self._places.of(state)
 
     def _placed(self, state: State) -> Floats:
+        contact = self._current.plan.contact
+        if contact is not None and contact.partners.sides.whole:
+            # The same points, which contact is asked for too.
+            return contact.partners.surface(state).start
         return self.vertices.place(state.frames, state.deformation)
 
     def _moved(self, state: State, increment: Floats) -> State:
