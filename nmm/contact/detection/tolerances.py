@@ -65,8 +65,8 @@ cylinder pressures of degree 0 are off by 1 % at most with 0.3, by 3 % with 0.1,
 # How far, and how often, a step looks.
 
 SKIN = 0.05
-"""Of the thickness of the thinnest body: least skin of the list of neighbours, half of `DEPTH`. Steps
-that grow from rest then outgrow no list, and a list is a quarter wider at most."""
+"""Of the thickness of the thinnest body: least skin of the list of neighbours, half of `DEPTH`.
+Steps that grow from rest then outgrow no list, and a list is a quarter wider at most."""
 FIRST_REACH = 1e-6
 """Of the domain's size: how far contacts are sought in the first step, which knows no motion."""
 FURTHER = 1.5
