@@ -42,7 +42,7 @@ class Work:
     passes
         Linear systems of contact solved.
     factorisations
-        Matrices factorised.
+        Matrices factorised, but for full ones within compiled Newton.
     sparse
         Sparse matrices made.
     calls
