@@ -51,40 +51,50 @@ def _newton(increment: Floats, columns: Any, tolerance: float, budget: int) -> A
 @compiled
 def _matrix(increment: Floats, columns: Any) -> Floats:
     """Matrix (n, n) of the step and of the tangents of its springs (Alart, Curnier 1991)."""
-    pointers, rows, entries = columns[2], columns[3], columns[4]
-    n, m = len(increment), len(columns[11])
+    pointers, rows, entries = columns[2:5]
+    n, m = len(increment), len(columns[-1])
     found = np.zeros((n, n))
     for j in range(n):
         for k in range(pointers[j], pointers[j + 1]):
             found[rows[k], j] += entries[k]
     normal, tangent = np.empty(n), np.empty(n)
+    gap, slip, stiff, hard, push, drag, tension, cohesion, friction = columns[11:]
     for c in range(m):
-        pull = _trial(c, increment, columns[5], columns[6], columns[7], normal)
-        drag = _trial(c, increment, columns[8], columns[9], columns[10], tangent)
-        stiff, hard = columns[13][c], columns[14][c]
-        pull = stiff * (pull + columns[11][c]) + columns[15][c]
-        drag = hard * (drag + columns[12][c]) + columns[16][c]
-        tension, cohesion, friction = columns[17][c], columns[18][c], columns[19][c]
-        is_open = pull > tension
-        held = min(pull, tension)
-        bound = friction * max(-held, 0.0) + (0.0 if is_open and tension <= 0.0 else cohesion)
-        mixed = 0.0
-        if abs(drag) > bound:
-            slope = friction if held < 0.0 and not is_open else 0.0
-            mixed, hard = -math.copysign(slope, drag) * stiff, 0.0
-        if is_open:
-            stiff = 0.0
-            hard = 0.0 if tension <= 0.0 else hard
+        opening = gap[c] + _row(c, increment, *columns[5:8], normal)
+        sliding = slip[c] + _row(c, increment, *columns[8:11], tangent)
+        along, across, mixed = _slopes(
+            stiff[c] * opening + push[c],
+            hard[c] * sliding + drag[c],
+            tension[c],
+            cohesion[c],
+            friction[c],
+        )
+        along, across, mixed = along * stiff[c], across * hard[c], mixed * stiff[c]
         for k in range(n):
-            along, across = stiff * normal[k] + mixed * tangent[k], hard * tangent[k]
-            if along != 0.0 or across != 0.0:
+            one, other = along * normal[k] + mixed * tangent[k], across * tangent[k]
+            if one != 0.0 or other != 0.0:
                 for j in range(n):
-                    found[k, j] += along * normal[j] + across * tangent[j]
+                    found[k, j] += one * normal[j] + other * tangent[j]
     return found
 
 
 @compiled
-def _trial(
+def _slopes(
+    pull: float, drag: float, tension: float, cohesion: float, friction: float
+) -> tuple[float, float, float]:
+    """`nmm.contact.problem.coulomb.tangent` of one contact."""
+    is_open, held = pull > tension, min(pull, tension)
+    lost = is_open and tension <= 0.0
+    bound = friction * max(-held, 0.0) + (0.0 if lost else cohesion)
+    acts = 0.0 if is_open else 1.0
+    if not abs(drag) > bound:
+        return acts, 0.0 if lost else 1.0, 0.0
+    slope = friction if held < 0.0 else 0.0
+    return acts, 0.0, -math.copysign(slope * acts, drag)
+
+
+@compiled
+def _row(
     c: int, increment: Floats, pointers: Index, columns: Index, entries: Floats, row: Floats
 ) -> float:
     """Write row ``c`` in full to ``row`` (n,); return its product with the unknowns."""
