@@ -14,6 +14,7 @@ from integration.arrays import Floats
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.residual_kernel import residual
+from nmm.contact.problem.step_problem import Compressed
 from nmm.solvers.factor import PIVOT
 
 Index = npt.NDArray[Any]
@@ -60,8 +61,8 @@ def _matrix(increment: Floats, columns: Any) -> Floats:
     normal, tangent = np.empty(n), np.empty(n)
     gap, slip, stiff, hard, push, drag, tension, cohesion, friction = columns[11:]
     for c in range(m):
-        opening = gap[c] + _row(c, increment, *columns[5:8], normal)
-        sliding = slip[c] + _row(c, increment, *columns[8:11], tangent)
+        opening = gap[c] + _row(c, columns[5:8], increment, normal)
+        sliding = slip[c] + _row(c, columns[8:11], increment, tangent)
         along, across, mixed = _slopes(
             stiff[c] * opening + push[c],
             hard[c] * sliding + drag[c],
@@ -94,10 +95,9 @@ def _slopes(
 
 
 @compiled
-def _row(
-    c: int, increment: Floats, pointers: Index, columns: Index, entries: Floats, row: Floats
-) -> float:
-    """Write row ``c`` in full to ``row`` (n,); return its product with the unknowns."""
+def _row(c: int, rows: Compressed, increment: Floats, row: Floats) -> float:
+    """Write row ``c`` of compressed ones in full to ``row`` (n,); return its product."""
+    pointers, columns, entries = rows
     row[:] = 0.0
     moved = 0.0
     for k in range(pointers[c], pointers[c + 1]):
