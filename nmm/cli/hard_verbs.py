@@ -106,7 +106,7 @@ def _tell(finding: "Finding") -> None:
 
 def _keep(finding: "Finding", out: Path) -> None:
     """Write the scene of a case that misses, and the smallest one found that does so too."""
-    from nmm.verification.hard.running.files import write_scene
+    from nmm.verification.hard.cases.files import write_scene
     from nmm.verification.hard.running.running import smallest
 
     label = f"{finding.group} {finding.case.label}"

@@ -12,6 +12,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.diffusion.problem import DiffusionProblem, step_between
+from nmm.solvers.known import LEAST
 
 # Of a step, about what its length may exceed the longest by.
 ROUNDING = 1e-9
@@ -33,26 +34,33 @@ class FieldAt:
         What it has taken up since the start of the run, by what gave it.
     stored
         What it holds more than at the start.
+    exchanged
+        Size of what went to and fro at edges, of which ``taken`` is what is left.
     """
 
     time: float
     unknowns: Floats
     taken: Mapping[str, float]
     stored: float = 0.0
+    exchanged: float = 0.0
 
     @property
     def imbalance(self) -> float:
-        """What was taken up and is not stored, over all that came and went."""
+        """What was taken up and is not stored, over all that came and went.
+
+        Where next to nothing flows, all that did is rounding of what is exchanged.
+        """
         all_ways = sum(abs(amount) for amount in self.taken.values())
+        all_ways = max(all_ways, LEAST * self.exchanged)
         lacking = self.stored - sum(self.taken.values())
         return abs(lacking) / all_ways if all_ways else 0.0
 
 
-Parts = tuple[float, Floats, Mapping[str, float], float]
+Parts = tuple[float, Floats, Mapping[str, float], float, float]
 
 
 def _parts(field: FieldAt) -> Parts:
-    return field.time, field.unknowns, field.taken, field.stored
+    return field.time, field.unknowns, field.taken, field.stored, field.exchanged
 
 
 class Course:
@@ -120,20 +128,23 @@ class Course:
             if began is not None and not self.problem.changes(began.time, time):
                 return replace(began, time=time)
             unknowns = self.problem.steady(time)
-            return FieldAt(time, unknowns, self.problem.taken(unknowns, time))
+            taken, exchanged = self.problem.taken(unknowns, time), self.problem.exchanged(time)
+            return FieldAt(time, unknowns, taken, exchanged=exchanged)
         return self._gone_on(began if time > began.time else start, time)
 
     def _gone_on(self, last: FieldAt, time: float) -> FieldAt:
         """Step from a field to a later time."""
         problem, unknowns, taken = self.problem, last.unknowns, dict(last.taken)
+        exchanged = last.exchanged
         for begin, end, theta in self._steps(last.time, time):  # steps in time
             after = problem.stepped(unknowns, begin, end, theta)
             for share, field, at in ((1 - theta, unknowns, begin), (theta, after, end)):
                 for name, rate in problem.taken(field, at).items():  # a handful of edges
                     taken[name] = taken.get(name, 0.0) + share * step_between(begin, end) * rate
             unknowns = after
+            exchanged += step_between(begin, end) * problem.exchanged(end)
         gained = problem.stored(unknowns) - problem.stored(last.unknowns)
-        return FieldAt(time, unknowns, taken, last.stored + gained)
+        return FieldAt(time, unknowns, taken, last.stored + gained, exchanged)
 
     def _steps(self, begin: float, end: float) -> Iterator[tuple[float, float, float]]:
         """Yield begin and end of equal steps, as few as their length allows, and theta."""

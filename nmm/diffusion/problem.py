@@ -161,6 +161,11 @@ class DiffusionProblem:
             found[source.name] = found.get(source.name, 0.0) + float(self._test @ rate)
         return found
 
+    def exchanged(self, time: float) -> float:
+        """Size of what edges give in a unit of time, and take again where nothing flows."""
+        given = (np.abs(one.factor(time) * one.load) for one in self.edges)
+        return float(sum((np.abs(self._test) @ one for one in given), start=0.0))
+
     def stored(self, unknowns: Floats) -> float:
         """What these bodies hold beyond a field of zero."""
         return 0.0 if self.capacity is None else float(self._test @ (self.capacity @ unknowns))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
@@ -38,7 +39,20 @@ def fault(value: object, expected: str, remedy: str) -> PydanticCustomError:
     return PydanticCustomError("fault", "expected {expected}: {remedy}", context)
 
 
-def quantity(unit: str, smallest: float = 0.0) -> BeforeValidator:
+@dataclass(frozen=True, slots=True)
+class InUnit(BeforeValidator):
+    """Mark of a type whose values are of a unit, read as numbers in it or as texts.
+
+    Attributes
+    ----------
+    unit
+        SI, a key of `nmm.scene.units.COMMON`, or "any".
+    """
+
+    unit: str = "1"
+
+
+def quantity(unit: str, smallest: float = 0.0) -> InUnit:
     """Validator that accepts a number in `unit` or a text of number and unit.
 
     Its magnitude is at most `LARGEST`, and at least ``smallest`` where it is not zero.
@@ -60,7 +74,7 @@ def quantity(unit: str, smallest: float = 0.0) -> BeforeValidator:
         # Adding 0.0 turns -0.0 into 0.0, so that both give the same scene hash.
         return float(value) + 0.0 if isinstance(value, int | float) else value
 
-    return BeforeValidator(read, json_schema_input_type=float | str)
+    return InUnit(read, float | str, unit)
 
 
 def _time_or_auto(value: object) -> object:

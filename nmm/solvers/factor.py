@@ -14,6 +14,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats
 from nmm.errors import SolveError
 from nmm.solvers.draws import same_draws
+from nmm.solvers.known import known_load
 from nmm.solvers.krylov import minimal_residual
 from nmm.solvers.scaling import scaled
 from nmm.solvers.unchecked import product
@@ -108,8 +109,11 @@ class Factor:
                 ) from fault
             return cls(shifted, matrix, scale, parts, deflated=True)
 
-    def solve(self, rhs: Floats) -> Floats:
+    def solve(self, rhs: Floats, among: Floats | None = None) -> Floats:
         """Solve ``matrix @ x = rhs`` with refinement.
+
+        ``among`` (n,) is the size of the forces that the load is the sum of, where these cancel:
+        see `relative_residual`.
 
         Raises
         ------
@@ -117,12 +121,13 @@ class Factor:
             When no solution exists: the matrix is singular and the load moves a free part.
         """
         x, residual, growth = self._refined(rhs)
+        residual *= self._known(rhs, among)
         if residual <= _limit(growth) and growth < GROWTH:
             return x
         if not self.deflated:
             if self._fallback is None:
                 self._fallback = self._shifted()
-            return self._fallback.solve(rhs)
+            return self._fallback.solve(rhs, among)
         if residual <= max(_limit(growth), TOLD):
             return x
         at = self.weakest_unknown(x)
@@ -144,11 +149,22 @@ class Factor:
         """
         return self._refined(rhs, tolerance)[0]
 
-    def relative_residual(self, x: Floats, rhs: Floats) -> float:
-        """``|rhs - matrix @ x| / |rhs|`` in scaled quantities."""
+    def relative_residual(self, x: Floats, rhs: Floats, among: Floats | None = None) -> float:
+        """``|rhs - matrix @ x| / |rhs|`` in scaled quantities.
+
+        A load that is left of forces ``among`` (n,) counts as no less than `known_load` of these.
+        """
         size = float(np.linalg.norm(self.scale * rhs))
         rest = float(np.linalg.norm(self.scale * (rhs - self.matrix @ x)))
-        return rest / size if size > 0 else rest
+        return rest / size * self._known(rhs, among) if size > 0 else rest
+
+    def _known(self, rhs: Floats, among: Floats | None) -> float:
+        """Return what a load is of the least that is known among the forces it is the sum of."""
+        if among is None:
+            return 1.0
+        least = known_load(self.scale * among)
+        size = _length(self.scale * rhs)
+        return 1.0 if size >= least else size / least
 
     def weakest_unknown(self, x: Floats) -> int:
         """Unknown that moves most in ``x``, scaled: in a free motion if the matrix is singular."""

@@ -168,6 +168,7 @@ class TiedBonds(Transform):
             problem,
             matrix=csc_array(problem.matrix + self.weight * self.matrix),
             force=problem.force - self.push,
+            among=None if problem.among is None else problem.among + np.abs(self.push),
             normal_rows=csr_array(problem.normal_rows[others]),
             tangent_rows=csr_array(problem.tangent_rows[others]),
             limits=Limits(*(column[others] for column in vars(problem.limits).values())),

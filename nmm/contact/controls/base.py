@@ -58,6 +58,8 @@ class Control(ABC):
 
     by_load: ClassVar[bool] = False
     """Whether the load factor itself is sought, at which the next bond is at its limit."""
+    from_limit: ClassVar[bool] = False
+    """Whether a path begins where a first bond is at its limit: without one it has no step."""
 
     def idle(self, events: int, softened: bool) -> bool:
         """Whether nothing is controlled yet: the load is then what grows, up to the next event.

@@ -2,11 +2,12 @@
 
 With loads ``lambda f`` on a structure that unloads to its origin ``lambda f.u / 2`` is stored, so
 that a step dissipates ``(lambda f.du - dlambda f.u) / 2`` (Gutierrez 2004; Verhoosel, Remmers and
-Gutierrez 2009). Before anything is dissipated the work of the load is what grows.
+Gutierrez 2009). Before the first bond is at its limit nothing
+is, and the load is what grows.
 """
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Dissipation(Control):
     """Energy that steps take (J)."""
+
+    from_limit: ClassVar[bool] = True
 
     @classmethod
     def of(cls, table: "ControlTable") -> Self:

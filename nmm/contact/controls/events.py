@@ -17,6 +17,7 @@ class NextEvent(Control):
     """The load factor, at which the next bond breaks."""
 
     by_load: ClassVar[bool] = True
+    from_limit: ClassVar[bool] = True
 
     @classmethod
     def of(cls, table: "ControlTable") -> Self:

@@ -86,6 +86,7 @@ class NullSpace(Transform):
             gap=problem.gap + problem.normal_rows @ start,
             slip=problem.slip + problem.tangent_rows @ start,
             start=None if problem.start is None else self.of_unknowns(problem.start),
+            among=None,  # of all unknowns
         )
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:

@@ -92,7 +92,8 @@ class Alternation:
         if new:
             self.factorisations += 1
             # Judged once: says so when the load moves a part that nothing holds.
-            kept.factor.solve(self.springs.problem.force)
+            problem = self.springs.problem
+            kept.factor.solve(problem.force, problem.among)
         return kept
 
     def _acting(self) -> Factor | None:

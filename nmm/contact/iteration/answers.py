@@ -105,7 +105,7 @@ def free_part(found: IterationResult, linear: LinearSolver, memory: Memory) -> V
         shear = np.where(is_open | sliding, 0.0, springs.shear_stiffness)
         try:
             factor = linear.factorise(pattern.matrix(problem, normal, shear))
-            increment = increment - factor.solve(springs.residual(increment).force)
+            increment = increment - factor.solve(springs.residual(increment).force, problem.among)
         except SolveError as fault:
             sentence = (
                 f"{int(is_open.sum())} of {problem.n_contacts} contacts open, "

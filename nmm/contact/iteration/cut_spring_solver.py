@@ -178,7 +178,8 @@ def inside_start(
         *np.where(exact, 0.0, shifts)
     )
     kept, _ = memory.factor_of(alike, linear)
-    increment = kept.factor.solve(springs.problem.force)
+    problem = springs.problem
+    increment = kept.factor.solve(problem.force, problem.among)
     return sides.start(increment, np.stack(alike.forces(increment)), options.interior.within)
 
 

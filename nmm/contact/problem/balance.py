@@ -27,10 +27,14 @@ def weights(
 def relative_residual(
     problem: StepProblem, weight: Floats, increment: Floats, normal: Floats, shear: Floats
 ) -> float:
-    """Out-of-balance force over the largest of load, internal and contact force."""
+    """Out-of-balance force over the largest of load, internal and contact force.
+
+    What is less than `StepProblem.least` counts as that.
+    """
     inner = problem.matrix @ increment
     contact = problem.normal_rows.T @ normal + problem.tangent_rows.T @ shear
     size = max(length(weight * part) for part in (inner, contact, problem.force))
+    size = max(size, problem.least(weight))
     rest = length(weight * (inner + contact - problem.force))
     return rest / size if size > 0 else 0.0
 

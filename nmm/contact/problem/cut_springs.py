@@ -104,6 +104,7 @@ class CutSprings:
             *(p.gap, p.slip, self.normal_stiffness, self.shear_stiffness),
             *(self.normal_shift, self.shear_shift),
             *(p.limits.tension, p.limits.cohesion, p.limits.friction),
+            p.least(self.weight),
         )
 
 

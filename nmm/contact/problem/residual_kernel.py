@@ -53,8 +53,9 @@ def residual(
     tension: Floats,
     cohesion: Floats,
     friction: Floats,
+    least: float,
 ) -> tuple[Floats, float]:
-    """Out-of-balance force (n,) and its size over the largest of its parts.
+    """Out-of-balance force (n,) and its size over the largest of its parts, or over ``least``.
 
     The matrix is symmetric: its compressed columns serve as rows.
     """
@@ -86,7 +87,7 @@ def residual(
         contact_size += (weight[i] * contact[i]) ** 2
         load_size += (weight[i] * load[i]) ** 2
         rest_size += (weight[i] * force[i]) ** 2
-    largest = max(inner_size, contact_size, load_size)
+    largest = max(inner_size, contact_size, load_size, least**2)
     return force, np.sqrt(rest_size / largest) if largest > 0.0 else 0.0
 
 

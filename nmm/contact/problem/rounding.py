@@ -35,4 +35,5 @@ def rounding(springs: CutSprings, increment: Floats) -> float:
         held += rows.T @ force
     inner = problem.matrix @ increment
     whole = max(length(springs.weight * part) for part in (inner, held, problem.force))
+    whole = max(whole, problem.least(springs.weight))
     return min(length(springs.weight * left) / whole, WORST) if whole > 0 else 0.0

@@ -17,6 +17,7 @@ from nmm.contact.problem.contact_state import ContactState
 from nmm.contact.problem.row_products import along
 from nmm.errors import SolveError
 from nmm.interfaces.limits import Limits as Limits
+from nmm.solvers.known import known_load
 
 OPEN, STICK, SLIDE, BONDED, BROKEN = ContactState
 
@@ -57,6 +58,9 @@ class StepProblem:
     start
         (n,) unknowns near the answer, where the search for it starts; None where none are known.
         No part of the problem: the answer is the same wherever the search starts.
+    among
+        (n,) size of the forces that ``force`` is the sum of, where these cancel and functions
+        depend on one another; None elsewhere.
     """
 
     matrix: csc_array
@@ -73,6 +77,11 @@ class StepProblem:
     shear_force: Floats
     compliant: Bools | None = None
     start: Floats | None = None
+    among: Floats | None = None
+
+    def least(self, weight: Floats) -> float:
+        """Size of forces, weighted, below which none is looked at: see `known_load`."""
+        return 0.0 if self.among is None else known_load(weight * self.among)
 
     @property
     def n_contacts(self) -> int:

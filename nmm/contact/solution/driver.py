@@ -245,6 +245,7 @@ class ContactSolver:
             shear_force=contacts.shear_force,
             compliant=own,
             start=start,
+            among=request.among,
         )
         weight = end_shares(request.weight, exact, own, iteration.softening)
         springs = _weighted(weight, iteration.before.rise, problem, contacts, request.foreseen)

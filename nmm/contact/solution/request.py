@@ -38,6 +38,8 @@ class StepRequest:
     foreseen
         (n,) an increment near the answer, about which springs conserve energy; None where they are
         posed as lines from the start.
+    among
+        See `StepProblem`.
     """
 
     matrix: csc_array
@@ -50,3 +52,4 @@ class StepRequest:
     near: Callable[[Floats], bool] | None = None
     time: float | None = None
     foreseen: Floats | None = None
+    among: Floats | None = None

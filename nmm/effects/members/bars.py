@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.effects.base import Setup
 from nmm.effects.members.chains import Chains
-from nmm.effects.members.ends import Ends, elements_at, nowhere
+from nmm.effects.members.ends import Ends, elements_along, elements_at, nowhere
 from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
@@ -47,7 +47,8 @@ class BarMembers(Linked):
     """All ``[[bars]]`` of a scene.
 
     A bar with bond is divided into pieces, whose middles move with what they lie in but for a slip
-    along the bar; where nothing is there is no bond, and the bar goes on to where there is.
+    along the bar; where nothing is there is no bond, and the bar goes on to where there is. A
+    middle on a joint is on the block before it, as seen from the bar's first point.
     """
 
     name = "bars"
@@ -111,7 +112,7 @@ def _laid(setup: Setup, bar: "BarTable") -> _Laid:
     position = first + share[:, None] * (last - first)
     elements, inside = np.full(pieces + 2, -1), np.zeros(pieces + 2, dtype=bool)
     if bar.bond is not None:
-        elements[1:-1] = elements_at(setup, position[1:-1])
+        elements[1:-1] = elements_along(setup, position[1:-1], last - first)
         inside = elements >= 0
     blocks = bar.blocks or (None, None)
     for at, end, block in zip((0, -1), bar.held, blocks, strict=True):

@@ -17,6 +17,9 @@ from nmm.scene.tables.members import GROUND
 if TYPE_CHECKING:
     from nmm.scene.tables.members import Between
 
+# Of the reach: so far before an edge only one side of it is in reach, unless aslant by less.
+BEFORE = 10.0
+
 
 @dataclass(frozen=True)
 class Ends:
@@ -112,8 +115,7 @@ def elements_at(setup: Setup, position: Floats, regions: Bools | None = None) ->
 
     ``regions`` (N,) says which input regions count; None is all.
     """
-    manifold = setup.model.manifold
-    reach = NEAR * float(np.hypot(*np.ptp(manifold.elements.points, axis=0)))
+    manifold, reach = setup.model.manifold, _reach(setup)
     tree = shapely.STRtree(manifold.elements.to_shapely())
     place, element = tree.query(shapely.points(position), predicate="dwithin", distance=reach)
     if regions is not None:
@@ -122,3 +124,18 @@ def elements_at(setup: Setup, position: Floats, regions: Bools | None = None) ->
     found = np.full(len(position), np.iinfo(np.int64).max)
     np.minimum.at(found, place, element)
     return np.where(found == np.iinfo(np.int64).max, -1, found)
+
+
+def elements_along(setup: Setup, position: Floats, way: Floats) -> Ints:
+    """Return an element (m,) at each position (m, 2), as `elements_at` does.
+
+    One on an edge of several blocks is on that before it along ``way`` (2,), whatever their order.
+    """
+    back = BEFORE * _reach(setup) * way / np.hypot(*way)
+    before = elements_at(setup, position - back)
+    return np.where(before >= 0, before, elements_at(setup, position))
+
+
+def _reach(setup: Setup) -> float:
+    """Return how far off material counts as on it (m)."""
+    return NEAR * float(np.hypot(*np.ptp(setup.model.manifold.elements.points, axis=0)))

@@ -10,6 +10,7 @@ from nmm.scene.fields import (
     Flag,
     FrictionAngle,
     Frozen,
+    InUnit,
     Length,
     Number,
     Options,
@@ -23,7 +24,7 @@ from nmm.scene.fields import (
 )
 
 
-def _passage(unit: str) -> BeforeValidator:
+def _passage(unit: str) -> InUnit:
     """Validator of what joints let through: a number in ``unit``, or "perfect"."""
     read = quantity(unit).func
 
@@ -34,7 +35,7 @@ def _passage(unit: str) -> BeforeValidator:
         expected = f'a conductance in {unit}, > 0, or "perfect"'
         raise fault(value, expected, f'write for example "100 {unit}"')
 
-    return BeforeValidator(checked)
+    return InUnit(checked, unit=unit)
 
 
 Conductance = Annotated[float | Literal["perfect"], _passage("W/m^2/K")]

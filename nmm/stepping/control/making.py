@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from nmm.contact.controls.base import CONTROLS, Control
 from nmm.contact.enforcement.base import make_enforcement
 from nmm.errors import FormulationError
+from nmm.stepping.control.trials import Trials
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
@@ -18,12 +19,16 @@ def control_of(table: "ControlTable", stepper: "Stepper", formulation: "Formulat
     Raises
     ------
     FormulationError
-        Where steps along a path cannot be solved.
+        Where steps along a path cannot be solved, or it would have no beginning.
     """
     faults = hindrances(stepper, formulation)
+    control = CONTROLS.load(table.type).of(table)
+    if control.from_limit and not faults and not Trials(stepper, {}).may_give_way():
+        what = f'type: "{table.type}": no bond breaks, or begins to soften, at a limit of its own'
+        faults.append((what, 'use "displacement" or "opening", or no normal_stiffness of bonds'))
     if faults:
         raise FormulationError(*(f"loading.control: {what}: {why}" for what, why in faults))
-    return CONTROLS.load(table.type).of(table)
+    return control
 
 
 def hindrances(stepper: "Stepper", formulation: "Formulation") -> list[tuple[str, str]]:

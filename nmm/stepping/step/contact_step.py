@@ -223,6 +223,7 @@ class Touching:
             near=near,
             time=equations.end.time,
             foreseen=None if foreseen is None else foreseen.increment,
+            among=equations.among,
         )
         end = None if foreseen is None else foreseen.state
         with self._clock.phase("solve"):

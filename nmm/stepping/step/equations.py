@@ -106,6 +106,9 @@ class Equations:
         Its terms; None in statics.
     symmetric
         Whether the matrix is.
+    among
+        (n,) size of the forces that ``force`` is the sum of, where rounding of them counts: in
+        statics of dependent functions.
     """
 
     state: State
@@ -116,6 +119,7 @@ class Equations:
     force: Floats
     inertia: InertiaTerms | None = None
     symmetric: bool = True
+    among: Floats | None = None
 
 
 class Assembly:
@@ -149,12 +153,14 @@ class Assembly:
         parts = list(plan.forces(state, end))
         force = sum(parts, start=np.zeros(len(state.deformation))) - line.force
         if step is None or plan.inertia is None:
-            nothing = ROUNDING if matter is None else BALANCED
-            if model.manifold.dependent and _rounded(force, [*parts, line.force], nothing):
-                force = np.zeros_like(force)
+            nothing, among = ROUNDING if matter is None else BALANCED, None
+            if model.manifold.dependent:
+                among = sum((np.abs(part) for part in parts), start=np.abs(line.force))
+                if _rounded(force, [*parts, line.force], nothing):
+                    force = np.zeros_like(force)
             held = self._anchored(line.stiffness) if anchored else line.stiffness
             matrix, even = plan.matrix(state, held), line.symmetric
-            return Equations(state, end, step, rule, matrix, force, symmetric=even)
+            return Equations(state, end, step, rule, matrix, force, symmetric=even, among=among)
         given = Equations(state, end, step, rule, line.stiffness, force, symmetric=line.symmetric)
         return self._in_time(given, line, matter is None)
 

@@ -97,8 +97,11 @@ class LinearSystem:
             solver = self.solver.unsymmetric()
         if self.factor is None or not _same(self.factor.matrix, matrix):
             self.factor = solver.factorise(matrix)
-        increment = self.factor.solve(force)
-        residual, apart = self.factor.relative_residual(increment, force), None
+        among = equations.among
+        if among is not None:
+            among = np.pad(among, (0, len(force) - len(among)))
+        increment = self.factor.solve(force, among)
+        residual, apart = self.factor.relative_residual(increment, force, among), None
         if equations.step is None:
             apart = self._apart(equations, self.factor, increment, force, border)
             apart = apart if apart is not None and apart.residual < residual else None

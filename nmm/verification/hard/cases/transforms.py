@@ -9,9 +9,13 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification.hard.cases.base import Document
 
-POINTS = ("vertices", "region", "keep", "points", "segment", "polygon")
-POINT = ("point", "origin")
-VECTORS = ("displacement", "force", "traction", "acceleration", "velocity")
+POINTS = ("vertices", "region", "keep", "points", "segment", "polygon", "phreatic_line")
+POINT = ("point", "origin", "about")
+VECTORS = (
+    *("displacement", "force", "traction", "acceleration", "velocity", "density"),
+    *("gradient", "direction"),
+)
+LEVELS = {"heads": "head", "joint_heads": "head", "water_pressures": "level"}
 FORMULATION_POINTS = ("corners", "focus")
 
 Map = Callable[[Floats], Floats]
@@ -29,12 +33,19 @@ def mapped(scene: Document, place: Map, vector: Map, turn: float = 0.0) -> Docum
     turn
         Angle in radians that stresses, dips and nets turn by.
     """
-    return {key: _mapped(key, value, place, vector, turn) for key, value in scene.items()}
+    weight = {"acceleration": [0.0, -9.81], **scene["gravity"]} if "gravity" in scene else {}
+    told = {**scene, "gravity": weight} if weight else scene
+    return {key: _mapped(key, value, place, vector, turn) for key, value in told.items()}
 
 
 def shifted(scene: Document, by: tuple[float, float]) -> Document:
-    """Return a scene laid elsewhere (m)."""
-    return mapped(scene, lambda points: points + np.asarray(by), lambda vectors: vectors)
+    """Return a scene laid elsewhere (m), with the levels of its waters; histories scale these."""
+    made = mapped(scene, lambda points: points + np.asarray(by), lambda vectors: vectors)
+    tables = [(key, item) for name, key in LEVELS.items() for item in made.get(name, [])]
+    for key, table in [*tables, ("initial", made.get("seepage", {}))]:
+        if key in table:
+            table[key] += by[1]
+    return made
 
 
 def turned(scene: Document, angle: float) -> Document:
@@ -45,7 +56,7 @@ def turned(scene: Document, angle: float) -> Document:
 
 
 def mirrored(scene: Document) -> Document:
-    """Return a scene with x and -x exchanged; joint sets and nets are not mirrored."""
+    """Return a scene with x and -x exchanged; joint sets, nets and records are not mirrored."""
     flip = np.array([-1.0, 1.0])
     made = mapped(scene, lambda points: points * flip, lambda vectors: vectors * flip)
     for velocity in made.get("initial_velocities", []):
@@ -74,38 +85,6 @@ def listed_anew(scene: Document, seed: int) -> Document:
     return made
 
 
-def in_units(scene: Document, length: float, force: float) -> Document:
-    """Return a scene in other units: numbers of lengths and forces are multiplied, time stays."""
-    stress = force / length**2
-    made = mapped(scene, lambda points: points * length, lambda vectors: vectors)
-    made["thickness"] = made.get("thickness", 1.0) * length
-    for material in made["materials"].values():
-        _times(material, {"young_modulus": stress, "density": stress / length**2})
-    for law in made.get("interfaces", {}).values():
-        stiff = stress / length
-        _times(law, {"cohesion": stress, "tensile_strength": stress, "dilation_slip": length})
-        _times(law, {"normal_stiffness": stiff, "shear_stiffness": stiff})
-        _times(law, {"fracture_energy": stress * length, "shear_fracture_energy": stress * length})
-    for load in made.get("loads", []):
-        _times(load, {"force": force, "traction": stress, "density": stress / length})
-    for table, factors in (
-        ("initial_stresses", {"stress": stress}),
-        ("supports", {"displacement": length}),
-        ("initial_velocities", {"velocity": length}),
-        ("tessellations", {}),
-        ("joint_sets", {"spacing": length, "spacing_scatter": length, "trace": length}),
-    ):
-        for entry in made.get(table, []):
-            _times(entry, factors)
-    if "gravity" in made:
-        acceleration = made["gravity"].get("acceleration", [0.0, -9.81])
-        made["gravity"] = {"acceleration": [length * value for value in acceleration]}
-    cover = made.get("formulation", {}).get("cover", {})
-    for table in (cover, *cover.get("nets", [])):
-        _times(table, {"size": length})
-    return made
-
-
 def with_loads_times(scene: Document, factor: float) -> Document:
     """Return a scene with everything that acts multiplied."""
     made = deepcopy(scene)
@@ -124,15 +103,6 @@ def with_loads_times(scene: Document, factor: float) -> Document:
     return made
 
 
-def _times(table: Document, factors: dict[str, float]) -> None:
-    """Multiply the values of a table, in place, as far as it has them."""
-    for key, factor in factors.items():
-        if key in table:
-            value = table[key]
-            numbers = isinstance(value, list)
-            table[key] = [factor * part for part in value] if numbers else factor * value
-
-
 def _mapped(key: str, value: Any, place: Map, vector: Map, turn: float) -> Any:
     if isinstance(value, dict):
         return {name: _mapped(name, item, place, vector, turn) for name, item in value.items()}
@@ -142,11 +112,11 @@ def _mapped(key: str, value: Any, place: Map, vector: Map, turn: float) -> Any:
         return [place(np.asarray(ring, dtype=float)).tolist() for ring in value]
     if key in POINT:
         return place(np.asarray([value], dtype=float))[0].tolist()
-    if key in VECTORS or (key == "density" and isinstance(value, list)):
+    if key in VECTORS and isinstance(value, list):
         return vector(np.asarray([value], dtype=float))[0].tolist()
     if key == "stress" and turn:
         return _turned_stress(value, turn)
-    if key in ("dip", "angle"):
+    if key in ("dip", "angle", "axis_angle"):
         return value + turn
     if isinstance(value, list) and value and isinstance(value[0], dict):
         return [_mapped(key, item, place, vector, turn) for item in value]

@@ -17,12 +17,12 @@ from nmm.verification.hard.cases.parts import (
     with_parts,
 )
 from nmm.verification.hard.cases.transforms import (
-    in_units,
     listed_anew,
     mirrored,
     shifted,
     turned,
 )
+from nmm.verification.hard.cases.units import in_units
 from nmm.verification.hard.cases.writing import block, rock
 from nmm.verification.hard.oracles.linear import monitored
 from nmm.verification.hard.oracles.motion import (

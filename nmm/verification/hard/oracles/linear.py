@@ -9,12 +9,12 @@ from integration.arrays import Floats
 from nmm.verification.base import Check, Checks
 from nmm.verification.hard.cases.base import Document
 from nmm.verification.hard.cases.transforms import (
-    in_units,
     listed_anew,
     shifted,
     turned,
     with_loads_times,
 )
+from nmm.verification.hard.cases.units import in_units
 from nmm.verification.hard.oracles.motion import ended, ran
 
 if TYPE_CHECKING:

@@ -52,7 +52,7 @@ def ran(scene: Document) -> Ran:
     """Run a scene of tables."""
     from nmm.scene import parse_scene
     from nmm.stepping.run import run
-    from nmm.verification.hard.running.files import toml
+    from nmm.verification.hard.cases.files import toml
 
     read = parse_scene(toml(scene), "hard case")
     begun = begun_energy(scene)
@@ -64,7 +64,7 @@ def prepared(scene: Document) -> "Simulation":
     from nmm.formulation import Formulation
     from nmm.scene import parse_scene
     from nmm.stepping.prepare import prepare
-    from nmm.verification.hard.running.files import toml
+    from nmm.verification.hard.cases.files import toml
 
     read = parse_scene(toml(scene), "hard case")
     return prepare(read, read.formulation or Formulation())

@@ -27,5 +27,6 @@ HARD = Registry[type[HardClass]](
         "ratios": f"{_HOME}.ratios:Ratios",
         "events": f"{_HOME}.events:Events",
         "solids": f"{_HOME}.random_solids:Solids",
+        "features": f"{_HOME}.features:Features",
     },
 )

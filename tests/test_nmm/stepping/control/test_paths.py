@@ -14,6 +14,8 @@ from nmm.verification.problems.past_the_peak.softening_bar import (
     softening_bar,
 )
 
+STIFF = "bonded = true\nnormal_stiffness = 1e13\nshear_stiffness = 1e13"
+
 
 @pytest.mark.parametrize("ratio", [0.5, 2.0])
 def test_steps_that_each_dissipate_the_same_go_round_the_same_path(ratio):
@@ -72,6 +74,14 @@ def test_a_control_at_fault_is_told_before_anything_runs(table, fault):
     with pytest.raises(nmm.NmmError) as error:
         nmm.run(parse_scene(softening_bar(1.0, ENERGY, table)))
     assert fault in str(error.value)
+
+
+@pytest.mark.parametrize("control", ['type = "events"\n', 'type = "dissipation"\nenergy = 1e-3\n'])
+def test_a_path_that_no_bond_begins_is_refused(control):
+    """Bonds that soften on a stiffness of their own come to no limit: there would be no step."""
+    scene = softening_bar(1.0, ENERGY, control).replace("bonded = true", STIFF)
+    with pytest.raises(nmm.NmmError, match="no bond breaks"):
+        nmm.run(parse_scene(scene))
 
 
 def test_a_path_with_checkpoints_is_refused():
