@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field, PrivateAttr, model_validator
 
@@ -34,6 +34,9 @@ CHOOSING = ("error", "error_of", "shortest", "longest")
 class SupportMethod(Frozen):
     """How supports along edges are imposed; points are held by springs."""
 
+    ALWAYS_READ: ClassVar[frozenset[str]] = frozenset({"stiffness"})
+    """Keys that any method goes with: the springs of points."""
+
     method: PartName = Field(
         default="auto",
         description=f'"auto", "penalty", "nitsche", "lagrange" {OWN}; auto is Nitsche\'s method '
@@ -53,6 +56,9 @@ class SupportMethod(Frozen):
 
 class Glue(Frozen):
     """How blocks are glued whose interface is bonded and names no stiffness, without contact."""
+
+    ALWAYS_READ: ClassVar[frozenset[str]] = frozenset()
+    """Keys that any method goes with."""
 
     method: PartName = Field(
         default="auto",

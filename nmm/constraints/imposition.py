@@ -46,6 +46,8 @@ class Imposition(ABC):
     """What it is, in words."""
     needs_cells: ClassVar[bool] = False
     """Whether it holds supports only where a mesh says the size of its cells."""
+    reads: ClassVar[frozenset[str] | None] = None
+    """Keys of ``[supports]`` and ``[glue]`` beside its name that it has a use of; None is all."""
 
     @classmethod
     @abstractmethod

@@ -54,6 +54,7 @@ class Multipliers(Imposition):
     found: MultiplierValues
 
     words: ClassVar[str] = "Lagrange multipliers"
+    reads: ClassVar[frozenset[str] | None] = frozenset()
     needs_cells: ClassVar[bool] = True
 
     @classmethod

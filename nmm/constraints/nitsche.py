@@ -47,6 +47,7 @@ class Nitsche(Imposition):
     lift: Lift | None = None
 
     words: ClassVar[str] = "Nitsche's method"
+    reads: ClassVar[frozenset[str] | None] = frozenset({"gamma", "ghost"})
     needs_cells: ClassVar[bool] = True
 
     @classmethod

@@ -35,6 +35,7 @@ class Springs(Imposition):
     stiffness: Floats
 
     words: ClassVar[str] = "springs"
+    reads: ClassVar[frozenset[str] | None] = frozenset({"stiffness"})
 
     @classmethod
     def of(cls, model: Model, interface: Interface, method: Method) -> Self:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 # Keys that name a part or change it.
 NAMING = (
     *("law", "type", "method", "functions", "degree", "enforcement", "fracture_energy", "options"),
+    *("size", "angle", "shift", "enrichment", "max_passes"),
     *("yield_stress", "hardening_modulus", "cohesion", "friction_angle", "dilation_angle"),
     *("tensile_strength", "match"),
     *("viscosity", "delayed_modulus", "delayed_viscosity"),
@@ -86,6 +87,8 @@ def _of_outputs(scene: "Scene") -> list[Fault | str]:
 def _key_of(fault: Fault | str, part: "BaseModel", keys: list[str]) -> list[str]:
     """Return the key whose value is at fault, the only one, or none where it may be any."""
     if isinstance(fault, Fault):
+        if fault.place in part.model_fields_set:
+            return [fault.place]
         for key in keys:
             if fault.value == f'"{getattr(part, key)}"':
                 return [key]
@@ -174,14 +177,34 @@ def _known(kind: str, name: str, known: list[str]) -> None:
 def _enforcement(part: Any) -> None:
     from nmm.contact.enforcement.base import make_enforcement
 
-    make_enforcement(part.enforcement, part.options)
+    made = make_enforcement(part.enforcement, part.options)
+    if "max_passes" in _changed(part) and not hasattr(made, "max_passes"):
+        raise _unread(part, "max_passes", "enforcement")
 
 
 def _imposition(part: Any) -> None:
     from nmm.constraints.imposition import IMPOSITIONS
 
-    if part.method != "auto":
-        IMPOSITIONS.load(part.method)
+    if part.method == "auto":
+        return
+    reads = IMPOSITIONS.load(part.method).reads
+    given = _changed(part) - {"method", *part.ALWAYS_READ}
+    unread = sorted(() if reads is None else given - reads)
+    if unread:
+        raise _unread(part, unread[0], "method")
+
+
+def _changed(part: Any) -> set[str]:
+    """Return the keys whose value is not that of default: files of a run name all of them."""
+    known = type(part).model_fields
+    return {key for key in part.model_fields_set if getattr(part, key) != known[key].default}
+
+
+def _unread(part: Any, key: str, naming: str) -> FormulationError:
+    """Return the refusal of a key that the part which ``naming`` names has no use of."""
+    name = getattr(part, naming)
+    expected, remedy = f'no such key, as {naming} is "{name}"', f"remove {key}, or name another"
+    return FormulationError(Fault(key, f"{getattr(part, key):g}", expected, f"{remedy} {naming}"))
 
 
 def _integrator(part: Any) -> None:

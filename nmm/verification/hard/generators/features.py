@@ -1,7 +1,7 @@
 """Small scenes of single features, each of which has one answer wherever it is seen from."""
 
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -26,13 +26,13 @@ def _box(name: str, left: float, low: float, right: float, high: float) -> str:
     return f'[[blocks]]\nname = "{name}"\nmaterial = "m"\nvertices = {corners}\n'
 
 
-def _held(segment: list[list[float]], block: str) -> str:
+def _held(segment: Sequence[Sequence[float]], block: str) -> str:
     return (
         f'[[supports]]\nname = "held"\nblock = "{block}"\nsegment = {segment}\nfix = ["x", "y"]\n'
     )
 
 
-def _pulled(segment: list[list[float]], traction: list[float], block: str = "") -> str:
+def _pulled(segment: Sequence[Sequence[float]], traction: Sequence[float], block: str = "") -> str:
     where = f'block = "{block}"\n' if block else ""
     return (
         f'[[loads]]\nname = "pull"\nkind = "edge"\nsegment = {segment}\n{where}'
@@ -40,7 +40,7 @@ def _pulled(segment: list[list[float]], traction: list[float], block: str = "") 
     )
 
 
-def _seen(name: str, point: list[float], block: str) -> str:
+def _seen(name: str, point: Sequence[float], block: str) -> str:
     return f'[[monitors]]\nname = "{name}"\npoint = {point}\nblock = "{block}"\n'
 
 

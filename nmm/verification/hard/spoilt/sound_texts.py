@@ -152,7 +152,6 @@ degree = 1
 [supports]
 method = "penalty"
 stiffness = 1e4
-ghost = 0.5
 [glue]
 method = "spring"
 stiffness = 1e4

@@ -356,7 +356,9 @@ stiffness = "10 GPa/m"
 [formulation.bars]
 pieces = 7
 """
-BLOCK = '[[blocks]]\nname = "{}"\nmaterial = "rock"\nvertices = [[0, {}], [1, {}], [1, {}], [0, {}]]\n'
+BLOCK = (
+    '[[blocks]]\nname = "{}"\nmaterial = "rock"\nvertices = [[0, {}], [1, {}], [1, {}], [0, {}]]\n'
+)
 LOW, HIGH = BLOCK.format("low", 0, 0, 1, 1), BLOCK.format("high", 1, 1, 2, 2)
 
 
