@@ -112,6 +112,7 @@ CASES = Registry[type[Case]](
         "PA2": f"{_HOME}.past_the_peak.softening_bar:SofteningBar",
         "PA3": f"{_HOME}.past_the_peak.links:PlatenColumns",
         "PA4": f"{_HOME}.past_the_peak.links:FibreBundle",
+        "PA5": f"{_HOME}.past_the_peak.lever:Lever",
         "ST1": f"{_HOME}.staged.tunnel:Tunnel",
         "ST2": f"{_HOME}.staged.columns:Embankment",
         "ST3": f"{_HOME}.staged.columns:AddedColumn",

@@ -12,6 +12,8 @@ from nmm.stepping.step.trial import Attempt
 CLOSE, MOST = 1e-10, 60
 # Load over strength beyond one above which a bond cannot hold.
 ABOVE = 1e-9
+# How far off one the nearest trial may be, where balance is rounded: beyond it loads jump.
+JUMP = 1e-6
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,7 @@ def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried | 
             high, stays = found, [part * stays[0], 1.0]
         else:
             low, stays = found, [1.0, part * stays[1]]
-    return best if abs(best.over) <= ABOVE else None
+    return best if abs(best.over) <= JUMP else None
 
 
 def _crossing(low: Tried, high: Tried, counts: list[float]) -> float:
