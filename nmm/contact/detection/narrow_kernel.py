@@ -485,8 +485,12 @@ def select(
         v, w = vertex[k], edge[k]
         if v < w and shape.link[v, CONVEX] and shape.link[w, CONVEX]:
             _pair(shape, v, w, edge, offset, state, rank, kept, final, rules)
-    rows = np.flatnonzero(final > 0)
-    return rows, final, s, gap
+    rows, count = np.empty(m, np.int64), 0
+    for k in range(m):
+        if final[k] > 0:
+            rows[count] = k
+            count += 1
+    return rows[:count].copy(), final, s, gap
 
 
 @compiled

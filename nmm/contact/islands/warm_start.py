@@ -52,9 +52,12 @@ def _nearest(points: Floats, mixes: bool, island: Ints, columns: Any) -> Floats:
     weight, islands = columns[1], island.max() + 1
     forces, sizes = np.empty_like(points), np.empty((len(points), islands))
     for i in range(len(points)):
-        forces[i], _ = residual(points[i], *columns)
-        rest, largest = balances(points[i], forces[i], island, islands, columns)
-        sizes[i] = rest / np.where(largest > 0.0, largest, 1.0)
+        force, _ = residual(points[i], *columns)
+        rest, largest = balances(points[i], force, island, islands, columns)
+        for k in range(len(weight)):
+            forces[i, k] = force[k]
+        for one in range(islands):
+            sizes[i, one] = rest[one] / (largest[one] if largest[one] > 0.0 else 1.0)
     best = np.zeros(islands, dtype=np.int64)
     for i in range(1, len(points)):
         for one in range(islands):
