@@ -44,8 +44,7 @@ class ConservingSprings(TimeWeighting):
 
     def missed(self, answer: StepAnswer, problem: StepProblem) -> Floats:
         """Force (m,) at the gap that was found less that of the line which found it (N)."""
-        stiffness = problem.normal_stiffness
-        true = mean_force(stiffness, problem.gap - self.lift, answer.gap - self.lift)
+        true = mean_force(problem.normal_stiffness, *self._stretches(problem, answer.gap))
         return np.where(self._acts, true - answer.normal_force, 0.0)
 
     @property
@@ -55,16 +54,20 @@ class ConservingSprings(TimeWeighting):
 
     def _lines(self, problem: StepProblem) -> Bools:
         """Which springs close or open from the start to what is foreseen."""
-        start, end = problem.gap - self.lift, self.foreseen - self.lift
+        start, end = self._stretches(problem, self.foreseen)
         return np.asarray(self._acts & ((start < 0) != (end < 0)))
 
     def _slope(self, problem: StepProblem) -> Floats:
-        stiffness, start, end = problem.normal_stiffness, problem.gap - self.lift, self.foreseen
-        return np.maximum(force_slope(stiffness, start, end - self.lift), LEAST * stiffness)
+        stiffness = problem.normal_stiffness
+        slope = force_slope(stiffness, *self._stretches(problem, self.foreseen))
+        return np.maximum(slope, LEAST * stiffness)
+
+    def _stretches(self, problem: StepProblem, end: Floats) -> tuple[Floats, Floats]:
+        """Return stretches (m,) at the start and at gaps (m,) of the end (m)."""
+        return problem.gap - self.lift, end - self.lift
 
     def _lead(self, problem: StepProblem) -> Floats:
-        start, end = problem.gap - self.lift, self.foreseen - self.lift
-        force = mean_force(problem.normal_stiffness, start, end)
+        force = mean_force(problem.normal_stiffness, *self._stretches(problem, self.foreseen))
         line = force / self._slope(problem) - self.foreseen
         return np.where(self._lines(problem), line + self.lift, super()._lead(problem))
 
