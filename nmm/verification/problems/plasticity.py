@@ -266,16 +266,21 @@ class Footing(SceneCase):
     )
     formulations: ClassVar[tuple[str, ...]] = ("quads degree 2",)
     friction: int = 0
+    law: str = "mohr_coulomb"
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
-        """Return clay, and soil with friction whose dilation is as large."""
-        return [cls(0), cls(20)]
+        """Return clay, and soil with friction whose dilation is as large.
+
+        Drucker and Prager's cone that is matched in plane strain collapses under the same load.
+        """
+        return [cls(0), cls(20), cls(20, "drucker_prager")]
 
     @property
     def variant(self) -> str:
-        """The friction angle."""
-        return f"phi {self.friction}"
+        """The friction angle, and the law where it is a cone."""
+        cone = ", cone" if self.law == "drucker_prager" else ""
+        return f"phi {self.friction}{cone}"
 
     @property
     def slow(self) -> bool:
@@ -295,12 +300,13 @@ class Footing(SceneCase):
         """Return the soil beside the middle, deep and wide enough for the mechanism."""
         wide, deep = (4.0, 2.0) if not self.friction else (7.0, 3.0)
         angles = f'"{self.friction} deg"'
+        match = 'match = "plane_strain"\n' if self.law == "drucker_prager" else ""
         return text.scene(
             'title = "Strip footing"\nplane = "strain"\n',
             [
-                '[materials.soil]\nlaw = "mohr_coulomb"\nyoung_modulus = 1000.0\n'
+                f'[materials.soil]\nlaw = "{self.law}"\nyoung_modulus = 1000.0\n'
                 f"poisson_ratio = 0.3\ncohesion = 1.0\nfriction_angle = {angles}\n"
-                f"dilation_angle = {angles}\n",
+                f"dilation_angle = {angles}\n{match}",
                 text.block("soil", "soil", [(0, 0), (wide, 0), (wide, deep), (1, deep), (0, deep)]),
                 roller("middle", [(0, 0), (0, deep)], "x"),
                 roller("far", [(wide, 0), (wide, deep)], "x"),
