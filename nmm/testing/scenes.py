@@ -39,10 +39,10 @@ def notched_plate(fracture: str, pulled: str = PULLED, tip: float = 0.3) -> str:
     )
 
 
-def turned_net(size: float) -> str:
-    """Return a formulation: triangles of degree 1 whose lines meet no edge of the scenes."""
+def turned_net(size: float, angle: float = 0.3, shift: Sequence[float] = (0.13, 0.27)) -> str:
+    """Return a formulation: triangles of degree 1, of which no line meets an edge of the scenes."""
     return (
-        f'[cover]\ntype = "triangles"\nsize = {size}\nangle = 0.3\nshift = [0.13, 0.27]\n'
+        f'[cover]\ntype = "triangles"\nsize = {size}\nangle = {angle}\nshift = {list(shift)}\n'
         'degree = 1\n[supports]\nmethod = "nitsche"\n'
     )
 
