@@ -53,13 +53,13 @@ def _newton(increment: Floats, columns: Any, tolerance: float, budget: int) -> A
 def _matrix(increment: Floats, columns: Any) -> Floats:
     """Matrix (n, n) of the step and of the tangents of its springs (Alart, Curnier 1991)."""
     pointers, rows, entries = columns[2:5]
-    n, m = len(increment), len(columns[-1])
+    n, m = len(increment), len(columns[11])
     found = np.zeros((n, n))
     for j in range(n):
         for k in range(pointers[j], pointers[j + 1]):
             found[rows[k], j] += entries[k]
     normal, tangent = np.empty(n), np.empty(n)
-    gap, slip, stiff, hard, push, drag, tension, cohesion, friction = columns[11:]
+    gap, slip, stiff, hard, push, drag, tension, cohesion, friction = columns[11:20]
     for c in range(m):
         opening = gap[c] + _row(c, columns[5:8], increment, normal)
         sliding = slip[c] + _row(c, columns[8:11], increment, tangent)
