@@ -142,6 +142,11 @@ class Factor:
         """Return one application of the factors without refinement, for preconditioning."""
         return np.asarray(self.scale * self.decomposition.solve(self.scale * rhs))
 
+    def rough(self, rhs: Floats) -> Floats:
+        """Return `apply` in the precision that costs least: for steps that later ones mend."""
+        solve = getattr(self.decomposition, "rough", self.decomposition.solve)
+        return np.asarray(self.scale * solve(self.scale * rhs))
+
     def refined(self, rhs: Floats, tolerance: float = 0.0) -> Floats:
         """Return a solution with refinement that is not judged: for steps of an iteration.
 

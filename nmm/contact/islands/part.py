@@ -49,6 +49,7 @@ def part_of(springs: CutSprings, unknowns: Ints, contacts: Ints, increment: Floa
         shear_force=p.shear_force[contacts],
         compliant=None if p.compliant is None else p.compliant[contacts],
         start=None,
+        among=None if p.among is None else (p.among + np.abs(pushes))[unknowns] + np.abs(pulled),
     )
     return CutSprings(
         problem,

@@ -61,6 +61,8 @@ class Islands:
     ) -> tuple[Floats, Floats]:
         """(I,) out-of-balance ``force`` (n,) of each island, and the largest of its own parts.
 
+        These are no less than what counts in the whole (`StepProblem.least`).
+
         See `nmm.contact.problem.residual_kernel.residual`, which says the same of the whole.
         """
         found = balances(increment, force, self.unknown, self.count, springs.columns)
@@ -87,7 +89,7 @@ def balances(
 ) -> tuple[Floats, Floats]:
     """See `Islands.balance`; ``columns`` as `nmm.contact.problem.residual_kernel.residual`."""
     load, weight, pointers, indices, entries = columns[:5]
-    rest, largest = np.zeros(islands), np.zeros((3, islands))
+    rest, largest = np.zeros(islands), np.full((3, islands), columns[20] ** 2)
     for i in range(len(increment)):
         inner = 0.0
         for k in range(pointers[i], pointers[i + 1]):

@@ -89,4 +89,4 @@ class ModifiedNewton:
 
     def _correction(self, residual: Residual) -> Floats:
         self.solves += 1
-        return -self.factor.apply(residual.force)
+        return -self.factor.rough(residual.force)

@@ -105,6 +105,7 @@ class CutSprings:
             *(self.normal_shift, self.shear_shift),
             *(p.limits.tension, p.limits.cohesion, p.limits.friction),
             p.least(self.weight),
+            p.paired,
         )
 
 

@@ -54,26 +54,38 @@ def residual(
     cohesion: Floats,
     friction: Floats,
     least: float,
+    paired: bool,
 ) -> tuple[Floats, float]:
     """Out-of-balance force (n,) and its size over the largest of its parts, or over ``least``.
 
-    The matrix is symmetric: its compressed columns serve as rows.
+    The matrix is symmetric: its compressed columns serve as rows. Where normal and tangent rows are
+    ``paired``, entry by entry of the same unknowns, a contact is read once.
     """
     n = len(increment)
     contact = np.zeros(n)
     for c in range(len(gap)):
         opening, sliding = gap[c], slip[c]
-        for k in range(normal_pointers[c], normal_pointers[c + 1]):
-            opening += normal_entries[k] * increment[normal_columns[k]]
-        for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
-            sliding += tangent_entries[k] * increment[tangent_columns[k]]
+        if paired:
+            for k in range(normal_pointers[c], normal_pointers[c + 1]):
+                moved = increment[normal_columns[k]]
+                opening += normal_entries[k] * moved
+                sliding += tangent_entries[k] * moved
+        else:
+            for k in range(normal_pointers[c], normal_pointers[c + 1]):
+                opening += normal_entries[k] * increment[normal_columns[k]]
+            for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
+                sliding += tangent_entries[k] * increment[tangent_columns[k]]
         normal = normal_stiffness[c] * opening + normal_shift[c]
         shear = shear_stiffness[c] * sliding + shear_shift[c]
         normal, shear = projected(normal, shear, tension[c], cohesion[c], friction[c])
-        if normal != 0.0:
+        if paired and (normal != 0.0 or shear != 0.0):
+            for k in range(normal_pointers[c], normal_pointers[c + 1]):
+                push = normal_entries[k] * normal + tangent_entries[k] * shear
+                contact[normal_columns[k]] += push
+        if normal != 0.0 and not paired:
             for k in range(normal_pointers[c], normal_pointers[c + 1]):
                 contact[normal_columns[k]] += normal_entries[k] * normal
-        if shear != 0.0:
+        if shear != 0.0 and not paired:
             for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
                 contact[tangent_columns[k]] += tangent_entries[k] * shear
     force = np.empty(n)

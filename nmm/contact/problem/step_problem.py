@@ -7,6 +7,7 @@ Signs: gap positive open, normal force positive in tension, shear force along th
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -100,6 +101,13 @@ class StepProblem:
         """Normal and tangent rows as compiled code takes them."""
         n, t = self.normal_rows, self.tangent_rows
         return (n.indptr, n.indices, n.data), (t.indptr, t.indices, t.data)
+
+    @cached_property
+    def paired(self) -> bool:
+        """Whether normal and tangent rows hold the same unknowns, entry by entry."""
+        normal, tangent = self.normal_rows, self.tangent_rows
+        pairs = (normal.indptr, tangent.indptr), (normal.indices, tangent.indices)
+        return all(a is b or np.array_equal(a, b) for a, b in pairs)
 
     def gaps(self, increment: Floats) -> Floats:
         """(m,) gaps at the end of the step."""

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from integration.arrays import Floats, Index, Ints
+from integration.arrays import Index, Ints
 
 LETTERS, SCALARS = np.frombuffer(b"LNRTU", dtype=np.uint8), np.array([1.0, -1.0, 0.0])
+SINGLES = SCALARS.astype(np.float32)
 
 
 @cache
@@ -24,9 +25,9 @@ def addresses(lapack: str, *blas: str) -> Ints:
     return np.array(found, dtype=np.int64)
 
 
-def words() -> tuple[npt.NDArray[np.uint8], Index, Floats]:
+def words(single: bool = False) -> tuple[npt.NDArray[np.uint8], Index, npt.NDArray[Any]]:
     """Arguments that LAPACK takes by address: letters, room for four integers, (1, -1, 0)."""
-    return LETTERS, np.empty(4, dtype=np.int32), SCALARS
+    return LETTERS, np.empty(4, dtype=np.int32), SINGLES if single else SCALARS
 
 
 def __getattr__(name: str) -> Any:

@@ -91,6 +91,14 @@ class Fronts:
         return np.concatenate([[0], np.cumsum(sizes)]) + int(self.panel_start[-1])
 
     @cached_property
+    def pivots(self) -> Ints:
+        """(n,) places in the panels of the diagonal of the factor."""
+        columns, height = np.diff(self.first), np.diff(self.first) + np.diff(self.row_start)
+        within = np.arange(self.first[-1]) - np.repeat(self.first[:-1], columns)
+        places = np.repeat(self.panel_start[:-1], columns)
+        return np.asarray(places + within * np.repeat(height + 1, columns))
+
+    @cached_property
     def places(self) -> tuple[Ints, Ints]:
         """All entries of the matrix, and their places in the panels and beside them."""
         pattern = self.indptr, self.indices, self.order

@@ -1,9 +1,11 @@
 """Factors on fronts: panels of numbers, and the plan they belong to."""
 
 from dataclasses import dataclass
-from typing import Self
+from functools import cached_property
+from typing import Any, Self
 
 import numpy as np
+import numpy.typing as npt
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Index, Ints
@@ -15,6 +17,10 @@ from nmm.solvers.threads import one_thread
 
 CHOLESKY_KERNELS = "dpotrf", "dtrsm", "dsyrk", "dtrsv", "dgemv"
 LU_KERNELS = "dgetrf", "dtrsm", "dgemm", "dtrsv", "dgemv"
+SINGLE_KERNELS = "spotrf", "strsm", "ssyrk", "strsv", "sgemv"
+SINGLE = 1e-4
+"""Least pivot of a matrix of unit diagonal whose factor is rounded to single precision. Walls,
+piles and slopes with springs of 10 E have 2e-3 and more, and keep six digits of a solution."""
 NO_SWAPS = np.empty(0, dtype=np.int32)
 
 
@@ -53,7 +59,14 @@ class FrontalFactor:
         """Return the solution of one right-hand side (n,) or of several (n, k)."""
         if rhs.ndim == 2:
             return np.stack([self.solve(column) for column in rhs.T], axis=1)
-        x, (outside, factor) = np.empty(len(rhs)), self.for_loops
+        return self._solved(rhs, self._inside(self.panels.numbers))
+
+    def rough(self, rhs: Floats) -> Floats:
+        """Return the solution (n,) in the precision of `for_loops`."""
+        return self._solved(rhs, self.for_loops)
+
+    def _solved(self, rhs: Floats, given: tuple[fronts.Outside, fronts.Inside]) -> Floats:
+        x, (outside, factor) = np.empty(len(rhs)), given
         one = np.ascontiguousarray(rhs, dtype=np.float64)
         with one_thread():
             fronts.solve(outside, one, factor, x)
@@ -63,13 +76,29 @@ class FrontalFactor:
     def for_loops(self) -> tuple[fronts.Outside, fronts.Inside]:
         """What compiled loops hand to `fronts.solve` before and after the right-hand side.
 
-        They hold the factor, whose panels are lent, as long as they use it.
+        In single precision where that keeps digits enough for a correction that later ones mend:
+        a solution is as long as its factor takes to be read. They hold the factor, whose panels
+        are lent, as long as they use it.
         """
-        plan = self.plan
-        kernels, (letters, sizes, scalars) = addresses(*self._kernels), words()
+        return self._inside(self.panels.numbers if self._single is None else self._single[1])
+
+    def _inside(self, panels: npt.NDArray[Any]) -> tuple[fronts.Outside, fronts.Inside]:
+        plan, single = self.plan, panels.dtype == np.float32
+        kernels = addresses(*(SINGLE_KERNELS if single else self._kernels))
         first, row_start, rows, panel_start = plan.shape
         places = plan.order, first, row_start, rows, panel_start, self._beside_start
-        return (kernels, letters, sizes, scalars), (*places, self.panels.numbers, self.swaps)
+        return (kernels, *words(single)), (*places, panels, self.swaps)
+
+    @cached_property
+    def _single(self) -> tuple[Loan, npt.NDArray[np.float32]] | None:
+        """Panels in single precision, in room that is lent; None where pivots are too small."""
+        panels = self.panels.numbers[: self.plan.panel_start[-1]]
+        if not self.symmetric or panels[self.plan.pivots].min(initial=1.0) ** 2 < SINGLE:
+            return None
+        loan = Loan((len(panels) + 1) // 2)
+        rounded = loan.numbers.view(np.float32)[: len(panels)]
+        rounded[:] = panels
+        return loan, rounded
 
     def _filled(self, matrix: csc_array, places: tuple[Ints, Ints]) -> bool:
         """Factorise a matrix whose entries go to ``places``; say whether all pivots will do."""

@@ -6,6 +6,8 @@ the transpose of ``U`` beside the pivot block is kept behind all panels. What di
 whether there is room for exchanges, ``swaps``; the two share all that runs over fronts.
 """
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
@@ -14,9 +16,9 @@ from nmm.compiled import compiled
 from nmm.solvers.frontal import blas
 from nmm.solvers.frontal.extend_add import collect_lower, collect_whole, runs
 
-Outside = tuple[Ints, npt.NDArray[np.uint8], Index, Floats]
+Outside = tuple[Ints, npt.NDArray[np.uint8], Index, npt.NDArray[Any]]
 """Addresses of kernels, and room for the letters, sizes and numbers they take."""
-Inside = tuple[Ints, Ints, Ints, Ints, Ints, Ints, Floats, Index]
+Inside = tuple[Ints, Ints, Ints, Ints, Ints, Ints, npt.NDArray[Any], Index]
 """A plan and the numbers of a factor on it, as `solve` takes them."""
 
 
@@ -128,21 +130,26 @@ def _exchange(beside: Floats, swap: Index, r: int) -> None:
 
 @compiled
 def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> None:
-    """Fill in the solution for one right-hand side: arrays are slow to return."""
+    """Fill in the solution for one right-hand side: arrays are slow to return.
+
+    It is found in the precision of the panels. The load is scaled to about one, by a power of two
+    which changes no digit: single precision has no small numbers.
+    """
     kernels, letters, sizes, scalars = outside
     order, first, row_start, rows, panel_start, beside_start, panels, swaps = inside
     n, count, symmetric = len(rhs), len(first) - 1, len(swaps) == 0
-    x = np.empty(n)
+    top = np.abs(rhs).max() if n > 0 else 0.0
+    unit = 2.0 ** np.floor(np.log2(top)) if 0.0 < top < np.inf else 1.0
+    x, work = np.empty(n, dtype=panels.dtype), np.empty(n, dtype=panels.dtype)
     for k in range(n):
-        x[k] = rhs[order[k]]
-    work = np.empty(n)
+        x[k] = rhs[order[k]] / unit
     at = letters.ctypes.data
     low, plain, turned, high = at, at + 1, at + 3, at + 4
     n_c = sizes.ctypes.data
     n_r, n_h, step = n_c + 4, n_c + 8, n_c + 12
     sizes[3] = 1
     one = scalars.ctypes.data
-    minus, zero = one + 8, one + 16
+    minus, zero = one + scalars.itemsize, one + 2 * scalars.itemsize
     ends = work.ctypes.data
     for s in range(count):
         c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
@@ -184,4 +191,4 @@ def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> No
                 )
             blas.call8(kernels[3], (high, plain, plain, n_c, block, n_h, own, step))
     for k in range(n):
-        solution[order[k]] = x[k]
+        solution[order[k]] = unit * x[k]
