@@ -55,32 +55,18 @@ class Dowels(Linked):
             JointsCrossed.of(manifold, first, last, one.thickness)
             for one, (first, last) in zip(bars, ends, strict=True)
         ]
+        crossed = JointsCrossed.joined(found)
         owner = np.repeat(np.arange(len(bars)), [len(one.share) for one in found])
-        share, before, after = (
-            np.concatenate([getattr(one, name) for one in found])
-            for name in ("share", "before", "after")
-        )
-        along = ends[:, 1] - ends[:, 0]
-        along /= np.hypot(*along.T)[:, None]
-        across = np.stack([-along[:, 1], along[:, 0]], axis=1)[owner]
         decay = np.array([_decay(one) for one in bars])
-        half = across / (2 * decay[owner, None])
-        position = ends[owner, 0] + share[:, None] * (ends[:, 1] - ends[:, 0])[owner]
-        links = Links.of(
-            Ends.at(setup, position - half, before),
-            Ends.at(setup, position + half, after),
-            setup.small,
-        )
         laws = [_law(bars[one], decay[one]) for one in owner]
-        number = np.array([one.number for one in bars])
-        axial = Fibres.of(laws, np.ones(len(owner)), number[owner])
+        number = np.array([one.number for one in bars])[owner]
         members = Members(
             tuple(f"{one.name} dowel" for one in bars),
             (PLACES,) * len(bars),
-            links,
-            Chains.without_slip(axial),
+            _links(setup, crossed, ends[owner], 1 / decay[owner]),
+            Chains.without_slip(Fibres.of(laws, np.ones(len(owner)), number)),
             owner,
-            _places(owner, share),
+            _places(owner, crossed.share),
             NONE,
         )
         return cls(setup, members, decay)
@@ -101,6 +87,17 @@ class Dowels(Linked):
             f"{name}:moment": force * arm
             for name, force, arm in zip(names, forces, lever.tolist(), strict=True)
         }
+
+
+def _links(setup: Setup, crossed: JointsCrossed, ends: Floats, length: Floats) -> Links:
+    """Return links of lengths (m,) across bars between ``ends`` (m, 2, 2), at joints crossed."""
+    first, along = ends[:, 0], ends[:, 1] - ends[:, 0]
+    middle = first + crossed.share[:, None] * along
+    across = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
+    half = length[:, None] / 2 * across
+    low = Ends.at(setup, middle - half, crossed.before)
+    high = Ends.at(setup, middle + half, crossed.after)
+    return Links.of(low, high, setup.small)
 
 
 def _decay(bar: "BarTable") -> float:
