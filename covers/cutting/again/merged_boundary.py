@@ -8,6 +8,9 @@ from covers.cutting.again.merged_elements import MergedElements
 from covers.cutting.cut_boundary import CrackTips, CutBoundary
 from integration.arrays import Ints
 
+# What leads from edge to edge.
+LINKS = ("next", "previous", "opposite")
+
 
 def merged_boundary(
     old: CutBoundary, local: CutBoundary, parts: MergedElements
@@ -28,19 +31,10 @@ def merged_boundary(
     twin, known = _twins(old, stays, local, beside, parts)
     now[beside[known]] = was[twin[known]]
 
-    linked = {}
-    for name in ("next", "previous", "opposite"):
-        links = np.full(len(order), -1, dtype=np.int64)
-        there = now[:-1] >= 0
-        links[now[:-1][there]] = now[getattr(local, name)[there]]
-        mine = was[getattr(old, name)[stays]]
-        # What led to an edge that is gone leads where the new cut says.
-        links[was[stays]] = np.where(mine >= 0, mine, links[was[stays]])
-        lost = (links < 0).any() if name != "opposite" else False
-        lost |= bool(((getattr(old, name)[stays] >= 0) & (links[was[stays]] < 0)).any())
-        if lost:
-            return None
-        linked[name] = links
+    found = {name: _linked(old, local, name, was, now, len(order)) for name in LINKS}
+    linked = {name: links for name, links in found.items() if links is not None}
+    if len(linked) < len(LINKS):
+        return None
     return CutBoundary(
         start=start[order],
         end=np.concatenate([old.end[stays], local.end[new]])[order],
@@ -49,6 +43,25 @@ def merged_boundary(
         crack=np.concatenate([old.crack[stays], local.crack[new]])[order],
         **linked,
     )
+
+
+def _linked(
+    old: CutBoundary, local: CutBoundary, name: str, was: Ints, now: Ints, n: int
+) -> Ints | None:
+    """Merged edges (n,) that links of one ``name`` lead to; None where one leads nowhere.
+
+    ``was`` and ``now`` are the numbers of old and local edges, the last place for -1.
+    """
+    before, links = getattr(old, name), np.full(n, -1, dtype=np.int64)
+    there, stays = np.flatnonzero(now[:-1] >= 0), np.flatnonzero(was[:-1] >= 0)
+    links[now[there]] = now[getattr(local, name)[there]]
+    # What led to an edge that is gone leads where the new cut says.
+    mine = was[before[stays]]
+    links[was[stays]] = np.where(mine >= 0, mine, links[was[stays]])
+    lost = (before[stays] >= 0) & (links[was[stays]] < 0)
+    # Only an edge on the outside has none opposite.
+    alone = name == "opposite" or bool((links >= 0).all())
+    return links if alone and not lost.any() else None
 
 
 def _twins(
