@@ -1,6 +1,7 @@
 """A step in time in which nothing comes near anything: one linear system, its factor kept."""
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.contact.points.contact_points import ContactPoints
@@ -23,10 +24,11 @@ class Untouched:
 
     def __init__(self) -> None:
         self.factor: Factor | None = None
+        self._of: csc_array | None = None
 
     def forget(self) -> None:
         """Drop the factor."""
-        self.factor = None
+        self.factor = self._of = None
 
     def solve(self, contacts: ContactPoints, request: StepRequest) -> ContactSolution:
         """Solve a step of no ``contacts``.
@@ -36,10 +38,11 @@ class Untouched:
         SolveError
             Where the load moves a part that has no mass.
         """
-        factor = self.factor
-        kept = factor is not None and factor.matrix is request.matrix
+        factor, kept = self.factor, self._of is request.matrix
         if factor is None or not kept:
+            # A factor may hold its matrix in another order of its entries.
             factor = self.factor = request.solver.factorise(request.matrix)
+            self._of = request.matrix
         increment = factor.solve(request.force)
         residual = factor.relative_residual(increment, request.force)
         answer = _answer(increment, residual, int(not kept), request.solver.name)
