@@ -14,6 +14,7 @@ from nmm.solvers.factor import Decomposition as Decomposition
 from nmm.solvers.factor import Factor as Factor
 from nmm.solvers.factor import RankDeficientError as RankDeficientError
 from nmm.solvers.scaling import jacobi_scale
+from nmm.solvers.unchecked import made_of
 
 SHIFT = 1e-10
 """Part of the diagonal added to a rank-deficient matrix (Duarte, Babuska, Oden 2000)."""
@@ -57,7 +58,7 @@ class LinearSolver(ABC):
         found.sort_indices()
         if not short:  # compiled code would be made anew for them
             pattern = found.indices.astype(np.int32), found.indptr.astype(np.int32)
-            found = csc_array((found.data, *pattern), shape=found.shape)
+            found = made_of(csc_array, found.data, *pattern, found.shape)
         return Factor.of(self, found)
 
     def indefinite(self) -> "LinearSolver":
