@@ -79,6 +79,9 @@ class PlainBeam(SceneCase):
         }
 
 
+GROWING = "maximum_factor = 40\n[formulation.loading]\nincrement = 1\ntolerance = 0.02\n"
+
+
 @dataclass(frozen=True)
 class ReinforcedBeam(SceneCase):
     """A row of steel blocks that do not part carries on where the concrete has cracked.
@@ -96,8 +99,9 @@ class ReinforcedBeam(SceneCase):
         return True
 
     def scene(self) -> str:
-        """Return the scene of the example."""
-        return _without_motion("reinforced")
+        """Return the scene of the example under a growing load: it ends at the first crack."""
+        followed = _without_motion("reinforced")
+        return followed[: followed.index("[loading.control]")] + GROWING
 
     def measure(self, run: "Run") -> Checks:
         """Compare the load with the plain beam's, and see cracks in concrete and pull in steel."""
