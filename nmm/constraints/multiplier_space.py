@@ -129,6 +129,7 @@ def groups(pieces: FacePieces, size: float) -> tuple[Ints, Bools]:
     group = np.empty(len(pieces.start), dtype=np.int64)
     alone: list[bool] = []
     for chain in _chains(pieces, size):  # chains: one for each edge or interface
+        chain = _from_a_corner(pieces, chain, size)
         parts = _parts(pieces, chain, CELLS * size)
         for part in parts:
             group[part] = len(alone)
@@ -152,7 +153,7 @@ def _chains(pieces: FacePieces, size: float) -> list[Ints]:
     headed = np.zeros(n, dtype=bool)
     headed[after[after >= 0]] = True
     chains, seen = [], np.zeros(n, dtype=bool)
-    for first in [*np.flatnonzero(~headed).tolist(), *range(n)]:  # closed chains start anywhere
+    for first in [*np.flatnonzero(~headed).tolist(), *range(n)]:  # closed chains last
         chain, piece = [], first
         while piece >= 0 and not seen[piece]:  # pieces one after the other
             seen[piece] = True
@@ -161,6 +162,20 @@ def _chains(pieces: FacePieces, size: float) -> list[Ints]:
         if chain:
             chains.append(np.array(chain, dtype=np.int64))
     return chains
+
+
+def _from_a_corner(pieces: FacePieces, chain: Ints, size: float) -> Ints:
+    """A chain as it is; a closed one from its sharpest corner on, however pieces are numbered.
+
+    Of corners alike it is the one furthest to the left, and the lowest of these.
+    """
+    start, end = pieces.start[chain], pieces.end[chain]
+    if np.abs(end[-1] - start[0]).max() > TOUCH * size:
+        return chain
+    along = (end - start) / np.hypot(*(end - start).T)[:, None]
+    straight = np.round(np.sum(along * np.roll(along, 1, axis=0), axis=1), 6)
+    x, y = np.round(start / (TOUCH * size)).T
+    return np.roll(chain, -int(np.lexsort((y, x, straight))[0]))
 
 
 def _parts(pieces: FacePieces, chain: Ints, wanted: float) -> list[Ints]:
