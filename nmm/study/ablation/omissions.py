@@ -53,8 +53,8 @@ class Omission:
 def omissions(scene: Tables, formulation: Tables) -> Iterator[Omission]:
     """Yield the tables without each effect that a scene names, each load, and what is no table.
 
-    The latter are the friction of its interfaces, what the integrator takes of velocities, and
-    rotations that are finite. Tables hold what was given alone, no defaults.
+    The latter are the dowels of its bars, the friction of its interfaces, what the integrator takes
+    of velocities, and rotations that are finite. Tables hold what was given alone, no defaults.
     """
     for name, keys in TABLES.items():
         if keys[0] in scene:
@@ -62,6 +62,7 @@ def omissions(scene: Tables, formulation: Tables) -> Iterator[Omission]:
     for kind in ("effects", "loads"):
         yield from _one_by_one(scene, formulation, kind)
     for name, change in (
+        ("dowels", _without_dowels),
         ("friction", _frictionless),
         ("kinetic damping", _undamped),
         ("finite rotation", _small),
@@ -90,6 +91,12 @@ def _one_by_one(scene: Tables, formulation: Tables, kind: str) -> Iterator[Omiss
 
 Changed = tuple[Tables, Tables] | None
 Change = Callable[[Tables, Tables], Changed]
+
+
+def _without_dowels(scene: Tables, formulation: Tables) -> Changed:
+    """With bars that joints cross as if they were cables."""
+    dowels = [bar.pop("dowel", None) for bar in scene.get("bars", ())]
+    return (scene, formulation) if any(dowels) else None
 
 
 def _frictionless(scene: Tables, formulation: Tables) -> Changed:

@@ -8,7 +8,7 @@ from nmm.errors import NmmError
 from nmm.formulation import Formulation
 from nmm.model.effects_table import NAMED
 from nmm.study.ablation.ablate import ablate
-from nmm.study.ablation.omissions import TABLES
+from nmm.study.ablation.omissions import TABLES, omissions
 from nmm.study.ablation.page import ablation_table
 from nmm.verification import text
 
@@ -75,4 +75,13 @@ def test_every_effect_can_be_left_out_or_is_known_to_be_left_out_by_its_loads_or
     by_load = {"loads", "body loads", "field loads", "pressures", "moving loads"}
     as_damping = {"viscous damping", "damping against the ground", "local damping"}
     kept = {"supports", "bonded interfaces"}  # without them nothing is left of a structure
-    assert set(NAMED) - set(TABLES) == by_load | as_damping | kept
+    of_bars = {"dowels"}
+    assert set(NAMED) - set(TABLES) == by_load | as_damping | kept | of_bars
+
+
+def test_dowels_are_left_out_and_their_bars_stay():
+    bars = [{"name": "a", "dowel": {"bedding_stiffness": 5e7}}, {"name": "b"}]
+    found = {one.name: one.scene for one in omissions({"bars": bars}, {})}
+    assert found["dowels"]["bars"] == [{"name": "a"}, {"name": "b"}]
+    assert "dowel" in bars[0]
+    assert found["bars"] == {}
