@@ -7,6 +7,7 @@ import numpy as np
 from nmm.assembly.motion import State
 from nmm.stepping.drive.settling import Settled, too_far
 from nmm.stepping.drive.static_theorem import carried
+from nmm.stepping.drive.vanishing_stiffness import vanishing_stiffness
 from nmm.stepping.step.anchors import block_name, largest_mover
 from nmm.stepping.step.stepper import Stepper
 
@@ -16,8 +17,8 @@ def evidence(
 ) -> str | None:
     """Return what shows that a structure, and not the solver, is at fault; None if nothing does.
 
-    The static theorem, a motion without end, or a system that is singular with the bonds and
-    contacts that are left.
+    The static theorem, a motion without end, a system that is singular with the bonds and contacts
+    that are left, or a stiffness that the load takes away.
     """
     attempt = found.attempt
     proof = carried(stepper, state, factor)
@@ -35,4 +36,6 @@ def evidence(
         said.append(f"a mechanism was found: {way}, block {name} most: {how}")
     elif attempt.singular:
         said.append(f"a mechanism was found: {attempt.sentence}")
+    elif (limit := vanishing_stiffness(stepper, state, factor)) is not None:
+        said.append(limit)
     return "; ".join(said) or None

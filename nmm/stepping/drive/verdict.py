@@ -19,7 +19,7 @@ MEANT = {
     FAILURE: "a run until failure found the load that the structure carries, and shows that it "
     "carries no more",
     COLLAPSED: "the structure has no equilibrium under a load that it was to carry; shown by a "
-    "mechanism, a motion that does not end, or the static theorem",
+    "mechanism, a motion that does not end, a stiffness that vanishes, or the static theorem",
     FAILED: "a step could not be solved, and nothing shows that the structure is at fault",
     SPENT: "the budget of seconds or steps was spent before the end",
 }

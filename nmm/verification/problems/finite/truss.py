@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 
 from nmm.verification import text
-from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.reading import last_way
 
 if TYPE_CHECKING:
@@ -102,6 +102,9 @@ class SnappedTruss(SceneCase):
         return {
             "limit load (N)": Check(
                 load or 0.0, LIMIT, 5e-5, "springs of the supports, the bracket"
+            ),
+            "limit point shown": holds(
+                run.summary.status == "failure_load", "the stiffness vanishes"
             ),
             "way of the apex (m)": Check(
                 float(way), 1 - 1 / np.sqrt(3), 1e-2, "goes as the root of the bracket: 3e-3"

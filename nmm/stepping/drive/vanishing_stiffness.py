@@ -1,0 +1,88 @@
+"""A limit point that statics has come near to: the least stiffness, which the load takes away.
+
+At a limit point of a path the square of the least eigenvalue of the tangent falls linearly with
+the load. So one state near it, and how the tangent changes as the load goes on, tell where it
+vanishes: ``f_c = f - l / (2 dl/df)``. Eigenvalues are those of the tangent against the elastic
+stiffness, supports in both; functions that depend on one another have the eigenvalue 1.
+"""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import csc_array, diags_array
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant
+
+if TYPE_CHECKING:
+    from nmm.stepping.step.stepper import Stepper
+
+# Part of the load step without equilibrium over which the change of the tangent is measured.
+NEAR = 1e-2
+# How far beyond that step the stiffness may vanish, in such steps.
+BEYOND = 2.0
+# A tangent is symmetric up to this share of its largest entry; others have no least eigenvalue.
+SYMMETRIC = 1e-8
+# Part of the elastic diagonal added to both matrices, for functions that neither resists.
+SHIFT = 1e-12
+# Unknowns up to which all eigenvalues are found.
+FEW = 200
+
+
+def vanishing_stiffness(stepper: "Stepper", state: State, factor: float) -> str | None:
+    """Say where the stiffness of bodies that bend vanishes, if a load without equilibrium is near.
+
+    Parameters
+    ----------
+    stepper
+        Of a structure; one with contact, or whose matter flows, has no answer.
+    state
+        The last equilibrium.
+    factor
+        The load factor at which none was found.
+    """
+    matter, plan = stepper.model.matter, stepper.plan
+    if matter is None or matter.flows or plan.contact is not None:
+        return None
+    elastic = plan.matrix(state, stepper.model.stiffness)
+    shift = csc_array(diags_array(SHIFT * elastic.diagonal()))
+    stiffness = csc_array(_tangent(stepper, state) + shift)
+    size = np.abs(stiffness.data).max(initial=0.0)
+    if np.abs((stiffness - stiffness.T).data).max(initial=0.0) > SYMMETRIC * size:
+        return None
+    least, mode = _least(stiffness, csc_array(elastic + shift))
+    step = factor - state.load_factor
+    ends = (Instant(state.time, load) for load in (state.load_factor, factor))
+    before, after = (plan.force(state, end) for end in ends)
+    from scipy.sparse.linalg import splu
+
+    way = splu(stiffness).solve(NEAR * (after - before))
+    moved = _tangent(stepper, replace(state, deformation=state.deformation + way))
+    change = float(mode @ (moved @ mode) + mode @ (shift @ mode)) - least
+    limit = state.load_factor - least * NEAR * step / (2 * change) if change < 0 else np.inf
+    if not (least > 0 and limit <= factor + BEYOND * step):
+        return None
+    return (
+        f"a limit point is near: the least stiffness, {least:.1e} of the elastic one, falls with "
+        f"the load and vanishes at load factor {limit:.6g}"
+    )
+
+
+def _tangent(stepper: "Stepper", state: State) -> csc_array:
+    return stepper.plan.matrix(state, stepper.model.tangent(state))
+
+
+def _least(stiffness: csc_array, elastic: csc_array) -> tuple[float, Floats]:
+    """Least eigenvalue of one matrix against another, and its vector (n,) of unit elastic work."""
+    if stiffness.shape[0] <= FEW:
+        from scipy.linalg import eigh
+
+        values, vectors = eigh(stiffness.toarray(), elastic.toarray(), subset_by_index=(0, 0))
+    else:
+        from scipy.sparse.linalg import eigsh
+
+        start = np.random.default_rng(0).normal(size=stiffness.shape[0])
+        values, vectors = eigsh(stiffness, 1, elastic, sigma=0.0, v0=start, tol=1e-6)
+    return float(values[0]), np.asarray(vectors[:, 0])
