@@ -12,9 +12,23 @@ GROUPS = {
     "B": "Blocks, contact, friction, dynamics",
     "C": "Fracture of concrete",
     "D": "Numerically hard",
+    "GR": "Cracks that grow",
+    "CO": "Cohesive cracks",
+    "SP": "Blocks that split",
+    "PA": "Paths past the peak",
+    "BO": "Bars and bolts",
+    "BM": "Earthquakes and boundaries of waves",
+    "WA": "Water",
+    "ST": "Excavation and construction",
+    "TH": "Heat",
+    "PL": "Plasticity",
+    "VI": "Viscosity and damping",
+    "FK": "Finite strain",
+    "IN": "Integrators",
+    "ML": "Moving loads",
     "": "Others",
 }
-"""What benchmarks are about, by the first letter of their names."""
+"""What benchmarks are about, by the letters their names begin with."""
 
 VERDICT = {True: "passed", False: "**missed**"}
 
@@ -89,8 +103,8 @@ def table(outcomes: Iterable[Outcome]) -> list[str]:
 
 
 def group(name: str) -> str:
-    """Letter of `GROUPS` that a benchmark belongs to; empty for one of a user's own."""
-    found = re.match(r"([A-Z])\d", name)
+    """Letters of `GROUPS` that a benchmark belongs to; empty for one of a user's own."""
+    found = re.match(r"([A-Z]+)\d", name)
     return found[1] if found and found[1] in GROUPS else ""
 
 
@@ -116,8 +130,8 @@ def _index(by_name: dict[str, list[Row]]) -> str:
         "",
         "![Errors over tolerances of all quantities](margins.png)",
     ]
-    for letter, words in GROUPS.items():
-        chosen = [row for name, rows in by_name.items() if group(name) == letter for row in rows]
+    for letters, words in GROUPS.items():
+        chosen = [row for name, rows in by_name.items() if group(name) == letters for row in rows]
         if chosen:
             lines += ["", f"## {words}", "", *_table(chosen)]
     pages = [stem(name) for name in by_name]

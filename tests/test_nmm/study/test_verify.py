@@ -172,11 +172,17 @@ def test_an_order_is_printed_with_its_confidence_and_drawn_on_its_page(tmp_path,
 
 
 def test_groups_and_numbers_are_in_the_order_of_the_manual():
-    assert in_order(["own", "B10 cone", "D1", "B2", "A14"]) == [
+    names = ["own", "B10 cone", "PL3", "D1", "B2", "A14", "GR12", "GR2", "PL1c", "BO1"]
+    assert in_order(names) == [
         "A14",
         "B2",
         "B10 cone",
         "D1",
+        "GR2",
+        "GR12",
+        "BO1",
+        "PL1c",
+        "PL3",
         "own",
     ]
 
