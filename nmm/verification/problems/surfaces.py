@@ -311,14 +311,10 @@ class Punch(Pressure):
         )
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return a net that grows away from the corners; the punch is one cell or two.
-
-        Its smallest cells are a fortieth of half the face, twice that with covers of degree 2.
-        """
-        found = super().formulation(scene, name)
+        """Return a net that grows away from the corners; the punch is one cell or two."""
         return _graded(
-            found,
-            size=1 / 20 if found.cover.degree == 2 else 1 / 40,
+            super().formulation(scene, name),
+            size=1 / 40,
             options={"focus": [[-1.0, 0.0], [1.0, 0.0]], "radius": 0.1, "growth": 0.12},
             nets=[{"block": "punch", "size": 3.0, "shift": (0.3, 0.3)}],
         )
@@ -349,10 +345,10 @@ class ExactPunch(Punch):
 
 @dataclass(frozen=True)
 class FinePunch(ExactPunch):
-    """The same with more unknowns in a cover."""
+    """The same with covers of degree 1 on quads."""
 
     name: ClassVar[str] = "B22 fine"
-    formulations: ClassVar[tuple[str, ...]] = ("quads", "manifold degree 2", "quads degree 2")
+    formulations: ClassVar[tuple[str, ...]] = ("quads",)
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
@@ -361,7 +357,7 @@ class FinePunch(ExactPunch):
 
     @property
     def slow(self) -> bool:
-        """A run takes half a minute to some."""
+        """A run takes half a minute."""
         return True
 
 
