@@ -11,10 +11,8 @@ from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.row_products import pushed
-from nmm.contact.problem.step_problem import Limits
+from nmm.contact.problem.step_problem import Compressed, Limits
 from nmm.solvers.unchecked import made_of
-
-Compressed = tuple[npt.NDArray[Any], npt.NDArray[Any], Floats]
 
 
 def part_of(springs: CutSprings, unknowns: Ints, contacts: Ints, increment: Floats) -> CutSprings:

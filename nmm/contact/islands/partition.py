@@ -5,13 +5,13 @@ hardly moves whatever its neighbours do: islands that share it are solved one af
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from integration.arrays import Bools, Floats, Index, Ints
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
+from nmm.contact.problem.residual_kernel import SpringColumns
 from nmm.contact.problem.step_problem import StepProblem
 
 STIFF = 0.05
@@ -85,11 +85,12 @@ class Islands:
 
 @compiled
 def balances(
-    increment: Floats, force: Floats, island: Ints, islands: int, columns: Any
+    increment: Floats, force: Floats, island: Ints, islands: int, springs: SpringColumns
 ) -> tuple[Floats, Floats]:
-    """See `Islands.balance`; ``columns`` as `nmm.contact.problem.residual_kernel.residual`."""
-    load, weight, pointers, indices, entries = columns[:5]
-    rest, largest = np.zeros(islands), np.full((3, islands), columns[20] ** 2)
+    """See `Islands.balance`."""
+    load, weight = springs.load, springs.weight
+    pointers, indices, entries = springs.matrix
+    rest, largest = np.zeros(islands), np.full((3, islands), springs.least**2)
     for i in range(len(increment)):
         inner = 0.0
         for k in range(pointers[i], pointers[i + 1]):

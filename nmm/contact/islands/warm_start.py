@@ -6,15 +6,13 @@ of the last step alone, with two thirds of their contacts in a wrong state. In s
 says where a loose piece belongs: what starts from a mix may leave it anywhere.
 """
 
-from typing import Any
-
 import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
 from nmm.contact.islands.partition import Islands, balances
 from nmm.contact.problem.cut_springs import CutSprings
-from nmm.contact.problem.residual_kernel import residual
+from nmm.contact.problem.residual_kernel import SpringColumns, residual
 
 MIX_RIDGE = 1e-10
 """Part of the trace that keeps the least squares regular where the last steps were alike."""
@@ -47,13 +45,13 @@ def start_from(
 
 
 @compiled
-def _nearest(points: Floats, mixes: bool, island: Ints, columns: Any) -> Floats:
+def _nearest(points: Floats, mixes: bool, island: Ints, springs: SpringColumns) -> Floats:
     """Unknowns (n,), of each island the best balanced of ``points`` (k, n) and their mix."""
-    weight, islands = columns[1], island.max() + 1
+    weight, islands = springs.weight, island.max() + 1
     forces, sizes = np.empty_like(points), np.empty((len(points), islands))
     for i in range(len(points)):
-        force, _ = residual(points[i], *columns)
-        rest, largest = balances(points[i], force, island, islands, columns)
+        force, _ = residual(points[i], springs)
+        rest, largest = balances(points[i], force, island, islands, springs)
         for k in range(len(weight)):
             forces[i, k] = force[k]
         for one in range(islands):
@@ -72,8 +70,8 @@ def _nearest(points: Floats, mixes: bool, island: Ints, columns: Any) -> Floats:
     if not mixes:
         return found
     mixed = _mixed(points, forces, weight, island, islands)
-    force, _ = residual(mixed, *columns)
-    rest, largest = balances(mixed, force, island, islands, columns)
+    force, _ = residual(mixed, springs)
+    rest, largest = balances(mixed, force, island, islands, springs)
     for k in range(len(weight)):
         one = island[k]
         if rest[one] < sizes[best[one], one] * largest[one]:

@@ -4,14 +4,12 @@ Residual, solution, mixing and judging of a pass call no Python. What it finds i
 loop finds, to the last digits.
 """
 
-from typing import Any
-
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.compiled import compiled
 from nmm.contact.iteration.options import Patience
-from nmm.contact.problem import residual_kernel
+from nmm.contact.problem.residual_kernel import SpringColumns, residual
 from nmm.solvers.anderson import add_step, mixed_step
 from nmm.solvers.frontal import fronts
 from nmm.solvers.frontal.frontal_factor import FrontalFactor
@@ -29,7 +27,7 @@ def serves(factor: Factor) -> bool:
 
 def run(
     factor: Factor,
-    columns: tuple[Any, ...],
+    springs: SpringColumns,
     start: tuple[Floats, Floats, float],
     budget: int,
     tolerance: float,
@@ -40,8 +38,8 @@ def run(
 
     Parameters
     ----------
-    columns
-        Of `nmm.contact.problem.residual_kernel.residual`.
+    springs
+        The equations.
     start
         Unknowns (n,), out-of-balance force (n,) and its size.
     steer
@@ -57,7 +55,7 @@ def run(
     steady = float(wait.ahead), float(wait.below), int(wait.look)
     turn = int(depth), float(growth)
     with one_thread():
-        found = _run(x, force, *given, steady, turn, factor.scale, outside, plan, columns)
+        found = _run(x, force, *given, steady, turn, factor.scale, outside, plan, springs)
     increment, force, size, solves = found
     return increment, force, float(size), int(solves)
 
@@ -74,7 +72,7 @@ def _run(
     scale: Floats,
     outside: fronts.Outside,
     plan: fronts.Inside,
-    columns: tuple[Any, ...],
+    springs: SpringColumns,
 ) -> tuple[Floats, Floats, float, int]:
     depth, growth = steer
     n, count, solves, known = len(increment), 0, 0, False
@@ -90,7 +88,7 @@ def _run(
         used = min(count, depth)
         step = mixed_step(sums, corrections, gram, used, correction, force)
         there = at + step
-        new_force, new_size = residual_kernel.residual(there, *columns)
+        new_force, new_size = residual(there, springs)
         if count > 0 and not new_size < growth * best_size:
             count, at, force, known = 0, best, best_force, False
             continue

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from integration.arrays import Floats
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
-from nmm.contact.problem.residual_kernel import residual
+from nmm.contact.problem.residual_kernel import SpringColumns, residual
 from nmm.contact.problem.step_problem import Compressed
 from nmm.solvers.factor import PIVOT
 
@@ -31,18 +31,18 @@ def newton_in_full(
 
 
 @compiled
-def _newton(increment: Floats, columns: Any, tolerance: float, budget: int) -> Any:
+def _newton(increment: Floats, springs: SpringColumns, tolerance: float, budget: int) -> Any:
     """Newton steps while each halves the out-of-balance force; -1 steps where a pivot vanishes."""
-    force, size = residual(increment, *columns)
+    force, size = residual(increment, springs)
     taken = 0
     while taken < budget and size > tolerance:
-        matrix = _matrix(increment, columns)
+        matrix = _matrix(increment, springs)
         step, regular = _solved(matrix, force)
         if not regular:
             return increment, size, -1
         taken += 1
         tried = increment - step
-        rest, left = residual(tried, *columns)
+        rest, left = residual(tried, springs)
         if not left < 0.5 * size:
             break
         increment, force, size = tried, rest, left
@@ -50,25 +50,25 @@ def _newton(increment: Floats, columns: Any, tolerance: float, budget: int) -> A
 
 
 @compiled
-def _matrix(increment: Floats, columns: Any) -> Floats:
+def _matrix(increment: Floats, springs: SpringColumns) -> Floats:
     """Matrix (n, n) of the step and of the tangents of its springs (Alart, Curnier 1991)."""
-    pointers, rows, entries = columns[2:5]
-    n, m = len(increment), len(columns[11])
+    pointers, rows, entries = springs.matrix
+    stiff, hard = springs.normal_stiffness, springs.shear_stiffness
+    n, m = len(increment), len(springs.gap)
     found = np.zeros((n, n))
     for j in range(n):
         for k in range(pointers[j], pointers[j + 1]):
             found[rows[k], j] += entries[k]
     normal, tangent = np.empty(n), np.empty(n)
-    gap, slip, stiff, hard, push, drag, tension, cohesion, friction = columns[11:20]
     for c in range(m):
-        opening = gap[c] + _row(c, columns[5:8], increment, normal)
-        sliding = slip[c] + _row(c, columns[8:11], increment, tangent)
+        opening = springs.gap[c] + _row(c, springs.normal_rows, increment, normal)
+        sliding = springs.slip[c] + _row(c, springs.tangent_rows, increment, tangent)
         along, across, mixed = _slopes(
-            stiff[c] * opening + push[c],
-            hard[c] * sliding + drag[c],
-            tension[c],
-            cohesion[c],
-            friction[c],
+            stiff[c] * opening + springs.normal_shift[c],
+            hard[c] * sliding + springs.shear_shift[c],
+            springs.tension[c],
+            springs.cohesion[c],
+            springs.friction[c],
         )
         along, across, mixed = along * stiff[c], across * hard[c], mixed * stiff[c]
         for k in range(n):

@@ -2,14 +2,13 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.contact.problem import residual_kernel
 from nmm.contact.problem.balance import weights
 from nmm.contact.problem.coulomb import project, states, tangent
+from nmm.contact.problem.residual_kernel import SpringColumns, residual
 from nmm.contact.problem.step_problem import StepProblem
 
 
@@ -88,19 +87,18 @@ class CutSprings:
 
     def residual(self, increment: Floats) -> "Residual":
         """Out-of-balance force of ``increment``."""
-        force, size = residual_kernel.residual(increment, *self.columns)
+        force, size = residual(increment, self.columns)
         return Residual(force, float(size))
 
     @cached_property
-    def columns(self) -> tuple[Any, ...]:
-        """What `residual_kernel.residual` takes besides unknowns."""
+    def columns(self) -> SpringColumns:
+        """The same as compiled code takes them."""
         p = self.problem
-        return (
+        return SpringColumns(
             p.force,
             self.weight,
-            *(p.matrix.indptr, p.matrix.indices, p.matrix.data),
-            *(p.normal_rows.indptr, p.normal_rows.indices, p.normal_rows.data),
-            *(p.tangent_rows.indptr, p.tangent_rows.indices, p.tangent_rows.data),
+            (p.matrix.indptr, p.matrix.indices, p.matrix.data),
+            *p.compressed_rows,
             *(p.gap, p.slip, self.normal_stiffness, self.shear_stiffness),
             *(self.normal_shift, self.shear_shift),
             *(p.limits.tension, p.limits.cohesion, p.limits.friction),

@@ -4,13 +4,14 @@
 is tested against.
 """
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
+from nmm.contact.problem.step_problem import Compressed
 
 Index = npt.NDArray[Any]
 
@@ -30,37 +31,60 @@ def projected(
     return normal, min(max(shear, -bound), bound)
 
 
+class SpringColumns(NamedTuple):
+    """Cut springs as compiled code takes them, see `CutSprings`.
+
+    Attributes
+    ----------
+    load, weight
+        (n,) force of the step and weights of what is out of balance.
+    matrix
+        Compressed columns, of a symmetric one rows as well.
+    normal_rows, tangent_rows
+        Compressed rows of gaps and slips.
+    gap, slip, normal_stiffness, shear_stiffness, normal_shift, shear_shift
+        (m,) of the contacts.
+    tension, cohesion, friction
+        (m,) limits.
+    least
+        What forces count as at least.
+    paired
+        Whether both rows hold the same unknowns, entry by entry.
+    """
+
+    load: Floats
+    weight: Floats
+    matrix: Compressed
+    normal_rows: Compressed
+    tangent_rows: Compressed
+    gap: Floats
+    slip: Floats
+    normal_stiffness: Floats
+    shear_stiffness: Floats
+    normal_shift: Floats
+    shear_shift: Floats
+    tension: Floats
+    cohesion: Floats
+    friction: Floats
+    least: float
+    paired: bool
+
+
 @compiled
-def residual(
-    increment: Floats,
-    load: Floats,
-    weight: Floats,
-    pointers: Index,
-    columns: Index,
-    entries: Floats,
-    normal_pointers: Index,
-    normal_columns: Index,
-    normal_entries: Floats,
-    tangent_pointers: Index,
-    tangent_columns: Index,
-    tangent_entries: Floats,
-    gap: Floats,
-    slip: Floats,
-    normal_stiffness: Floats,
-    shear_stiffness: Floats,
-    normal_shift: Floats,
-    shear_shift: Floats,
-    tension: Floats,
-    cohesion: Floats,
-    friction: Floats,
-    least: float,
-    paired: bool,
-) -> tuple[Floats, float]:
+def residual(increment: Floats, springs: SpringColumns) -> tuple[Floats, float]:
     """Out-of-balance force (n,) and its size over the largest of its parts, or over ``least``.
 
     The matrix is symmetric: its compressed columns serve as rows. Where normal and tangent rows are
     ``paired``, entry by entry of the same unknowns, a contact is read once.
     """
+    load, weight, gap, slip = springs.load, springs.weight, springs.gap, springs.slip
+    pointers, columns, entries = springs.matrix
+    normal_pointers, normal_columns, normal_entries = springs.normal_rows
+    tangent_pointers, tangent_columns, tangent_entries = springs.tangent_rows
+    normal_stiffness, shear_stiffness = springs.normal_stiffness, springs.shear_stiffness
+    normal_shift, shear_shift = springs.normal_shift, springs.shear_shift
+    tension, cohesion, friction = springs.tension, springs.cohesion, springs.friction
+    least, paired = springs.least, springs.paired
     n = len(increment)
     contact = np.zeros(n)
     for c in range(len(gap)):
