@@ -6,6 +6,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.compiled import compiled
+from nmm.solvers.kernels.gauss import eliminated, substituted
 
 RIDGE = 1e-12
 """Part of the trace that keeps the least squares regular."""
@@ -112,33 +113,19 @@ def mixed_step(
     result = correction.copy()
     if used == 0 or not (np.isfinite(trace) and trace > 0.0):
         return result
-    table = np.empty((used, used + 1))
+    table, load = np.empty((used, used)), np.empty(used)
     for k in range(used):
-        table[k, :used] = gram[k, :used]
+        table[k, :] = gram[k, :used]
         table[k, k] += RIDGE * trace
         total = 0.0
         for i in range(len(force)):
             total -= corrections[k, i] * force[i]
-        table[k, used] = total
+        load[k] = total
+    order = np.arange(used)
+    if not eliminated(table, order, True):
+        return result
+    shares = substituted(table, order, load)
     for k in range(used):
-        best = k
-        for row in range(k + 1, used):
-            if abs(table[row, k]) > abs(table[best, k]):
-                best = row
-        if not abs(table[best, k]) > 0.0:
-            return result
-        for column in range(k, used + 1):
-            table[k, column], table[best, column] = table[best, column], table[k, column]
-        for row in range(k + 1, used):
-            share = table[row, k] / table[k, k]
-            for column in range(k, used + 1):
-                table[row, column] -= share * table[k, column]
-    for k in range(used - 1, -1, -1):
-        for column in range(k + 1, used):
-            table[k, used] -= table[k, column] * table[column, used]
-        table[k, used] /= table[k, k]
-    for k in range(used):
-        share = table[k, used]
         for i in range(len(result)):
-            result[i] -= share * sums[k, i]
+            result[i] -= shares[k] * sums[k, i]
     return result

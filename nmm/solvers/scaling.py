@@ -47,7 +47,7 @@ def scaled(matrix: csc_array, scale: Floats, shift: float) -> csc_array:
 def _scaled_data(matrix: csc_array, scale: Floats, shift: float) -> tuple[Floats, int]:
     """Scaled entries, the shift added to those on the diagonal, and the number of these."""
     if "numba" in sys.modules and matrix.indices.dtype == np.int32:
-        from nmm.solvers.scaling_kernel import scaled_data
+        from nmm.solvers.kernels.scaling_kernel import scaled_data
 
         return scaled_data(matrix.indptr, matrix.indices, matrix.data, scale, shift)
     column = np.repeat(np.arange(len(scale)), np.diff(matrix.indptr))

@@ -13,6 +13,7 @@ from nmm.compiled import compiled
 from nmm.contact.islands.partition import Islands, balances
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.residual_kernel import SpringColumns, residual
+from nmm.solvers.kernels.gauss import eliminated, substituted
 
 MIX_RIDGE = 1e-10
 """Part of the trace that keeps the least squares regular where the last steps were alike."""
@@ -114,17 +115,11 @@ def _solved(table: Floats) -> None:
         trace += table[i, i]
         for j in range(i):
             table[j, i] = table[i, j]
+    load, order = table[:, count].copy(), np.arange(count)
+    table[:, count] = 0.0
     if not (np.isfinite(trace) and trace > 0.0):
-        table[:, count] = 0.0
         return
     for i in range(count):
         table[i, i] += MIX_RIDGE * trace
-    for i in range(count):
-        for row in range(i + 1, count):
-            share = table[row, i] / table[i, i]
-            for column in range(i, count + 1):
-                table[row, column] -= share * table[i, column]
-    for i in range(count - 1, -1, -1):
-        for column in range(i + 1, count):
-            table[i, count] -= table[i, column] * table[column, count]
-        table[i, count] /= table[i, i]
+    if eliminated(table, order, False):
+        table[:, count] = substituted(table, order, load)

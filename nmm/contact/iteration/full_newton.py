@@ -16,6 +16,7 @@ from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.residual_kernel import SpringColumns, residual
 from nmm.contact.problem.step_problem import Compressed
 from nmm.solvers.factor import PIVOT
+from nmm.solvers.kernels.gauss import eliminated, substituted
 
 Index = npt.NDArray[Any]
 REFINED = 2
@@ -120,12 +121,12 @@ def _solved(matrix: Floats, load: Floats) -> tuple[Floats, bool]:
         for j in range(n):
             triangles[i, j] = scale[i] * matrix[i, j] * scale[j]
         triangles[i, i] += PIVOT
-    if not _eliminated(triangles, order):
+    if not eliminated(triangles, order, True):
         return load, False
     found, rest = np.zeros(n), load.copy()
     best, least = found, math.inf
     for _ in range(REFINED + 1):
-        found = found + scale * _substituted(triangles, order, scale * rest)
+        found = found + scale * substituted(triangles, order, scale * rest)
         square = 0.0
         for i in range(n):
             total = load[i]
@@ -141,44 +142,3 @@ def _solved(matrix: Floats, load: Floats) -> tuple[Floats, bool]:
         if stays:
             break
     return best, least < math.inf
-
-
-@compiled
-def _eliminated(triangles: Floats, order: Index) -> bool:
-    """Whether a matrix has both triangles, made in place with rows exchanged for the pivots."""
-    n = len(order)
-    for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(triangles[i, k]) > abs(triangles[pivot, k]):
-                pivot = i
-        if not abs(triangles[pivot, k]) > 0.0:
-            return False
-        if pivot != k:
-            order[k], order[pivot] = order[pivot], order[k]
-            for j in range(n):
-                held = triangles[k, j]
-                triangles[k, j], triangles[pivot, j] = triangles[pivot, j], held
-        for i in range(k + 1, n):
-            share = triangles[i, k] / triangles[k, k]
-            triangles[i, k] = share
-            if share != 0.0:
-                for j in range(k + 1, n):
-                    triangles[i, j] -= share * triangles[k, j]
-    return True
-
-
-@compiled
-def _substituted(triangles: Floats, order: Index, load: Floats) -> Floats:
-    """Solution (n,) by triangles whose rows were exchanged to ``order`` (n,)."""
-    n = len(load)
-    found = np.empty(n)
-    for i in range(n):
-        found[i] = load[order[i]]
-        for j in range(i):
-            found[i] -= triangles[i, j] * found[j]
-    for i in range(n - 1, -1, -1):
-        for j in range(i + 1, n):
-            found[i] -= triangles[i, j] * found[j]
-        found[i] /= triangles[i, i]
-    return found

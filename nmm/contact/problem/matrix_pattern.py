@@ -15,7 +15,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Floats, Index
 from nmm.compiled import compiled
 from nmm.contact.problem.step_problem import StepProblem
-from nmm.solvers.ascending import ascend, extended, place_of
+from nmm.solvers.kernels.ascending import ascend, extended, place_of
 from nmm.solvers.unchecked import made_of
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from integration.arrays import Index, Ints
 from nmm.compiled import compiled
-from nmm.solvers.ascending import ascend, extended
+from nmm.solvers.kernels.ascending import ascend, extended
 
 
 @compiled

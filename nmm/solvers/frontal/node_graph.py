@@ -5,7 +5,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Index, Ints
 from nmm.compiled import compiled
-from nmm.solvers.ascending import ascend
+from nmm.solvers.kernels.ascending import ascend
 
 ALIKE_COLUMNS = 0.75
 """Part of their rows that columns share which are eliminated together. Entries that round to zero

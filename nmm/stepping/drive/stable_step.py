@@ -3,15 +3,12 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from nmm.assembly.motion import State
+from nmm.solvers.spectrum import highest
 
 if TYPE_CHECKING:
     from nmm.stepping.step.stepper import Stepper
-
-# Systems of fewer unknowns are solved whole.
-FEW = 200
 
 
 def singular_mass(stepper: "Stepper") -> bool:
@@ -35,23 +32,8 @@ def longest_step(stepper: "Stepper", state: State) -> float:
     if plan.inertia is None:
         return np.inf
     stiffness = plan.matrix(state, stepper.model.tangent(state))
-    square, mode = _highest(stiffness, plan.inertia.mass)
+    square, mode = highest(stiffness, plan.inertia.mass)
     omega, heavy = np.sqrt(square), float(mode @ (plan.inertia.mass @ mode))
     damped = sum(float(mode @ (one @ mode)) for one in plan.damping(state).values())
     ratio = damped / (2 * omega * heavy)
     return float(limit / omega * (np.sqrt(1 + ratio**2) - ratio))
-
-
-def _highest(stiffness: csc_array, mass: csc_array) -> tuple[float, np.ndarray]:
-    """Return the highest eigenvalue (1/s2) of the pair, with its vector."""
-    if stiffness.shape[0] < FEW:
-        from scipy.linalg import eigh
-
-        last = stiffness.shape[0] - 1
-        values, modes = eigh(stiffness.toarray(), mass.toarray(), subset_by_index=(last, last))
-    else:
-        from scipy.sparse.linalg import eigsh
-
-        start = np.random.default_rng(0).normal(size=stiffness.shape[0])
-        values, modes = eigsh(stiffness, 1, mass, which="LM", v0=start, tol=1e-4)
-    return float(values[-1]), modes[:, -1]

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csc_array, diags_array
 
-from integration.arrays import Floats
 from nmm.assembly.motion import State
-from nmm.effects.base import Instant
+from nmm.solvers.spectrum import lowest
 
 if TYPE_CHECKING:
     from nmm.stepping.step.stepper import Stepper
@@ -27,8 +26,6 @@ BEYOND = 2.0
 SYMMETRIC = 1e-8
 # Part of the elastic diagonal added to both matrices, for functions that neither resists.
 SHIFT = 1e-12
-# Unknowns up to which all eigenvalues are found.
-FEW = 200
 
 
 def vanishing_stiffness(stepper: "Stepper", state: State, factor: float) -> str | None:
@@ -48,19 +45,17 @@ def vanishing_stiffness(stepper: "Stepper", state: State, factor: float) -> str 
         return None
     elastic = plan.matrix(state, stepper.model.stiffness)
     shift = csc_array(diags_array(SHIFT * elastic.diagonal()))
-    stiffness = csc_array(_tangent(stepper, state) + shift)
+    stiffness = _tangent(stepper, state, shift)
     size = np.abs(stiffness.data).max(initial=0.0)
     if np.abs((stiffness - stiffness.T).data).max(initial=0.0) > SYMMETRIC * size:
         return None
-    least, mode = _least(stiffness, csc_array(elastic + shift))
-    step = factor - state.load_factor
-    ends = (Instant(state.time, load) for load in (state.load_factor, factor))
-    before, after = (plan.force(state, end) for end in ends)
+    least, mode = lowest(stiffness, csc_array(elastic + shift))
     from scipy.sparse.linalg import splu
 
-    way = splu(stiffness).solve(NEAR * (after - before))
-    moved = _tangent(stepper, replace(state, deformation=state.deformation + way))
-    change = float(mode @ (moved @ mode) + mode @ (shift @ mode)) - least
+    step = factor - state.load_factor
+    way = splu(stiffness).solve(NEAR * step * stepper.unit_load(state))
+    moved = _tangent(stepper, replace(state, deformation=state.deformation + way), shift)
+    change = float(mode @ (moved @ mode)) - least
     limit = state.load_factor - least * NEAR * step / (2 * change) if change < 0 else np.inf
     if not (least > 0 and limit <= factor + BEYOND * step):
         return None
@@ -70,19 +65,6 @@ def vanishing_stiffness(stepper: "Stepper", state: State, factor: float) -> str 
     )
 
 
-def _tangent(stepper: "Stepper", state: State) -> csc_array:
-    return stepper.plan.matrix(state, stepper.model.tangent(state))
-
-
-def _least(stiffness: csc_array, elastic: csc_array) -> tuple[float, Floats]:
-    """Least eigenvalue of one matrix against another, and its vector (n,) of unit elastic work."""
-    if stiffness.shape[0] <= FEW:
-        from scipy.linalg import eigh
-
-        values, vectors = eigh(stiffness.toarray(), elastic.toarray(), subset_by_index=(0, 0))
-    else:
-        from scipy.sparse.linalg import eigsh
-
-        start = np.random.default_rng(0).normal(size=stiffness.shape[0])
-        values, vectors = eigsh(stiffness, 1, elastic, sigma=0.0, v0=start, tol=1e-6)
-    return float(values[0]), np.asarray(vectors[:, 0])
+def _tangent(stepper: "Stepper", state: State, shift: csc_array) -> csc_array:
+    tangent = stepper.plan.matrix(state, stepper.model.tangent(state))
+    return csc_array(tangent + shift)

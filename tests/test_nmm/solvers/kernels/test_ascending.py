@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from nmm.solvers.ascending import ascend, extended, place_of
+from nmm.solvers.kernels.ascending import ascend, extended, place_of
 
 
 @pytest.mark.parametrize("kind", [np.int32, np.int64])

@@ -1,0 +1,1 @@
+"""Compiled functions that serve many: elimination of few equations, sorting, scaling. No solver."""
