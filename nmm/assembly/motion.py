@@ -218,6 +218,13 @@ def move(model: Model, state: State, increment: Floats) -> State:
     )
 
 
+def rigid_rates(model: Model, state: State) -> Floats:
+    """Velocity of the centroid and rate of rotation (B, 3) of the bodies, along the global axes."""
+    mean = np.asarray(model.rigid_projection @ state.velocity).reshape(-1, 3)
+    middle = state.frames.to_global(np.arange(len(mean)), mean[:, :2])
+    return np.column_stack([middle, mean[:, 2]])
+
+
 def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
     """Keep the mean translation of a rate fixed in space while the body's axes ``turn``."""
     if not rate.any():

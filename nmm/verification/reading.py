@@ -6,6 +6,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import areas
+from nmm.assembly.motion import rigid_rates
 
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
@@ -24,10 +25,7 @@ def last_way(run: "Run", monitor: str) -> Floats:
 
 def rates(run: "Run") -> Floats:
     """Velocity of the centroid and rate of rotation (B, 3) of the bodies at the end, in space."""
-    state, model = run.state, run.stepper.model
-    mean = np.asarray(model.rigid_projection @ state.velocity).reshape(-1, 3)
-    bodies = np.arange(len(mean))
-    return np.column_stack([state.frames.to_global(bodies, mean[:, :2]), mean[:, 2]])
+    return rigid_rates(run.stepper.model, run.state)
 
 
 def momentum(run: "Run") -> Floats:

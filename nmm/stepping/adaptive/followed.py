@@ -1,12 +1,13 @@
 """The points whose places and velocities tell two solutions of one step from each other."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State
+from nmm.assembly.motion import State, rigid_rates
 
 if TYPE_CHECKING:
     from nmm.stepping.step.stepper import Stepper
@@ -41,12 +42,12 @@ class Followed:
         vertices, frames = self.stepper.vertices, state.frames
         if not self.rigid:
             return frames.to_global(vertices.body, vertices.rows.apply(state.velocity))
-        rates = (self.stepper.model.rigid_projection @ state.velocity).reshape(-1, 3)
-        middle = frames.to_global(np.arange(len(rates)), rates[:, :2])
+        rates = rigid_rates(self.stepper.model, state)
+        middle, spin = rates[:, :2], rates[:, 2]
         heading = np.stack([-np.sin(frames.angle), np.cos(frames.angle)], axis=1)
-        return np.concatenate([middle, middle + (self._radius * rates[:, 2])[:, None] * heading])
+        return np.concatenate([middle, middle + (self._radius * spin)[:, None] * heading])
 
-    @property
+    @cached_property
     def _radius(self) -> Floats:
         """How far each body reaches from its centroid (B,) (m)."""
         vertices = self.stepper.vertices
