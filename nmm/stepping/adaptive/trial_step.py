@@ -2,27 +2,26 @@
 
 The halves are what the run keeps. The second goes on from what stepper and effects carry after the
 first, which is accepted for the time being and undone with it where the step errs too much. A step
-that is halved then has its whole already: it is the first half.
+that is halved then has its whole already: it is the first half. A step in which bodies meet fast
+ends as they meet.
 """
 
 from dataclasses import dataclass
 from math import floor, inf, isinf, log2
-
-import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.frozen import with_parts
 from nmm.stepping.adaptive.control import Chosen, StepControl
 from nmm.stepping.adaptive.followed import Followed
+from nmm.stepping.adaptive.meeting import Meeting
 from nmm.stepping.adaptive.provisional import Provisional
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.trial import Attempt
 
 # A step that would end so near a stop, as a share of itself, ends there.
 NEAR = 1e-9
-# Share of the largest speed in the run: contacts that change speeds by more in a step make an
-# impact.
+# Share of the largest speed in the run: bodies that meet faster make an impact.
 SUDDEN = 0.1
 
 
@@ -94,8 +93,15 @@ class TrialStep:
             When the run may cost no more; nothing is left of what was tried.
         """
         start, shortest = self.state.time, self.control.shortest
-        end, whole, cut, tried = _landing(start, asked, stop), None, "", False
+        end, whole, cut, tried, met = _landing(start, asked, stop), None, "", False, False
         while True:  # trials of one step
+            meeting = None
+            if not met and (end - start) / 2 >= shortest:
+                whole = whole or self._attempt(self.state, end)
+                meeting = self._meeting(chosen, whole)
+            if meeting is not None:
+                end, whole, met = meeting.state.time, meeting, True
+                self.recorder.tried(rejected=1)
             length, last = end - start, (end - start) / 2 < shortest
             trial = self._trial(chosen, end, whole, last)
             if not trial.second.converged:
@@ -104,6 +110,8 @@ class TrialStep:
                 after = self.control.after(length, trial.ratio, chosen.last)
                 # A step that was short to end at a stop says nothing against longer ones.
                 after = min(after, length) if tried else max(after, asked)
+                if met and not tried:  # an impact begins, which takes a time of its own
+                    after = min(after, self.control.first)
                 return Halves(trial.middle, trial.second, after, trial.seen, cut)
             if last:
                 return Halves(trial.middle, trial.second, length, chosen, cut)
@@ -143,22 +151,32 @@ class TrialStep:
             self.recorder.tried(unresolved=1)
         return _Trial(middle, second, ratio, seen)
 
+    def _meeting(self, chosen: Chosen, whole: Attempt) -> Attempt | None:
+        """Return the step that ends as bodies meet in a ``whole`` one; None where none do."""
+        points, shortest = (
+            Followed(self.recorder.stepper, self.control.rigid),
+            self.control.shortest,
+        )
+        speed = max(chosen.speed, points.sizes(self.state)[1])
+        found = Meeting.of(whole, self.state, chosen.pushing, SUDDEN * speed, 2 * shortest)
+        if found is None:
+            return None
+        return found.first(self.state, self._attempt, whole.state.time, shortest)
+
     def _error(
         self, chosen: Chosen, whole: Attempt, first: Attempt, second: Attempt
     ) -> tuple[Chosen, float]:
         """Return what the control carries on from both halves, and their error over the bound.
 
         Vibrations that steps do not resolve are nearly nothing in places, and much in speeds: these
-        count in an impact alone, where contacts close or open or turn speeds by much.
+        count while contacts push, where waves within bodies decide how they part.
         """
-        points = Followed(self.recorder.stepper, self.control.rigid)
+        stepper, rigid = self.recorder.stepper, self.control.rigid
+        points, all_points = Followed(stepper, rigid), Followed(stepper, rigid=False)
         seen = chosen.seen(*points.sizes(first.state)).seen(*points.sizes(second.state))
         pushing = [one.solved.pushing for one in (first, second, whole) if one.solved is not None]
-        struck = any(not np.array_equal(one, chosen.pushing) for one in pushing)
-        if any(map(len, pushing)) and not struck:
-            struck = points.faster(self.state, second.state) > SUDDEN * seen.speed
-        counts = struck and self.control.impacts
-        faster = points.faster(whole.state, second.state) if counts else 0.0
+        counts = self.control.impacts and any(map(len, (chosen.pushing, *pushing)))
+        faster = all_points.faster(whole.state, second.state) if counts else 0.0
         length = whole.state.time - self.state.time
         apart = points.apart(whole.state, second.state)
         ratio = self.control.ratio(seen, apart, faster, length)
