@@ -235,6 +235,7 @@ _TOUGH = {"toughness": NEVER, "increment": 0.1}
 _TOP = [[0.0, 1.0], [2.0, 1.0]]
 _BASE = {"name": "base", "segment": [[6, 0], [7, 0]]}
 _WET = {"materials": {"rock": {"hydraulic_conductivity": 1e-6, "biot": 0.0}}}
+_STORING = {"materials": {"rock": {"specific_storage": 1e-6}}}
 _WARM = {"materials": {"rock": {"thermal_expansion": 1e-5, "conductivity": 2.0}}}
 _BRICK = {"points": [[1.25, -0.2], [1.25, 1.2]]}
 _BOLT = {
@@ -333,6 +334,12 @@ IDLE: dict[str, Idle] = {
         "seepage",
         _more(bar, **_WET),
         seepage={},
+        heads=[{"name": "h", "block": "all", "head": 1.0}],
+    ),
+    "soil whose water is given whole": _idle(
+        "consolidation",
+        _more(_more(bar, **_WET), **_STORING),
+        seepage={"coupled": True, "transient": True, "initial": 1.0},
         heads=[{"name": "h", "block": "all", "head": 1.0}],
     ),
     "water in joints that are closed": Idle(("joint flow",), bricks, closed_joints),

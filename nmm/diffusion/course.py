@@ -36,6 +36,9 @@ class FieldAt:
         What it holds more than at the start.
     exchanged
         Size of what went to and fro at edges, of which ``taken`` is what is left.
+    taken_in
+        (n,) what strain makes room for, weighed by the functions of the field; None where the field
+        does not feel strain.
     """
 
     time: float
@@ -43,6 +46,7 @@ class FieldAt:
     taken: Mapping[str, float]
     stored: float = 0.0
     exchanged: float = 0.0
+    taken_in: Floats | None = None
 
     @property
     def imbalance(self) -> float:
@@ -56,11 +60,12 @@ class FieldAt:
         return abs(lacking) / all_ways if all_ways else 0.0
 
 
-Parts = tuple[float, Floats, Mapping[str, float], float, float]
+Parts = tuple[float, Floats, Mapping[str, float], float, float, Floats | None]
 
 
 def _parts(field: FieldAt) -> Parts:
-    return field.time, field.unknowns, field.taken, field.stored, field.exchanged
+    known = field.time, field.unknowns, field.taken, field.stored, field.exchanged
+    return *known, field.taken_in
 
 
 class Course:
@@ -102,6 +107,17 @@ class Course:
             self._began, self._ends = self.at(time), {}
 
     @property
+    def began(self) -> FieldAt | None:
+        """The field at which the step begins; None where it is steady and was not asked for."""
+        return self._began
+
+    def make_room(self, time: float, taken_in: Floats) -> None:
+        """Let strain have made room (n,) at the end of the step."""
+        assert self._began is not None
+        if time > self._began.time:
+            self._ends[time] = self._gone_on(self._began, time, taken_in)
+
+    @property
     def steady(self) -> bool:
         """Whether nothing is stored."""
         return self._start is None
@@ -132,19 +148,24 @@ class Course:
             return FieldAt(time, unknowns, taken, exchanged=exchanged)
         return self._gone_on(began if time > began.time else start, time)
 
-    def _gone_on(self, last: FieldAt, time: float) -> FieldAt:
-        """Step from a field to a later time."""
+    def _gone_on(self, last: FieldAt, time: float, taken_in: Floats | None = None) -> FieldAt:
+        """Step from a field to a later time, in one step where strain makes room."""
         problem, unknowns, taken = self.problem, last.unknowns, dict(last.taken)
-        exchanged = last.exchanged
+        exchanged, room = last.exchanged, None
+        if taken_in is not None and last.taken_in is not None:
+            room = taken_in - last.taken_in
         for begin, end, theta in self._steps(last.time, time):  # steps in time
-            after = problem.stepped(unknowns, begin, end, theta)
+            after = problem.stepped(unknowns, begin, end, theta, room)
             for share, field, at in ((1 - theta, unknowns, begin), (theta, after, end)):
                 for name, rate in problem.taken(field, at).items():  # a handful of edges
                     taken[name] = taken.get(name, 0.0) + share * step_between(begin, end) * rate
             unknowns = after
             exchanged += step_between(begin, end) * problem.exchanged(end)
         gained = problem.stored(unknowns) - problem.stored(last.unknowns)
-        return FieldAt(time, unknowns, taken, last.stored + gained, exchanged)
+        if room is not None:
+            gained += problem.total(room)
+        kept = last.taken_in if taken_in is None else taken_in
+        return FieldAt(time, unknowns, taken, last.stored + gained, exchanged, kept)
 
     def _steps(self, begin: float, end: float) -> Iterator[tuple[float, float, float]]:
         """Yield begin and end of equal steps, as few as their length allows, and theta."""

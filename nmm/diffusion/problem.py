@@ -134,18 +134,35 @@ class DiffusionProblem:
         """Unknowns (n,) of the field that no longer changes."""
         return self._solved(0.0, self.matrix, self.load(time), time)
 
-    def stepped(self, before: Floats, begin: float, end: float, theta: float) -> Floats:
+    def stepped(
+        self, before: Floats, begin: float, end: float, theta: float, room: Floats | None = None
+    ) -> Floats:
         """Unknowns (n,) after a step; what is given jumps to its value at the end.
 
-        ``before`` (n,) are those at its beginning.
+        ``before`` (n,) are those at its beginning; ``room`` (n,) is filled in the step besides.
         """
         assert self.capacity is not None
         step = step_between(begin, end)
         force = self.capacity @ before + step * theta * self.load(end)
         if theta < 1:
             force += step * (1 - theta) * (self.load(begin) - self.matrix @ before)
+        if room is not None:
+            force = force - room
         matrix = csc_array(self.capacity + theta * step * self.matrix)
         return self._solved(theta * step, matrix, force, end)
+
+    def relief(self, step: float, room: csc_array) -> Floats:
+        """Unknowns (n, k) by which the field falls as columns of ``room`` (n, k) are filled.
+
+        In a step of theta = 1 and its length (s).
+        """
+        assert self.capacity is not None
+        free, found = self.free, np.zeros(room.shape)
+        matrix = csc_array(self.capacity + step * self.matrix)
+        factor = self._factor(step, matrix)
+        columns = [factor.solve(one) for one in room.toarray()[free].T]  # one right side a solve
+        found[free] = np.transpose(columns)
+        return found
 
     def taken(self, unknowns: Floats, time: float) -> Mapping[str, float]:
         """What the bodies that are not given take up in a unit of time, by what gives it.
@@ -168,7 +185,11 @@ class DiffusionProblem:
 
     def stored(self, unknowns: Floats) -> float:
         """What these bodies hold beyond a field of zero."""
-        return 0.0 if self.capacity is None else float(self._test @ (self.capacity @ unknowns))
+        return 0.0 if self.capacity is None else self.total(self.capacity @ unknowns)
+
+    def total(self, weighed: Floats) -> float:
+        """Sum over these bodies of what is weighed (n,) by the functions."""
+        return float(self._test @ weighed)
 
     @cached_property
     def _test(self) -> Floats:
@@ -184,12 +205,16 @@ class DiffusionProblem:
         free, found = self.free, self.held(time)
         if not free.any():
             return found
-        factor = self._factors.get(key)
+        force = force - matrix @ found
+        found[free] = self._factor(key, matrix).solve(force[free])
+        return found
+
+    def _factor(self, key: float, matrix: csc_array) -> Decomposed:
+        """Return the factor of a matrix for what is free, that of ``key`` where it is known."""
+        factor, free = self._factors.get(key), self.free
         if factor is None:
             own = matrix if free.all() else csc_array(matrix[free][:, free])
             if len(self._factors) > KEPT:
                 self._factors.clear()
             factor = self._factors[key] = self.solver.factorise(own)
-        force = force - matrix @ found
-        found[free] = factor.solve(force[free])
-        return found
+        return factor

@@ -68,8 +68,9 @@ def known_quantities(scene: "Scene") -> list[str]:
     columns += [f"reaction:{item.name}:{axis}" for item in scene.supports for axis in "xy"]
     columns += [f"water pressures:{item.name}:{a}" for item in scene.water_pressures for a in "xy"]
     if scene.seepage is not None:
-        columns += ["seepage:lowest", "seepage:highest", "seepage:stored"]
-        columns += [f"seepage:taken:{item.name}" for item in (*scene.heads, *scene.inflows)]
+        name = "consolidation" if scene.seepage.coupled else "seepage"
+        columns += [f"{name}:{what}" for what in ("lowest", "highest", "stored")]
+        columns += [f"{name}:taken:{item.name}" for item in (*scene.heads, *scene.inflows)]
     if scene.joint_flow is not None:
         columns += ["joint flow:pressure", "joint flow:aperture"]
         columns += [f"joint flow:inflow:{item.name}" for item in scene.joint_heads]

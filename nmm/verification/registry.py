@@ -173,6 +173,7 @@ CASES = Registry[type[Case]](
         "WA10": f"{_HOME}.seepage:PorousCylinder",
         "WA11": f"{_HOME}.seepage:Layers",
         "WA12": f"{_HOME}.seepage:SeepingDam",
+        "WA13": f"{_HOME}.consolidation:ConsolidatingColumn",
         "B9 damping": f"{_HOME}.time_integration:SpringBlock",
         "B9 error": f"{_HOME}.steps_by_error:ErrorAsked",
         "B9 order": f"{_HOME}.time_integration:IntegratorOrder",

@@ -32,7 +32,7 @@ class SeepageTable(Frozen):
     would rise, in the scene's y. It is steady at every instant of `history` unless it is transient;
     then it has a `duration` of its own in a scene without inertia, of which the load factor is the
     share that has passed. Faces without a condition, cracks and joints are tight unless their
-    `leakage` is given.
+    `leakage` is given. Strain squeezes water out where it is `coupled`.
     """
 
     unit_weight: ForceDensity = Field(
@@ -45,6 +45,11 @@ class SeepageTable(Frozen):
     )
     transient: Flag = Field(
         default=False, description="true or false: whether water is stored", examples=[True]
+    )
+    coupled: Flag = Field(
+        default=False,
+        description="true or false: whether strain makes room for water, where it is transient",
+        examples=[True],
     )
     initial: Coordinate | None = Field(
         default=None, description="a head in m at the start, where it is transient", examples=[10.0]
@@ -59,6 +64,8 @@ class SeepageTable(Frozen):
             if getattr(self, key) is not None and not self.transient:
                 expected = "transient = true"
                 raise fault(f"{key} of steady seepage", expected, f"add it, or remove {key}")
+        if self.coupled and not self.transient:
+            raise fault("coupled steady seepage", "transient = true", "add it, or remove coupled")
         if self.transient and self.free_surface:
             expected = "steady seepage"
             raise fault("a free_surface that is transient", expected, "remove one of them")

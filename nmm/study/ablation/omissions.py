@@ -27,6 +27,7 @@ TABLES = {
     "free fields": ("free_fields",),
     "heat": ("heat", "temperatures", "heat_fluxes", "heat_sources", "convections"),
     "seepage": ("seepage", "heads", "inflows"),
+    "consolidation": ("seepage", "heads", "inflows"),
     "water pressures": ("water_pressures",),
     "joint flow": ("joint_flow", "joint_heads"),
 }

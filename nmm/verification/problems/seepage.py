@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from nmm.formulation import Formulation
     from nmm.scene import Scene
     from nmm.stepping.run import Run
-    from nmm.water.seepage import Seepage
+    from nmm.water.pore_water import PoreWater
 
 HELD = "exact: the functions hold head, displacement and stress; supports hold by Nitsche's method"
 
@@ -40,7 +40,8 @@ def head(name: str, start: Floats, end: Floats, value: float, more: str = "") ->
 
 def pressure(run: "Run", points: Floats) -> Floats:
     """Pressure of the pores (m,) of a run's last state at points (m, 2), Pa."""
-    seepage: Seepage = run.stepper.plan.effects["seepage"]  # type: ignore[assignment]
+    effects = run.stepper.plan.effects
+    seepage: PoreWater = effects.get("seepage", effects.get("consolidation"))  # type: ignore[assignment]
     elements = elements_at(run.manifold.elements, points)
     return np.asarray(seepage.space.values(elements, points) @ seepage.acting(run.state.time))
 

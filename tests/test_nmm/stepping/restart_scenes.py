@@ -619,6 +619,48 @@ degree = 1
 [formulation.loading]
 increment = 0.2
 """
+SETTLING_SOIL = """
+title = "soil that settles as its water leaves"
+plane = "strain"
+[materials.soil]
+young_modulus = "10 MPa"
+poisson_ratio = 0.2
+hydraulic_conductivity = 1e-7
+specific_storage = 1e-6
+[[blocks]]
+name = "soil"
+material = "soil"
+vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[seepage]
+coupled = true
+transient = true
+initial = 1.0
+duration = "1 h"
+[[heads]]
+name = "top"
+segment = [[0, 1], [2, 1]]
+head = 1.0
+[[loads]]
+name = "fill"
+kind = "edge"
+segment = [[0, 1], [1, 1]]
+traction = [0, -5e4]
+[[supports]]
+name = "bottom"
+segment = [[0, 0], [2, 0]]
+fix = ["x", "y"]
+[output]
+every_steps = 3
+{checkpoint}
+[formulation.cover]
+type = "quads"
+size = 0.6
+degree = 1
+[formulation.supports]
+method = "penalty"
+[formulation.loading]
+increment = 0.1
+"""
 SHAKEN_ON_ROCK = """
 duration = 0.03
 title = "shaken block"
@@ -779,6 +821,7 @@ SCENES = {
     "shaken stone": SHAKEN_ON_ROCK,
     "left standing": LEFT_STANDING,
     "seasons": SEASONS,
+    "settling soil": SETTLING_SOIL,
     "rubber": RUBBER,
     "bent": BENT,
 }

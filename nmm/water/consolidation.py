@@ -1,0 +1,155 @@
+"""The effect: strain makes room for water, which flows to fill it and presses (Biot 1941).
+
+The water in a unit of volume grows by ``S dh + b d(e)``, ``e`` the strain of the volume. In a step
+from ``h0`` to ``h1``, with ``C`` the force of a unit of pressure on the blocks and so, by its
+transpose, the room that their motion ``d`` makes,
+
+    (M + dt K) h1 = M h0 + dt f - C^T d,
+
+and ``w C h1`` acts on the blocks: it is linear in ``d``. Its part without strain is a force of the
+step, the rest a matrix ``w C (M + dt K)^-1 C^T`` that stiffens it, which is that of undrained
+material where no water has time to flow. So both are found at once, and steps are stable whatever
+their length.
+"""
+
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm import capacity
+from nmm.assembly.motion import State
+from nmm.diffusion.course import FieldAt
+from nmm.diffusion.problem import step_between
+from nmm.effects.base import Instant, Setup
+from nmm.errors import Fault, SceneError
+from nmm.frozen import with_parts
+from nmm.water.pore_water import PoreWater
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+
+# Bytes of an entry of the matrix: it, its place in a column, and both again in a sum.
+ENTRY = 48
+
+
+class Consolidation(PoreWater):
+    """Head of the water in pores that strain."""
+
+    name = "consolidation"
+    _step = 0.0
+    _stiff: tuple[float, csc_array] | None = None
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from the tables of seepage that is ``coupled``."""
+        _refuse_uncoupled(setup)
+        found = super().from_setup(setup)
+        found.join(setup.start)
+        return found
+
+    def join(self, start: State) -> None:
+        """Count the room that strain makes from a state on."""
+        began = self.course.began
+        assert began is not None
+        self.course.go_on_from(with_parts(began, taken_in=self._room(start)))
+
+    @property
+    def about(self) -> str:
+        """See `Effect.about`."""
+        return f"with strain, {self.space.n} unknowns"
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`: what acts at the end of a step follows from its length."""
+        return False
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the force of the pressure at the end of a step that strains no further."""
+        began = self._begun(state, end)
+        time = end.time * self._second
+        if time == began.time:
+            return self.stress.force(self._pressure(began.unknowns))  # type: ignore[union-attr]
+        self._step = step_between(began.time, time)
+        assert began.taken_in is not None
+        room = self._room(state) - began.taken_in
+        problem = self.course.problem
+        head = problem.stepped(began.unknowns, began.time, time, 1.0, room)
+        return self.stress.force(self._pressure(head))  # type: ignore[union-attr]
+
+    def matrix(self, state: State) -> csc_array:
+        """Return how the force of the pressure falls with the step's motion (n, n)."""
+        if self._stiff is None or self._stiff[0] != self._step:
+            self._stiff = self._step, self._stiffness()
+        return self._stiff[1]
+
+    def accepted(self, state: State) -> None:
+        """See `Effect.accepted`: the head that goes with the strain that was found."""
+        self.course.make_room(state.time * self._second, self._room(state))
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        super().forget()
+        self._stiff = None
+
+    def follow(self, change: "Change") -> "Consolidation":
+        """Return the field on the new model, whose strain makes room from here on."""
+        new = super().follow(change)
+        assert isinstance(new, Consolidation)
+        new.join(change.state)
+        return new
+
+    def _stiffness(self) -> csc_array:
+        """Return the matrix of a step of the length that is known."""
+        assert self.stress is not None
+        coupling, problem = self.stress.coupling, self.course.problem
+        shape = coupling.shape[0], coupling.shape[0]
+        if not problem.free.any():
+            return csc_array(shape)
+        used = np.flatnonzero(np.diff(coupling.indptr))
+        some = csc_array(coupling[used])
+        full = self._weight * (some @ problem.relief(self._step, csc_array(some.T)))
+        row, column = np.meshgrid(used, used, indexing="ij")
+        even = (full + full.T) / 2
+        return csc_array((even.ravel(), (row.ravel(), column.ravel())), shape=shape)
+
+    def _begun(self, state: State, end: Instant) -> FieldAt:
+        """Return the field at which the step to ``end`` begins."""
+        if end.time > state.time:
+            self.course.begin(state.time * self._second)
+        began = self.course.began
+        assert began is not None
+        return began
+
+    def _room(self, state: State) -> Floats:
+        """Room (n,) that strain has made, weighed by the functions of the field (m3)."""
+        assert self.stress is not None
+        return np.asarray(self.stress.coupling.T @ state.deformation)
+
+    def _pressure(self, head: Floats) -> Floats:
+        return np.asarray(self._weight * (head - self._ground))
+
+
+def _refuse_uncoupled(setup: Setup) -> None:
+    """Refuse what strain and water are not solved together with.
+
+    Raises
+    ------
+    SceneError
+        Steps of the field that are not those of the run; supports that take tractions; too many
+        unknowns for a matrix that is full.
+    """
+    place = setup.scene.source.place("seepage", "coupled")
+    asked, manifold = setup.formulation.diffusion, setup.model.manifold
+    if asked is not None and (asked.theta != 1 or asked.step is not None):
+        expected = "steps of the field that are those of the run, with theta = 1"
+        raise SceneError(Fault(place, "[diffusion] theta or step", expected, "remove [diffusion]"))
+    mesh = len(manifold.element_body) != manifold.n_bodies
+    method = setup.formulation.supports.method
+    if mesh and method in ("auto", "nitsche") and setup.scene.supports:
+        expected = "supports that need no traction, which the pressure is a part of"
+        remedy = '[supports] method = "penalty" or "lagrange" of the formulation'
+        raise SceneError(Fault(place, f'supports by "{method}"', expected, remedy))
+    count = manifold.n_unknowns
+    capacity.refuse(place, f"{count} unknowns", ENTRY * count**2, "take larger cells")

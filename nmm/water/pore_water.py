@@ -1,0 +1,178 @@
+"""Water in the pores of blocks, and its pressure in effective stress.
+
+With Darcy's law the head ``h`` obeys ``S dh/dt = div (k grad h)``; the pressure of the pores
+``p = w (h - y)``, ``w`` the weight of water, takes ``b p`` from the total normal stresses
+(Terzaghi 1936; Biot 1941 for ``b``). What pores gain by strain `nmm.water.consolidation` adds.
+"""
+
+from collections.abc import Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from covers.scalar.space import ScalarSpace
+from integration.arrays import Bools, Floats
+from nmm.assembly.motion import State
+from nmm.assembly.places import Place
+from nmm.diffusion.course import Course
+from nmm.diffusion.field_effect import FieldEffect, course_of
+from nmm.diffusion.field_stress import EVEN, FieldStress
+from nmm.diffusion.from_scene import (
+    FieldTables,
+    Given,
+    Values,
+    field_problem,
+    fitted,
+    of_elements,
+    sloping,
+)
+from nmm.diffusion.problem import DiffusionProblem
+from nmm.effects.base import Instant, Setup
+from nmm.errors import Fault, SceneError
+from nmm.quantity import Quantity
+
+if TYPE_CHECKING:
+    from nmm.scene.tables.seepage import HeadTable
+    from nmm.water.free_surface import Filling
+
+LOOSE = ("seepage", "head", "add [[heads]], or transient = true")
+
+
+class PoreWater(FieldEffect):
+    """Head of the water in the pores; ``ground`` (n,) are the unknowns of the height y itself."""
+
+    def __init__(
+        self,
+        course: Course,
+        stress: FieldStress,
+        conductivity: Floats,
+        ground: Floats,
+        weight: float,
+        second: float = 1.0,
+        filling: "Filling | None" = None,
+    ) -> None:
+        super().__init__(course, stress, conductivity, second)
+        self._ground, self._weight, self._filling = ground, weight, filling
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from ``[seepage]``, ``[[heads]]`` and ``[[inflows]]``."""
+        table = setup.scene.seepage
+        assert table is not None
+        space = ScalarSpace.of(setup.model.manifold)
+        filling = _filling(setup, space) if table.free_surface else None
+        problem, initial = _problem(setup, space, filling), None
+        second = 1.0 if table.duration is None else table.duration
+        if table.initial is not None:
+            initial = (table.initial - setup.origin[1]) * space.one
+        everything: Bools = np.ones(space.n, dtype=bool)
+        ground = fitted(setup, space, everything, lambda points: points[:, 1])
+        biot = of_elements(setup, "biot", missing=1.0)
+        stress = FieldStress(space, setup.model, biot[:, None] * EVEN)
+        course = course_of(setup, problem, initial, second)
+        conductivity = of_elements(setup, "hydraulic_conductivity")
+        weight = table.unit_weight
+        return cls(course, stress, conductivity, ground, weight, second, filling)
+
+    def acting(self, time: float) -> Floats:
+        """Unknowns (n,) of the pressure (Pa)."""
+        return self._weight * (self.here(time).unknowns - self._ground)
+
+    def work(self, before: State, after: State) -> float:
+        """Work (J) of the pressure on the strain of the blocks, by the mean of both ends."""
+        ends = (self.force(one, Instant.of(one)) for one in (before, after))
+        return float(sum(ends) @ (after.deformation - before.deformation)) / 2
+
+    def outputs(self, state: State) -> Mapping[str, Quantity]:
+        """Return pressure at the vertices, and the mean velocity of seepage in elements."""
+        pressure = self.space.vertices @ self.acting(state.time)
+        found = {
+            "pressure": Quantity("points", pressure, "Pa"),
+            "velocity": Quantity("elements", self.flux(state), "m/s"),
+        }
+        if self._filling is not None:
+            filled = self._filling.means(self.here(state.time).unknowns)
+            found["filled"] = Quantity("elements", filled, "1")
+        return found
+
+    def flux(self, state: State) -> Floats:
+        """Mean velocity (E, 2) of the elements in global axes: none where pores are empty."""
+        found = super().flux(state)
+        if self._filling is None:
+            return found
+        empty = 1 - self._filling.means(self.here(state.time).unknowns)
+        fall = np.stack([np.zeros_like(empty), self._conductivity * empty], axis=1)
+        return found + state.frames.to_global(self.space.manifold.element_body, fall)
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Return extreme pressures (Pa), and water taken up: m3 since the start, or m3/s."""
+        values = self.space.vertices @ self.acting(state.time)
+        extremes = {"lowest": float(values.min()), "highest": float(values.max())}
+        return {**extremes, **self.amounts(state)}
+
+
+def _filling(setup: Setup, space: ScalarSpace) -> "Filling":
+    """Return how far pores are filled.
+
+    Raises
+    ------
+    SceneError
+        A head that changes in time: where its edge is open to the air would, too.
+    """
+    from nmm.water.free_surface import Filling
+
+    for one in setup.scene.heads:  # a handful
+        if one.history is not None:
+            place = setup.scene.source.of_name("heads", one.name, "history")
+            expected = "a head that stays, with a free_surface"
+            raise SceneError(Fault(place, "a history", expected, "remove it"))
+    thickness = setup.model.thickness
+    return Filling.of(space, thickness * of_elements(setup, "hydraulic_conductivity"))
+
+
+def _held(setup: Setup, one: "HeadTable", filling: "Filling | None", conductivity: Floats) -> Given:
+    """Return a head that is held; above the water it is that of the air, and no water falls in."""
+    level: Values = partial(sloping, one, one.head - float(setup.origin[1]))
+    if filling is None:
+        return Given("heads", one, level)
+
+    def air(points: Floats) -> Floats:
+        return np.maximum(level(points), points[:, 1])
+
+    def empty(place: Place) -> Floats:
+        assert place.normal is not None
+        depth = air(place.position) - place.position[:, 1]
+        filled = filling.filled(depth, place.elements)
+        return -conductivity[place.elements] * (1 - filled) * place.normal[:, 1]
+
+    return Given("heads", one, air, besides=empty)
+
+
+def _problem(
+    setup: Setup, space: ScalarSpace, filling: "Filling | None" = None
+) -> DiffusionProblem:
+    """Return the equations of the head, counted from the height of the model's axes."""
+    scene = setup.scene
+    assert scene.seepage is not None
+    stored = of_elements(setup, "specific_storage") if scene.seepage.transient else None
+    conductivity = of_elements(setup, "hydraulic_conductivity")
+    held = [_held(setup, one, filling, conductivity) for one in scene.heads]
+    inflows = [Given("inflows", one, amount=one.velocity) for one in scene.inflows]
+    tables = FieldTables(
+        conductivity=conductivity,
+        capacity=stored,
+        held=held,
+        exchanges=[],
+        inflows=inflows,
+        sources=[],
+        conductance=lambda interface: interface.leakage,
+        cracks=[crack.leakage for crack in scene.cracks],
+        what=LOOSE,
+    )
+    found = field_problem(setup, space, tables)
+    if filling is None:
+        return found
+    from nmm.water.free_surface import FreeSurface
+
+    return FreeSurface.of(found, filling)
