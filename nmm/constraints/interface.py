@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.motion import State
+from nmm.assembly.motion import State, rotation_matrices
 from nmm.assembly.places import Place
 from nmm.effects.base import Instant
 
@@ -86,10 +86,15 @@ class Interface:
             total += side.points.push(state, sign * self.held * forces)
         return total
 
+    def turned(self, state: State) -> Floats:
+        """Rotations (m, 2, 2) from the reference place: half way between those of both sides."""
+        angles = [state.frames.angle[side.points.body] for side in self.sides]
+        return rotation_matrices(np.mean(angles, axis=0))
+
     def normal(self, state: State) -> Floats:
-        """Outward normals (m, 2) of the first side, in global axes."""
+        """Normals (m, 2) in global axes, out of the first side and half way to the second."""
         assert self.first.normal is not None
-        return state.frames.to_global(self.first.points.body, self.first.normal)
+        return np.asarray(np.einsum("mij,mj->mi", self.turned(state), self.first.normal))
 
 
 def sparse_rows(unknowns: Ints, values: Floats, n: int) -> csr_array:

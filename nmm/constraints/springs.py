@@ -29,7 +29,7 @@ class Springs(Imposition):
     Attributes
     ----------
     stiffness
-        (m,) N/m, or tensors (m, 2, 2) in the axes of the second side, with which they turn.
+        (m,) N/m, or tensors (m, 2, 2) that turn by the mean of both sides.
     """
 
     stiffness: Floats
@@ -86,7 +86,7 @@ class Springs(Imposition):
             return np.asarray(self.stiffness[:, None, None] * ways)
         if self.interface.second is None:
             return np.asarray(self.stiffness @ ways)
-        turn = state.frames.rotation[self.interface.second.points.body]
+        turn = self.interface.turned(state)
         return np.asarray(turn @ (self.stiffness @ (np.swapaxes(turn, 1, 2) @ ways)))
 
 

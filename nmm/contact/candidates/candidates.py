@@ -84,8 +84,7 @@ class Candidates:
 
     def joints(self, book: JointBook, state: State) -> ContactPoints:
         """Return the contact points of joints as they stand."""
-        surface = self.partners.surface(state)
-        return book.now(surface, self._geometry.apart(state, surface))
+        return book.now(self._geometry.faces(state, self.partners.surface(state)))
 
     def near(
         self, record: ContactRecord, state: State, reach: float
@@ -129,7 +128,7 @@ class Candidates:
         book, known = record.book, done
         if len(book.points) or len(book.lost):
             surface, joints = self.partners.surface(state), done.is_joint
-            book = book.keep(done.take(joints), surface, self._geometry.apart(state, surface))
+            book = book.keep(done.take(joints), self._geometry.faces(state, surface))
             known = done.take(~joints)
         after = ContactRecord(book, found, known, solved.answer.stored)
         return after, concatenate([done, book.lost])

@@ -116,7 +116,7 @@ class Partners:
         if crossed is not None:
             found = with_pairs(surface, found, *crossed)
         if self._face_points:
-            joints = book.edges(len(surface))
+            joints = book.carried(surface, self.sides.length)
             found = faced(surface, found, self._face_points, joints, self._whole_faces)
         return found
 

@@ -31,7 +31,7 @@ class Joints:
     parameter_a, parameter_b
         (j, 2) the same two ends as fractions of edge a and of edge b.
     normal
-        (j, 2) outward from edge b, that is from side b to side a.
+        (j, 2) half way between those of both edges, from side b to side a.
     """
 
     edge_a: Ints
@@ -122,7 +122,7 @@ def find_joints(
     keep = long & (apart <= tolerance)
     a, b, on_a, on_b = a[keep], b[keep], on_a[keep], on_b[keep]
     middle = 0.5 * (at_a[keep] + at_b[keep])
-    return Joints(a, b, middle[:, 0], middle[:, 1], on_a, on_b, surface.normal[b])
+    return Joints(a, b, middle[:, 0], middle[:, 1], on_a, on_b, _between(surface, a, b))
 
 
 def joint_points(
@@ -148,7 +148,7 @@ def joint_points(
         for p in (joints.parameter_a, joints.parameter_b)
     )
     side_a, side_b = _at(surface, a, s[:, None])[:, 0], _at(surface, b, t[:, None])[:, 0]
-    normal = surface.normal[b]
+    normal = _between(surface, a, b)
     return JointPoints(
         joint=joint,
         edge_a=a,
@@ -221,6 +221,12 @@ def interval(surface: Surface, a: Ints, b: Ints, tolerance: float) -> tuple[Floa
         on_a[:, k] = from_b if k == 0 else 1.0 - from_b
         on_b[:, k] = 1.0 - from_a if k == 0 else from_a
     return on_a, on_b
+
+
+def _between(surface: Surface, a: Ints, b: Ints) -> Floats:
+    """Unit normals (m, 2) half way between those of two edges, out of b."""
+    normal = surface.normal[b] - surface.normal[a]
+    return np.asarray(normal / np.hypot(*normal.T)[:, None])
 
 
 def _at(surface: Surface, edge: Ints, parameter: Floats) -> Floats:

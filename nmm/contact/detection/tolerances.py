@@ -49,6 +49,8 @@ JOINT = 1e-6
 JOINT_LEFT = 0.05
 """Of a joint's length: a broken one whose faces have slid so far is left to the search; sooner, the
 search could not tell its ends from the joint's."""
+WHOLLY_HELD = 1 - 1e-6
+"""Of an edge's length: what joints hold of one that has no more of it for contacts."""
 
 # Faces.
 

@@ -38,6 +38,12 @@ class Sides:
         )
 
     @cached_property
+    def length(self) -> Floats:
+        """(n,) lengths of the edges where bodies were laid (m)."""
+        edges = self.manifold.boundary
+        return np.asarray(np.hypot(*(edges.end - edges.start).T))
+
+    @cached_property
     def whole(self) -> bool:
         """Whether the starts of the edges are the vertices of all elements, in their order."""
         elements, edges = self.manifold.elements, self.manifold.boundary
@@ -48,6 +54,10 @@ class Sides:
     def repeats(self) -> bool:
         """Whether one row may name an unknown twice: padded rows, or both sides in one body."""
         return len(self.manifold.groups) > 1 or len(self.manifold.elements) > self.manifold.n_bodies
+
+    def turns(self, edge: Ints) -> Floats:
+        """Rows (m, 2, L) of the ends of edges less those of their starts, in the bodies' axes."""
+        return np.asarray(self.end.rows.values[edge] - self.start.rows.values[edge])
 
     def at(self, edge: Ints, parameter: Floats) -> MaterialPoints:
         """Return the points (m,) at ``parameter`` on ``edge``."""

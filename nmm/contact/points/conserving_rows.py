@@ -1,15 +1,17 @@
 """Contact rows of a step whose forces do the work that gaps say, and make no moment.
 
-The gap of a point before an edge is ``g = A / L``, with the vectors ``t`` along the edge and ``r``
-from it to the point, ``A = r x t`` and ``L^2 = t . t``. Both are of second degree in places and
-stay as they are in a rigid motion, so that their slopes half way between two states give their
-change exactly and make neither force nor moment in sum. So does what is put together of them,
+The gap of a point before an edge is ``g = A / L``, with the vectors ``t`` along the edge, or along
+the line between the faces of a joint (`between_faces`), and ``r`` from it to the point,
+``A = r x t`` and ``L^2 = t . t``. Both are of second degree in places and stay as they are in a
+rigid motion, so that their slopes half way between two states give their change exactly and make
+neither force nor moment in sum. So does what is put together of them,
 
     D g = (1/L0 + 1/L1) / 2  D A  -  (A0 + A1) / (2 L0 L1 (L0 + L1))  D L^2,
 
 whose product with the step is ``g1 - g0`` however far bodies turn and stretch in it: a spring along
 it gives what it has stored (Simo and Tarnow 1992; Laursen and Chawla 1997; Gonzalez 2000). The same
-holds of the place ``r . t / L^2`` along the edge, whose change is slip.
+holds of the place ``r . t / L^2`` along the edge, whose change is slip, and of ``r . t / L``, which
+is the slip of a joint.
 """
 
 from collections.abc import Callable
@@ -17,8 +19,9 @@ from collections.abc import Callable
 import numpy as np
 from scipy.sparse import csr_array
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from nmm.assembly.motion import MaterialPoints, State
+from nmm.contact.points.between_faces import EdgeShares, across
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.joint_points import JointSites
@@ -38,35 +41,41 @@ def conserving_rows(
 
     Contacts act on chords, or at all their ``stations``.
     """
-    edge = contacts.edge_b
-    first, last = sides.start.take(edge), sides.end.take(edge)
-    point, foot = sides.at(contacts.edge_a, contacts.parameter_a), first
+    joint, edges = contacts.is_joint, (contacts.edge_a, contacts.edge_b)
+    point = sides.at(contacts.edge_a, contacts.parameter_a)
+    foot = sides.at(contacts.edge_b, np.where(joint, contacts.parameter_b, 0.0))
     if stations is not None:
         point, foot = stations.a, stations.b
-    along, apart = _between(last, first, states), _between(point, foot, states)
-    count = len(states[0].deformation)
-    found = [
-        _rows(slopes, ((last, first), (point, foot)), count) for slopes in _slopes(along, apart)
-    ]
-    middle = _mean(along)
-    return ContactRows(found[0], found[1], tangents(middle / _norm(middle)))
+    vectors = [(sides.end.take(edge), sides.start.take(edge)) for edge in edges]
+    shares = EdgeShares.of(contacts, sides.length)
+    along_a, along_b = (_between(*vector, states) for vector in vectors)
+    along = _each(lambda a, b: shares.a * a + shares.b * b, along_a, along_b)
+    apart = _between(point, foot, states)
+    count, found = len(states[0].deformation), []
+    for by_along, by_apart in _slopes(along, apart, joint[:, None]):
+        slopes = shares.a * by_along, shares.b * by_along, by_apart
+        found.append(_rows(slopes, (*vectors, (point, foot)), count))
+    return ContactRows(found[0], found[1], across(_mean(along)))
 
 
-def _slopes(along: Pair, apart: Pair) -> tuple[Pair, Pair]:
+def _slopes(along: Pair, apart: Pair, joint: Bools) -> tuple[Pair, Pair]:
     """Discrete slopes of gap and slip by the vectors along the edge and from it to the point."""
     half, way = _mean(along), _mean(apart)
     one, other = (_norm(t) for t in along)
-    mean = (1 / one + 1 / other) / 2
-    stretched = _mean(_each(_cross, apart, along)) / (one * other * (one + other))
+    mean, over = (1 / one + 1 / other) / 2, one * other * (one + other)
+    stretched = _mean(_each(_cross, apart, along)) / over
     gap = -mean * tangents(way) - 2 * stretched * half, mean * tangents(half)
-    mean = (one**-2 + other**-2) / 2
-    stretched = _mean(_each(_dot, apart, along)) / (one * other) ** 2
-    length = (one + other) / 2
-    slip = -length * (mean * way - 2 * stretched * half), -length * mean * half
+    # A joint slips as it opens; along an edge that stretches, places stretch.
+    length, place = (one + other) / 2, _mean(_each(_dot, apart, along))
+    mean = np.where(joint, mean, length * (one**-2 + other**-2) / 2)
+    stretched = np.where(joint, place / over, length * place / (one * other) ** 2)
+    slip = -mean * way + 2 * stretched * half, -mean * half
     return gap, slip
 
 
-def _rows(slopes: Pair, vectors: tuple[tuple[MaterialPoints, ...], ...], count: int) -> csr_array:
+def _rows(
+    slopes: tuple[Floats, ...], vectors: tuple[tuple[MaterialPoints, ...], ...], count: int
+) -> csr_array:
     """Rows (m, n) of slopes by vectors, each from its second point to its first."""
     parts = [
         (point.rows.unknowns, sign * point.rows.along(slope))
@@ -94,16 +103,16 @@ def _mean(ends: Pair) -> Floats:
 
 
 def _each(product: Callable[[Floats, Floats], Floats], one: Pair, other: Pair) -> Pair:
-    """Products (m, 1) of two vectors at both ends."""
-    return product(one[0], other[0])[:, None], product(one[1], other[1])[:, None]
+    """What two vectors at both ends give."""
+    return product(one[0], other[0]), product(one[1], other[1])
 
 
 def _dot(one: Floats, other: Floats) -> Floats:
-    return np.asarray(np.einsum("ij,ij->i", one, other))
+    return np.asarray(np.einsum("ij,ij->i", one, other)[:, None])
 
 
 def _cross(one: Floats, other: Floats) -> Floats:
-    return np.asarray(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])
+    return np.asarray(one[:, :1] * other[:, 1:] - one[:, 1:] * other[:, :1])
 
 
 def _norm(vector: Floats) -> Floats:

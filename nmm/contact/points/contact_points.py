@@ -123,10 +123,12 @@ def rows(
     frames: Frames,
     n_unknowns: int,
     stations: "JointSites | None" = None,
+    more: tuple[Floats, Floats] | None = None,
 ) -> tuple[csr_array, csr_array]:
     """Return the normal and tangent rows (m, n_unknowns): ``gap += N d``, ``slip += T d``.
 
     Both have the same sorted pattern. Joints act at their ``stations``, or on chords without.
+    ``more`` (m, 2 L) is added to what the unknowns of sides a and b do.
     """
     from nmm.contact.points.rows import side_rows
 
@@ -140,6 +142,8 @@ def rows(
         (contacts.parameter_a, contacts.parameter_b),
         contacts.normal,
     )
+    if more is not None:
+        values = [value + turned for value, turned in zip(values, more, strict=True)]
     offsets = np.arange(len(contacts) + 1, dtype=np.int32) * np.int32(columns.shape[1])
     shape = (len(contacts), n_unknowns)
     # Columns and offsets of their own: summing changes both in place.

@@ -12,11 +12,11 @@ from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.detection.pair_keys import pair_key, unordered_key
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import JOINT_LEFT
+from nmm.contact.detection.tolerances import JOINT_LEFT, WHOLLY_HELD
+from nmm.contact.points.between_faces import JointFaces
 from nmm.contact.points.bonded_cracks import BondedCracks, refuse_loose
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints, concatenate
-from nmm.contact.points.tracking import Apart
 from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN
 from nmm.interfaces.history import History
 
@@ -60,6 +60,21 @@ class JointBook:
         """Pairs of edges that followed joints carry, ``a * n + b`` with ``a < b``, sorted."""
         return np.unique(unordered_key(self.points.edge_a, self.points.edge_b, n))
 
+    def carried(self, surface: Surface, length: Floats) -> Ints:
+        """Pairs of edges as in `edges` on which nothing presses but joints.
+
+        An edge that joints hold along its whole ``length`` (n,), as bodies were laid (m), slides on
+        to the next one of a face with all of it held: what lies over there is in the joint.
+        """
+        n, points = len(surface), self.points
+        both = np.concatenate([points.edge_a, points.edge_b])
+        facing = np.concatenate([points.edge_b, points.edge_a])
+        share = np.bincount(both, np.tile(points.length, 2), n) / length
+        whole = share[both] > WHOLLY_HELD
+        both, facing = both[whole], facing[whole]
+        slid = [unordered_key(both, way[facing], n) for way in (surface.next, surface.previous)]
+        return np.unique(np.concatenate([self.edges(n), *slid]))
+
     def holds(self, surface: Surface, vertex: Ints, edge: Ints) -> Bools:
         """Which pairs (m,) are of an edge that ends at the vertex and one held to it by a joint."""
         n = len(surface)
@@ -67,12 +82,12 @@ class JointBook:
         beside = np.stack([unordered_key(own, edge, n) for own in ends])
         return np.asarray(np.isin(beside, self.edges(n)).any(axis=0))
 
-    def now(self, surface: Surface, apart_of: Apart) -> ContactPoints:
-        """Return the points with gap, slip and normal of the moved surface."""
+    def now(self, faces: JointFaces) -> ContactPoints:
+        """Return the points with gap, slip and normal of moved faces."""
         p = self.points
         if not len(p):
             return p
-        normal, apart = surface.normal[p.edge_b], apart_of(p)
+        normal, apart = faces.normal(p), faces.apart(p)
         stretch = np.einsum("ij,ij->i", apart, tangents(normal))
         return replace(
             p,
@@ -81,15 +96,15 @@ class JointBook:
             slip=np.where(p.bonded, stretch - p.history["plastic_slip"], p.slip),
         )
 
-    def keep(self, points: ContactPoints, surface: Surface, apart_of: Apart) -> "JointBook":
+    def keep(self, points: ContactPoints, faces: JointFaces) -> "JointBook":
         """Return the book with the answer's points; joints that came apart are given up."""
         if not len(points) and not len(self.lost):
             return self
-        apart = apart_of(points)
+        apart = faces.apart(points)
         far = np.hypot(apart[:, 0], apart[:, 1]) > JOINT_LEFT * points.length
         lost = far & ~points.bonded
         gone = np.isin(self.joint, self.joint[lost]) & ~points.bonded
-        before = _turned(self.lost, surface, apart_of)
+        before = _turned(self.lost, faces)
         if not gone.any():
             return replace(self, points=points, lost=before)
         zero = np.zeros(int(gone.sum()))
@@ -203,7 +218,7 @@ def _distance(model: Model, joints: Joints) -> Floats:
     return np.asarray(apart * np.where(softness[a] == softness[b], softness[a], mixed))
 
 
-def _turned(points: ContactPoints, surface: Surface, apart_of: Apart) -> ContactPoints:
-    """Return points with the normal and gap of the moved surface."""
-    normal, apart = surface.normal[points.edge_b], apart_of(points)
+def _turned(points: ContactPoints, faces: JointFaces) -> ContactPoints:
+    """Return points with the normal and gap of moved faces."""
+    normal, apart = faces.normal(points), faces.apart(points)
     return replace(points, normal=normal, gap=np.einsum("ij,ij->i", apart, normal))

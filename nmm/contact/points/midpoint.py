@@ -7,7 +7,8 @@ The exact rotation of a step moves a point of a body from ``x0`` to ``x1`` with
 ``u``, ``r`` the body's mean motion, ``dq`` the rest of the increment, ``Rm`` and ``qm`` half way.
 Rows of this motion along the normal half way give the gap at the end to that order too, so that the
 work of contact forces is what their springs store (Simo and Tarnow 1992; Laursen and Chawla 1997).
-Both sides move as if the force acted at one point, that of side a: it makes no couple.
+Both sides move as if the force acted at one point, that of side a, or in joints half way between
+both sides: it makes no couple.
 """
 
 from dataclasses import dataclass
@@ -18,6 +19,7 @@ from scipy.sparse import csr_array, diags_array
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames, MaterialPoints, State
+from nmm.contact.points.between_faces import EdgeShares
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints, rows
 from nmm.contact.points.midpoint_kernel import add_turns
@@ -89,11 +91,14 @@ def midpoint_rows(
     """
     surface = sides.surface(half.frames, half.deformation)
     edge = contacts.edge_b
-    direction, length = surface.normal[edge], surface.length[edge]
-    along = np.stack([-direction[:, 1], direction[:, 0]], axis=1)
+    shares = EdgeShares.of(contacts, sides.length)
+    line = shares.along(contacts, surface)
+    stretch = np.hypot(*line.T)[:, None]
+    along = line / stretch
+    direction = tangents(along)
     side_a = sides.at(contacts.edge_a, contacts.parameter_a)
     place_a = side_a.place(half.frames, half.deformation)
-    foot = np.einsum("ij,ij->i", place_a - surface.start[edge], along) / length
+    foot = np.einsum("ij,ij->i", place_a - surface.start[edge], along) / surface.length[edge]
     contacts = with_parts(
         contacts,
         normal=direction,
@@ -101,8 +106,9 @@ def midpoint_rows(
     )
     side_b = sides.at(edge, contacts.parameter_b)
     apart = place_a - side_b.place(half.frames, half.deformation)
-    turn = sides.end.rows.values[edge] - sides.start.rows.values[edge]
-    points = _HalfWay(direction, length, apart, turn, (side_a, side_b))
+    factors = (shares.a / stretch).ravel(), (shares.b / stretch).ravel()
+    turns = sides.turns(contacts.edge_a), sides.turns(edge)
+    points = _HalfWay(direction, factors, apart, turns, (side_a, side_b))
     parts = rows(contacts, sides, half.frames, model.manifold.n_unknowns)
     if projection is None:
         one, other = _turned_plainly(parts, points, model, start, half)
@@ -114,7 +120,8 @@ def midpoint_rows(
         tangent.data.reshape(m, -1),
         direction,
         points.levers,
-        turn,
+        factors,
+        turns,
         (side_a.body, side_b.body),
         (side_a.rows.apply(half.deformation), side_b.rows.apply(half.deformation)),
         (start.frames.rotation, half.frames.rotation),
@@ -129,31 +136,30 @@ class _HalfWay:
 
     Attributes
     ----------
-    direction, length
-        (m, 2) normals, and lengths (m,) of the edges of side b (m).
+    direction
+        (m, 2) normals.
+    factors
+        (m,) what edges of sides a and b add to the line between faces, over its length (1/m).
     apart
         (m, 2) from side b to side a (m).
-    turn
-        (m, 2, L) rows of the end of edge b less those of its start.
+    turns
+        (m, 2, L) rows of the ends of the edges of both sides less those of their starts.
     points
         Both sides.
     """
 
     direction: Floats
-    length: Floats
+    factors: tuple[Floats, Floats]
     apart: Floats
-    turn: Floats
+    turns: tuple[Floats, Floats]
     points: tuple[MaterialPoints, MaterialPoints]
 
     @property
     def levers(self) -> tuple[Floats, Floats]:
-        """How far (m,) apart sides are along tangent and normal, over the length of edge b.
-
-        The rotation of that edge takes the foot's motion to the point of side a.
-        """
+        """How far (m,) apart sides are along tangent and normal: what lines that turn move (m)."""
         across = tangents(self.direction)
         one, other = (np.einsum("ij,ij->i", self.apart, way) for way in (across, self.direction))
-        return one / self.length, other / self.length
+        return one, other
 
 
 def _turned_plainly(
@@ -161,9 +167,11 @@ def _turned_plainly(
 ) -> list[csr_array]:
     """Rows with what turning adds, by sparse matrices."""
     side_a, side_b = at.points
-    local = half.frames.to_body(side_b.body, at.direction)
-    along = np.einsum("mcl,mc->ml", at.turn, local)
-    turning = _sparse(side_b.rows.unknowns, along, model.manifold.n_unknowns)
+    turning = csr_array((len(at.direction), model.manifold.n_unknowns))
+    for side, factor, turn in zip(at.points, at.factors, at.turns, strict=True):
+        local = half.frames.to_body(side.body, at.direction)
+        along = factor[:, None] * np.einsum("mcl,mc->ml", turn, local)
+        turning = turning + _sparse(side.rows.unknowns, along, model.manifold.n_unknowns)
     across, found = tangents(at.direction), []
     one, other = at.levers
     for part, axis, lever in zip(parts, (at.direction, across), (one, -other), strict=True):
@@ -218,9 +226,9 @@ def missing_moments(
         half_way.end,
         half_way.body,
         half.frames.centre,
-        contacts.edge_a,
-        contacts.parameter_a,
-        contacts.edge_b,
+        (contacts.edge_a, contacts.edge_b),
+        (contacts.parameter_a, contacts.parameter_b),
+        np.where(contacts.is_joint, 0.5, 0.0),
         made.direction,
         *forces,
     )

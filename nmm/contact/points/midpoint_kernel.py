@@ -15,7 +15,8 @@ def add_turns(
     tangent: Floats,
     direction: Floats,
     lever: tuple[Floats, Floats],
-    turn: Floats,
+    factor: tuple[Floats, Floats],
+    turn: tuple[Floats, Floats],
     body: tuple[Ints, Ints],
     bent: tuple[Floats, Floats],
     rotation: tuple[Floats, Floats],
@@ -28,10 +29,11 @@ def add_turns(
     direction
         (m, 2) unit normals, from b to a.
     lever
-        (m,) how far side a lies from side b along tangent and normal, over the length of edge b:
-        what the turn of that edge moves it by.
+        (m,) how far side a lies from side b along tangent and normal (m).
+    factor
+        (m,) what the turn of either side's edge adds to that of the line between faces (1/m).
     turn
-        (m, 2, L) rows of the end of edge b less those of its start, in the axes of its body.
+        (m, 2, L) rows of the ends of these edges less those of their starts, in the bodies' axes.
     body, bent
         (m,) body of each side; (m, 2) its displacement by strain, in the axes of the body.
     rotation
@@ -39,20 +41,20 @@ def add_turns(
     projection
         (B, 3, L) mean motion of a body from its unknowns.
     """
-    count, size = len(direction), turn.shape[2]
+    count, size = len(direction), turn[0].shape[2]
     mean = np.empty(3)
     for c in range(count):
         nx, ny = direction[c, 0], direction[c, 1]
-        half = rotation[1][body[1][c]]
-        # The normal in the axes of the body of edge b.
-        px, py = half[0, 0] * nx + half[1, 0] * ny, half[0, 1] * nx + half[1, 1] * ny
-        for k in range(size):
-            along = turn[c, 0, k] * px + turn[c, 1, k] * py
-            normal[c, size + k] += lever[0][c] * along
-            tangent[c, size + k] -= lever[1][c] * along
         for side in range(2):
-            b, sign = body[side][c], 1.0 - 2.0 * side
+            b, sign, share = body[side][c], 1.0 - 2.0 * side, factor[side][c]
             start, half = rotation[0][b], rotation[1][b]
+            if share != 0.0:
+                # The normal in the axes of the body.
+                px, py = half[0, 0] * nx + half[1, 0] * ny, half[0, 1] * nx + half[1, 1] * ny
+                for k in range(size):
+                    along = share * (turn[side][c, 0, k] * px + turn[side][c, 1, k] * py)
+                    normal[c, side * size + k] += lever[0][c] * along
+                    tangent[c, side * size + k] -= lever[1][c] * along
             ux, uy = bent[side][c, 0], bent[side][c, 1]
             for which in range(2):
                 ax, ay = (nx, ny) if which == 0 else (ny, -nx)

@@ -10,11 +10,13 @@ from nmm.assembly.motion import State
 from nmm.contact.detection.surface import Surface
 from nmm.contact.mortar.face_means import FaceMeans
 from nmm.contact.mortar.trace_space import TraceSpace
+from nmm.contact.points.between_faces import JointFaces
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints, rows
 from nmm.contact.points.joint_points import JointSites
 from nmm.contact.points.midpoint import ContactRows, body_projection, midpoint_rows
-from nmm.contact.points.tracking import Apart, apart_on
+from nmm.contact.points.tracking import apart_on
+from nmm.contact.points.turning_lines import line_turns
 
 
 class ContactGeometry:
@@ -58,7 +60,9 @@ class ContactGeometry:
             return midpoint_rows(*given, self._projection)
         stations = JointSites.at(self.sides, contacts) if self.bends else self._stations
         n_unknowns = self.model.manifold.n_unknowns
-        found = rows(contacts, self.sides, state.frames, n_unknowns, stations)
+        width = (self.sides.start.rows if stations is None else stations).unknowns.shape[1]
+        more = line_turns(contacts, self.sides, state, stations, width)
+        found = rows(contacts, self.sides, state.frames, n_unknowns, stations, more)
         return ContactRows(*found, contacts.normal)
 
     @cached_property
@@ -72,11 +76,13 @@ class ContactGeometry:
         stations = JointSites.at(self.sides, contacts) if self.bends else None
         return conserving_rows(contacts, self.sides, (before, after), stations)
 
-    def apart(self, state: State, surface: Surface) -> Apart:
-        """Return how far apart the sides of joints are in a state."""
+    def faces(self, state: State, surface: Surface) -> JointFaces:
+        """Return the faces of joints in a state, and how far apart they are."""
         if self._stations is None:
-            return partial(apart_on, surface)
-        return partial(self._stations.apart, frames=state.frames, deformation=state.deformation)
+            return JointFaces(surface, self.sides.length, partial(apart_on, surface))
+        frames, bent = state.frames, state.deformation
+        apart = partial(self._stations.apart, frames=frames, deformation=bent)
+        return JointFaces(surface, self.sides.length, apart)
 
     def gaps(self, points: ContactPoints, state: State) -> Floats:
         """Return the gaps (m,) of points that the search found, in m."""

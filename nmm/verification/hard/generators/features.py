@@ -128,8 +128,6 @@ ANY = (*UNITS, "shift up", "mirror", "turn by 37 deg")
 NET = (*UNITS, "shift up", "turn by 180 deg")
 LEVEL = (*UNITS, "shift up")
 
-# Joints open along the normal of one of their faces, the one that is listed last.
-FACES = {"order": 5e-2}
 FREE = (*UNITS, "shift up", "turn by 37 deg")
 MOVING = "duration = 0.02\n"
 BOLT = """[[bars]]
@@ -308,9 +306,9 @@ def _features() -> Iterator[Feature]:
     meeting = "duration = 0.04\n" + _rock(SOFT) + FLOOR + _box("c", 0.2, 1.05, 0.9, 1.8)
     meeting += FLIGHT + DRY + INERTIA + _seen("o", [0.5, 1.5], "c") + CONSERVING
     yield Feature("finite strain and contact", meeting, FREE)
-    yield Feature("opening", CONTROLLED + OPENED, ANY, FACES)
-    yield Feature("displacement", CONTROLLED + MOVED, ANY, FACES)
-    yield Feature("dissipation", CONTROLLED.replace(STIFF, "") + BONDS + DISSIPATED, ANY, FACES)
+    yield Feature("opening", CONTROLLED + OPENED, ANY)
+    yield Feature("displacement", CONTROLLED + MOVED, ANY)
+    yield Feature("dissipation", CONTROLLED.replace(STIFF, "") + BONDS + DISSIPATED, ANY)
     brittle = CONTROLLED.replace("linear_softening", "mohr_coulomb")
     yield Feature("events", brittle.replace("fracture_energy = 1e4\n", "") + EVENTS, ANY)
     bolted = _rock() + TWO + DRY + _pulled([[0, 2], [1, 2]], [4e4, 3e4]) + seen
@@ -326,7 +324,7 @@ def _features() -> Iterator[Feature]:
     yield Feature("seasons", _rock(WARM) + FLOOR + see + SEASONS + _quads(0.5), LEVEL)
     yield Feature("standing reactions", _rock() + FLOOR + see + STANDING + _quads(0.5), NET)
     built = _rock() + TWO + HOLDS + INERTIA + BUILT + see
-    yield Feature("stages", built, ANY, {"order": 1e-5})
+    yield Feature("stages", built, ANY)
     pulled = _rock() + FLOOR + CRACK + see
     grows = pulled + _pulled(top, [5e4, 1e6]) + GROWS + _quads(0.125)
     turned = {"turn by 180 deg": 1e-4}  # functions of tips are integrated to that

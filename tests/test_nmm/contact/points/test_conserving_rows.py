@@ -40,10 +40,10 @@ points = "{points}"
 """
 
 
-def two_states(degree, points, seed):
+def two_states(degree, points, seed, scene=SCENE):
     """Contact, its points, and two states that are bent and turned by a third of their size."""
     made = prepare(
-        parse_scene(SCENE), parse_formulation(FORMULATION.format(degree=degree, points=points))
+        parse_scene(scene), parse_formulation(FORMULATION.format(degree=degree, points=points))
     )
     contact, draws = made.stepper.plan.contact, np.random.default_rng(seed)
     start = made.start
@@ -88,6 +88,39 @@ def test_where_faces_bend_the_gap_is_that_of_the_material():
         gaps.append(contact.geometry.gaps(here, state))
     step = after.deformation - before.deformation
     np.testing.assert_allclose(rows.normal @ step, gaps[1] - gaps[0], rtol=0, atol=1e-13)
+
+
+def test_joints_change_by_what_rows_say_along_the_line_between_both_faces():
+    joined = SCENE.replace("1.02", "1.0").replace(
+        "0.3\n[[blocks]]", "0.3\nnormal_stiffness = 1.0\n[[blocks]]", 1
+    )
+    contact, found, before, after = two_states(0, "vertices", 5, joined)
+    found = found.take(found.is_joint)
+    rows, book = contact.geometry.conserving(found, before, after), contact.record.book
+    assert len(found) > 2
+    gaps, slips = [], []
+    for state in (before, after):
+        surface = contact.partners.surface(state)
+        places = [
+            surface.at(edge, share)
+            for edge, share in (
+                (found.edge_a, found.parameter_a),
+                (found.edge_b, found.parameter_b),
+            )
+        ]
+        lengths = contact.partners.sides.length[:, None]
+        unit = (surface.end - surface.start) / lengths
+        line = unit[found.edge_b] - unit[found.edge_a]
+        line /= np.hypot(*line.T)[:, None]
+        apart = places[0] - places[1]
+        gaps.append(apart[:, 0] * line[:, 1] - apart[:, 1] * line[:, 0])
+        slips.append(-(apart * line).sum(axis=1))
+        now = book.now(contact.geometry.faces(state, surface))
+        np.testing.assert_allclose(now.gap, gaps[-1], rtol=0, atol=1e-14)
+    step = after.deformation - before.deformation
+    # rounding of lengths of about one, in some ten sums and products
+    np.testing.assert_allclose(rows.normal @ step, gaps[1] - gaps[0], rtol=0, atol=1e-14)
+    np.testing.assert_allclose(rows.tangent @ step, slips[1] - slips[0], rtol=0, atol=1e-14)
 
 
 def test_forces_cancel_in_sum():

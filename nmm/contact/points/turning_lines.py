@@ -1,0 +1,63 @@
+"""What gaps and slips of joints gain as the lines between their faces turn.
+
+With the unit normal ``n`` and tangent ``t`` of such a line and ``r`` from side b to side a, the
+gap ``r . n`` changes by ``n . dr + (r . t) w`` and the slip ``r . t`` by
+``t . dr - (r . n) w`` where the line turns by ``w``, from ``n`` to ``t``. Forces along these rows
+act at one point half way between the sides: they make no couple, and their work is what springs
+store.
+"""
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.contact.points.between_faces import EdgeShares, across
+from nmm.contact.points.boundary_points import Sides, tangents
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.joint_points import JointSites
+
+
+def line_turns(
+    contacts: ContactPoints, sides: Sides, state: State, stations: JointSites | None, width: int
+) -> tuple[Floats, Floats] | None:
+    """Return what to add to normal and tangent rows (m, 2 L) of contacts; None without joints.
+
+    ``width`` L is that of rows of either side, of a before b.
+    """
+    at = np.flatnonzero(contacts.is_joint)
+    if not len(at):
+        return None
+    joints, place = contacts.take(at), (state.frames, state.deformation)
+    edges = joints.edge_a, joints.edge_b
+    shares, ends = EdgeShares.of(joints, sides.length), (sides.start, sides.end)
+    starts, stops = ([end.take(edge).place(*place) for edge in edges] for end in ends)
+    line = shares.a * (stops[0] - starts[0]) + shares.b * (stops[1] - starts[1])
+    normal, stretch = across(line), np.hypot(*line.T)[:, None]
+    turn = np.zeros((len(at), 2, width))
+    for k, (edge, share) in enumerate(zip(edges, (shares.a, shares.b), strict=True)):
+        rows = sides.turns(edge)
+        local = state.frames.to_body(sides.start.body[edge], normal)
+        turn[:, k, : rows.shape[2]] = share / stretch * np.einsum("mcl,mc->ml", rows, local)
+    apart = _apart(contacts, joints, sides, state, stations)
+    found = np.zeros((2, len(contacts), 2 * width))
+    for k, (axis, sign) in enumerate(((tangents(normal), 1.0), (normal, -1.0))):
+        lever = sign * np.einsum("ij,ij->i", apart, axis)
+        found[k, at] = lever[:, None] * turn.reshape(len(at), -1)
+    return found[0], found[1]
+
+
+def _apart(
+    contacts: ContactPoints,
+    joints: ContactPoints,
+    sides: Sides,
+    state: State,
+    stations: JointSites | None,
+) -> Floats:
+    """Where sides a of joints are from their sides b (k, 2)."""
+    place = state.frames, state.deformation
+    if stations is None:
+        one = sides.at(joints.edge_a, joints.parameter_a).place(*place)
+        return np.asarray(one - sides.at(joints.edge_b, joints.parameter_b).place(*place))
+    if stations.whole:
+        return stations.apart(contacts, *place)[contacts.is_joint]
+    return stations.apart(joints, *place)
