@@ -26,10 +26,11 @@ from nmm.contact.following.release import let_go
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import follow_joints
 from nmm.contact.points.midpoint import ContactRows
-from nmm.contact.problem.step_problem import Limits
+from nmm.contact.problem.step_problem import Limits, StepAnswer
 from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.driver import ContactSolver
 from nmm.contact.solution.geometry import ContactGeometry
+from nmm.contact.solution.mixed_bonds import MixedBonds
 from nmm.contact.solution.momentum import Momentum
 from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
 from nmm.contact.solution.request import StepRequest
@@ -73,7 +74,8 @@ class Contact(Effect):
             parts.stations,
             parts.cracks,
         )
-        self._bonds = ConsistentBonds.of(model, book.points, self.laws)
+        seamless = parts.mixed & parts.cracks.points(model.manifold, book.points)
+        self._bonds = ConsistentBonds.of(model, book.points, self.laws, seamless)
         if self._bonds is not None:
             book = replace(book, points=self._bonds.tied(book.points, self.laws))
         self.record, self._unbonded = ContactRecord(book), book.broken
@@ -135,7 +137,9 @@ class Contact(Effect):
             rows = self.geometry.rows(contacts, state, midpoint)
         else:
             rows = self.geometry.conserving(contacts, state, end)
-        surface = self.partners.surface(state)
+        surface, mixed = self.partners.surface(state), self._mixed(contacts, state, request.time)
+        posed = contacts, rows, request
+        posed = posed if mixed is None else mixed.posed(*posed)
 
         def besides(present: ContactPoints) -> list[Transform]:
             tied = self._tied(present, state, rows, request.weight, request.time)
@@ -143,7 +147,8 @@ class Contact(Effect):
             means = self.geometry.face_means(free, surface)
             return [part for part in (tied, means, request.null_space) if part is not None]
 
-        return self.solver.solve(contacts, rows, request, besides)
+        solved = self.solver.solve(*posed, besides)
+        return solved if mixed is None else mixed.told(solved, contacts)
 
     def solve_path(
         self, contacts: ContactPoints, state: State, request: StepRequest, path: PathEquation
@@ -151,11 +156,40 @@ class Contact(Effect):
         """Solve a step along a path; return it and by how much the load factor changes."""
         rows = self.geometry.rows(contacts, state)
         tied = self._tied(contacts, state, rows, request.weight, request.time)
-        return path_solution(self.laws, contacts, rows, tied, request, path)
+        mixed = self._mixed(contacts, state, request.time)
+        posed = contacts, rows, request
+        posed = posed if mixed is None else mixed.posed(*posed)
+        whole = self._beginning(contacts)
+        solved, change = path_solution(self.laws, *posed, tied, path, whole)
+        return solved if mixed is None else mixed.told(solved, contacts), change
 
-    def overload(self, solved: ContactSolution) -> Floats:
-        """Return load over strength (m,) of bonds that break or begin to soften above one."""
-        return self.laws.overload(solved.contacts, solved.answer)
+    def overload(
+        self, contacts: ContactPoints, answer: "StepAnswer | ContactPoints | None" = None
+    ) -> Floats:
+        """Return load over strength (m,) of bonds that break or begin to soften above one.
+
+        Of an ``answer``, or of contacts as they stand. Bonds of the mixed form count until the
+        first of them softens.
+        """
+        answer = contacts if answer is None else answer
+        return self.laws.overload(contacts, answer, self._beginning(contacts))
+
+    @property
+    def may_give_way(self) -> bool:
+        """Whether any bond is left that breaks at once, or begins to soften, at a limit."""
+        points = self.standing
+        brittle = points.bonded & self.laws.brittle[points.interface]
+        beginning = self._beginning(points)
+        return bool((points.tied | brittle).any() or beginning is not None)
+
+    def _beginning(self, contacts: ContactPoints) -> Bools | None:
+        """Return which (m,) are bonds of the mixed form while none has softened; else None."""
+        points = self.record.book.points
+        if self._bonds is None or not self._bonds.mixed_among(points).any():
+            return None
+        begun = (points.history["damage"] > 0) | ~points.bonded
+        begun &= self._bonds.mixed_among(points)
+        return None if begun.any() else self._bonds.mixed_among(contacts)
 
     def release(self, solved: ContactSolution, gone: Bools) -> float:
         """Let bonds (m,) give way before the next step, though the solution be no step.
@@ -177,6 +211,14 @@ class Contact(Effect):
         if self._bonds is None or not contacts.tied.any():
             return None
         return TiedBonds.of(self._bonds, contacts, state, rows, weight, self._stresses, time)
+
+    def _mixed(
+        self, contacts: ContactPoints, state: State, time: float | None = None
+    ) -> MixedBonds | None:
+        """Return the bonds whose law has the mixed form, see `MixedBonds.of`; None without any."""
+        if self._bonds is None:
+            return None
+        return MixedBonds.of(self._bonds, self.laws, contacts, state, self._stresses, time)
 
     def overlooked(self, contacts: ContactPoints, motion: Motion) -> tuple[Ints, Ints] | None:
         """Return pairs that crossed and were no contacts; see `Candidates.overlooked`."""
@@ -236,7 +278,9 @@ class Contact(Effect):
         record = self.record
         known = [] if record.known is None else [record.known]
         points = concatenate([record.book.points, *known])
-        total = record.stored
+        total, mixed = record.stored, self._mixed(points, state)
+        if mixed is not None:
+            points, total = mixed.stretched(points), total - mixed.energy
         if len(points):
             total += self.laws.energy(points, own_only=self._exact)
         if self._bonds is None:

@@ -36,6 +36,9 @@ class ContactParts:
         "corners" or "gauss": where joints act along their edge.
     cracks
         Cracks within bodies whose faces hold together.
+    mixed
+        Whether bonds on them that soften have their laws in the mixed form: not where they move,
+        nor where nothing is a spring.
     held
         (B,) bodies that a support holds as a whole, in both directions.
     bends
@@ -49,6 +52,7 @@ class ContactParts:
     enforcement: Enforcement
     stations: str
     cracks: BondedCracks
+    mixed: bool
     held: Bools
     bends: bool
     means: bool
@@ -73,7 +77,8 @@ def contact_parts(setup: Setup) -> ContactParts:
     )
     stations, cracks = _stations(method, laws), _cracks(setup)
     held, bends = _held(setup), points > 2
-    return ContactParts(laws, partners, enforcement, stations, cracks, held, bends, means)
+    mixed = setup.scene.inertia is None and not enforcement.exact
+    return ContactParts(laws, partners, enforcement, stations, cracks, mixed, held, bends, means)
 
 
 def _conserves(setup: Setup) -> bool:

@@ -13,7 +13,7 @@ from typing import Self
 import numpy as np
 from scipy.sparse import csr_array
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames
@@ -46,6 +46,9 @@ class ConsistentBonds:
         (k,) of it that holds what turns the sides of a joint against each other (`turning`).
     area
         (k,) that each point stands for (m2).
+    mixed
+        Which (k,) have their law in the mixed form (`nmm.contact.solution.mixed_bonds`), and are
+        not tied.
     n_unknowns
         Of the model.
     """
@@ -55,13 +58,17 @@ class ConsistentBonds:
     penalty: Floats
     share: Floats
     area: Floats
+    mixed: Bools
     n_unknowns: int
 
     @classmethod
-    def of(cls, model: Model, joints: ContactPoints, laws: ContactLaws) -> Self | None:
+    def of(
+        cls, model: Model, joints: ContactPoints, laws: ContactLaws, seamless: Bools
+    ) -> Self | None:
         """Find the tractions on bonds where they lie at the start; None where springs hold all.
 
-        Laws with a stiffness of their own keep it.
+        Laws with a stiffness of their own keep it. Where matter is ``seamless`` (m,) across a bond
+        that softens, its law acts in the mixed form.
         """
         named = np.array([law.normal_stiffness is not None for law in laws.laws], dtype=bool)
         wanted = joints.bonded & ~named[joints.interface]
@@ -78,7 +85,8 @@ class ConsistentBonds:
         bending = float(model.modulus.max()) * points.spring_factor / points.length
         rows = [(one.unknowns, one.values) for one in found.fluxes]
         share = turning_share(rows, penalty, bending)
-        return cls(number, found.fluxes, penalty, share, area, model.manifold.n_unknowns)
+        mixed = seamless[wanted] & ~laws.brittle[points.interface] & (penalty > 0)
+        return cls(number, found.fluxes, penalty, share, area, mixed, model.manifold.n_unknowns)
 
     def tied(self, joints: ContactPoints, laws: ContactLaws) -> ContactPoints:
         """Return the joint points with the bonds that these terms hold, as stiff as the penalty.
@@ -86,13 +94,24 @@ class ConsistentBonds:
         Where neither side has strain there is no traction: springs hold such a bond.
         """
         row = self.row(joints)
-        tied = (row >= 0) & (self.penalty[row] > 0)
-        factor = self.penalty[row] * self.area[row] / laws.normal_bond
+        held = (row >= 0) & (self.penalty[row] > 0)
+        tied = held & ~self.mixed[row]
+        # The softer spring of a mixed bond has all of the penalty.
+        least = min(laws.normal_bond, laws.shear_bond)
+        unit = np.where(tied, laws.normal_bond, least)
+        factor = self.penalty[row] * self.area[row] / unit
         return replace(
             joints,
-            spring_factor=np.where(tied, factor, joints.spring_factor),
+            spring_factor=np.where(held, factor, joints.spring_factor),
             history={**joints.history, TIED: np.where(tied, self.share[row], 0.0)},
         )
+
+    def mixed_among(self, contacts: ContactPoints) -> Bools:
+        """Return which contacts (m,) have their law in the mixed form."""
+        found = contacts.is_joint
+        row = self.number[-1 - contacts.key[found]]
+        found[found] = (row >= 0) & self.mixed[row]
+        return found
 
     def row(self, joints: ContactPoints) -> Ints:
         """Return the row of joint points, -1 of those without."""

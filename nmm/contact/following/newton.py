@@ -44,7 +44,8 @@ def newton(
         found = _nearest(problem, path, step, (increment, step.change + change))
         stands = found.residual <= CLOSE or step.residual <= min(ROUNDED, 2 * found.residual)
         step = replace(found, iterations=count)
-        if stands and count > 1:
+        # A part of an iteration may be in balance short of the target.
+        if stands and found.short <= ROUNDED and count > 1:
             break
     return step
 

@@ -32,5 +32,8 @@ class PathEquation:
         ``along`` (n,) is what a load factor of one moves, ``still`` (n,) the increment without a
         further change, ``so_far`` the change of the step before.
         """
-        rest = self.target - self.row @ still - self.share * so_far
-        return float(rest / (self.row @ along + self.share))
+        return self.left(still, so_far) / float(self.row @ along + self.share)
+
+    def left(self, increment: Floats, change: float) -> float:
+        """Return what an increment (n,) and a change of the load factor lack of the target."""
+        return float(self.target - self.row @ increment - self.share * change)

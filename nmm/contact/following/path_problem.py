@@ -36,6 +36,8 @@ class PathStep:
         (n,) out-of-balance force (N).
     residual
         Its size over that of the largest force.
+    short
+        What the path equation lacks, as a share of its target.
     iterations
         Linear systems solved.
     """
@@ -47,12 +49,13 @@ class PathStep:
     slip: Floats
     rest: Floats
     residual: float
+    short: float = 0.0
     iterations: int = 0
 
     @property
     def converged(self) -> bool:
-        """Whether forces are in balance."""
-        return self.residual <= ROUNDED
+        """Whether forces are in balance where the path equation wants them."""
+        return self.residual <= ROUNDED and self.short <= ROUNDED
 
     @property
     def out(self) -> float:
@@ -96,7 +99,8 @@ class PathProblem:
         pushed = float(np.linalg.norm(self.rows.push(*np.abs(contacts.force.T))))
         size = max(self.scale, pushed, abs(change) * float(np.linalg.norm(path.load)))
         residual = float(np.linalg.norm(rest)) / (size or 1.0)
-        return PathStep(increment, change, contacts, gap, slip, rest, residual)
+        short = abs(path.left(increment, change)) / (abs(path.target) or 1.0)
+        return PathStep(increment, change, contacts, gap, slip, rest, residual, short)
 
     def tangent(self, contacts: ContactForces) -> csc_array:
         """Return the matrix (n, n) by which forces answer a further increment."""

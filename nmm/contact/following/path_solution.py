@@ -26,9 +26,10 @@ def path_solution(
     laws: ContactLaws,
     contacts: ContactPoints,
     rows: ContactRows,
-    tied: TiedBonds | None,
     request: StepRequest,
+    tied: TiedBonds | None,
     path: PathEquation,
+    whole: Bools | None = None,
 ) -> tuple[ContactSolution, float]:
     """Solve a step; return it, and by how much its load factor changes.
 
@@ -36,12 +37,14 @@ def path_solution(
     ----------
     laws, contacts, rows
         Of all contacts of the step.
-    tied
-        Those among them that consistent terms hold; None without any.
     request
         Matrix and force of all but contacts, and the solver.
+    tied
+        Those among them that consistent terms hold; None without any.
     path
         The equation beside balance.
+    whole
+        (m,) bonds whose limits others judge: none softens in the step.
 
     Raises
     ------
@@ -53,9 +56,11 @@ def path_solution(
     free[index] = False
     some, springs = contacts.take(free), laws.springs(contacts)
     stiff = (springs[0][free], springs[1][free], springs[2][free])
+    elastic = some.bonded & laws.brittle[some.interface]
+    elastic = elastic if whole is None else elastic | whole[free]
 
     def law(gap: Floats, slip: Floats) -> ContactForces:
-        return contact_forces(laws, some, gap, slip, stiff)
+        return contact_forces(laws, some, gap, slip, stiff, elastic)
 
     matrix, force = request.matrix, request.force
     scale = float(np.linalg.norm(force))

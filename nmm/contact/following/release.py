@@ -8,11 +8,12 @@ from integration.arrays import Bools
 from nmm.contact.bonds.release import released
 from nmm.contact.bonds.turning import beside
 from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.history_iteration import ENDED
 from nmm.contact.problem.step_problem import BROKEN
 from nmm.contact.solution.record import ContactRecord, ContactSolution
 
-# What contacts have at the end of a solution.
-ENDED = ("gap", "slip", "normal_force", "shear_force")
+# Damage of bonds that have come to their limit and soften from there on.
+BEGUN = 1e-12
 
 
 def let_go(
@@ -42,6 +43,8 @@ def let_go(
         name: np.where(changed, after.history[name][at], column)
         for name, column in points.history.items()
     }
+    if (soft := (gone & ~freed & ~lost)[at]).any():
+        history["damage"] = np.where(soft, np.maximum(history["damage"], BEGUN), history["damage"])
     points = replace(
         points,
         reference=after.reference[at],

@@ -235,8 +235,16 @@ class ContactLaws:
             over &= ~brittle | (load >= load[brittle].max() * (1 - TIE))
         return over
 
-    def overload(self, contacts: ContactPoints, answer: "StepAnswer | ContactPoints") -> Floats:
-        """Return load over strength (m,) of the bonds that break or begin to soften above one."""
+    def overload(
+        self,
+        contacts: ContactPoints,
+        answer: "StepAnswer | ContactPoints",
+        beginning: Bools | None = None,
+    ) -> Floats:
+        """Return load over strength (m,) of the bonds that break or begin to soften above one.
+
+        ``beginning`` (m,) are those that begin to soften beside the ones that are tied.
+        """
         load = np.zeros(len(contacts))
         bonds = np.flatnonzero(contacts.bonded)
         area = contacts.length[bonds] * self.thickness
@@ -246,6 +254,7 @@ class ContactLaws:
             forces = (answer.normal_force[index], answer.shear_force[index])
             stress = [force / area[mine] for force in forces]
             whole = contacts.tied[index]
+            whole = whole if beginning is None else whole | beginning[index]
             load[index] = np.where(whole, law.onset(*stress), law.overload(*stress))
         return load
 

@@ -22,6 +22,8 @@ MOST = 200
 """Solutions after which a step is given up."""
 UNCHANGED = 1e-9
 """Change of a column, beside one or the largest length, that is as good as none."""
+ENDED = ("gap", "slip", "normal_force", "shear_force")
+"""What contacts have at the end of a solution."""
 
 
 class HistoryIteration:
@@ -126,9 +128,10 @@ class HistoryIteration:
         if not soft.any():
             return float(rubbed.sum())
         before = self.start.take(soft)
-        normal = (before.normal_force + answer.normal_force[soft]) / 2
-        shear = (before.shear_force + answer.shear_force[soft]) / 2
-        after = replace(self.contacts.take(soft), gap=answer.gap[soft], slip=answer.slip[soft])
+        ended = {name: getattr(answer, name)[soft] for name in ENDED}
+        after = replace(self.contacts.take(soft), **ended)
+        normal = (before.normal_force + after.normal_force) / 2
+        shear = (before.shear_force + after.shear_force) / 2
         slipped = after.slip - before.slip + sliding[soft]
         work = normal @ (after.gap - before.gap) + shear @ slipped
         stored = self._laws.energy(after) - self._laws.energy(before)

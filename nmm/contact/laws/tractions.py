@@ -42,17 +42,21 @@ class ContactForces:
 
 
 def contact_forces(
-    laws: ContactLaws, contacts: ContactPoints, gap: Floats, slip: Floats, springs: Springs
+    laws: ContactLaws,
+    contacts: ContactPoints,
+    gap: Floats,
+    slip: Floats,
+    springs: Springs,
+    whole: Bools,
 ) -> ContactForces:
     """Return the forces at gaps and elastic slips (m,) in m; see `InterfaceLaw.update`.
 
-    Bonds that break at once are springs here: when they break is judged elsewhere.
+    ``whole`` (m,) are springs without limits: when they break, or soften, is judged elsewhere.
     """
     m = len(contacts)
     force, answers = np.zeros((m, 2)), list[tuple[Ints, Traction]]()
     after = {name: column.copy() for name, column in contacts.history.items()}
     area = np.where(contacts.is_joint, contacts.length * laws.thickness, 1.0)
-    whole = contacts.bonded & laws.brittle[contacts.interface]
     for law, index, history in laws.by_law(contacts):
         for joints in (True, False):
             some = index[(contacts.is_joint[index] == joints) & ~whole[index]]

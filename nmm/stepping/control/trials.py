@@ -50,15 +50,13 @@ class Trials:
         contact = self.stepper.plan.contact
         assert contact is not None
         points = contact.standing
-        return _in_order(points, contact.laws.overload(points, points))
+        return _in_order(points, contact.overload(points))
 
     def may_give_way(self) -> bool:
         """Whether any bond is left that breaks at once, or begins to soften, at a limit."""
         contact = self.stepper.plan.contact
         assert contact is not None
-        points = contact.standing
-        brittle = points.bonded & contact.laws.brittle[points.interface]
-        return bool((points.tied | brittle).any())
+        return contact.may_give_way
 
     def give_way(self, attempt: Attempt) -> tuple[bool, float]:
         """Let the bonds that are loaded most give way.
@@ -83,7 +81,7 @@ class Trials:
         contact, solved = self.stepper.plan.contact, attempt.solved
         assert contact is not None
         assert solved is not None
-        return contact.overload(solved)
+        return contact.overload(solved.contacts, solved.answer)
 
 
 def _in_order(contacts: "ContactPoints", load: Floats) -> Floats:

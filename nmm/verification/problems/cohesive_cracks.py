@@ -55,7 +55,6 @@ class CohesiveBeam(SceneCase):
             "tensile_strength": 3e6,
             "bonded": True,
             "fracture_energy": 100.0,
-            "normal_stiffness": 1e14,
         }
         grows = "[cohesive_zones]\nincrement = 0.02\n"
         plane = [[0.0, self.notch], [0.0, self.height + 0.005]]

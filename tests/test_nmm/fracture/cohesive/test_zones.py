@@ -24,7 +24,6 @@ cohesion = "30 MPa"
 tensile_strength = "3 MPa"
 bonded = true
 fracture_energy = 100.0
-normal_stiffness = 1e14
 [[blocks]]
 name = "beam"
 material = "concrete"
