@@ -7,6 +7,7 @@ loaded body of triangles with a stone at rest far from it. Tables are those of a
 from collections.abc import Callable, Mapping
 from copy import deepcopy
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from whole_scenes import wall
@@ -153,14 +154,14 @@ def beside_ground(steps: int) -> Tables:
     return _more(bar, viscous_boundaries=[_BASE])(steps)
 
 
-def closed_joints(steps: int) -> Tables:
+def closed_joints(steps: int, **flow: Any) -> Tables:
     """Return the wall with water at no pressure in joints without aperture."""
     height = [0.25 * course for course in range(COURSES + 1)]
     heads = [
         {"name": f"h{n}", "segment": [[-1, y], [COURSES, y]], "head": y}
         for n, y in enumerate(height)
     ]
-    return _more(bricks, interfaces={"dry": {"aperture": 0.0}}, joint_flow={}, joint_heads=heads)(
+    return _more(bricks, interfaces={"dry": {"aperture": 0.0}}, joint_flow=flow, joint_heads=heads)(
         steps
     )
 
@@ -343,6 +344,9 @@ IDLE: dict[str, Idle] = {
         heads=[{"name": "h", "block": "all", "head": 1.0}],
     ),
     "water in joints that are closed": Idle(("joint flow",), bricks, closed_joints),
+    "water that is stored in joints that are closed": Idle(
+        ("transient joint flow",), bricks, partial(closed_joints, transient=True, initial=0.0)
+    ),
     "water below all edges": _idle(
         "water pressures",
         bricks,

@@ -41,6 +41,7 @@ CALLED_BY = {
     "initial stress": "[[initial_stresses]]",
     "water pressures": "[[water_pressures]]",
     "joint flow": "[joint_flow]",
+    "transient joint flow": "[joint_flow] with transient",
     "viscous boundaries": "[[viscous_boundaries]]",
     "free fields": "[[free_fields]]",
     "springs": "[[springs]]",

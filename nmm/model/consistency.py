@@ -72,8 +72,10 @@ def known_quantities(scene: "Scene") -> list[str]:
         columns += [f"{name}:{what}" for what in ("lowest", "highest", "stored")]
         columns += [f"{name}:taken:{item.name}" for item in (*scene.heads, *scene.inflows)]
     if scene.joint_flow is not None:
-        columns += ["joint flow:pressure", "joint flow:aperture"]
-        columns += [f"joint flow:inflow:{item.name}" for item in scene.joint_heads]
+        stores = scene.joint_flow.transient
+        name, of_head = ("transient joint flow", "taken") if stores else ("joint flow", "inflow")
+        columns += [f"{name}:pressure", f"{name}:aperture"]
+        columns += [f"{name}:{of_head}:{item.name}" for item in scene.joint_heads]
     if scene.heat is not None:
         columns += ["heat:lowest", "heat:highest", "heat:stored"]
         acting = (scene.temperatures, scene.heat_fluxes, scene.heat_sources, scene.convections)

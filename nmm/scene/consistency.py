@@ -179,7 +179,7 @@ def _without_inertia(data: Tables) -> Iterator[Finding]:
     if "loading" in data:
         remedy = "remove duration, or [loading]: over time loads follow their history"
         yield ("duration",), "duration with [loading]", "one of the two", remedy
-    for key in ("heat", "seepage"):
+    for key in ("heat", "seepage", "joint_flow"):
         if _table(data, key).get("transient") is True:
             remedy = f"remove it, and let [{key}] have its duration, or add [inertia]"
             yield ("duration",), f"duration with transient [{key}]", "one clock", remedy

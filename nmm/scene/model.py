@@ -179,7 +179,10 @@ class Scene(Frozen):
     @property
     def followed(self) -> bool:
         """Whether a field of the blocks changes by itself over time."""
-        return any(field is not None and field.transient for field in (self.heat, self.seepage))
+        return any(
+            field is not None and field.transient
+            for field in (self.heat, self.seepage, self.joint_flow)
+        )
 
     @property
     def source(self) -> Source:

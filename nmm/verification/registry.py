@@ -167,6 +167,7 @@ CASES = Registry[type[Case]](
         "WA3": f"{_HOME}.joint_water:JointBridge",
         "WA4": f"{_HOME}.joint_water:UpliftByFlow",
         "WA5": f"{_HOME}.joint_water:LiftedBlock",
+        "WA6": f"{_HOME}.joint_water:PressureInJoint",
         "WA7": f"{_HOME}.water:PressurisedCrack",
         "WA8": f"{_HOME}.water:Submerged",
         "WA9": f"{_HOME}.seepage:RisingWater",

@@ -1,222 +1,31 @@
-"""The effect: water that flows in joints, opens them by its pressure and flows the faster for it.
+"""The effect: water that flows steadily in joints, opens them and flows the faster for it."""
 
-Heads are steady with the apertures at the start of a step, which statics corrects until nothing
-moves any more: a fixed point of apertures and heads.
-"""
-
-from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Self
 
-import numpy as np
-
-from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.motion import State
-from nmm.constraints.shared_edges import shared_edges
-from nmm.diffusion.edges import Factor, of_history, steadily
-from nmm.effects.base import Effect, Instant, Setup
-from nmm.errors import Fault, SceneError, SolveError
-from nmm.quantity import Quantity
-from nmm.water.network import JointNetwork
-from nmm.water.wet_joints import NEAR, WetJoints
+from nmm.effects.base import Setup
+from nmm.errors import Fault, SceneError
+from nmm.water.joint_water import JointWater
 
 
-@dataclass(frozen=True)
-class HeldHead:
-    """A head at nodes (k,) of the network, and its factor."""
-
-    name: str
-    nodes: Ints
-    head: Floats
-    factor: Factor
-
-
-class JointFlow(Effect):
-    """Water in the joints of a scene.
-
-    Parameters
-    ----------
-    sites, network
-        The joints.
-    aperture, least
-        (j,) apertures as drawn and the least that closing leaves (m).
-    held
-        Heads that are given, later ones before earlier ones where both are.
-    weight
-        Of water (N/m3).
-    n_unknowns
-        Of the model.
-    """
+class JointFlow(JointWater):
+    """Steady water in the joints of a scene."""
 
     name = "joint flow"
-    external = False
-
-    def __init__(
-        self,
-        sites: WetJoints,
-        network: JointNetwork,
-        aperture: tuple[Floats, Floats],
-        held: list[HeldHead],
-        weight: float,
-        n_unknowns: int,
-    ) -> None:
-        self.sites, self.network, self.held = sites, network, held
-        self._drawn, self._least = aperture
-        self._weight, self._n = weight, n_unknowns
-        self._known: list[tuple[State, float, Floats]] = []
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
-        """Build from ``[joint_flow]``, ``[[joint_heads]]`` and the interfaces' apertures."""
-        scene, model = setup.scene, setup.model
-        assert scene.joint_flow is not None
-        joints = shared_edges(model)
-        drawn, least = _apertures(setup, joints.edge_a, joints.edge_b)
-        wet = ~np.isnan(drawn)
-        if not wet.any():
-            place = scene.source.place("joint_flow")
-            expected = "blocks that share an edge, with an interface that has an aperture"
-            raise SceneError(Fault(place, "no joint", expected, "add aperture to the interface"))
-        sites = WetJoints.of(model, joints.take(wet))
-        weight = scene.joint_flow.unit_weight
-        mobility = weight / (12 * scene.joint_flow.viscosity)
-        length = sites.joints.length
-        network = JointNetwork(sites.nodes, length, len(sites.places), mobility)
-        held = _held(setup, sites)
-        found = cls(
-            sites, network, (drawn[wet], least[wet]), held, weight, model.manifold.n_unknowns
-        )
+        """See `JointWater.from_setup`; joints that no head reaches as drawn are refused."""
+        found = super().from_setup(setup)
         found._refuse_isolated(setup)
         return found
-
-    @property
-    def about(self) -> str:
-        """See `Effect.about`."""
-        return f"{len(self.network.length)} joints between {self.network.n} nodes"
-
-    @property
-    def steady(self) -> bool:
-        """See `Effect.steady`."""
-        return all(one.factor is steadily for one in self.held)
-
-    def apertures(self, state: State) -> Floats:
-        """Apertures (j, 2) at the ends of the joints (m)."""
-        return np.maximum(self._drawn[:, None] + self.sites.opening(state), self._least[:, None])
-
-    def heads(self, state: State, time: float) -> Floats:
-        """Heads (n,) of the nodes with the apertures of a state; nan where no joint is open."""
-        for known, at, found in self._known:  # at most two
-            if known is state and at == time:
-                return found
-        nodes, given = self._given(time)
-        conductance = self.network.conductance(self.apertures(state))
-        try:
-            found = self.network.heads(conductance, nodes, given)
-        except SolveError as fault:
-            lost = self.network.isolated(conductance, nodes)
-            x, y = self.sites.places[lost][0]
-            raise SolveError(f"joint flow: at ({x:.6g}, {y:.6g}): {fault}") from fault
-        self._known = [*self._known[-1:], (state, time, found)]
-        return found
-
-    def pressures(self, state: State, time: float) -> Floats:
-        """Pressures (n,) at the nodes (Pa); zero above the water table and where none is open."""
-        depth = np.nan_to_num(self.heads(state, time) - self.sites.places[:, 1])
-        return np.asarray(self._weight * np.maximum(depth, 0.0))
-
-    def force(self, state: State, end: Instant) -> Floats:
-        """Return the pressure on both faces of the joints, in the bodies' axes."""
-        return self.sites.interface.spread(state, self._forces(state, end.time))
-
-    def work(self, before: State, after: State) -> float:
-        """Mean of the forces at both ends times the way the faces moved apart."""
-        first, last = (self._forces(one, one.time) for one in (before, after))
-        motion = self.sites.interface.motion
-        return float(np.sum((first + last) / 2 * (motion(after) - motion(before))))
-
-    def history(self, state: State) -> Mapping[str, float]:
-        """Return inflows (m3/s) at held heads, the largest pressure (Pa) and aperture (m)."""
-        heads, aperture = self.heads(state, state.time), self.apertures(state)
-        inflow = self.network.inflow(self.network.conductance(aperture), heads)
-        thick = self.sites.interface.area.sum() / self.sites.joints.length.sum()
-        found = {f"inflow:{one.name}": float(thick * inflow[one.nodes].sum()) for one in self.held}
-        pressure = float(self.pressures(state, state.time).max())
-        return {**found, "pressure": pressure, "aperture": float(aperture.max())}
-
-    def outputs(self, state: State) -> Mapping[str, Quantity]:
-        """Return pressures at the corners of blocks where joints end, zero elsewhere.
-
-        They are a column of their own: between its corners a block has none.
-        """
-        pressure = self.pressures(state, state.time)
-        found = np.where(self.sites.corner >= 0, pressure[self.sites.corner], 0.0)
-        return {"pressure": Quantity("points", found[:, None], "Pa", ("joints",))}
-
-    def forget(self) -> None:
-        """See `Effect.forget`."""
-        self._known = []
-
-    def _forces(self, state: State, time: float) -> Floats:
-        pressure = self.pressures(state, time)[self.sites.nodes]
-        return self.sites.forces(state, pressure)
-
-    def _given(self, time: float) -> tuple[Ints, Floats]:
-        """Nodes (k,) with a head and what it is; later tables before earlier ones."""
-        heads = np.full(self.network.n, np.nan)
-        for one in self.held:  # a handful
-            heads[one.nodes] = one.factor(time) * one.head
-        nodes = np.flatnonzero(~np.isnan(heads))
-        return nodes, heads[nodes]
 
     def _refuse_isolated(self, setup: Setup) -> None:
         """Refuse joints that no head reaches as they are drawn."""
         conductance = self.network.conductance(self.apertures(setup.start))
-        lost = self.network.isolated(conductance, self._given(setup.start.time)[0])
+        lost = self.network.isolated(conductance, self.given(setup.start.time)[0])
         if lost.any():
             x, y = self.sites.places[lost][0] + setup.origin
             found = f"{int(lost.sum())} ends of joints that no head reaches, at ({x:.6g}, {y:.6g})"
             expected = "a head in every part of the joints that are open to one another"
             place = setup.scene.source.place("joint_flow")
             raise SceneError(Fault(place, found, expected, "add [[joint_heads]] there"))
-
-
-def _apertures(setup: Setup, edge_a: Ints, edge_b: Ints) -> tuple[Floats, Floats]:
-    """Apertures (j,) as drawn and least ones (m); nan for joints that carry no water."""
-    manifold, materials = setup.model.manifold, list(setup.scene.materials)
-    one, other = (
-        manifold.element_region[manifold.boundary.element[edge]] for edge in (edge_a, edge_b)
-    )
-    pairs = np.stack([setup.region_material[one], setup.region_material[other]], axis=1)
-    drawn, least = np.full(len(pairs), np.nan), np.zeros(len(pairs))
-    for a, b in np.unique(pairs, axis=0).tolist():  # pairs of materials
-        try:
-            interface = setup.scene.interface(materials[a], materials[b])
-        except SceneError:
-            continue
-        chosen: Bools = (pairs == (a, b)).all(axis=1) & (one != other)
-        if interface.aperture is not None:
-            drawn[chosen], least[chosen] = interface.aperture, interface.residual_aperture or 0.0
-    return drawn, least
-
-
-def _held(setup: Setup, sites: WetJoints) -> list[HeldHead]:
-    near = NEAR * float(np.hypot(*np.ptp(setup.model.manifold.elements.points, axis=0)))
-    found = []
-    for item in setup.scene.joint_heads:  # a handful
-        ends = np.array([item.point, item.point] if item.segment is None else item.segment)
-        nodes = np.flatnonzero(_distance(sites.places, ends) <= near)
-        if not len(nodes):
-            place = setup.scene.source.of_name("joint_heads", item.name)
-            shown, expected = str(item.segment or item.point), "a place where a joint ends"
-            raise SceneError(Fault(place, shown, expected, "move it to the end of a joint"))
-        head = np.full(len(nodes), item.head - setup.origin[1])
-        found.append(HeldHead(item.name, nodes, head, of_history(item.history)))
-    return found
-
-
-def _distance(points: Floats, ends: Floats) -> Floats:
-    """Distance (m,) of points from a segment (2, 2), which may be a point."""
-    way = ends[1] - ends[0]
-    size = float(way @ way)
-    share = np.clip((points - ends[0]) @ way / size, 0, 1) if size else np.zeros(len(points))
-    return np.asarray(np.hypot(*(points - ends[0] - share[:, None] * way).T))

@@ -22,6 +22,8 @@ def water_contradictions(data: Tables) -> Iterator[Finding]:
     if data.get("joint_heads") and "joint_flow" not in data:
         remedy = "add [joint_flow], or remove [[joint_heads]]"
         yield ("joint_heads",), "no [joint_flow]", "a scene with water in joints", remedy
+    if "joint_flow" in data:
+        yield from durations(data, "joint_flow")
     if "joint_flow" in data and not data.get("joint_heads"):
         remedy = "add [[joint_heads]] with a point and a head"
         yield ("joint_flow",), "no head", "at least one of [[joint_heads]]", remedy

@@ -30,6 +30,7 @@ TABLES = {
     "consolidation": ("seepage", "heads", "inflows"),
     "water pressures": ("water_pressures",),
     "joint flow": ("joint_flow", "joint_heads"),
+    "transient joint flow": ("joint_flow", "joint_heads"),
 }
 """Keys of a scene that go with an effect that is left out."""
 

@@ -1,7 +1,8 @@
 """Water that flows in the joints below a dam and opens the joint below a block."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from nmm.water.network import JointNetwork
 if TYPE_CHECKING:
     from nmm.stepping.run import Run
     from nmm.water.joint_flow import JointFlow
+    from nmm.water.joint_storage import JointStorage
 
 FLOW = "[joint_flow]\n"
 SMALL = "contact presses blocks by micrometres, joints are open by tenths of a millimetre"
@@ -144,3 +146,71 @@ class JointBridge(Case):
                 inflow, 2.195138889e-5, 1e-9, "digits of the table"
             )
         return checks
+
+
+@dataclass(frozen=True)
+class PressureInJoint(SceneCase):
+    """A joint whose far end is closed fills from one that is pressed: it opens and lets more in."""
+
+    name: ClassVar[str] = "WA6"
+    title: ClassVar[str] = "Pressure that spreads along a joint"
+    source: ClassVar[str] = "S p' = w^3 / (12 mu) p'', S = w / K + 1 / k_n: the series of a slab"
+    formulations: ClassVar[tuple[str, ...]] = ("dda",)
+    aperture: ClassVar[float] = 1e-4
+    length: ClassVar[float] = 20.0
+    stiffness: ClassVar[float] = 1e10
+    blocks: ClassVar[int] = 20
+    time: float = 0.3
+    exact: tuple[float, float] = (0.39319618, 0.57015747)
+
+    @classmethod
+    def variants(cls) -> Sequence[Self]:
+        """Return three times, with the pressures at the closed end and half way."""
+        known = {0.1: (0.05069464, 0.26434868), 0.3: cls.exact, 1.0: (0.89202296, 0.92364870)}
+        return [cls(time, exact) for time, exact in known.items()]
+
+    @property
+    def variant(self) -> str:
+        """The time in units of the squared length over the diffusivity."""
+        return f"t D / L^2 = {self.time:g}"
+
+    def scene(self) -> str:
+        """Return a row of stiff blocks on a floor, held by the joint's springs alone."""
+        storage = self.aperture / 2.2e9 + 1 / self.stiffness
+        diffusivity = self.aperture**3 / 12e-3 / storage
+        wide, duration = self.length / self.blocks, self.time * self.length**2 / diffusivity
+        return text.scene(
+            'title = "Joint that fills"\nplane = "strain"\n[contact]\n[joint_flow]\n'
+            f"transient = true\ninitial = 0.0\nduration = {duration!r}\n"
+            "[formulation.loading]\nincrement = 0.025\n"
+            '[formulation.supports]\nmethod = "penalty"\n',
+            [
+                text.material("top", 1e15, 0.0, None),
+                text.material("low", 1e15, 0.0, None),
+                joint(
+                    "wet",
+                    ("top", "low"),
+                    "bonded = true\ncohesion = 1e9\ntensile_strength = 1e9\n"
+                    f"normal_stiffness = {self.stiffness!r}\n"
+                    f"shear_stiffness = {self.stiffness!r}\naperture = {self.aperture!r}",
+                ),
+                text.interface("dry", 0.0, ("top", "top")),
+                text.box("floor", (0, -1), (self.length, 1), "low"),
+                *(text.box(f"b{i}", (i * wide, 0), (wide, 1), "top") for i in range(self.blocks)),
+                text.held("floor"),
+                joint_head("pump", (0.0, 0.0), 1e3 / 9810),
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare pressures, over that of the pump, and the water that came."""
+        flow: JointStorage = run.stepper.plan.effects["transient joint flow"]  # type: ignore[assignment]
+        place = flow.sites.places[:, 0]
+        found = flow.pressures(run.state, run.state.time) / 1e3
+        ends = [int(np.argmin(np.abs(place - at))) for at in (self.length, self.length / 2)]
+        reason = "of order 1 in forty increments; the published tolerance"
+        far, middle = (float(found[node]) for node in ends)
+        return {
+            "pressure at the closed end": Check(far, self.exact[0], 0.01, reason, scale=1.0),
+            "pressure half way": Check(middle, self.exact[1], 0.01, reason, scale=1.0),
+        }

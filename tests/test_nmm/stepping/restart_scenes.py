@@ -661,6 +661,51 @@ method = "penalty"
 [formulation.loading]
 increment = 0.1
 """
+FILLING_JOINT = """
+title = "joint that fills and opens"
+plane = "strain"
+[contact]
+[gravity]
+[joint_flow]
+transient = true
+initial = 0.0
+duration = "10 min"
+[materials.rock]
+young_modulus = "10 GPa"
+poisson_ratio = 0.2
+density = 2500
+[interfaces.joint]
+friction_angle = "40 deg"
+aperture = "0.1 mm"
+residual_aperture = "0.01 mm"
+normal_stiffness = 1e10
+shear_stiffness = 1e10
+[[blocks]]
+name = "base"
+material = "rock"
+vertices = [[0, -1], [4, -1], [4, 0], [0, 0]]
+[[blocks]]
+name = "left"
+material = "rock"
+vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[blocks]]
+name = "right"
+material = "rock"
+vertices = [[2, 0], [4, 0], [4, 1], [2, 1]]
+[[supports]]
+name = "ground"
+block = "base"
+fix = ["x", "y"]
+[[joint_heads]]
+name = "in"
+point = [0, 0]
+head = 1.5
+[output]
+every_steps = 3
+{checkpoint}
+[formulation.loading]
+increment = 0.1
+"""
 SHAKEN_ON_ROCK = """
 duration = 0.03
 title = "shaken block"
@@ -822,6 +867,7 @@ SCENES = {
     "left standing": LEFT_STANDING,
     "seasons": SEASONS,
     "settling soil": SETTLING_SOIL,
+    "filling joint": FILLING_JOINT,
     "rubber": RUBBER,
     "bent": BENT,
 }

@@ -1,0 +1,206 @@
+"""The effect: water that takes time to flow in joints, as these open and it is compressed.
+
+Of the volume ``V`` of water at a node, half of each joint that ends there or so, ``V dp / K`` is
+compressed and ``dV`` made by the joints that open (Witherspoon and others 1980 for the flow). In a
+step
+
+    M (h1 - h0) + dt G h1 = - (V - V0) - C^T d,    M = w V / K,
+
+``G`` by the cubic law with the apertures that are known and ``C`` the force of a unit of pressure
+on the blocks, so that ``C^T d`` is the room that their motion ``d`` makes. As ``w C h1`` acts on
+the blocks and is linear in ``d`` both are found at once: a matrix ``w C (M + dt G)^-1 C^T`` joins
+the step, and steps are stable however stiff the joints are against the water.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Self
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Bools, Floats
+from nmm.assembly.motion import State
+from nmm.diffusion.problem import step_between
+from nmm.effects.base import Instant, Setup
+from nmm.effects.change import Change
+from nmm.errors import Fault, SceneError
+from nmm.water.joint_water import JointWater
+
+
+@dataclass(frozen=True)
+class WaterStored:
+    """Water at a time (s): heads (n,) (m), volumes of joints (n,) (m3), and what came, by name."""
+
+    time: float
+    head: Floats
+    volume: Floats
+    taken: Mapping[str, float] = field(default_factory=dict)
+
+
+class JointStorage(JointWater):
+    """Transient water in the joints of a scene."""
+
+    name = "transient joint flow"
+    _began: WaterStored
+    _end: WaterStored
+    _bulk, _second = 2.2e9, 1.0
+    _step, _time = 0.0, 0.0
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Build from ``[joint_flow]`` that is ``transient``."""
+        table = setup.scene.joint_flow
+        assert table is not None
+        assert table.initial is not None
+        if not setup.small and setup.scene.stages:
+            place = setup.scene.source.place("joint_flow", "transient")
+            expected = "steady joint flow"
+            raise SceneError(Fault(place, "[[stages]]", expected, "remove transient, or stages"))
+        found = super().from_setup(setup)
+        found._bulk = table.bulk_modulus
+        found._second = 1.0 if table.duration is None else table.duration
+        head = np.full(found.network.n, table.initial - setup.origin[1])
+        begin = setup.start.time * found._second
+        found._began = WaterStored(begin, head, found._volume(setup.start))
+        found._end = found._began
+        return found
+
+    @property
+    def steady(self) -> bool:
+        """See `Effect.steady`: what acts at the end of a step follows from its length."""
+        return False
+
+    def heads(self, state: State, time: float) -> Floats:
+        """Heads (n,) of an accepted state."""
+        time = time * self._second
+        if time == self._began.time:
+            return self._began.head
+        return self._end.head if time == self._end.time else self._at(state, time).head
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the force of the pressure at the end of a step that moves no further."""
+        if end.time > state.time and state.time * self._second == self._end.time:
+            self._began = self._end
+        time = end.time * self._second
+        self._step, self._time = step_between(self._began.time, time), time
+        if time == self._began.time:
+            return super().force(state, end)
+        head = self._at(state, time).head
+        pressure = self.weight * np.maximum(head - self.sites.places[:, 1], 0.0)
+        forces = self.sites.forces(state, pressure[self.sites.nodes])
+        return self.sites.interface.spread(state, forces)
+
+    def matrix(self, state: State) -> csc_array:
+        """Return how the force of the pressure falls with the step's motion (n, n)."""
+        step, shape = self._step, (self.n_unknowns, self.n_unknowns)
+        free = self._free(self._time)
+        # Suction does not act, and water that may not rise above its place takes none.
+        wet = free & (self._at(state, self._time).head > self.sites.places[:, 1])
+        if not wet.any():
+            return csc_array(shape)
+        coupling = self._coupling(state, wet)
+        used = np.flatnonzero(np.abs(coupling).any(axis=1))
+        full = np.zeros((self.network.n, len(used)))
+        full[wet] = coupling[used].T
+        answers = np.linalg.solve(self._matrix(state, step)[np.ix_(free, free)], full[free])
+        found = self.weight * (coupling[used] @ answers[wet[free]])
+        row, column = np.meshgrid(used, used, indexing="ij")
+        even = (found + found.T) / 2
+        return csc_array((even.ravel(), (row.ravel(), column.ravel())), shape=shape)
+
+    def accepted(self, state: State) -> None:
+        """See `Effect.accepted`: the heads that go with the apertures that were found."""
+        time = state.time * self._second
+        if time > self._began.time:
+            self._end = self._at(state, time)
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Return the largest pressure (Pa) and aperture (m), and what held heads gave (m3)."""
+        pressure = float(self.pressures(state, state.time).max())
+        taken = {f"taken:{name}": amount for name, amount in self._end.taken.items()}
+        return {**taken, "pressure": pressure, "aperture": float(self.apertures(state).max())}
+
+    def carried(self) -> Any:
+        """See `Effect.carried`."""
+        return tuple(
+            (one.time, one.head, one.volume, dict(one.taken)) for one in (self._began, self._end)
+        )
+
+    def carry(self, carried: Any) -> None:
+        """See `Effect.carry`."""
+        self._began, self._end = (WaterStored(*one) for one in carried)
+
+    def follow(self, change: Change) -> "JointStorage":
+        """Return the water on the new model: of nodes that stay where they were."""
+        from scipy.spatial import KDTree
+
+        new = type(self).from_setup(change.setup)
+        near, nearest = KDTree(self.sites.places).query(new.sites.places)
+        known = near <= 1e-9 * (1 + np.abs(self.sites.places).max())
+        old = self._end
+        head = np.where(known, old.head[nearest], new._began.head)
+        volume = new._volume(change.state)
+        new._began = new._end = WaterStored(old.time, head, volume, old.taken)
+        return new
+
+    def _at(self, state: State, time: float) -> WaterStored:
+        """Return the water at a time with the apertures of a state."""
+        began = self._began
+        step = step_between(began.time, time)
+        matrix, volume = self._matrix(state, step), self._volume(state)
+        free = self._free(time)
+        head = began.head.copy()
+        nodes, given = self.given(time / self._second)
+        head[nodes] = given
+        load = self._store(state) * began.head - (volume - began.volume)
+        load = load - matrix[:, ~free] @ head[~free]
+        head[free] = np.linalg.solve(matrix[np.ix_(free, free)], load[free])
+        # What holds a head gives what is missing there.
+        missing = matrix @ head - (self._store(state) * began.head - (volume - began.volume))
+        taken = {
+            one.name: began.taken.get(one.name, 0.0) + float(missing[one.nodes].sum())
+            for one in self.held
+        }
+        return WaterStored(time, head, volume, taken)
+
+    def _free(self, time: float) -> Bools:
+        found = np.ones(self.network.n, dtype=bool)
+        found[self.given(time / self._second)[0]] = False
+        return found
+
+    def _matrix(self, state: State, step: float) -> Floats:
+        """Return ``M + dt G`` (n, n), in m2."""
+        a, b = self.network.ends.T
+        flow = step * self.network.conductance(self.apertures(state)) * self._thickness
+        found = np.diag(self._store(state))
+        for one, other, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
+            np.add.at(found, (one, other), sign * flow)
+        return found
+
+    def _store(self, state: State) -> Floats:
+        """Volume (n,) that a metre of head compresses (m2); nodes of closed joints have a trace."""
+        volume = self._volume(state)
+        return np.asarray(self.weight / self._bulk * np.maximum(volume, 1e-9 * volume.max()))
+
+    def _volume(self, state: State) -> Floats:
+        """Volume (n,) of the joints at their nodes (m3), weighed as pressures are."""
+        one, other = self.apertures(state).T
+        length = self.network.length * self._thickness / 6
+        shares = np.stack([length * (2 * one + other), length * (one + 2 * other)], axis=1)
+        ends = self.network.ends.ravel()
+        return np.bincount(ends, shares.ravel(), minlength=self.network.n).astype(float)
+
+    def _coupling(self, state: State, wet: Bools) -> Floats:
+        """Force (n_unknowns, k) of a unit of pressure at each wet node (N)."""
+        found = []
+        for node in np.flatnonzero(wet):  # nodes of a network, each a vector of forces
+            pressure = (self.network.ends == node).astype(float)
+            forces = self.sites.forces(state, pressure)
+            found.append(self.sites.interface.spread(state, forces))
+        return np.stack(found, axis=1)
+
+    @property
+    def _thickness(self) -> float:
+        sites = self.sites
+        return float(sites.interface.area.sum() / sites.joints.length.sum())
