@@ -77,16 +77,17 @@ class NullSpace(Transform):
         )
         for part in (normal, tangent):
             part.sort_indices()
+        moved = problem.matrix @ start
         return replace(
             problem,
             matrix=matrix,
-            force=basis.T @ (problem.force - problem.matrix @ start),
+            force=basis.T @ (problem.force - moved),
             normal_rows=normal,
             tangent_rows=tangent,
             gap=problem.gap + problem.normal_rows @ start,
             slip=problem.slip + problem.tangent_rows @ start,
             start=None if problem.start is None else self.of_unknowns(problem.start),
-            among=None,  # of all unknowns
+            among=None if problem.among is None else self._sizes(problem.among + np.abs(moved)),
         )
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
@@ -96,6 +97,12 @@ class NullSpace(Transform):
     def of_unknowns(self, values: Any) -> Any:
         """Return those (n - r,) of the unknowns that are not given."""
         return np.delete(values, self.given)
+
+    def _sizes(self, among: Floats) -> Floats:
+        """Sizes (n - r,) of what forces of so much on all unknowns (n,) may come to."""
+        basis = self.basis
+        sizes = csc_array((np.abs(basis.data), basis.indices, basis.indptr), shape=basis.shape)
+        return np.asarray(sizes.T @ among)
 
     def multipliers(self, rest: Floats) -> Floats:
         """Multipliers (k,) with ``rows.T @ m = rest`` (n,), what is left of the balance."""

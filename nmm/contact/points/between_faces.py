@@ -50,7 +50,7 @@ class EdgeShares:
 
 @dataclass(frozen=True)
 class JointFaces:
-    """JointFaces of contacts where they are now.
+    """Faces of joints where they are now.
 
     Attributes
     ----------

@@ -189,3 +189,53 @@ fix = ["y"]
     energy = 0.5 * traction * 2.0 * (2 * np.pi * b) / 4
     # The polygon and its chords: 1e-4.
     assert found.history["strain_energy"][-1] == pytest.approx(energy, rel=1e-3)
+
+
+RELIEVED = """
+plane = "strain"
+[materials.m]
+young_modulus = 1e10
+poisson_ratio = 0.2
+density = 1e-3
+[gravity]
+[contact]
+[interfaces.i]
+friction_angle = 0.5
+[[blocks]]
+name = "lower"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "upper"
+material = "m"
+vertices = [[0.1, 1], [0.9, 1], [0.9, 2], [0.1, 2]]
+[[initial_stresses]]
+block = "upper"
+stress = [-1e6, -1e6, 0]
+[[supports]]
+name = "floor"
+segment = [[0, 0], [1, 0]]
+fix = ["y"]
+[[supports]]
+name = "stop"
+point = [0, 0]
+fix = ["x"]
+[[supports]]
+name = "side"
+point = [0.1, 1.5]
+fix = ["x"]
+[[monitors]]
+name = "top"
+point = [0.5, 2]
+block = "upper"
+"""
+
+
+def test_a_light_block_on_another_sheds_a_stress_of_a_million_times_its_weight():
+    """What is left of forces that cancel is judged by these, beside contact as without."""
+    table = '[cover]\ntype = "quads"\nsize = 0.5\nangle = 0.3\ndegree = 1\n'
+    table += '[contact]\nenforcement = "cone"\n[supports]\nmethod = "lagrange"\n'
+    found = run(parse_scene(RELIEVED), parse_formulation(table))
+    assert found.summary.status == "converged", found.summary.sentence
+    # Both stresses are shed in plane strain: (1 + nu) (1 - 2 nu) p h / E.
+    assert found.history["monitor:top:uy"][-1] == pytest.approx(1.2 * 0.6 * 1e-4, rel=1e-6)

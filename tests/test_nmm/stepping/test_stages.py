@@ -499,6 +499,32 @@ def test_cells_that_no_memory_holds_are_refused_before_they_are_laid():
         run(COLUMN + stages, MESHES["quads"])
 
 
+@pytest.mark.parametrize("order", ["as drawn", "upper first"])
+@pytest.mark.parametrize("soft", [1.0, 1e-2])
+@pytest.mark.parametrize("cover", ["quads", "triangles"])
+def test_a_lift_bonds_to_a_settled_one_in_a_scene_with_contact_as_glue_does(cover, soft, order):
+    """The lower one has left the place where the upper is drawn, by up to a millimetre."""
+    bond = "friction_angle = 0.5\ncohesion = 1e9\ntensile_strength = 1e9\nbonded = true"
+    text = COLUMN.replace("friction_angle = 0.5", bond)
+    text = text.replace("young_modulus = 1e9", f"young_modulus = {soft * E}")
+    if order == "upper first":
+        head, lower, upper, tail = *text.split("[[blocks]]"), ""
+        upper, mark, tail = upper.partition("[gravity]")
+        text = f"{head}[[blocks]]{upper}[[blocks]]{lower}{mark}{tail}"
+    text += '[[monitors]]\nname = "crest"\npoint = [0.5, 3]\nblock = "upper"\n'
+    text += '[[loads]]\nname = "pull"\nkind = "edge"\nsegment = [[0, 3], [1, 3]]\n'
+    text += f'traction = [0, {3 * UPPER}]\n[[stages]]\nname = "one"\nblocks = ["lower"]\n'
+    text += 'loads = []\n[[stages]]\nname = "two"\nadd = ["upper"]\n'
+    text += '[[stages]]\nname = "three"\nloads = ["pull"]\n'
+    found = run(text, MESHES[cover])
+    assert found.summary.status == "converged", found.summary.sentence
+    # The upper one settles by its own weight and with what it adds below; then both are pulled.
+    settled, pulled = UPPER / E + 2 * UPPER / 2 / E, 3 * 3 * UPPER / E
+    expected = np.array([-settled, pulled - settled]) / soft
+    np.testing.assert_allclose(found.history["monitor:crest:uy"][1:], expected, rtol=2e-3)
+    assert (found.history["bonded"][1:] > 0).all()
+
+
 @pytest.mark.parametrize("glue", ["spring", "nitsche", "lagrange"])
 def test_a_lift_that_is_glued_on_a_settled_one_settles_under_later_loads_alone(glue):
     text = COLUMN.replace("[contact]\n", "").replace("friction_angle = 0.5", BOND)

@@ -107,6 +107,23 @@ def test_transforms_of_fewer_unknowns_give_the_start_of_the_search_in_them():
     assert space.basis @ kept + space.start == pytest.approx(whole)
 
 
+def test_forces_that_cancel_are_as_large_in_fewer_unknowns_as_what_may_be_left_of_them():
+    """d_0 = 2 d_1: forces of 3 and 5 N come to 2 * 3 + 5 N on what is free, or to -1 N."""
+    space = NullSpace.of(csr_array([[1.0, -2.0]]), np.zeros(1))
+    problem = replace(pressed(-3.0), among=np.array([3.0]))
+    rows = csr_array((1, 2))
+    problem = replace(
+        problem,
+        matrix=csc_array(np.eye(2)),
+        force=np.array([-3.0, 5.0]),
+        normal_rows=rows,
+        tangent_rows=rows,
+        among=np.array([3.0, 5.0]),
+    )
+    free = np.abs(space.basis.toarray()).T
+    assert space.apply(problem).among == pytest.approx(free @ [3.0, 5.0])
+
+
 @dataclass(frozen=True)
 class Suction(Transform):
     """A pressure in the contact that pulls its sides together, of a third party."""
