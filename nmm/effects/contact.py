@@ -281,6 +281,7 @@ class Contact(Effect):
         total, mixed = record.stored, self._mixed(points, state)
         if mixed is not None:
             points, total = mixed.stretched(points), total - mixed.energy
+        points = concatenate([points, record.book.left])
         if len(points):
             total += self.laws.energy(points, own_only=self._exact)
         if self._bonds is None:

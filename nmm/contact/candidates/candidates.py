@@ -142,4 +142,4 @@ class Candidates:
             before = follow(record.found, found)
             new = remember(new, record.known, before)
         stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
-        return counted(new, record.known, before, stiffness, body)
+        return counted(new, record.known, before, stiffness, body, record.book.left)

@@ -1,6 +1,7 @@
 """What contact knows of a new model: joints and contacts go on where the material does."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -64,6 +65,7 @@ def succeeding(
     book = placed(book, candidates.joints(book, state), added)
     size = float(np.hypot(*np.ptp(kin.new.elements.points, axis=0)))
     found, points = candidates.sought(ContactRecord(book), state, HELD * size)
+    book = replace(book, left=book.left.take(np.zeros(0, dtype=np.int64)))  # handed on just now
     points = points.take(~points.is_joint)
     if record.known is not None:
         line = heirs(kin, points, record.known)

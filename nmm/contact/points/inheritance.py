@@ -16,8 +16,7 @@ from covers.approximation.manifold import Manifold
 from covers.change.parentage import Parentage
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.points.contact_points import ContactPoints, concatenate
-from nmm.contact.points.joint_book import JointBook
-from nmm.contact.problem.step_problem import BROKEN
+from nmm.contact.points.joint_book import JointBook, given_up
 
 # Points nearer than this share of the domain are one: far above rounding, far below cells.
 NEAR = 1e-9
@@ -153,6 +152,8 @@ def continued_joints(new: JointBook, old: JointBook, line: Heirs) -> tuple[Joint
     stiff = p.length * line.kept(was.spring_factor / was.length, p.spring_factor / p.length)
     points = replace(
         p,
+        gap=line.kept(was.gap, p.gap),
+        slip=line.kept(was.slip, p.slip),
         spring_factor=np.where(released, stiff, p.spring_factor),
         state=line.kept(was.state, p.state).astype(p.state.dtype),
         reference=line.kept(was.reference, p.reference),
@@ -161,14 +162,14 @@ def continued_joints(new: JointBook, old: JointBook, line: Heirs) -> tuple[Joint
         shear_force=line.shared(was.shear_force, p.length),
     )
     gone = line.parent >= len(old.points)
-    zero = np.zeros(int(gone.sum()))
-    lost = replace(
-        points.take(gone),
-        state=np.full(len(zero), int(BROKEN)),
-        normal_force=zero,
-        shear_force=zero,
+    last = line.parent >= len(was) - len(old.left)
+    book = replace(
+        new,
+        points=points.take(~gone),
+        joint=new.joint[~gone],
+        lost=given_up(points.take(gone)),
+        left=points.take(last),
     )
-    book = replace(new, points=points.take(~gone), joint=new.joint[~gone], lost=lost)
     return book, (line.parent < 0)[~gone]
 
 
@@ -185,8 +186,9 @@ def placed(book: JointBook, now: ContactPoints, fresh: Bools) -> JointBook:
 
 
 def known_joints(book: JointBook) -> ContactPoints:
-    """Points of joints that are followed, then those that were given up."""
-    return concatenate([book.points, book.lost])
+    """Points of joints that are followed, then those that were given up, the last ones last."""
+    earlier = book.lost.take(np.arange(len(book.lost) - len(book.left)))
+    return concatenate([book.points, earlier, book.left])
 
 
 def within_one(kin: Parentage, points: ContactPoints) -> Bools:

@@ -37,6 +37,9 @@ class JointBook:
         (k,) joint of each such pair.
     lost
         Points of joints that came apart; the search finds what touches there.
+    left
+        Those of them that the last step gave up, as it left them: what the search finds between
+        their bodies is pressed as they were.
     """
 
     points: ContactPoints
@@ -44,6 +47,7 @@ class JointBook:
     pairs: Ints
     pair_joint: Ints
     lost: ContactPoints
+    left: ContactPoints
 
     def only(self, chosen: Bools) -> "JointBook":
         """Return the book with some of its points (m,)."""
@@ -97,28 +101,27 @@ class JointBook:
         )
 
     def keep(self, points: ContactPoints, faces: JointFaces) -> "JointBook":
-        """Return the book with the answer's points; joints that came apart are given up."""
+        """Return the book with the answer's points; joints that came apart are given up.
+
+        Faces that are pressed into one another, however far, lie on one another still.
+        """
         if not len(points) and not len(self.lost):
             return self
-        apart = faces.apart(points)
-        far = np.hypot(apart[:, 0], apart[:, 1]) > JOINT_LEFT * points.length
-        lost = far & ~points.bonded
+        normal, apart = faces.normal(points), faces.apart(points)
+        opened = np.maximum(np.einsum("ij,ij->i", apart, normal), 0.0)
+        far = np.hypot(opened, np.einsum("ij,ij->i", apart, tangents(normal)))
+        lost = (far > JOINT_LEFT * points.length) & ~points.bonded
         gone = np.isin(self.joint, self.joint[lost]) & ~points.bonded
         before = _turned(self.lost, faces)
         if not gone.any():
-            return replace(self, points=points, lost=before)
-        zero = np.zeros(int(gone.sum()))
-        apart_now = replace(
-            points.take(gone),
-            state=np.full(len(zero), int(BROKEN)),
-            normal_force=zero,
-            shear_force=zero,
-        )
+            return replace(self, points=points, lost=before, left=points.take(gone))
+        left = points.take(gone)
         return replace(
             self,
             points=points.take(~gone),
             joint=self.joint[~gone],
-            lost=concatenate([before, apart_now]),
+            lost=concatenate([before, given_up(left)]),
+            left=left,
         )
 
     @property
@@ -189,9 +192,15 @@ def follow_joints(
         history=initial(interface[points.joint], held),
     )
     pairs = pair_key(surface, vertex, edge)
-    return JointBook(
-        found, points.joint, pairs, joint, lost=found.take(np.zeros(0, dtype=np.int64))
-    )
+    none = found.take(np.zeros(0, dtype=np.int64))
+    return JointBook(found, points.joint, pairs, joint, lost=none, left=none)
+
+
+def given_up(points: ContactPoints) -> ContactPoints:
+    """Return points of joints that came apart, which carry nothing from now on."""
+    zero = np.zeros(len(points))
+    broken = np.full(len(points), int(BROKEN))
+    return replace(points, state=broken, normal_force=zero, shear_force=zero)
 
 
 def _distance(model: Model, joints: Joints) -> Floats:

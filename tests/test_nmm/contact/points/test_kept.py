@@ -34,9 +34,9 @@ def test_points_that_go_on_are_those_that_are_remembered_and_counted_anew() -> N
     assert continues(before, found)
     quick = counted_on(continued(old, found))
     same = np.arange(3)
-    long = counted(
-        remember(points(found), old, same), old, same, lambda p: np.ones(len(p)), np.zeros(9, int)
-    )
+    left = old.take(np.zeros(0, dtype=int))
+    one, body = (lambda p: np.ones(len(p))), np.zeros(9, int)
+    long = counted(remember(points(found), old, same), old, same, one, body, left)
     for name in ("gap", "reference", "slip", "edge_a", "parameter_b", "normal", "state", "key"):
         np.testing.assert_array_equal(getattr(quick, name), getattr(long, name))
     assert quick.key is old.key

@@ -1,0 +1,170 @@
+"""Joints of a given stiffness that give way visibly: what they carry while pressed and sliding."""
+
+import numpy as np
+import pytest
+
+import nmm
+
+STIFFNESS = 1e7  # Pa/m
+WEIGHT = 2000.0 * 9.81 * 0.5  # N for each metre of the sliding block, 0.5 m high
+
+MESHES = {
+    "blocks": "",
+    "gauss": '[contact]\njoint_points = "gauss"\n',
+    "quads": '[cover]\ntype = "quads"\nsize = 0.25\ndegree = 0\n',
+}
+TWO_BLOCKS = """
+plane = "strain"
+
+[materials.rock]
+young_modulus = 1e11
+poisson_ratio = 0.0
+density = 2000
+
+[interfaces.joint]
+friction_angle = {friction}
+normal_stiffness = {stiffness}
+shear_stiffness = {stiffness}
+
+[[blocks]]
+name = "base"
+material = "rock"
+vertices = [[-1, -0.5], [3, -0.5], [3, 0], [-1, 0]]
+
+[[blocks]]
+name = "foot"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 0.5], [0, 0.5]]
+
+[[supports]]
+name = "ground"
+block = "base"
+fix = ["x", "y"]
+
+[[monitors]]
+name = "right"
+point = [1, 0]
+block = "foot"
+
+[[monitors]]
+name = "left"
+point = [0, 0]
+block = "foot"
+
+[contact]
+"""
+
+
+def run(folder, scene, formulation=""):
+    """The run of two texts."""
+    for name, text in (("scene", scene), ("formulation", formulation)):
+        (folder / f"{name}.toml").write_text(text)
+    read = nmm.read_scene(folder / "scene.toml")
+    return nmm.run(read, nmm.read_formulation(folder / "formulation.toml"))
+
+
+@pytest.mark.parametrize("force", [1e2, 1e6], ids=["a 1e-7th", "1e-2 of its width"])
+def test_a_footing_beyond_its_core_is_carried_by_three_times_the_distance_of_its_force(
+    tmp_path, force
+):
+    text = (
+        TWO_BLOCKS.format(stiffness=1e9, friction=0.5)
+        + f"""
+[[supports]]
+name = "aside"
+point = [0.5, 0]
+fix = ["x"]
+
+[[loads]]
+name = "force"
+kind = "point"
+point = [0.75, 0.5]
+force = [0, {-force}]
+"""
+    )
+    done = run(tmp_path, text, '[cover]\ntype = "quads"\nsize = 0.05\ndegree = 1\n')
+    # No tension: the pressure is a triangle of 0.75 m, three times 0.25 m from the edge.
+    deepest = 2 * force / 0.75 / 1e9
+    slope = deepest / 0.75
+    # Corners of cells of 0.05 m stand for half a cell: (0.05 / 0.75)^2, 0.45 %. The larger
+    # force turns the footing by 4 mrad, which moves the edge by half of that.
+    assert done.history["monitor:right:uy"][-1] == pytest.approx(-deepest, rel=6e-3)
+    assert done.history["monitor:left:uy"][-1] == pytest.approx(slope - deepest, rel=3e-2)
+
+
+@pytest.mark.parametrize("formulation", list(MESHES))
+def test_a_block_on_a_soft_joint_slides_at_one_height(tmp_path, formulation):
+    text = (
+        TWO_BLOCKS.format(stiffness=STIFFNESS, friction=0.0)
+        + """
+[gravity]
+[inertia]
+
+[[loads]]
+name = "push"
+kind = "body"
+block = "foot"
+density = [2000, 0]
+
+[[stages]]
+name = "rest"
+loads = []
+supports = ["ground", "wall"]
+
+[[stages]]
+name = "slide"
+loads = ["push"]
+supports = ["ground"]
+duration = 0.5
+"""
+    )
+    text = text.replace("[[monitors]]", SIDE + "[[monitors]]", 1)
+    done = run(tmp_path, text, MESHES[formulation] + "[integrator]\nstep = 5e-3\n")
+    h = done.history
+    height = np.array([h["monitor:left:uy"], h["monitor:right:uy"]]).mean(axis=0)
+    assert h["monitor:left:ux"][-1] == pytest.approx(0.5 * 1.0 * 0.5**2, rel=2e-3)
+    # The push at mid height turns the block by 1e-4: with the way slid, 0.1 m, that is 1 %, and
+    # Gauss points stand for their face another way than its corners (3 %).
+    assert height == pytest.approx(-WEIGHT / STIFFNESS, rel=4e-2)
+    names = ("kinetic_energy", "strain_energy", "contact_energy", "support_energy")
+    energy = sum(h[name] for name in names) - h["external_work"]
+    # Springs hold 4.8 J as the joint is left; a step of 5 ms makes 2e-6 of the turnover, 130 J.
+    assert np.diff(energy).max() < 5e-4
+
+
+SIDE = """
+[[supports]]
+name = "wall"
+segment = [[0, 0], [0, 0.5]]
+block = "foot"
+fix = ["x"]
+
+"""
+
+
+@pytest.mark.parametrize("formulation", list(MESHES))
+def test_friction_on_a_soft_joint_holds_through_stages(tmp_path, formulation):
+    aside = """
+[[blocks]]
+name = "aside"
+material = "rock"
+vertices = [[10, 0], [11, 0], [11, 1], [10, 1]]
+
+[[supports]]
+name = "held"
+block = "aside"
+fix = ["x", "y"]
+
+[gravity]
+acceleration = [3, -9.81]
+"""
+    stages = '[[stages]]\nname = "first"\n[[stages]]\nname = "next"\nremove = ["aside"]\n'
+    stages += '[[stages]]\nname = "last"\n'
+    text = TWO_BLOCKS.format(stiffness=STIFFNESS, friction=0.6) + aside + stages
+    h = run(tmp_path, text, MESHES[formulation]).history
+    way = h["monitor:left:ux"]
+    # Weight over stiffness; the block turns and is deformed by some per cent of it.
+    assert way[0] == pytest.approx(2000 * 3 * 0.5 / STIFFNESS, rel=0.2)
+    # What two stages that change nothing may move: rounding, and the tolerance of contact.
+    assert way[1:] == pytest.approx(way[0], rel=1e-6)
+    assert h["change_energy"][-1] == pytest.approx(0.0, abs=1e-3 * h["contact_energy"][0])
