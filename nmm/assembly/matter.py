@@ -94,11 +94,24 @@ class Matter:
                 found[name][self.law == number, : len(value)] = value
         return found
 
-    def prestressed(self, history: History, stress: Floats) -> dict[str, Floats]:
-        """Return the history with an initial stress (E, 3) of the elements."""
-        of_point = stress[self.points.rule.owner][:, :, None]
+    def prestressed(
+        self, history: History, stress: Floats, across: Floats | None = None
+    ) -> dict[str, Floats]:
+        """Return the history with an initial stress (E, 3) of the elements.
+
+        Where a stress ``across`` (E,) is given, what laws remember makes it; nan is none.
+        """
+        owner = self.points.rule.owner
+        of_point = stress[owner][:, :, None]
         strain = np.asarray(np.linalg.solve(self.elastic, of_point), dtype=float)[:, :, 0]
-        return {**history, INITIAL: strain}
+        found = {**history, INITIAL: strain}
+        given = np.zeros(0) if across is None else across[owner]
+        for number, law in enumerate(self.laws if len(given) else ()):  # a handful of laws
+            at = np.flatnonzero((self.law == number) & ~np.isnan(given))
+            for name, value in law.under(strain[at], stress[owner[at]], given[at]).items():
+                found[name] = found[name].copy()
+                found[name][at, : value.shape[1]] = value
+        return found
 
     def update(
         self, deformation: Floats, history: History, step: float, before: Floats | None = None

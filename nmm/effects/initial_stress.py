@@ -29,8 +29,14 @@ class InitialStress(Effect):
     placed = False
     stays = True
 
-    def __init__(self, model: Model, stress: Floats, turned: "TurningStress | None" = None) -> None:
-        self.stress, self._turned = stress, turned
+    def __init__(
+        self,
+        model: Model,
+        stress: Floats,
+        turned: "TurningStress | None" = None,
+        across: Floats | None = None,
+    ) -> None:
+        self.stress, self._turned, self._across = stress, turned, across
         self._force = -model.stress_load(stress)
         self._model = model
 
@@ -51,11 +57,15 @@ class InitialStress(Effect):
     def from_setup(cls, setup: Setup) -> Self:
         """Build from ``[[initial_stresses]]``; later tables overwrite earlier ones."""
         region = setup.model.manifold.element_region
-        stress = np.zeros((len(region), 3))
+        stress, across = np.zeros((len(region), 3)), np.full(len(region), np.nan)
         for item in setup.scene.initial_stresses:  # a handful of tables
             regions = setup.regions(item.block)
-            stress[slice(None) if regions is None else regions[region]] = item.stress
-        return cls(setup.model, stress, _turned(setup, stress))
+            chosen = slice(None) if regions is None else regions[region]
+            stress[chosen], across[chosen] = (
+                item.stress,
+                np.nan if item.across is None else item.across,
+            )
+        return cls(setup.model, stress, _turned(setup, stress), across)
 
     def follow(self, change: "Change") -> Effect:
         """Return the stress of each element from those that it comes from; else as declared."""
@@ -68,7 +78,8 @@ class InitialStress(Effect):
         matter = self._model.matter
         if not isinstance(matter, Matter):
             return state
-        return replace(state, history=matter.prestressed(state.history, self.stress))
+        history = matter.prestressed(state.history, self.stress, self._across)
+        return replace(state, history=history)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the internal force, which is constant where bodies have axes that turn."""

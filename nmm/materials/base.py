@@ -96,6 +96,13 @@ class Law(ABC):
         matrix = self.stiffness(plane)
         return Response(strain @ matrix.T, np.tile(matrix, (len(strain), 1, 1)), history)
 
+    def under(self, strain: Floats, stress: Floats, across: Floats) -> History:
+        """Return the variables that make a stress (m, 3) and ``across`` (m,) of a strain (m, 3).
+
+        Laws that know of no stress across return nothing.
+        """
+        return {}
+
     def energy(self, stress: Floats, history: History, plane: str) -> Floats:
         """Return the stored energy (m,) in J/m3 at a stress (m, 3) with internal variables.
 

@@ -27,6 +27,16 @@ class Plastic(Elastic):
             "stress_zz": np.zeros(1),
         }
 
+    def under(self, strain: Floats, stress: Floats, across: Floats) -> History:
+        """See `Law.under`: what of the strain is not elastic has been plastic from the start."""
+        modulus, poisson = self.young_modulus, self.poisson_ratio
+        direct = np.column_stack([stress[:, :2], across])
+        elastic = ((1 + poisson) * direct - poisson * direct.sum(axis=1)[:, None]) / modulus
+        sheared = 2 * (1 + poisson) / modulus * stress[:, 2]
+        whole = np.column_stack([elastic[:, :2], sheared, elastic[:, 2]])
+        given = np.column_stack([strain, np.zeros(len(strain))])
+        return {"plastic_strain": given - whole, "stress_zz": across[:, None]}
+
     def energy(self, stress: Floats, history: History, plane: str) -> Floats:
         """Return the elastic energy."""
         zz = history["stress_zz"][:, 0]

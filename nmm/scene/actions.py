@@ -189,6 +189,11 @@ class InitialStressTable(Frozen):
     stress: tuple[Stress, Stress, Stress] = Field(
         description="stresses [sxx, syy, sxy] in Pa", examples=[[0, "-1 MPa", 0]]
     )
+    across: Stress | None = Field(
+        default=None,
+        description="a stress out of the plane in Pa, of matter that flows; elastic if not given",
+        examples=["-1 MPa"],
+    )
 
 
 class MonitorTable(Frozen):

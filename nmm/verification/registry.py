@@ -138,6 +138,7 @@ CASES = Registry[type[Case]](
         "PL1c": f"{_HOME}.matter.returns:PyramidReturns",
         "PL6": f"{_HOME}.matter.returns:ConeReturns",
         "FK3": f"{_HOME}.finite.laws:DeformedMatter",
+        "PL2": f"{_HOME}.matter.tunnel:FlowingTunnel",
         "PL3": f"{_HOME}.plasticity:PlasticCylinder",
         "PL4": f"{_HOME}.plasticity:Footing",
         "PL5": f"{_HOME}.matter.safety:SoilSlope",
