@@ -8,12 +8,13 @@ import pytest
 import shapely
 
 from integration.polygons import Polygons
-from nmm.contact.detection.crossing import find_crossings
 from nmm.contact.detection.joints import find_joints
 from nmm.contact.detection.narrow_phase import find_contacts, follow
 from nmm.contact.detection.neighbour_list import NeighbourList, near_pairs
 from nmm.contact.detection.surface import Surface
-from nmm.testing.contact_search import near_pairs_by_tree, polygon_surface
+from nmm.testing.detection.crossings import find_crossings
+from nmm.testing.detection.narrow_arrays import find_by_arrays
+from nmm.testing.detection.search import near_pairs_by_tree, polygon_surface
 
 SKIN, REACH = 0.02, 0.01
 """Distances of pairs and of contacts, in sizes of a cell."""
@@ -47,9 +48,7 @@ def tasks(surface: Surface) -> dict[str, Callable[[], object]]:
         "pairs, tree": lambda: near_pairs_by_tree(fresh(), SKIN),
         "pairs, list that stands": lambda: neighbours.update(fresh()),
         "contacts, compiled": lambda: find_contacts(fresh(), vertex, edge, REACH, last=found),
-        "contacts, arrays": lambda: find_contacts(
-            fresh(), vertex, edge, REACH, last=found, compiled=False
-        ),
+        "contacts, arrays": lambda: find_by_arrays(fresh(), vertex, edge, REACH, last=found),
         "predecessors": lambda: follow(found, found),
         "joints": lambda: find_joints(fresh()),
         "crossings": lambda: find_crossings(fresh(), after),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.permutations import inverse
 
 
 def components(n: int, first: Ints, second: Ints) -> Ints:
@@ -49,6 +50,5 @@ def unique_rows(points: Floats) -> tuple[Ints, Ints]:
 def by_first_occurrence(group: Ints, first: Ints) -> tuple[Ints, Ints]:
     """Groups (n,) renumbered in the order of their first members (k,): first members, groups."""
     order = np.argsort(first)
-    rank = np.empty(len(first), dtype=np.int64)
-    rank[order] = np.arange(len(first))
+    rank = inverse(order)
     return first[order], rank[group]

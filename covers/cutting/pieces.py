@@ -11,6 +11,7 @@ from covers.cutting.faces import Cells, Faces
 from covers.cutting.half_edges import walks
 from covers.mathematical.base import Cover
 from integration.arrays import Bools, Floats, Ints
+from integration.permutations import inverse
 from integration.polygons import Polygons
 
 
@@ -77,8 +78,7 @@ def pieces_of(cover: Cover, cells: Cells, faces: Faces, smallest: float, step: f
     region = np.concatenate([faces.region[loops], cells.region[whole_cells]])
     x, y = np.pad(_middles(cover, faces, loops), ((0, len(whole_cells)), (0, 0))).T
     order = np.lexsort((y, x, region, cell))
-    rank = np.empty(len(order), dtype=np.int64)
-    rank[order] = np.arange(len(order))
+    rank = inverse(order)
     of_loop = np.full(half.n_loops, -1, dtype=np.int64)
     of_loop[loops] = rank[: len(loops)]
     of_cell = np.full(len(cells.touched), -1, dtype=np.int64)

@@ -1,4 +1,4 @@
-"""Momenta of the bodies of a model as rows of the velocities."""
+"""Mass and momenta of the bodies of a model as wholes."""
 
 import numpy as np
 from scipy.sparse import coo_array, csc_array, csr_array
@@ -6,6 +6,31 @@ from scipy.sparse import coo_array, csc_array, csr_array
 from covers.approximation.own_rule import own_rule
 from integration.arrays import Floats
 from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+
+
+def rigid_masses(model: Model) -> Floats:
+    """Mass (kg) twice and moment of inertia (kg m2) of each body (B, 3), about its centroid."""
+    modes = model.manifold.rigid_modes
+    return np.asarray((modes.T @ (model.mass @ modes)).diagonal().reshape(-1, 3))
+
+
+def rigid_momenta(model: Model, state: State) -> Floats:
+    """Momentum x, y (N s) of each body (B, 3) in its axes, and angular momentum (N m s).
+
+    About the centroid where it was laid: of bodies that bend by any angle see `momenta`.
+    """
+    return np.asarray(model.manifold.rigid_modes.T @ (model.mass @ state.velocity)).reshape(-1, 3)
+
+
+def momenta_about(state: State, own: Floats, about: Floats) -> tuple[Floats, Floats]:
+    """Momentum (B, 2) and angular momentum (B,) about a point (2,) along the global axes.
+
+    ``own`` (B, 3) are those of each body in its axes, about where its frame's centre is.
+    """
+    pushed = state.frames.to_global(np.arange(len(own)), own[:, :2])
+    arm = state.frames.centre - about
+    return pushed, arm[:, 0] * pushed[:, 1] - arm[:, 1] * pushed[:, 0] + own[:, 2]
 
 
 def momenta(model: Model, deformation: Floats) -> csr_array:

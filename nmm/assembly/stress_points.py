@@ -10,6 +10,7 @@ from scipy.sparse import csc_array
 from covers.approximation.element_groups import ElementGroup
 from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
+from integration.permutations import inverse
 from integration.rules import PointRule
 from nmm.assembly.blocks import Part, assemble
 
@@ -81,8 +82,7 @@ class StressPoints:
             for name in ("owner", "points", "weights")
         )
         order = np.argsort(owner, kind="stable")
-        place = np.empty_like(order)
-        place[order] = np.arange(len(order))
+        place = inverse(order)
         rule = PointRule(points[order], weights[order], owner[order])
         batches: list[Batch] = []
         first = 0

@@ -6,6 +6,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import areas
+from nmm.assembly.momenta import momenta_about, rigid_momenta
 from nmm.assembly.motion import rigid_rates
 
 if TYPE_CHECKING:
@@ -30,13 +31,8 @@ def rates(run: "Run") -> Floats:
 
 def momentum(run: "Run") -> Floats:
     """Momentum x, y (N s) and angular momentum about the origin (N m s) of all bodies (3,)."""
-    state, model = run.state, run.stepper.model
-    forces = np.asarray(model.mass @ state.velocity)
-    modes = np.asarray((model.manifold.rigid_modes.T @ forces).reshape(-1, 3))
-    bodies = np.arange(len(modes))
-    linear = state.frames.to_global(bodies, modes[:, :2])
-    arm = state.frames.centre
-    spin = modes[:, 2] + arm[:, 0] * linear[:, 1] - arm[:, 1] * linear[:, 0]
+    own = rigid_momenta(run.stepper.model, run.state)
+    linear, spin = momenta_about(run.state, own, np.zeros(2))
     return np.array([*linear.sum(axis=0), spin.sum()])
 
 

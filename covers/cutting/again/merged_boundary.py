@@ -7,6 +7,7 @@ import numpy as np
 from covers.cutting.again.merged_elements import MergedElements
 from covers.cutting.cut_boundary import CrackTips, CutBoundary
 from integration.arrays import Ints
+from integration.permutations import inverse
 
 # What leads from edge to edge.
 LINKS = ("next", "previous", "opposite")
@@ -21,8 +22,7 @@ def merged_boundary(
     element = np.concatenate([parts.kept[old.element[stays]], parts.made[local.element[new]]])
     start = np.concatenate([old.start[stays], local.start[new]])
     order = np.lexsort((start[:, 1], start[:, 0], element))
-    rank = np.empty(len(order), dtype=np.int64)
-    rank[order] = np.arange(len(order))
+    rank = inverse(order)
     was = np.full(len(old) + 1, -1, dtype=np.int64)  # the last place serves for -1
     was[stays] = rank[: len(stays)]
     now = np.full(len(local) + 1, -1, dtype=np.int64)

@@ -11,6 +11,7 @@ from covers.cutting.connectivity import Joins, bodies, physical_covers
 from covers.cutting.cut_cells import CutCells
 from covers.mathematical.base import Cover
 from integration.arrays import Bools, Ints
+from integration.permutations import inverse
 
 
 def merged_bodies(old: CutCells, parts: MergedElements, window: Window) -> Ints:
@@ -53,8 +54,7 @@ def merged_covers(
     kept, new = np.flatnonzero(~asked[old.cover_patch]), np.flatnonzero(asked[found.patch])
     patch = np.concatenate([old.cover_patch[kept], found.patch[new]])
     order = np.argsort(patch, kind="stable")
-    rank = np.empty(len(order), dtype=np.int64)
-    rank[order] = np.arange(len(order))
+    rank = inverse(order)
     was = np.full(old.n_covers + 1, -1, dtype=np.int64)
     was[kept] = rank[: len(kept)]
     now = np.full(len(found.patch) + 1, -1, dtype=np.int64)

@@ -10,6 +10,7 @@ from covers.cutting.again.window import Window
 from covers.cutting.connectivity import Joins
 from covers.cutting.cut_cells import CutCells, Layer
 from integration.arrays import Bools, Ints
+from integration.permutations import inverse
 from integration.polygons import Polygons
 
 
@@ -55,8 +56,7 @@ def merged_elements(old: CutCells, local: Layer, window: Window) -> MergedElemen
         return None
     cell = np.concatenate([old.element_cell[stays], pieces.cell[fresh]])
     order = np.argsort(cell, kind="stable")
-    rank = np.empty(len(order), dtype=np.int64)
-    rank[order] = np.arange(len(order))
+    rank = inverse(order)
     kept = np.full(len(stays), -1, dtype=np.int64)
     kept[stays] = rank[: stays.sum()]
     made = np.empty(len(fresh), dtype=np.int64)

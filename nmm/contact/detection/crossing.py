@@ -8,9 +8,8 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.measures import cross
-from nmm.contact.detection.neighbour_list import near_pairs
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import ANGLE, CROSSED_FIRST, DEPTH, FLUSH
+from nmm.contact.detection.tolerances import ANGLE, CROSSED_FIRST, FLUSH
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,41 +63,6 @@ class Motion:
         return not len(self.near)
 
 
-def find_crossings(
-    before: Surface,
-    after: Surface,
-    candidates: tuple[Ints, Ints] | None = None,
-    within_bodies: bool = False,
-    share: float = DEPTH,
-) -> Crossings:
-    """Find the vertices that crossed an edge while all points moved straight and evenly.
-
-    A vertex crosses an edge where it comes deeper than a share of the thinner body's thickness,
-    over the edge itself: less than `rules.DEPTH` is the penetration that enforcement allows and
-    search finds again. A vertex that leaves over the end of the edge has not crossed, nor has one
-    that began inside and slides into the depth close below the surface of another edge.
-
-    Parameters
-    ----------
-    before, after
-        The same edges at the start and at the end of a step.
-    candidates
-        Vertex and edge of the pairs to be tested, complete for all that can meet in the step; by
-        default those that the motion lets meet are searched.
-    within_bodies
-        See `search.near_pairs`.
-    share
-        Of the thickness of the thinner body, which is too deep.
-
-    Notes
-    -----
-    The signed area of vertex and edge is a quadratic in time, so that the test is exact for a thin
-    body that is left on its far side within the step (Provot 1997, for triangles in space).
-    """
-    pairs = _meeting(before, after, within_bodies) if candidates is None else candidates
-    return crossings_in(motion_of(before, after, pairs, share), share)
-
-
 def motion_of(before: Surface, after: Surface, pairs: tuple[Ints, Ints], share: float) -> Motion:
     """Return a step with the pairs that can come deeper in it than ``share``, or begin so."""
     # Compiled code is loaded by the first search, not by whoever names this module.
@@ -109,7 +73,26 @@ def motion_of(before: Surface, after: Surface, pairs: tuple[Ints, Ints], share: 
 
 
 def crossings_in(motion: Motion, share: float) -> Crossings:
-    """Find the crossings deeper than ``share``, which is not less than the motion was made for."""
+    """Find the vertices that crossed an edge while all points moved straight and evenly.
+
+    A vertex crosses an edge where it comes deeper than a share of the thinner body's thickness,
+    over the edge itself: less than `DEPTH` is the penetration that enforcement allows and search
+    finds again. A vertex that leaves over the end of the edge has not crossed, nor has one that
+    began inside and slides into the depth close below the surface of another edge.
+
+    Parameters
+    ----------
+    motion
+        The step.
+    share
+        Of the thickness of the thinner body, which is too deep; not less than the motion was made
+        for.
+
+    Notes
+    -----
+    The signed area of vertex and edge is a quadratic in time, so that the test is exact for a thin
+    body that is left on its far side within the step (Provot 1997, for triangles in space).
+    """
     before, after, pairs = motion.before, motion.after, motion.pairs
     v, e = pairs[0][motion.near], pairs[1][motion.near]
     if not len(v):
@@ -214,14 +197,6 @@ def _distance(before: Surface, after: Surface, v: Ints, e: Ints, t: Floats) -> F
     offset = (1.0 - t) * before.start[v] + t * after.start[v] - start
     foot = np.clip((offset * edge).sum(axis=1) / (edge * edge).sum(axis=1), 0.0, 1.0)
     return np.asarray(np.linalg.norm(offset - foot[:, None] * edge, axis=1))
-
-
-def _meeting(before: Surface, after: Surface, within_bodies: bool) -> tuple[Ints, Ints]:
-    """Pairs whose distance is not more than two points can move apart."""
-    if not len(before):
-        return np.empty(0, np.int64), np.empty(0, np.int64)
-    moved = after.start - before.start
-    return near_pairs(before, float(np.hypot(*np.ptp(moved, axis=0))), within_bodies)
 
 
 def _first_root(c0: Floats, c1: Floats, c2: Floats) -> Floats:

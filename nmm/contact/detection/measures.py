@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats, Ints
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import ANGLE, DEPTH, EDGE_END, FLUSH, RANKED, Rules
 
@@ -34,12 +34,6 @@ def dot(a: Floats, b: Floats) -> Floats:
 def cross(a: Floats, b: Floats) -> Floats:
     """Turn (m,) of b against a: their product and the sine of the angle between them."""
     return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-
-
-def convex_vertices(surface: Surface, rules: Rules) -> Bools:
-    """Vertices whose solid angle is at most a half turn, within the angular tolerance."""
-    turn = cross(surface.direction[surface.previous], surface.direction)
-    return np.asarray(turn >= -rules.sine)
 
 
 def thinner(surface: Surface, one: Ints, other: Ints) -> Floats:

@@ -1,9 +1,9 @@
-"""Narrow phase, compiled: the rules of `narrow_arrays`, one vertex after the other.
+"""Narrow phase, compiled: the rules of `narrow_phase`, one vertex after the other.
 
 Numba's functions are written for the machine: no row leaves the cache between its tests, and the
-names are those of the array form, which the tests hold equal to this one. One file holds all that
-call one another because numba's cache does not see changes to what a file imports: after a change
-of the columns in `narrow_tables` this file has to be touched.
+names are those of the array form (`nmm.testing.detection`), which the tests hold equal to this one.
+One file holds all that call one another because numba's cache does not see changes to what a file
+imports: after a change of the columns in `narrow_tables` this file has to be touched.
 """
 
 import math
@@ -459,9 +459,10 @@ def _known(edge: Ints, offset: Ints, last: Ints) -> Bools:
 def select(
     shape: Shape, vertex: Ints, edge: Ints, offset: Ints, last: Ints, motion: Floats, rules: Rules
 ) -> tuple[Ints, Small, Floats, Floats]:
-    """Return the kept rows, and kept, along and gap of all rows, as `narrow_arrays.select`.
+    """Return the kept rows, and kept, along and gap of all rows.
 
-    ``last`` are the keys of the last contacts, rising as the rows do.
+    ``kept`` is 0 for no contact, 1 for a vertex over an edge, 2 for one beyond its end; ``along``
+    the foot's distance from the start of the edge; ``last`` keys of the last contacts, rising.
     """
     m, n = len(vertex), len(offset) - 1
     s, gap = np.empty(m), np.empty(m)

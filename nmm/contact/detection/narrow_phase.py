@@ -36,7 +36,6 @@ from typing import Self, TypeVar
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.detection import narrow_arrays
 from nmm.contact.detection.measures import dot, flush_distance, measure, rules_of
 from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.surface import Surface
@@ -99,7 +98,6 @@ def find_contacts(
     reach: float,
     last: Contacts | None = None,
     motion: Floats | None = None,
-    compiled: bool = True,
 ) -> Contacts:
     """Contacts among candidate pairs.
 
@@ -117,13 +115,10 @@ def find_contacts(
     motion
         (n, 2) what each vertex is expected to move in the step (m); chooses among the lines of
         pairs that are still open.
-    compiled
-        False asks for the plain form that tests compare with.
     """
     rules = rules_of(surface, reach)
-    # Without edges there is nothing to number rows by.
-    if not compiled or not len(surface):
-        return _by_arrays(surface, vertex, edge, last, motion, rules)
+    if not len(surface):
+        return contacts_of(surface, vertex, edge, *np.empty((2, 0)), np.empty(0, bool), rules)
     # Compiled code is loaded by the first search, not by whoever names this module.
     from nmm.contact.detection.narrow_kernel import find
 
@@ -149,7 +144,9 @@ def with_pairs(surface: Surface, found: Contacts, vertex: Ints, edge: Ints) -> C
         return found
     v, e = vertex[new], edge[new]
     along, gap = measure(surface, v, e)
-    more = _contacts(surface, v, e, along, gap, np.zeros(len(v), dtype=bool), rules_of(surface, 0))
+    more = contacts_of(
+        surface, v, e, along, gap, np.zeros(len(v), dtype=bool), rules_of(surface, 0)
+    )
     return joined([found, more])
 
 
@@ -198,31 +195,10 @@ def follow(old: Contacts, new: Contacts) -> Ints:
     return found
 
 
-def _by_arrays(
-    surface: Surface,
-    vertex: Ints,
-    edge: Ints,
-    last: Contacts | None,
-    motion: Floats | None,
-    rules: Rules,
-) -> Contacts:
-    """Return the contacts by whole arrays."""
-    if motion is None:
-        motion = np.zeros_like(surface.start)
-    key = np.unique(pair_key(surface, vertex, edge))
-    vertex, edge = np.divmod(key, max(len(surface), 1))
-    known = np.zeros(len(key), dtype=bool) if last is None else np.isin(key, last.key)
-    offset = np.searchsorted(vertex, np.arange(len(surface) + 1)).astype(np.int64)
-    pairs = narrow_arrays.VertexPairs(vertex, edge, offset)
-    kept, along, gap = narrow_arrays.select(surface, pairs, rules, known, motion)
-    rows = np.flatnonzero(kept)
-    parts = (vertex[rows], edge[rows], along[rows], gap[rows], kept[rows] == 2)
-    return _contacts(surface, *parts, rules)
-
-
-def _contacts(
+def contacts_of(
     surface: Surface, v: Ints, e: Ints, along: Floats, gap: Floats, beyond: Bools, rules: Rules
 ) -> Contacts:
+    """Return contacts of pairs with the foot ``along`` the edge; ``beyond``: past an end of it."""
     length = surface.length[e]
     parameter = np.clip(along / length, 0.0, 1.0)
     corner = np.where(parameter > 0.5, surface.next[e], e)

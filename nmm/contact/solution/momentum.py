@@ -7,6 +7,7 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
+from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.motion import State
 from nmm.contact.detection.tolerances import MIDPOINT_GAPS
 from nmm.contact.points.boundary_points import Sides
@@ -91,8 +92,7 @@ class Momentum:
     @cached_property
     def _compliance_of_all(self) -> Floats:
         """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those without mass."""
-        modes = self._model.manifold.rigid_modes
-        rigid = (modes.T @ (self._model.mass @ modes)).diagonal()
+        rigid = rigid_masses(self._model).ravel()
         return np.asarray(np.divide(1.0, rigid, out=np.zeros_like(rigid), where=rigid > 0))
 
     @property

@@ -4,7 +4,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import areas
-from nmm.assembly.momenta import momenta
+from nmm.assembly.momenta import momenta, momenta_about, rigid_masses, rigid_momenta
 from nmm.assembly.motion import State
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.step.stepper import Stepper
@@ -71,8 +71,8 @@ def _momentum(run: Ended) -> Findings:
 
 def _typical(stepper: Stepper, state: State) -> Floats:
     """Momentum (N s) and angular momentum (N m s) if all motion went one way, or were spin."""
-    model, modes = stepper.model, stepper.model.manifold.rigid_modes
-    inertia = (modes.T @ (model.mass @ modes)).diagonal().reshape(-1, 3).sum(axis=0)
+    model = stepper.model
+    inertia = rigid_masses(model).sum(axis=0)
     return np.asarray(np.sqrt(inertia[[0, 2]] * (state.velocity @ (model.mass @ state.velocity))))
 
 
@@ -82,8 +82,5 @@ def _of_bodies(stepper: Stepper, state: State) -> tuple[Floats, Floats]:
     if stepper.kinematics.finite:
         own = np.asarray(momenta(model, state.deformation) @ state.velocity).reshape(-1, 3)
     else:
-        modes = model.manifold.rigid_modes
-        own = np.asarray(modes.T @ (model.mass @ state.velocity)).reshape(-1, 3)
-    pushed = state.frames.to_global(np.arange(len(own)), own[:, :2])
-    arm = state.frames.centre - stepper.reference.mean(axis=0)
-    return pushed, arm[:, 0] * pushed[:, 1] - arm[:, 1] * pushed[:, 0] + own[:, 2]
+        own = rigid_momenta(model, state)
+    return momenta_about(state, own, stepper.reference.mean(axis=0))

@@ -12,6 +12,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
+from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.shi import Shi
@@ -143,9 +144,8 @@ def _holds(stepper: Stepper, state: State, end: Instant) -> bool:
 
 def _first_length(model: Model, force: Floats, size: float) -> float:
     """Length (s) of a step in which the most accelerated body moves by `FIRST`."""
-    modes = model.manifold.rigid_modes
-    mass = (modes.T @ (model.mass @ modes)).diagonal().reshape(-1, 3)
-    pull = np.asarray(modes.T @ force).reshape(-1, 3)
+    mass = rigid_masses(model)
+    pull = np.asarray(model.manifold.rigid_modes.T @ force).reshape(-1, 3)
     fastest = float(np.hypot(*(pull[:, :2] / mass[:, :2]).T).max(initial=0.0))
     return float(np.sqrt(2 * FIRST * size / fastest)) if fastest > 0 else 1.0
 

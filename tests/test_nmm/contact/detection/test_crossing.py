@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from integration.polygons import Polygons
-from nmm.contact.detection.crossing import find_crossings
 from nmm.contact.detection.surface import Surface
-from nmm.testing.contact_search import polygon_surface
+from nmm.testing.detection.crossings import find_crossings
+from nmm.testing.detection.search import polygon_surface
 
 
 def rectangle(x: float, y: float, width: float, height: float) -> np.ndarray:

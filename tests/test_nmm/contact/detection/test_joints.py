@@ -8,7 +8,7 @@ from integration.polygons import Polygons
 from nmm.contact.detection.joints import find_joints, joint_ends, joint_points
 from nmm.contact.detection.surface import Surface
 from nmm.errors import FormulationError
-from nmm.testing.contact_search import polygon_surface
+from nmm.testing.detection.search import polygon_surface
 
 
 def rectangle(x: float, y: float, width: float, height: float) -> np.ndarray:

@@ -17,7 +17,8 @@ from nmm.contact.detection.narrow_phase import (
 )
 from nmm.contact.detection.neighbour_list import NeighbourList
 from nmm.contact.detection.surface import Surface
-from nmm.testing.contact_search import polygon_surface
+from nmm.testing.detection.narrow_arrays import find_by_arrays
+from nmm.testing.detection.search import polygon_surface
 
 
 def rectangle(x, y, width, height, angle=0.0):
@@ -33,9 +34,9 @@ def scene(*rings):
     return polygon_surface(Polygons.from_vertices(rings))
 
 
-def search(surface, reach=0.01, within_bodies=False, **options) -> Contacts:
+def search(surface, reach=0.01, within_bodies=False, find=find_contacts, **options) -> Contacts:
     vertex, edge = NeighbourList(2 * reach, within_bodies).update(surface)
-    return find_contacts(surface, vertex, edge, reach, **options)
+    return find(surface, vertex, edge, reach, **options)
 
 
 def placed(surface: Surface, angle: float, shift: float) -> Surface:
@@ -478,25 +479,25 @@ def test_compiled_and_plain_form_agree(seed):
     reach = 10 ** rng.uniform(-6, 0)
     motion = reach * rng.standard_normal(cells.start.shape) if seed % 2 else None
     first = search(cells, reach, motion=motion)
-    assert equal(first, search(cells, reach, motion=motion, compiled=False))
+    assert equal(first, search(cells, reach, motion=motion, find=find_by_arrays))
     later = shaken(cells, 0.1 * reach, 0.0, 2)
     assert equal(
         search(later, reach, motion=motion, last=first),
-        search(later, reach, motion=motion, last=first, compiled=False),
+        search(later, reach, motion=motion, last=first, find=find_by_arrays),
     )
 
 
 def test_1000_voronoi_cells_shaken_are_found_by_both_forms_alike():
     cells = shaken(voronoi(1000, 8), 1e-3, 1e-3, 9)
     found = search(cells, 5e-3)
-    assert equal(found, search(cells, 5e-3, compiled=False))
+    assert equal(found, search(cells, 5e-3, find=find_by_arrays))
     assert len(np.unique(found.key)) == len(found) > 5000
 
 
-@pytest.mark.parametrize("compiled", [True, False])
-def test_an_edge_without_length_meets_nothing(compiled):
+@pytest.mark.parametrize("find", [find_contacts, find_by_arrays])
+def test_an_edge_without_length_meets_nothing(find):
     doubled = np.array([[0, 0], [1, 0], [1, 1], [0.5, 1], [0.5, 1], [0, 1]], dtype=float)
-    found = search(scene(doubled, rectangle(0.3, 1, 0.5, 1)), compiled=compiled)
+    found = search(scene(doubled, rectangle(0.3, 1, 0.5, 1)), find=find)
     assert 3 not in found.edge
     np.testing.assert_array_equal(np.abs(found.normal), np.tile([0, 1], (len(found), 1)))
 

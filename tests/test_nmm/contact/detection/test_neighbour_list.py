@@ -9,7 +9,7 @@ import shapely
 from integration.polygons import Polygons
 from nmm.contact.detection.neighbour_list import NeighbourList, near_pairs
 from nmm.contact.detection.surface import Surface
-from nmm.testing.contact_search import near_pairs_by_tree, polygon_surface
+from nmm.testing.detection.search import near_pairs_by_tree, polygon_surface
 
 
 def voronoi(cells: int, seed: int) -> Surface:

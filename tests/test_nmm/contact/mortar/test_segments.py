@@ -7,7 +7,7 @@ from integration.polygons import Polygons
 from nmm.contact.detection.narrow_phase import FACE, find_contacts, follow
 from nmm.contact.detection.neighbour_list import NeighbourList
 from nmm.contact.mortar.segments import faced
-from nmm.testing.contact_search import polygon_surface
+from nmm.testing.detection.search import polygon_surface
 
 RNG = np.random.default_rng(3)
 

@@ -1,6 +1,7 @@
 """Narrow phase over whole arrays: the slower form that the compiled one is tested against.
 
-The rules are told in `narrow`. A *row* is a candidate pair of a vertex and an edge.
+The rules are told in `nmm.contact.detection.narrow_phase`. A *row* is a candidate pair of a vertex
+and an edge.
 """
 
 from __future__ import annotations
@@ -10,17 +11,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.detection.flush import Covers, find_covers, leaves, rays, shielded
 from nmm.contact.detection.measures import (
-    convex_vertices,
     cross,
     dot,
     flush_distance,
     measure,
+    rules_of,
     thinner,
 )
+from nmm.contact.detection.narrow_phase import Contacts, contacts_of
+from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import Rules
+from nmm.testing.detection.flush import Covers, convex_vertices, find_covers, leaves, rays, shielded
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +41,27 @@ class VertexPairs:
     def key(self) -> Ints:
         """(m,) rising numbers of the rows."""
         return self.vertex * (len(self.offset) - 1) + self.edge
+
+
+def find_by_arrays(
+    surface: Surface,
+    vertex: Ints,
+    edge: Ints,
+    reach: float,
+    last: Contacts | None = None,
+    motion: Floats | None = None,
+) -> Contacts:
+    """Return what `nmm.contact.detection.narrow_phase.find_contacts` does."""
+    rules = rules_of(surface, reach)
+    motion = np.zeros_like(surface.start) if motion is None else motion
+    key = np.unique(pair_key(surface, vertex, edge))
+    vertex, edge = np.divmod(key, max(len(surface), 1))
+    known = np.zeros(len(key), dtype=bool) if last is None else np.isin(key, last.key)
+    offset = np.searchsorted(vertex, np.arange(len(surface) + 1)).astype(np.int64)
+    kept, along, gap = select(surface, VertexPairs(vertex, edge, offset), rules, known, motion)
+    rows = np.flatnonzero(kept)
+    parts = (vertex[rows], edge[rows], along[rows], gap[rows], kept[rows] == 2)
+    return contacts_of(surface, *parts, rules)
 
 
 def select(

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.detection.measures import convex_vertices, cross, dot, flush_distance, thinner
+from nmm.contact.detection.measures import cross, dot, flush_distance, thinner
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import MERGED_BODIES, Rules
 
@@ -23,6 +23,12 @@ class Covers:
 
     own: Ints
     before: Ints
+
+
+def convex_vertices(surface: Surface, rules: Rules) -> Bools:
+    """Vertices whose solid angle is at most a half turn, within the angular tolerance."""
+    turn = cross(surface.direction[surface.previous], surface.direction)
+    return np.asarray(turn >= -rules.sine)
 
 
 def find_covers(

@@ -4,6 +4,7 @@ import numpy as np
 import shapely
 
 from integration.arrays import Bools, Ints
+from integration.permutations import inverse
 from integration.polygons import Polygons
 from nmm.contact.detection.surface import Surface
 
@@ -12,14 +13,12 @@ def polygon_surface(polygons: Polygons) -> Surface:
     """Surface of polygons, one body each; rings are turned to have the solid on the left."""
     polygons = polygons.oriented()
     follower = polygons.next_point
-    previous = np.empty_like(follower)
-    previous[follower] = np.arange(len(follower))
     return Surface(
         polygons.points,
         polygons.points[follower],
         polygons.polygon_of_point,
         follower,
-        previous,
+        inverse(follower),
     )
 
 
