@@ -214,7 +214,6 @@ def _bound(place: Path, formulation: Path | None) -> None:
     from nmm.stepping.drive.static_theorem import load_bound
     from nmm.stepping.prepare import prepare
     from nmm.stepping.step.anchors import block_name, largest_mover
-    from nmm.stepping.step.stepper import scaled_load
 
     scene = nmm.read_scene(place)
     if scene.contact is None or scene.loading is None:
@@ -236,7 +235,7 @@ def _bound(place: Path, formulation: Path | None) -> None:
     elif not found.motion.any():
         text = "no bound: contacts and bonds carry any load factor"
     else:
-        load = scaled_load(made.stepper, found.factor)
+        load = made.stepper.plan.scaled_load(found.factor)
         newton = "" if load is None else f", {load:.6g} N"
         body, how = largest_mover(made.stepper.model, made.start, found.motion)
         name = block_name(made.stepper.model, body, made.regions.name)

@@ -8,7 +8,8 @@ from nmm.assembly.carried.state import carried
 from nmm.assembly.motion import State, initial_state
 from nmm.effects.base import Effect, Setup
 from nmm.effects.change import Change
-from nmm.model.plan import Plan, compile_plan, plan_after
+from nmm.model.planning.making import compile_plan, plan_after
+from nmm.model.planning.plan import Plan
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model

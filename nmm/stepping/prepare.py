@@ -21,7 +21,8 @@ from nmm.model.discretisation import Discretisation
 from nmm.model.fault_places import placed
 from nmm.model.origin import own_origin, shifted, shifted_regions
 from nmm.model.parts import check_parts
-from nmm.model.plan import Plan, compile_plan
+from nmm.model.planning.making import compile_plan
+from nmm.model.planning.plan import Plan
 from nmm.model.solver_settings import solver_for
 from nmm.model.stages import Stage, stages_of
 from nmm.stepping.drive.changes import refuse_events
@@ -85,7 +86,17 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     stepper.seconds["covers"] = built - begun
     stepper.seconds["effects"] = perf_counter() - built
     watched = monitors(setup, all_there=not stages)
-    return Simulation(*asked, regions, stepper, plan.begin(start), watched, begun, origin, stages)
+    return Simulation(
+        scene=asked[0],
+        formulation=asked[1],
+        regions=regions,
+        stepper=stepper,
+        start=plan.begin(start),
+        monitors=watched,
+        begun=begun,
+        origin=origin,
+        stages=stages,
+    )
 
 
 def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) -> Staged:

@@ -27,6 +27,7 @@ from nmm.results.summary import Safety, Summary
 from nmm.results.tee import Tee
 from nmm.scene import scene_hash
 from nmm.stepping.checkpoints import Checkpoints
+from nmm.stepping.compiled import CompiledScene
 from nmm.stepping.drive.changes import topology
 from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages
 from nmm.stepping.drive.static_theorem import load_bound
@@ -41,26 +42,18 @@ from nmm.stepping.reports.output import (
 )
 from nmm.stepping.reports.recorder import Monitor, Recorder
 from nmm.stepping.run_state import RunState
-from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.summing_up import summed_up
 
 if TYPE_CHECKING:
-    from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
 
 
-@dataclass(frozen=True)
-class Simulation:
+@dataclass(frozen=True, kw_only=True)
+class Simulation(CompiledScene):
     """A scene and a formulation, compiled and ready to run.
 
     Attributes
     ----------
-    scene, formulation, regions
-        What is run.
-    stepper
-        Model, effects and solver.
-    start
-        State at the start.
     monitors
         Points whose displacement is recorded.
     begun
@@ -71,21 +64,13 @@ class Simulation:
         What is solved one after the other; none in a scene without stages.
     safety
         The factor of safety at which the scene is run; None where strength is not reduced.
-    at_once
-        Whether statics of loads in full tries no smaller increments of them.
     """
 
-    scene: "Scene"
-    formulation: Formulation
-    regions: "Regions"
-    stepper: Stepper
-    start: State
     monitors: list[Monitor]
     begun: float
     origin: Floats
     stages: Sequence[Staged] = ()
     safety: Safety | None = None
-    at_once: bool = False
 
     def folder(self, path: Path) -> RunFolder:
         """Return the run folder at ``path`` with scene and formulation as run."""
@@ -146,17 +131,7 @@ class Simulation:
         checkpoints = Checkpoints(self.stepper, recorder, when, store)
         if self.stages:
             return self._in_stages(recorder, progress, checkpoints, stood)
-        state, verdict = Drive(
-            self.scene,
-            self.formulation,
-            self.stepper,
-            self.start,
-            self.regions.name,
-            self.at_once,
-            recorder,
-            checkpoints,
-            progress,
-        ).run(stood)
+        state, verdict = Drive(self, recorder, checkpoints, progress).run(stood)
         asked = self.scene, self.formulation
         summary = summed_up(
             self.identity(), recorder, self.start, state, verdict, asked, self.begun

@@ -12,7 +12,6 @@ from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.drive.verdict import RunVerdict
 from nmm.stepping.reports.recorder import Recorder
-from nmm.stepping.step.stepper import scaled_load
 
 if TYPE_CHECKING:
     from nmm.scene.model import Scene
@@ -47,7 +46,7 @@ def summed_up(
     condition, start = stepper.condition(state), totals.since or start
     findings = audit(Ended(*asked, stepper, recorder, start, state, verdict, condition))
     verdict, growth = judged(verdict, findings), stepper.plan.fracture
-    load = None if verdict.load_factor is None else scaled_load(stepper, verdict.load_factor)
+    load = None if verdict.load_factor is None else stepper.plan.scaled_load(verdict.load_factor)
     return replace(
         known,
         warnings=[*known.warnings, *(one.sentence for one in findings if one.warns)],

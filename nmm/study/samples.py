@@ -101,10 +101,11 @@ def _displacement(run: "Run", elements: Ints, points: Floats) -> Floats:
 def _stress(run: "Run", elements: Ints, points: Floats) -> Floats:
     from integration.rules import PointRule
     from nmm.assembly.errors import stresses
+    from nmm.model.planning.pressures import patch_pressures
 
     model, plan = run.stepper.model, run.stepper.plan
     rule = PointRule(points, np.ones(len(points)), elements)
-    pressure = plan.pressure(model, run.state)
+    pressure = patch_pressures(plan, model, run.state)
     stress = stresses(model, run.state.deformation, rule, pressure)
     if model.matter is not None:
         state = run.state

@@ -118,7 +118,8 @@ def find_contacts(
     """
     rules = rules_of(surface, reach)
     if not len(surface):
-        return contacts_of(surface, vertex, edge, *np.empty((2, 0)), np.empty(0, bool), rules)
+        none = np.empty(0)
+        return contacts_of(surface, vertex, edge, none, none, none > 0, rules)
     # Compiled code is loaded by the first search, not by whoever names this module.
     from nmm.contact.detection.narrow_kernel import find
 

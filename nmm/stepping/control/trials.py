@@ -31,7 +31,7 @@ class Trials:
 
     def standing(self, at: OnPath) -> Standing:
         """Return what controls ask of where a path stands."""
-        return Standing(at.state, self.stepper.unit_load(at.state), self.monitors, at.way)
+        return Standing(at.state, self.stepper.plan.unit_load(at.state), self.monitors, at.way)
 
     def along(self, at: Standing, path: PathEquation) -> Tried:
         """Try a step along a path."""

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from nmm.effects.base import Setup
     from nmm.effects.change import Change
     from nmm.effects.event import Event
-    from nmm.model.plan import Plan
+    from nmm.model.planning.plan import Plan
     from nmm.scene.model import Scene
 
 Asked = tuple[tuple[str, "Event"], ...]

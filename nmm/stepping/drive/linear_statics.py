@@ -24,7 +24,8 @@ from nmm.effects.loads import Load, Loads
 from nmm.errors import FormulationError
 from nmm.formulation import Glue, IntegratorTable, Solver
 from nmm.integrators.base import make_integrator
-from nmm.model.plan import Plan
+from nmm.model.planning.plan import Plan
+from nmm.model.planning.pressures import lifted_energy, patch_pressures
 from nmm.model.solver_settings import solver_for
 from nmm.solvers.linear import Factor
 from nmm.stepping.step.equations import Assembly
@@ -63,13 +64,13 @@ class Equilibrium:
     def energy(self) -> float:
         """Strain energy (J)."""
         u = self.state.deformation
-        lifted = _plan(self.effects).lifted_energy(self.model, self._end)
+        lifted = lifted_energy(_plan(self.effects), self.model, self._end)
         return 0.5 * float(u @ (self.model.stiffness @ u)) + lifted
 
     @property
     def pressure(self) -> Floats | None:
         """Pressures (k,) on patches (Pa); None where volumes are not projected."""
-        return _plan(self.effects).pressure(self.model, self._end)
+        return patch_pressures(_plan(self.effects), self.model, self._end)
 
     @property
     def _end(self) -> State:

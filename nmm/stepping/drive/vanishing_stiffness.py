@@ -53,7 +53,7 @@ def vanishing_stiffness(stepper: "Stepper", state: State, factor: float) -> str 
     from scipy.sparse.linalg import splu
 
     step = factor - state.load_factor
-    way = splu(stiffness).solve(NEAR * step * stepper.unit_load(state))
+    way = splu(stiffness).solve(NEAR * step * stepper.plan.unit_load(state))
     moved = _tangent(stepper, replace(state, deformation=state.deformation + way), shift)
     change = float(mode @ (moved @ mode)) - least
     limit = state.load_factor - least * NEAR * step / (2 * change) if change < 0 else np.inf

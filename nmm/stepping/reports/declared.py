@@ -11,7 +11,7 @@ from nmm.assembly.model import Model
 from nmm.effects.base import defines
 from nmm.errors import NmmError
 from nmm.model.effects_table import OWN
-from nmm.model.plan import Plan
+from nmm.model.planning.plan import Plan
 from nmm.outputs.base import OUTPUTS, Output, View
 from nmm.quantity import APART, PLACES, Quantity
 

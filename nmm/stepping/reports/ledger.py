@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.frozen import with_parts
+from nmm.model.planning.pressures import lifted_energy
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
-    from nmm.model.plan import Plan
+    from nmm.model.planning.plan import Plan
     from nmm.stepping.step.booking import Booked
 
 # Effects whose springs count as supports: those of the scene, glue, and what holds sub-blocks.
@@ -219,7 +220,7 @@ class Ledger:
 
 def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
     """Return the energies (J) of a state by name."""
-    lifted = plan.lifted_energy(model, state)
+    lifted = lifted_energy(plan, model, state)
     strain = model.strain_energy(state) + lifted
     return {
         "kinetic_energy": plan.energy("inertia", state),

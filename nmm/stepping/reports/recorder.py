@@ -13,6 +13,7 @@ from nmm.effects.base import Setup
 from nmm.effects.view import View
 from nmm.errors import GeometryError
 from nmm.frozen import with_parts
+from nmm.model.planning.pressures import patch_pressures
 from nmm.results.frame import Frame
 from nmm.results.sink import Sink
 from nmm.stepping.reports.declared import Declared
@@ -268,7 +269,7 @@ class Recorder:
     def stress(self, state: State) -> Floats:
         """Return the mean Cauchy stress (E, 3) of the elements in global axes (Pa)."""
         model, added = self.stepper.model, self.stepper.plan.added_stress(state)
-        pressure = self.stepper.plan.pressure(model, state)
+        pressure = patch_pressures(self.stepper.plan, model, state)
         stress = model.stress(state, pressure)
         if added is not None:
             stress = stress + added

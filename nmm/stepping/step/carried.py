@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from nmm.frozen import with_parts
 from nmm.geometry.geometry import Geometry
+from nmm.stepping.step.trial import Attempt
 
 
 @dataclass(frozen=True)
@@ -49,3 +51,15 @@ class CarriedOver:
     laid: LaidAnew | None = None
     geometry: Geometry | None = None
     effects: Mapping[str, Any] = field(default_factory=dict)
+
+    def after(self, attempt: Attempt, reach: float, restarts: bool) -> Self:
+        """Return what is carried on from an accepted step.
+
+        ``reach`` is that of the next step; ``restarts`` says whether accelerations are forgotten
+        where other contacts push (`nmm.integrators.base.Integrator.restarts_at_impact`).
+        """
+        if attempt.solved is None or not restarts:
+            return with_parts(self, reach=reach, knows_start=True)
+        pushing = attempt.solved.pushing
+        struck = not np.array_equal(pushing, self.pushing)
+        return with_parts(self, reach=reach, knows_start=not struck, pushing=pushing)

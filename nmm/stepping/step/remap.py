@@ -14,13 +14,30 @@ from covers.approximation.manifold import Manifold
 from covers.change.parentage import Parentage
 from integration.arrays import Floats
 from integration.polygons import Polygons
-from nmm.assembly.motion import Frames, State
+from nmm.assembly.motion import Frames, State, initial_state
 from nmm.effects.change import Change
 from nmm.errors import FormulationError
 from nmm.model.discretisation import Discretisation
-from nmm.model.plan import Plan
+from nmm.model.planning.plan import Plan
+from nmm.stepping.step.carried import LaidAnew
 
 Lay = Callable[[Polygons], Manifold]
+
+
+def laid_here(
+    old: Discretisation, lay: Lay, state: State, increment: Floats, place: Floats
+) -> tuple[Change, Discretisation]:
+    """Lay the blocks anew where an accepted step has left them; see `remapped`."""
+    change = remapped(old, lay, state, increment, place)
+    return change, with_stress_so_far(old.after(change), old, increment)
+
+
+def laid_as(old: Discretisation, lay: Lay, laid: LaidAnew) -> tuple[Change, Discretisation]:
+    """Lay the blocks as they were laid after another step."""
+    manifold = old.model.manifold
+    still = np.zeros(manifold.n_unknowns)
+    change = remapped(old, lay, initial_state(manifold), still, laid.points)
+    return change, with_stress(old.after(change), laid.stress)
 
 
 def remapped(

@@ -4,16 +4,33 @@ Newton's method finds equilibria of every kind. A straight column is one beyond 
 too, which no slow test would meet.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.solvers.factor import Factor
+from nmm.stepping.step.equations import Equations
+from nmm.stepping.step.trial import Attempt
 
 # Turns of inverse iteration: each brings out the softest motion by the ratio of two stiffnesses.
 TURNS = 4
 # Stiffness of a motion, as a share of the elastic one, that is none but rounding.
 NONE = 1e-12
+
+
+def unless_unstable(
+    attempt: Attempt, equations: Equations, factor: Factor, elastic: csc_array
+) -> Attempt:
+    """Return an attempt, failed where statics came to rest unstably; see `unstable`."""
+    asked = attempt.converged and equations.step is None and equations.symmetric
+    if not asked or not unstable(factor, elastic, attempt.increment):
+        return attempt
+    sentence = "the equilibrium that was found is not stable"
+    return replace(
+        attempt, converged=False, state=equations.state, sentence=sentence, singular=True
+    )
 
 
 def unstable(factor: Factor, elastic: csc_array, increment: Floats) -> bool:

@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
-from nmm.assembly.motion import MaterialPoints, State, initial_state
+from nmm.assembly.motion import MaterialPoints, State
 from nmm.effects.base import Instant
 from nmm.errors import SolveError
 from nmm.frozen import with_parts
@@ -26,7 +26,7 @@ from nmm.stepping.step.free_step import Alone
 from nmm.stepping.step.inner import Inner
 from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.newton import Solution, Solve, newton
-from nmm.stepping.step.remap import Lay, remapped, with_stress, with_stress_so_far
+from nmm.stepping.step.remap import Lay, laid_as, laid_here
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from nmm.contact.solution.record import Breaking, ContactRecord
     from nmm.effects.change import Change
     from nmm.geometry.geometry import Geometry
-    from nmm.model.plan import Plan
+    from nmm.model.planning.plan import Plan
     from nmm.stepping.step.contact_step import Touching
 
 
@@ -116,7 +116,7 @@ class Stepper:
             self.reshape(carried.geometry, self.discretisation.setup.start)
         self._carried = replace(carried, laid=None, geometry=None, effects={})
         if self._lay is not None and carried.laid is not None:
-            self._lay_again(self._lay, carried.laid)
+            self._relaid(*laid_as(self.discretisation, self._lay, carried.laid))
         self.plan.carry(carried.effects)
         self.forget()
 
@@ -200,7 +200,7 @@ class Stepper:
             try:
                 equations, found = self._bent(state, end, step, solve)
             except SolveError as fault:
-                return _failed(state, fault)
+                return Attempt.failed(state, fault)
         if not found.converged or equations.inertia is None:
             return found
         conserves = equations.rule.conserves
@@ -221,23 +221,12 @@ class Stepper:
         symmetric = self.plan.contact is not None
         inner = Inner(current, state, end, step, self._rule, moves, symmetric, clock)
         equations, found = newton(inner, state, solve, clock)
-        return equations, self._stable(equations, found)
+        factor, matter = self._alone.factor, self.model.matter
+        if not moves.finite or factor is None or matter is None:
+            return equations, found
+        from nmm.stepping.step.stability import unless_unstable
 
-    def _stable(self, equations: Equations, found: Attempt) -> Attempt:
-        """Return an attempt in statics of finite strain, failed where it came to rest unstably."""
-        factor = self._alone.factor
-        asked = self.kinematics.finite and equations.step is None and equations.symmetric
-        matter = self.model.matter
-        if not (asked and found.converged) or factor is None or matter is None:
-            return found
-        from nmm.stepping.step.stability import unstable
-
-        if not unstable(factor, matter.elastic_stiffness, found.increment):
-            return found
-        sentence = "the equilibrium that was found is not stable"
-        return replace(
-            found, converged=False, state=equations.state, sentence=sentence, singular=True
-        )
+        return equations, unless_unstable(found, equations, factor, matter.elastic_stiffness)
 
     def along(self, state: State, path: "PathEquation") -> Attempt:
         """Solve a step of statics along a path (`nmm.contact.following`).
@@ -255,13 +244,7 @@ class Stepper:
             try:
                 return self._touching.along(equations, path, self._carried.reach)
             except SolveError as fault:
-                return _failed(equations.state, fault)
-
-    def unit_load(self, state: State) -> Floats:
-        """Return the force (n,) that a load factor of one more adds (N)."""
-        time, factor = state.time, state.load_factor
-        more, now = (self.plan.force(state, Instant(time, at)) for at in (factor + 1.0, factor))
-        return more - now
+                return Attempt.failed(equations.state, fault)
 
     def _solved(
         self, equations: Equations, breaking: "Breaking", before: Attempt | None
@@ -272,35 +255,29 @@ class Stepper:
                 return self._alone.attempt(equations)
             return self._touching.attempt(equations, breaking, self._carried.reach, before)
         except SolveError as fault:
-            return _failed(equations.state, fault)
+            return Attempt.failed(equations.state, fault)
 
     def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
         """Make an attempt the start of the next step; return it with its contacts as left."""
-        self._carried = self._following(attempt)
+        reach, restarts = self._reach(attempt.motion), self._integrator.restarts_at_impact
+        self._carried = self._carried.after(attempt, reach, restarts)
         state, contact, contacts = attempt.state, self.plan.contact, None
         if contact is not None and attempt.solved is not None:
             contacts = contact.commit(attempt.solved, state)
         self.plan.accepted(state)
         if self._lay is not None:
-            state = self._remapped(self._lay, state, attempt.increment)
+            place, increment = self.place(state), attempt.increment
+            state = self._relaid(
+                *laid_here(self.discretisation, self._lay, state, increment, place)
+            )
         return state, contacts
 
-    def _remapped(self, lay: Lay, state: State, increment: Floats) -> State:
-        """Lay the blocks anew where they stand; places still count from where the run began."""
-        old, start = self.discretisation, self.reference
-        change = remapped(old, lay, state, increment, self.place(state))
-        self.follow(change, with_stress_so_far(old.after(change), old, increment))
+    def _relaid(self, change: "Change", new: Discretisation) -> State:
+        """Solve blocks laid anew; places still count from where the run began."""
+        start = self.reference
+        self.follow(change, new)
         self.reference = start
         return change.state
-
-    def _lay_again(self, lay: Lay, laid: LaidAnew) -> None:
-        """Lay the blocks as they were laid after another step."""
-        old, start = self.discretisation, self.reference
-        manifold = old.model.manifold
-        still = np.zeros(manifold.n_unknowns)
-        change = remapped(old, lay, initial_state(manifold), still, laid.points)
-        self.follow(change, with_stress(old.after(change), laid.stress))
-        self.reference = start
 
     def follow(self, change: "Change", new: Discretisation) -> None:
         """Solve ``new`` from now on, which is what a change has made of what was solved."""
@@ -342,15 +319,6 @@ class Stepper:
         self._carried = CarriedOver(self._carried.reach)
         self.forget()
 
-    def _following(self, attempt: Attempt) -> CarriedOver:
-        """Return what is carried on from an accepted step."""
-        carried, reach = self._carried, self._reach(attempt.motion)
-        if attempt.solved is None or not self._integrator.restarts_at_impact:
-            return with_parts(carried, reach=reach, knows_start=True)
-        pushing = attempt.solved.pushing
-        struck = not np.array_equal(pushing, carried.pushing)
-        return with_parts(carried, reach=reach, knows_start=not struck, pushing=pushing)
-
     def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
         assert self._touching is not None
@@ -389,15 +357,3 @@ class Stepper:
     def _rule(self) -> Integrator:
         """The integrator of the step."""
         return rule_of(self._integrator, self._carried.knows_start)
-
-
-def _failed(state: State, fault: SolveError) -> Attempt:
-    """Return what came of a step from ``state`` that has no solution."""
-    rest, singular = np.zeros_like(state.deformation), fault.singular
-    return Attempt(False, str(fault), state, rest, 0.0, np.nan, 1, singular=singular)
-
-
-def scaled_load(stepper: Stepper, factor: float) -> float | None:
-    """Return the resultant (N) of the scaled loads at a load factor; None without loads."""
-    loads = stepper.plan.loads
-    return None if loads is None else loads.scaled_resultant(factor)

@@ -1,10 +1,13 @@
 """What came of a step."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
+from nmm.errors import SolveError
 from nmm.stepping.step.booking import Booked
 
 if TYPE_CHECKING:
@@ -54,3 +57,9 @@ class Attempt:
     singular: bool = False
     imbalances: tuple[float, ...] = ()
     missed: Floats | None = None
+
+    @classmethod
+    def failed(cls, state: State, fault: SolveError) -> Self:
+        """Return what came of a step from ``state`` that has no solution."""
+        rest = np.zeros_like(state.deformation)
+        return cls(False, str(fault), state, rest, 0.0, np.nan, 1, singular=fault.singular)

@@ -1,10 +1,10 @@
-"""The effects of a scene, compiled once: only those it names, only the hooks they have.
+"""The effects of a scene and the hooks they have, asked all together.
 
-What a scene does not name is not imported and has no arrays.
+Hooks that no effect has are never called.
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from math import isfinite
 from time import perf_counter
@@ -19,20 +19,16 @@ from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import (
     Effect,
     Instant,
-    Setup,
     Span,
     StepForce,
     defines,
 )
-from nmm.errors import Fault, FormulationError, SolveError
-from nmm.geometry.tessellation.cover_types import piece_glue
-from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own, with_table
+from nmm.errors import SolveError
+from nmm.model.effects_table import OWN
 from nmm.quantity import MemberSegments
 
 if TYPE_CHECKING:
-    from nmm.assembly.model import Model
     from nmm.constraints.supports import Supports
-    from nmm.effects.change import Change
     from nmm.effects.contact import Contact
     from nmm.effects.event import Event
     from nmm.effects.inertia import Inertia
@@ -82,18 +78,18 @@ class Plan:
         """Tell the effects that ask which stresses others add; return the plan itself."""
         self.hooks.clear()
         if self.stresses:
-            for effect in self._with("feel"):
+            for effect in self.having("feel"):
                 effect.feel(self.stresses)
         return self
 
     @property
     def stresses(self) -> list[StressAt]:
         """What tells the stresses that effects add to that of the strain."""
-        return [effect.stress_at for effect in self._with("stress_at")]
+        return [effect.stress_at for effect in self.having("stress_at")]
 
     def begin(self, state: State) -> State:
         """Return the state at the start of the run."""
-        for effect in self._with("begin"):
+        for effect in self.having("begin"):
             state = effect.begin(state)
         return state
 
@@ -108,7 +104,7 @@ class Plan:
         """Yield the force (n,) of each effect."""
         shape = state.deformation.shape
         for name, effect in self._named("force"):
-            part = self._timed(name, partial(effect.force, state, end))
+            part = self.timed(name, partial(effect.force, state, end))
             if part.shape != shape:
                 raise SolveError(
                     f"{name}: the force has the shape {part.shape}: expected {shape}, one "
@@ -122,6 +118,12 @@ class Plan:
                 )
             yield part
 
+    def unit_load(self, state: State) -> Floats:
+        """Return the force (n,) that a load factor of one more adds (N)."""
+        time, factor = state.time, state.load_factor
+        more, now = (self.force(state, Instant(time, at)) for at in (factor + 1.0, factor))
+        return more - now
+
     @cached_property
     def steady(self) -> bool:
         """Whether no force depends on the instant, in dynamics."""
@@ -130,7 +132,7 @@ class Plan:
     def matrix(self, state: State, base: csc_array) -> csc_array:
         """Return ``base`` with all effects' matrices added; the same sum of the same parts."""
         added = (
-            self._timed(name, partial(effect.matrix, state))
+            self.timed(name, partial(effect.matrix, state))
             for name, effect in self._named("matrix")
         )
         parts = [base, *added]
@@ -142,55 +144,31 @@ class Plan:
     def damping(self, state: State) -> dict[str, csc_array]:
         """Return the damping matrix of each effect that has one, by name."""
         return {
-            name: self._timed(name, partial(effect.damping, state))
+            name: self.timed(name, partial(effect.damping, state))
             for name, effect in self._named("damping")
         }
 
     def added_mass(self, state: State) -> dict[str, csc_array]:
         """Return what joins the mass in the step that starts at ``state``, by effect."""
         return {
-            name: self._timed(name, partial(effect.added_mass, state))
+            name: self.timed(name, partial(effect.added_mass, state))
             for name, effect in self._named("added_mass")
         }
 
-    def pressure(self, model: "Model", state: State) -> Floats | None:
-        """Return the pressures (k,) on patches of a model; None where volumes are not projected."""
-        if not model.projected or model.pressures is None:
-            return None
-        return model.pressure(state.deformation, self._gaps(len(model.pressures), state))
-
-    def lifted_energy(self, model: "Model", state: State) -> float:
-        """Return the energy (J) of pressures with what lies open at edges, less that without.
-
-        It is stored in the material and part of the energy of what holds the edges.
-        """
-        if not model.projected or model.pressures is None:
-            return 0.0
-        known = model.pressures
-        volume = known.divergence @ state.deformation
-        whole = known.root @ volume
-        left = known.root @ (volume - self._gaps(len(known), state))
-        return model.thickness * float(left @ left - whole @ whole) / 2
-
-    def _gaps(self, k: int, state: State) -> Floats:
-        """Volumes (k,) between edges and where they are held."""
-        gaps = [effect.gap_volume(state, k) for effect in self._with("gap_volume")]
-        return sum(gaps, start=np.zeros(k))
-
     def felt_energy(self, state: State) -> float:
         """Return the energy (J) at edges of stresses that what holds them was told of."""
-        return sum(effect.felt_energy(state) for effect in self._with("felt_energy"))
+        return sum(effect.felt_energy(state) for effect in self.having("felt_energy"))
 
     def added_stress(self, state: State) -> Floats | None:
         """Return the mean stress (E, 3) beyond that of the strain; None where nothing adds any."""
-        parts = [effect.mean_stress(state) for effect in self._with("mean_stress")]
+        parts = [effect.mean_stress(state) for effect in self.having("mean_stress")]
         return np.asarray(sum(parts[1:], start=parts[0])) if parts else None
 
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Return conditions on the step's unknowns that multipliers hold, None without any."""
         from scipy.sparse import vstack
 
-        found = [effect.border(state, end) for effect in self._with("border")]
+        found = [effect.border(state, end) for effect in self.having("border")]
         parts = [part for part in found if part is not None]
         if not parts:
             return None
@@ -199,7 +177,7 @@ class Plan:
 
     def keep(self, multipliers: Floats) -> None:
         """Hand the multipliers of a solution to the effects whose conditions they hold."""
-        for effect in self._with("border"):
+        for effect in self.having("border"):
             multipliers = effect.keep(multipliers)
 
     def carried(self) -> dict[str, Any]:
@@ -218,16 +196,16 @@ class Plan:
     def forget(self) -> None:
         """Drop what is kept for speed alone."""
         self.sums.clear()
-        for effect in self._with("forget"):
+        for effect in self.having("forget"):
             effect.forget()
 
     def work(self, before: State, after: State) -> float:
         """Return the work of all applied forces (J)."""
-        return sum(effect.work(before, after) for effect in self._with("work"))
+        return sum(effect.work(before, after) for effect in self.having("work"))
 
     def segments(self, state: State) -> MemberSegments | None:
         """Return the members of all effects; None without any."""
-        parts = [effect.segments(state) for effect in self._with("segments")]
+        parts = [effect.segments(state) for effect in self.having("segments")]
         return MemberSegments.joined(parts) if parts else None
 
     @cached_property
@@ -237,7 +215,7 @@ class Plan:
 
     def through(self, name: str, before: State, after: State, span: Span) -> StepForce:
         """Return what a bent effect does through a step."""
-        return self._timed(name, partial(self.effects[name].through, before, after, span))
+        return self.timed(name, partial(self.effects[name].through, before, after, span))
 
     def losses(self, before: State, after: State) -> dict[str, float]:
         """Return what each effect took for good in an accepted step (J)."""
@@ -245,7 +223,7 @@ class Plan:
 
     def first_work(self, before: State, after: State) -> float:
         """Return the work (J) that `work` lacks in the first step of statics."""
-        return sum(effect.first_work(before, after) for effect in self._with("first_work"))
+        return sum(effect.first_work(before, after) for effect in self.having("first_work"))
 
     def energy(self, name: str, state: State) -> float:
         """Return the energy of one effect (J), zero when the scene does not name it."""
@@ -277,7 +255,7 @@ class Plan:
     def accepted(self, state: State) -> None:
         """Tell the effects that ask where an accepted step has ended."""
         for name, effect in self._followers:
-            self._timed(name, partial(effect.accepted, state))
+            self.timed(name, partial(effect.accepted, state))
 
     @cached_property
     def _followers(self) -> list[tuple[str, Effect]]:
@@ -285,7 +263,7 @@ class Plan:
 
     def event(self, name: str, view: "View") -> "Event | None":
         """Return the event that a state calls for by one of the `askers`."""
-        return self._timed(name, partial(self.effects[name].event, view))
+        return self.timed(name, partial(self.effects[name].event, view))
 
     @property
     def contact(self) -> "Contact | None":
@@ -307,6 +285,10 @@ class Plan:
         """The point and edge loads."""
         return cast("Loads | None", self.effects.get("loads"))
 
+    def scaled_load(self, factor: float) -> float | None:
+        """Return the resultant (N) of the scaled loads at a load factor; None without loads."""
+        return None if self.loads is None else self.loads.scaled_resultant(factor)
+
     @property
     def supports(self) -> "Supports | None":
         """The supports."""
@@ -321,7 +303,8 @@ class Plan:
         """Count seconds for an effect."""
         self.seconds[name] = self.seconds.get(name, 0.0) + seconds
 
-    def _with(self, hook: str) -> list[Effect]:
+    def having(self, hook: str) -> list[Effect]:
+        """Return the effects that define a hook."""
         return [effect for _, effect in self._named(hook)]
 
     def _named(self, hook: str) -> list[tuple[str, Effect]]:
@@ -331,7 +314,8 @@ class Plan:
             self.hooks[hook] = known
         return known
 
-    def _timed(self, name: str, call: Callable[[], T]) -> T:
+    def timed(self, name: str, call: Callable[[], T]) -> T:
+        """Return what a call returns, its seconds counted for an effect."""
         start = perf_counter()
         result = call()
         self.spend(name, perf_counter() - start)
@@ -340,68 +324,3 @@ class Plan:
 
 def _are(some: list[csc_array], others: list[csc_array]) -> bool:
     return len(some) == len(others) and all(a is b for a, b in zip(some, others, strict=True))
-
-
-def compile_plan(setup: Setup) -> Plan:
-    """Import and build the effects that a scene names, with keys of its own or in tables."""
-    plan = Plan({})
-    for name, make in _makers(setup).items():
-        plan.effects[name] = plan._timed(name, make)
-    if setup.kinematics.finite:
-        _check_finite(plan)
-    return plan.connected()
-
-
-def _check_finite(plan: Plan) -> None:
-    """Refuse effects that count on axes that turn with bodies.
-
-    Raises
-    ------
-    FormulationError
-        All of them, one line each.
-    """
-    found = [(name, effect.with_axes) for name, effect in plan.effects.items()]
-    faults = [
-        Fault(
-            "[rotation] update",
-            f'"finite" with {name}: {what}',
-            "effects that follow a body that bends by any angle",
-            'use update = "exact", or leave the effect out',
-        )
-        for name, what in found
-        if what
-    ]
-    if faults:
-        raise FormulationError(*faults)
-
-
-def plan_after(plan: Plan, change: "Change") -> Plan:
-    """Return the plan on the new model: effects follow, and those newly named are built."""
-    makers = _makers(change.setup)
-    for name, effect in plan.effects.items():
-        if effect.stays or name in makers:
-            own = replace(change, setup=with_table(change.setup, name))
-            makers[name] = partial(effect.follow, own)
-    new = Plan({}, plan.seconds)
-    for name, make in makers.items():
-        new.effects[name] = effect = new._timed(name, make)
-        if name not in plan.effects and defines(effect, "put_in"):
-            effect.put_in(change.state)
-    new.connected()
-    heirs = new._with("take_over")
-    if heirs and plan.supports is not None:
-        left = plan.supports.left(change, new.stresses)
-        for effect in heirs:
-            effect.take_over(left)
-    return new
-
-
-def _makers(setup: Setup) -> dict[str, Callable[[], Effect]]:
-    """Return what builds the effects that a scene names, in the order of the table."""
-    kinds = [EFFECTS.load(name) for name, wanted in called_for(setup.scene).items() if wanted]
-    if piece_glue(setup.formulation.cover) is not None:
-        kinds.append(EFFECTS.load(GLUE))
-    makers: dict[str, Callable[[], Effect]] = {
-        kind.name: partial(kind.from_setup, setup) for kind in kinds
-    }
-    return makers | {OWN + name: partial(make_own, setup, name) for name in setup.scene.effects}

@@ -1,0 +1,83 @@
+"""A plan made of a scene: only the effects that it names, and on a new model those that follow.
+
+What a scene does not name is not imported and has no arrays.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+from nmm.effects.base import Effect, Setup, defines
+from nmm.errors import Fault, FormulationError
+from nmm.geometry.tessellation.cover_types import piece_glue
+from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own, with_table
+from nmm.model.planning.plan import Plan
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+
+
+def compile_plan(setup: Setup) -> Plan:
+    """Import and build the effects that a scene names, with keys of its own or in tables."""
+    plan = Plan({})
+    for name, make in _makers(setup).items():
+        plan.effects[name] = plan.timed(name, make)
+    if setup.kinematics.finite:
+        _check_finite(plan)
+    return plan.connected()
+
+
+def _check_finite(plan: Plan) -> None:
+    """Refuse effects that count on axes that turn with bodies.
+
+    Raises
+    ------
+    FormulationError
+        All of them, one line each.
+    """
+    found = [(name, effect.with_axes) for name, effect in plan.effects.items()]
+    faults = [
+        Fault(
+            "[rotation] update",
+            f'"finite" with {name}: {what}',
+            "effects that follow a body that bends by any angle",
+            'use update = "exact", or leave the effect out',
+        )
+        for name, what in found
+        if what
+    ]
+    if faults:
+        raise FormulationError(*faults)
+
+
+def plan_after(plan: Plan, change: "Change") -> Plan:
+    """Return the plan on the new model: effects follow, and those newly named are built."""
+    makers = _makers(change.setup)
+    for name, effect in plan.effects.items():
+        if effect.stays or name in makers:
+            own = replace(change, setup=with_table(change.setup, name))
+            makers[name] = partial(effect.follow, own)
+    new = Plan({}, plan.seconds)
+    for name, make in makers.items():
+        new.effects[name] = effect = new.timed(name, make)
+        if name not in plan.effects and defines(effect, "put_in"):
+            effect.put_in(change.state)
+    new.connected()
+    heirs = new.having("take_over")
+    if heirs and plan.supports is not None:
+        left = plan.supports.left(change, new.stresses)
+        for effect in heirs:
+            effect.take_over(left)
+    return new
+
+
+def _makers(setup: Setup) -> dict[str, Callable[[], Effect]]:
+    """Return what builds the effects that a scene names, in the order of the table."""
+    kinds = [EFFECTS.load(name) for name, wanted in called_for(setup.scene).items() if wanted]
+    if piece_glue(setup.formulation.cover) is not None:
+        kinds.append(EFFECTS.load(GLUE))
+    makers: dict[str, Callable[[], Effect]] = {
+        kind.name: partial(kind.from_setup, setup) for kind in kinds
+    }
+    return makers | {OWN + name: partial(make_own, setup, name) for name in setup.scene.effects}
