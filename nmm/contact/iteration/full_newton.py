@@ -33,20 +33,21 @@ def newton_in_full(
 
 @compiled
 def _newton(increment: Floats, springs: SpringColumns, tolerance: float, budget: int) -> Any:
-    """Newton steps while each halves the out-of-balance force; -1 steps where a pivot vanishes."""
-    force, size = residual(increment, springs)
-    taken = 0
+    """Newton steps while each halves the force, or two do; -1 steps where a pivot vanishes."""
+    rest, size = residual(increment, springs)
+    taken, at, risen = 0, increment, False
     while taken < budget and size > tolerance:
-        matrix = _matrix(increment, springs)
-        step, regular = _solved(matrix, force)
+        step, regular = _solved(_matrix(at, springs), rest)
         if not regular:
             return increment, size, -1
-        taken += 1
-        tried = increment - step
-        rest, left = residual(tried, springs)
-        if not left < 0.5 * size:
+        at, taken = at - step, taken + 1
+        rest, left = residual(at, springs)
+        halved = left < 0.5 * size
+        if not halved and (risen or not np.isfinite(left)):
             break
-        increment, force, size = tried, rest, left
+        risen = not halved
+        if halved:
+            increment, size = at, left
     return increment, size, taken
 
 

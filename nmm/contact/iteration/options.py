@@ -168,7 +168,7 @@ class WayOptions:
     trial: float = above_zero(60.0)
     finish: float = above_zero(100.0)
     near: float = above_zero(120.0)
-    nearness: float = above_zero(1e-3)
+    nearness: float = above_zero(5e-3)
     longest: int = above_zero(16)
 
 
@@ -210,7 +210,7 @@ class InteriorOptions:
 
     boundary: float = above_zero(0.995)
     jam: float = 0.1
-    corrections: int = 2
+    corrections: int = 1
     reach: float = 0.3
     gain: float = 0.03
     spread: float = above_zero(10.0)

@@ -1,5 +1,7 @@
 """Semismooth Newton on Coulomb's law: fast near a solution, not safe far from it."""
 
+import numpy as np
+
 from integration.arrays import Floats
 from nmm.contact.iteration.full_newton import newton_in_full
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
@@ -15,7 +17,9 @@ def polish(
     tolerance: float,
     budget: int = 8,
 ) -> IterationResult:
-    """Take full Newton steps while each halves the out-of-balance force.
+    """Take full Newton steps while each halves the out-of-balance force, or two together do.
+
+    The step that sets the last wrong states right may raise the force before the next ends it.
 
     The tangent of a sliding contact follows the bound: its shear force changes with the normal
     force by the friction coefficient (Alart, Curnier 1991), so the matrix is unsymmetric and
@@ -28,15 +32,17 @@ def polish(
         if full is not None:
             return _result(springs, *full)
     residual = springs.residual(increment)
-    taken = 0
+    taken, at, rest, risen = 0, increment, residual, False
     while taken < budget and residual.size > tolerance:
-        matrix = pattern.matrix(problem, *springs.tangent(increment))
-        step = linear.factorise(matrix).refined(residual.force)
-        taken += 1
-        found = springs.residual(increment - step)
-        if not found.size < 0.5 * residual.size:
+        matrix = pattern.matrix(problem, *springs.tangent(at))
+        at = at - linear.factorise(matrix).refined(rest.force)
+        taken, rest = taken + 1, springs.residual(at)
+        halved = rest.size < 0.5 * residual.size
+        if not halved and (risen or not np.isfinite(rest.size)):
             break
-        increment, residual = increment - step, found
+        risen = not halved
+        if halved:
+            increment, residual = at, rest
     return _result(springs, increment, residual.size, taken)
 
 

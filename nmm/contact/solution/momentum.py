@@ -11,7 +11,9 @@ from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.motion import State
 from nmm.contact.detection.tolerances import MIDPOINT_GAPS
 from nmm.contact.points.boundary_points import Sides
+from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.midpoint import middle, missing_moments
+from nmm.contact.problem.step_problem import StepAnswer
 from nmm.contact.solution.record import ContactSolution
 from nmm.solvers.unchecked import product
 
@@ -40,25 +42,22 @@ class Momentum:
 
         Gaps are off by about a rotation times a motion; that matters beside the penetrations.
         """
-        acts = solved.answer.normal_force != 0
-        if not acts.any() or not self._of_blocks or self._curved:
+        if not self._of_blocks or self._curved:
             return None
-        half, was = middle(before, after), before if used is None else used
-        deepest = MIDPOINT_GAPS * np.abs(solved.answer.gap[acts]).max()
-        # Most steps turn no body by as much as would matter to those that touch.
-        if self._off(before, was, half, np.arange(len(self._held))) <= deepest:
-            return None
-        edges, touched = self._model.manifold.boundary.body, np.zeros(len(self._held), dtype=bool)
-        for edge in (solved.contacts.edge_a, solved.contacts.edge_b):
-            touched[edges[edge[acts]]] = True
-        return half if self._off(before, was, half, np.flatnonzero(touched)) > deepest else None
+        half = middle(before, after)
+        turn, way = _motion(before, half)
+        turned, moved = (turn, way) if used is None else _motion(used, half)
+        motions = turn, way + turn * self._across, turned, moved
+        return half if _matters(solved.contacts, solved.answer, motions, self._bodies) else None
 
-    def _off(self, before: State, was: State, half: State, body: Ints) -> float:
-        """By how much (m) gaps are off with forces where bodies ``was`` and not half way."""
-        rotation, shift = _largest_motion(before, half, body)
-        rotated, shifted = (rotation, shift) if was is before else _largest_motion(was, half, body)
-        shift += rotation * float(np.sqrt(self._model.manifold.body_area[body].max()))
-        return 2 * (rotated * shift + shifted * rotation)
+    def turns(self, contacts: ContactPoints, way: Floats) -> bool:
+        """Whether a step of ``way`` (n,) turns bodies so far that forces should act half way."""
+        if not self._of_blocks or self._curved:
+            return False
+        whole = product(self._model.rigid_projection, way).reshape(-1, 3)
+        turn, moved = np.abs(whole[:, 2]) / 2, np.hypot(whole[:, 0], whole[:, 1]) / 2
+        motions = turn, moved + turn * self._across, turn, moved
+        return _matters(contacts, contacts, motions, self._bodies)
 
     def kept(
         self, solved: ContactSolution, before: State, after: State, step: float, balance: Floats
@@ -77,6 +76,16 @@ class Momentum:
         acted = product(self._modes_turned, push)
         owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, acted)
         return product(modes, step * self._compliance_of_all * owed.ravel())
+
+    @property
+    def _bodies(self) -> Ints:
+        """(n,) bodies of the boundary edges."""
+        return self._model.manifold.boundary.body
+
+    @cached_property
+    def _across(self) -> Floats:
+        """(B,) how wide bodies are (m)."""
+        return np.sqrt(self._model.manifold.body_area)
 
     @cached_property
     def _of_blocks(self) -> bool:
@@ -101,7 +110,30 @@ class Momentum:
         return np.where(np.repeat(self._held, 3), 0.0, self._compliance_of_all)
 
 
-def _largest_motion(one: State, other: State, body: Ints) -> tuple[float, float]:
-    """Largest rotation (rad) and way of a centre (m) of bodies between two states."""
-    turned = np.abs(other.frames.angle - one.frames.angle)[body].max()
-    return float(turned), float(np.hypot(*(other.frames.centre - one.frames.centre)[body].T).max())
+def _matters(
+    contacts: ContactPoints,
+    found: ContactPoints | StepAnswer,
+    motions: tuple[Floats, Floats, Floats, Floats],
+    body: Ints,
+) -> bool:
+    """Whether gaps are off, with forces not half way, by what counts beside those ``found``.
+
+    ``motions`` of bodies (B,): turns (rad) and ways (m) to half way and to there from where forces
+    act.
+    """
+    acts = found.normal_force != 0
+    deepest = np.abs(found.gap[acts]).max(initial=0.0)
+    turn, way, turned, moved = motions
+    # Most steps turn no body by as much as would matter to any.
+    most = turned.max() * way.max() + moved.max() * turn.max()
+    if not 2 * most > MIDPOINT_GAPS * deepest > 0:
+        return False
+    a, b = body[contacts.edge_a[acts]], body[contacts.edge_b[acts]]
+    turn, way, turned, moved = (np.maximum(one[a], one[b]) for one in motions)
+    return bool(2 * (turned * way + moved * turn).max() > MIDPOINT_GAPS * deepest)
+
+
+def _motion(one: State, other: State) -> tuple[Floats, Floats]:
+    """Rotation (B,) in rad and way of the centre (B,) in m of bodies between two states."""
+    way = other.frames.centre - one.frames.centre
+    return np.abs(other.frames.angle - one.frames.angle), np.hypot(way[:, 0], way[:, 1])

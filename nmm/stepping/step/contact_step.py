@@ -17,6 +17,7 @@ from nmm.contact.detection.tolerances import (
     FURTHER,
     MIDPOINT_SOLUTIONS,
 )
+from nmm.contact.points.midpoint import middle
 from nmm.contact.solution.request import StepRequest
 from nmm.effects.base import Instant
 from nmm.frozen import with_parts
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from nmm.contact.enforcement.null_space import NullSpace
     from nmm.contact.following.path_equation import PathEquation
     from nmm.contact.points.contact_points import ContactPoints
+    from nmm.contact.solution.momentum import Momentum
     from nmm.contact.solution.record import Breaking, ContactSolution
     from nmm.effects.change import Change
     from nmm.effects.contact import Contact
@@ -98,7 +100,8 @@ class Touching:
         contact, state = self.contact, equations.state
         near = self._near(equations, foreseen)
         passes, halves, looks = 0, 0, 0
-        contacts, midpoint = self.candidates(state, reach, equations.step), None
+        contacts = self.candidates(state, reach, equations.step)
+        midpoint = ahead = self._ahead(equations, contacts, contact.momentum)
         crossed: Pairs | None = None
         held = self._conditions(equations)
         while True:
@@ -109,13 +112,13 @@ class Touching:
             good = verdict.converged and result.motion <= self._size and not solved.stopped
             if good and result.motion > reach:
                 reach = FURTHER * result.motion
-                contacts, midpoint = self.candidates(state, reach, equations.step, crossed), None
+                contacts, midpoint = self.candidates(state, reach, equations.step, crossed), ahead
                 continue
             motion = contact.partners.motion(state, result.state) if good else None
             missed = None if motion is None else contact.overlooked(contacts, motion)
             if missed is not None and looks < CROSSING_SOLUTIONS:
                 looks, crossed = looks + 1, _joined(crossed, missed)
-                contacts, midpoint = self.candidates(state, reach, equations.step, crossed), None
+                contacts, midpoint = self.candidates(state, reach, equations.step, crossed), ahead
                 continue
             if good and equations.step is not None and self._mover.kinematics.turns:
                 half = contact.momentum.midpoint(solved, state, result.state, midpoint)
@@ -135,6 +138,26 @@ class Touching:
                 passes=passes,
                 solved=solved,
             )
+
+    def _ahead(
+        self, equations: Equations, contacts: "ContactPoints", momentum: "Momentum"
+    ) -> State | None:
+        """Return where bodies are half way if they go on turning; None where they hardly turn.
+
+        It goes by the state alone, so that a run that is resumed foresees the same.
+        """
+        state, step = equations.state, equations.step
+        if step is None or not self._mover.kinematics.turns:
+            return None
+        flight = step * state.velocity
+        # That of the last step, had its acceleration not changed.
+        last = flight - 0.5 * step**2 * state.acceleration
+        # What rattles neither goes on nor flies: as far as both agree.
+        least = np.minimum(np.abs(last), np.abs(flight))
+        way = np.where(last * flight > 0, np.copysign(least, flight), 0.0)
+        if not momentum.turns(contacts, way):
+            return None
+        return middle(state, self._mover.kinematics.move(self._current.model, state, way))
 
     def along(self, equations: Equations, path: "PathEquation", reach: float) -> Attempt:
         """Solve a step of statics whose load factor is found with the unknowns.

@@ -31,6 +31,19 @@ def test_both_take_the_same_steps_to_the_same_unknowns(seed: int) -> None:
     assert size == pytest.approx(springs.residual(found).size, abs=1e-15)
 
 
+def test_two_steps_together_may_end_what_the_first_alone_makes_worse() -> None:
+    """States that are wrong raise the force when they turn; from where they are right it ends."""
+    ended = 0
+    for seed in range(30):
+        springs = CutSprings.of(random_problem(seed))
+        start = np.random.default_rng(seed).normal(size=len(springs.problem.force)) * 1e-3
+        found = newton_in_full(springs, start, 1e-13, 8)
+        assert found is not None
+        ended += found[1] < 1e-12
+    # Steps that must halve the force each end 4 of them.
+    assert ended >= 20
+
+
 def test_a_matrix_without_inverse_is_left_to_the_solver() -> None:
     problem = random_problem(1)
     n = len(problem.force)
