@@ -1,4 +1,4 @@
-"""Cohesive cracks inside bodies, through nets that know nothing of them."""
+"""A notched beam whose cohesive crack is drawn, or grows."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

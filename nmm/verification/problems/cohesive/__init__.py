@@ -1,0 +1,1 @@
+"""Cohesive cracks inside bodies, through nets that know nothing of them."""
