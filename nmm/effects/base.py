@@ -1,19 +1,23 @@
-"""What an effect is to the step loop, and what it is built from."""
+"""What an effect is to the step loop.
+
+What it is built from (`Setup`) and what it is told of a step are to be had here too, for effects of
+one's own.
+"""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.kinematics import COROTATIONAL, Kinematics
-from nmm.assembly.model import Model
+from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
-from nmm.geometry.geometry import Geometry
+from nmm.effects.given.setup import Acting as Acting
+from nmm.effects.given.setup import Setup as Setup
+from nmm.effects.given.steps import Instant as Instant
+from nmm.effects.given.steps import Span as Span
+from nmm.effects.given.steps import StepForce as StepForce
 from nmm.quantity import MemberSegments, Quantity
 from nmm.scene.fields import Frozen
 
@@ -22,133 +26,6 @@ if TYPE_CHECKING:
     from nmm.effects.event import Event
     from nmm.effects.motion.reactions import Reactions
     from nmm.effects.view import View
-    from nmm.formulation import Formulation
-    from nmm.scene.model import Scene
-
-
-@dataclass(frozen=True)
-class Instant:
-    """The end of the step being solved.
-
-    Attributes
-    ----------
-    time
-        s; in statics the load factor.
-    load_factor
-        Factor on the scaled loads.
-    """
-
-    time: float
-    load_factor: float
-
-    @classmethod
-    def of(cls, state: State) -> Self:
-        """Return the instant at which a state stands."""
-        return cls(state.time, state.load_factor)
-
-
-@dataclass(frozen=True)
-class Span:
-    """How a step weighs the forces at its ends.
-
-    Attributes
-    ----------
-    step
-        Its length (s); None in statics.
-    weight
-        Share of the end of the step.
-    half
-        Whether bodies move with the mean of the velocities at both ends, so that forces between
-        the mean places of two points keep angular momentum.
-    """
-
-    step: float | None
-    weight: float
-    half: bool
-
-
-@dataclass(frozen=True)
-class StepForce:
-    """What an effect does through a step.
-
-    Attributes
-    ----------
-    force
-        (n,) its weighed force on the unknowns.
-    stiffness
-        Makes the matrix (n, n) of about how it falls with the increment (`Effect.symmetric`).
-    memory
-        What the effect remembers if the step is accepted.
-    """
-
-    force: Floats
-    stiffness: Callable[[], csc_array]
-    memory: Mapping[str, Floats] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Acting:
-    """How loads act in a stage: by name, those that ``grows`` in it and those that ``leaves``."""
-
-    grows: frozenset[str] = frozenset()
-    leaves: frozenset[str] = frozenset()
-
-    def share(self, name: str, load_factor: float) -> float:
-        """Return the share of a load at a load factor that grows from 0 to 1 in the stage."""
-        if name in self.grows:
-            return load_factor
-        return 1.0 - load_factor if name in self.leaves else 1.0
-
-
-@dataclass(frozen=True)
-class Setup:
-    """What effects are built from.
-
-    Attributes
-    ----------
-    scene, formulation
-        As read.
-    model
-        Manifold and materials.
-    geometry
-        Blocks and cracks that the manifold covers.
-    region_name, region_material
-        Name and material (index in the scene's order) of each input region.
-    start
-        State at the start of the run.
-    origin
-        (2,) where the axes of model and states lie in those of the scene (m).
-    acting
-        How loads act in a stage; None in scenes without stages.
-    kinematics
-        How bodies move and strain.
-    table
-        What an effect's own ``[effects.NAME]`` says, an `Effect.Table` in the axes of the model;
-        None for effects that have keys of the scene.
-    """
-
-    scene: "Scene"
-    formulation: "Formulation"
-    model: Model
-    geometry: Geometry
-    region_name: tuple[str, ...]
-    region_material: Ints
-    start: State
-    origin: Floats = field(default_factory=lambda: np.zeros(2))
-    table: Any = None
-    acting: Acting | None = None
-    kinematics: Kinematics = COROTATIONAL
-
-    @property
-    def small(self) -> bool:
-        """Whether displacements are small: bodies' axes stay as they are."""
-        return self.kinematics.small
-
-    def regions(self, name: str | None) -> Bools | None:
-        """Return which regions a name means: a block, all blocks of a tessellation, or "all"."""
-        if name is None or name == "all":
-            return None
-        return np.array([one == name or one.startswith(f"{name}.") for one in self.region_name])
 
 
 class Effect(ABC):
@@ -372,11 +249,3 @@ class Effect(ABC):
 def defines(effect: Effect, hook: str) -> bool:
     """Say whether an effect has its own ``hook``."""
     return getattr(type(effect), hook) is not getattr(Effect, hook)
-
-
-def factor_of(history: Sequence[tuple[float, float]] | None, time: float) -> float:
-    """Return the factor of a history of (time, factor) pairs, linear between and held beyond."""
-    if history is None:
-        return 1.0
-    times, factors = np.transpose(history)
-    return float(np.interp(time, times, factors))

@@ -1,9 +1,11 @@
 """How large a scene's load is at an instant."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from nmm.effects.base import Instant, Setup, factor_of
+import numpy as np
+
+from nmm.effects.base import Instant, Setup
 
 if TYPE_CHECKING:
     from nmm.scene.actions import Placed, SupportTable
@@ -34,3 +36,11 @@ def displacement_factor(setup: Setup, support: "SupportTable") -> Callable[[Inst
         alone if loading.scaled == "all" else support.name in loading.scaled
     )
     return lambda end: factor_of(support.history, end.time) * (end.load_factor if scaled else 1.0)
+
+
+def factor_of(history: Sequence[tuple[float, float]] | None, time: float) -> float:
+    """Return the factor of a history of (time, factor) pairs, linear between and held beyond."""
+    if history is None:
+        return 1.0
+    times, factors = np.transpose(history)
+    return float(np.interp(time, times, factors))
