@@ -15,7 +15,7 @@ from nmm.assembly.motion import State
 from nmm.constraints.imposition import Method
 from nmm.constraints.interface import Interface
 from nmm.constraints.linear_matter import check_linear
-from nmm.constraints.shared_edges import gauss_interface, shared_edges, station_interface
+from nmm.constraints.shared_edges import gauss_interface, joint_interface, shared_edges
 from nmm.constraints.springs import Springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.effects.base import Setup
@@ -38,14 +38,14 @@ class ArtificialJoints(TiedInterfaces):
         return cls.of(setup.model, glue, setup.formulation.contact.joint_points, setup.start)
 
     @classmethod
-    def of(cls, model: Model, glue: PieceGlue, stations: str, start: State) -> Self:
+    def of(cls, model: Model, glue: PieceGlue, joint_rule: str, start: State) -> Self:
         """Find the joints.
 
         Parameters
         ----------
         glue
             What they are.
-        stations
+        joint_rule
             Where springs between linear fields act: "corners" (also "auto") or "gauss". Between
             fields that bend they act at as many Gauss points as their degree asks for.
         """
@@ -66,10 +66,10 @@ class ArtificialJoints(TiedInterfaces):
                     'functions with strain: use glue = "springs"'
                 )
             return cls([tie], n)
-        if degree > 1 or stations == "gauss":
+        if degree > 1 or joint_rule == "gauss":
             interface = gauss_interface(model, joints, 2 * max(degree, 1))
         else:
-            interface = station_interface(model, joints, "corners", start)
+            interface = joint_interface(model, joints, "corners", start)
         return cls([Springs(interface, _spring(model, interface, glue.stiffness))], n)
 
 

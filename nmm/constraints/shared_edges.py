@@ -28,10 +28,10 @@ def gauss_interface(model: Model, joints: Joints, order: int = ORDER) -> Interfa
     return _interface(model, joints, joint, points.reshape(-1, 2), weight.ravel())
 
 
-def station_interface(model: Model, joints: Joints, stations: str, start: State) -> Interface:
+def joint_interface(model: Model, joints: Joints, joint_rule: str, start: State) -> Interface:
     """Interface of two points for each joint, at its corners or its Gauss points."""
     surface = sides(model.manifold).surface(start.frames, start.deformation)
-    found = joint_points(surface, joints, stations)
+    found = joint_points(surface, joints, joint_rule)
     return _interface(model, joints, found.joint, found.position, found.length)
 
 

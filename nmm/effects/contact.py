@@ -71,7 +71,7 @@ class Contact(Effect):
             self.laws.makes_joints,
             self.laws.bonded,
             self.laws.initial,
-            parts.stations,
+            parts.joint_rule,
             parts.cracks,
         )
         seamless = parts.mixed & parts.cracks.points(model.manifold, book.points)

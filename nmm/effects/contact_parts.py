@@ -32,7 +32,7 @@ class ContactParts:
     ----------
     laws, partners, enforcement
         Which laws act, which points may meet, and how the laws are made to hold.
-    stations
+    joint_rule
         "corners" or "gauss": where joints act along their edge.
     cracks
         Cracks within bodies whose faces hold together.
@@ -50,7 +50,7 @@ class ContactParts:
     laws: ContactLaws
     partners: Partners
     enforcement: Enforcement
-    stations: str
+    joint_rule: str
     cracks: BondedCracks
     mixed: bool
     held: Bools
@@ -75,10 +75,10 @@ def contact_parts(setup: Setup) -> ContactParts:
         origin=setup.origin,
         whole_faces=means,
     )
-    stations, cracks = _stations(method, laws), _cracks(setup)
+    joint_rule, cracks = _joint_rule(method, laws), _cracks(setup)
     held, bends = _held(setup), points > 2
     mixed = setup.scene.inertia is None and not enforcement.exact
-    return ContactParts(laws, partners, enforcement, stations, cracks, mixed, held, bends, means)
+    return ContactParts(laws, partners, enforcement, joint_rule, cracks, mixed, held, bends, means)
 
 
 def _conserves(setup: Setup) -> bool:
@@ -94,7 +94,7 @@ def _cracks(setup: Setup) -> BondedCracks:
     return BondedCracks(geometry.held, others, MOVED * setup.model.cut.crack_tolerance)
 
 
-def _stations(method: ContactMethod, laws: ContactLaws) -> str:
+def _joint_rule(method: ContactMethod, laws: ContactLaws) -> str:
     """Return where joints act along their edge."""
     auto = "gauss" if laws.consistent else "corners"
     return auto if method.joint_points == "auto" else method.joint_points

@@ -195,8 +195,8 @@ def test_resultants_and_residual_do_not_depend_on_the_penalty(form, penalty):
 
 
 @every
-@pytest.mark.parametrize(("stations", "arm"), [("corners", 2.0), ("gauss", 2 * np.sqrt(3.0))])
-def test_a_bond_pulled_off_its_middle_fails_by_the_rule_of_its_springs(form, stations, arm):
+@pytest.mark.parametrize(("joint_rule", "arm"), [("corners", 2.0), ("gauss", 2 * np.sqrt(3.0))])
+def test_a_bond_pulled_off_its_middle_fails_by_the_rule_of_its_springs(form, joint_rule, arm):
     """Benchmark B31: F = ft A / (1 + arm e / B), bracketed within 1e-3."""
     bond = {"cohesion": 1e8, "tensile_strength": 1e6, "bonded": True}
     springs = {"normal_stiffness": 1e11, "shear_stiffness": 1e11}
@@ -213,7 +213,7 @@ def test_a_bond_pulled_off_its_middle_fails_by_the_rule_of_its_springs(form, sta
             ],
         )
     )
-    contact = {"joint_points": stations, "enforcement": "penalty" if form == "dda" else form}
+    contact = {"joint_points": joint_rule, "enforcement": "penalty" if form == "dda" else form}
     loading = {"increment": 4.0, "tolerance": 1e-3}
     method = Formulation.model_validate({"contact": contact, "loading": loading})
     found = run(scene, method).summary

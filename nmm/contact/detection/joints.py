@@ -15,7 +15,7 @@ from nmm.errors import FormulationError
 
 # Where the two points of a joint stand, as fractions of its length, and why: at the corners the
 # bond opens where an open-close iteration looks; at the Gauss points a linear stress is exact.
-_STATIONS = {"corners": (0.0, 1.0), "gauss": (0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0))}
+_RULES = {"corners": (0.0, 1.0), "gauss": (0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0))}
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,21 +126,21 @@ def find_joints(
 
 
 def joint_points(
-    surface: Surface, joints: Joints, stations: Literal["corners", "gauss"] | str = "corners"
+    surface: Surface, joints: Joints, joint_rule: Literal["corners", "gauss"] | str = "corners"
 ) -> JointPoints:
     """Two points for each joint, at its corners or its Gauss points, on the surface as it is now.
 
     Raises
     ------
     FormulationError
-        Unknown name of the stations.
+        Unknown name of the rule.
     """
-    if stations not in _STATIONS:
+    if joint_rule not in _RULES:
         raise FormulationError(
-            f"contact.joint_points: {stations!r}: expected one of {', '.join(_STATIONS)}: "
+            f"contact.joint_points: {joint_rule!r}: expected one of {', '.join(_RULES)}: "
             "correct the name"
         )
-    at = np.array(_STATIONS[stations])
+    at = np.array(_RULES[joint_rule])
     joint = np.repeat(np.arange(len(joints)), 2)
     a, b = joints.edge_a[joint], joints.edge_b[joint]
     s, t = (

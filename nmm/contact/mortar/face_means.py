@@ -46,9 +46,9 @@ class FaceMeans(Transform):
     nearest: Ints
 
     @classmethod
-    def of(cls, contacts: ContactPoints, surface: Surface, traces: TraceSpace) -> Self | None:
+    def of(cls, contacts: ContactPoints, surface: Surface, space: TraceSpace) -> Self | None:
         """Return the functions of the runs of faces among contacts; None without any."""
-        found = functions_along(contacts, surface, traces)
+        found = functions_along(contacts, surface, space)
         if not len(found.point):
             return None
         m = len(contacts)

@@ -37,7 +37,7 @@ class Entries:
     value: Floats
 
 
-def functions_along(contacts: ContactPoints, surface: Surface, traces: TraceSpace) -> Entries:
+def functions_along(contacts: ContactPoints, surface: Surface, space: TraceSpace) -> Entries:
     """Return the functions at the contact points that stand for a length of a face.
 
     Points of joints and mere vertices have none.
@@ -46,36 +46,36 @@ def functions_along(contacts: ContactPoints, surface: Surface, traces: TraceSpac
     if not len(points):  # bodies apart, or at corners alone
         return Entries(points, points, np.zeros(0))
     some = contacts.take(points)
-    at, face, other = _sides(some, surface, traces)
+    at, face, other = _sides(some, surface, space)
     order = np.lexsort((at, some.interface, other, face))
     at, who = at[order], np.stack([face, other, some.interface])[:, order]
-    step = np.diff(traces.node)
-    interval = step[np.clip(np.searchsorted(traces.node, at, "right") - 1, 0, len(step) - 1)]
+    step = np.diff(space.node)
+    interval = step[np.clip(np.searchsorted(space.node, at, "right") - 1, 0, len(step) - 1)]
     new = np.ones(len(at), dtype=bool)
     new[1:] = (who[:, 1:] != who[:, :-1]).any(axis=0)
     new[1:] |= np.diff(at) > RUN_APART * np.maximum(interval[1:], interval[:-1])
-    found = _hats(at, new, traces.node)
+    found = _hats(at, new, space.node)
     return Entries(points[order][found.point], found.function, found.value)
 
 
-def _sides(some: ContactPoints, surface: Surface, traces: TraceSpace) -> tuple[Floats, Ints, Ints]:
+def _sides(some: ContactPoints, surface: Surface, space: TraceSpace) -> tuple[Floats, Ints, Ints]:
     """Where (m,) points are on the face that gives the nodes, that face, and the other."""
-    a, b, before = some.edge_a, some.edge_b, traces.previous[some.edge_a]
+    a, b, before = some.edge_a, some.edge_b, space.previous[some.edge_a]
     # A corner belongs to the face that looks at the other body.
     looks = dot(surface.normal[a], some.normal) <= dot(surface.normal[before], some.normal)
     own = (some.parameter_a > 0) | looks
     edge_a = np.where(own, a, before)
     at = np.stack(
-        [traces.on(edge_a, np.where(own, some.parameter_a, 1.0)), traces.on(b, some.parameter_b)]
+        [space.on(edge_a, np.where(own, some.parameter_a, 1.0)), space.on(b, some.parameter_b)]
     )
-    face = np.stack([traces.face[edge_a], traces.face[b]])
-    soft = np.stack([traces.softness[edge_a], traces.softness[b]])
-    giver = np.where(_first_follows(at, face, soft, traces), 0, 1)
+    face = np.stack([space.face[edge_a], space.face[b]])
+    soft = np.stack([space.softness[edge_a], space.softness[b]])
+    giver = np.where(_first_follows(at, face, soft, space), 0, 1)
     m = np.arange(len(giver))
     return at[giver, m], face[giver, m], face[1 - giver, m]
 
 
-def _first_follows(at: Floats, face: Ints, soft: Floats, traces: TraceSpace) -> Bools:
+def _first_follows(at: Floats, face: Ints, soft: Floats, space: TraceSpace) -> Bools:
     """Whether the first of the sides (2, m) follows a pressure more easily.
 
     That is the face with more nodes to its modulus over all points that the two faces share; of
@@ -93,7 +93,7 @@ def _first_follows(at: Floats, face: Ints, soft: Floats, traces: TraceSpace) -> 
         least, most = np.full(n, np.inf), np.full(n, -np.inf)
         np.minimum.at(least, pair, where)
         np.maximum.at(most, pair, where)
-        count = np.subtract(*np.searchsorted(traces.node, np.stack([most, least])))
+        count = np.subtract(*np.searchsorted(space.node, np.stack([most, least])))
         compliance.append((1 + count) * np.bincount(pair, give, n) / np.bincount(pair, minlength=n))
     # Equal but for rounding is equal.
     return np.asarray((compliance[0] >= (1 - SAME_COMPLIANCE) * compliance[1])[pair] != turned)

@@ -187,11 +187,11 @@ def _even(surface: Surface, corner: Ints) -> Bools:
 
 def _inside(surface: Surface, overlaps: Overlaps, points: int) -> FaceContacts:
     """Points inside overlaps; the key counts them after all pairs of a vertex and an edge."""
-    stations, weights = (np.array(part[1:-1]) for part in LOBATTO[points])
-    inner, n = len(stations), len(surface)
+    places, weights = (np.array(part[1:-1]) for part in LOBATTO[points])
+    inner, n = len(places), len(surface)
     a, b = np.repeat(overlaps.a, inner), np.repeat(overlaps.b, inner)
     s, t = (
-        (on[:, :1] + stations * (on[:, 1:] - on[:, :1])).ravel()
+        (on[:, :1] + places * (on[:, 1:] - on[:, :1])).ravel()
         for on in (overlaps.on_a, overlaps.on_b)
     )
     which = np.tile(np.arange(inner), len(overlaps.a))

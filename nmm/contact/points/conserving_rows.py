@@ -35,17 +35,17 @@ def conserving_rows(
     contacts: ContactPoints,
     sides: Sides,
     states: tuple[State, State],
-    stations: JointSites | None = None,
+    sites: JointSites | None = None,
 ) -> ContactRows:
     """Return the rows of contacts between two states of bodies whose axes do not turn.
 
-    Contacts act on chords, or at all their ``stations``.
+    Contacts act on chords, or at all their ``sites``.
     """
     joint, edges = contacts.is_joint, (contacts.edge_a, contacts.edge_b)
     point = sides.at(contacts.edge_a, contacts.parameter_a)
     foot = sides.at(contacts.edge_b, np.where(joint, contacts.parameter_b, 0.0))
-    if stations is not None:
-        point, foot = stations.a, stations.b
+    if sites is not None:
+        point, foot = sites.a, sites.b
     vectors = [(sides.end.take(edge), sides.start.take(edge)) for edge in edges]
     shares = EdgeShares.of(contacts, sides.length)
     along_a, along_b = (_between(*vector, states) for vector in vectors)

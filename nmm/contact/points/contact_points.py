@@ -122,23 +122,23 @@ def rows(
     sides: Sides,
     frames: Frames,
     n_unknowns: int,
-    stations: "JointSites | None" = None,
+    sites: "JointSites | None" = None,
     more: tuple[Floats, Floats] | None = None,
 ) -> tuple[csr_array, csr_array]:
     """Return the normal and tangent rows (m, n_unknowns): ``gap += N d``, ``slip += T d``.
 
-    Both have the same sorted pattern. Joints act at their ``stations``, or on chords without.
+    Both have the same sorted pattern. Joints act at their ``sites``, or on chords without.
     ``more`` (m, 2 L) is added to what the unknowns of sides a and b do.
     """
     from nmm.contact.points.rows import side_rows
 
     columns, *values = side_rows(
-        sides.start.rows.unknowns if stations is None else stations.unknowns,
-        sides.start.rows.values if stations is None else stations.start,
-        sides.end.rows.values if stations is None else stations.end,
+        sides.start.rows.unknowns if sites is None else sites.unknowns,
+        sides.start.rows.values if sites is None else sites.start,
+        sides.end.rows.values if sites is None else sites.end,
         frames.rotation,
-        sides.start.body if stations is None else stations.body,
-        (contacts.edge_a, contacts.edge_b) if stations is None else stations.rows_of(contacts),
+        sides.start.body if sites is None else sites.body,
+        (contacts.edge_a, contacts.edge_b) if sites is None else sites.rows_of(contacts),
         (contacts.parameter_a, contacts.parameter_b),
         contacts.normal,
     )

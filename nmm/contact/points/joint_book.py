@@ -137,7 +137,7 @@ def follow_joints(
     makes_joints: Bools,
     bonded: Bools,
     initial: Callable[[Ints, Bools], History],
-    stations: str,
+    joint_rule: str,
     cracks: BondedCracks,
 ) -> JointBook:
     """Follow the stretches of edges that two bodies share, or two faces of a bonded crack.
@@ -152,7 +152,7 @@ def follow_joints(
         (n,) which interfaces make joints, and hold them together.
     initial
         From interfaces (m,) and bonds that hold to what their laws remember at first.
-    stations
+    joint_rule
         "corners" or "gauss": where joints act along their edge.
     cracks
         Those within bodies whose faces hold together.
@@ -168,7 +168,7 @@ def follow_joints(
     wanted = (interface >= 0) & makes_joints[np.maximum(interface, 0)]
     joints, interface = joints.take(wanted), interface[wanted]
     distance = _distance(model, joints)
-    points = joint_points(surface, joints, stations)
+    points = joint_points(surface, joints, joint_rule)
     m = len(points)
     vertex, edge, joint = joint_ends(surface, joints)
     zeros = np.zeros(m)

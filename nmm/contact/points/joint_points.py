@@ -42,7 +42,7 @@ class JointSites:
 
     @classmethod
     def of(cls, sides: Sides, points: ContactPoints) -> Self | None:
-        """Return the stations of joints; None without joints or where fields are linear."""
+        """Return the sites of joints; None without joints or where fields are linear."""
         if not len(points):
             return None
         both = []
@@ -73,7 +73,7 @@ class JointSites:
 
     @classmethod
     def at(cls, sides: Sides, contacts: ContactPoints) -> Self:
-        """Return the stations of all contacts of a step, joints or not."""
+        """Return the sites of all contacts of a step, joints or not."""
         a = _material(sides, contacts.edge_a, contacts.parameter_a)
         b = _material(sides, contacts.edge_b, contacts.parameter_b)
         width = max(a.rows.unknowns.shape[1], b.rows.unknowns.shape[1])

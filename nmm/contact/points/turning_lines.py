@@ -18,7 +18,7 @@ from nmm.contact.points.joint_points import JointSites
 
 
 def line_turns(
-    contacts: ContactPoints, sides: Sides, state: State, stations: JointSites | None, width: int
+    contacts: ContactPoints, sides: Sides, state: State, sites: JointSites | None, width: int
 ) -> tuple[Floats, Floats] | None:
     """Return what to add to normal and tangent rows (m, 2 L) of contacts; None without joints.
 
@@ -38,7 +38,7 @@ def line_turns(
         rows = sides.turns(edge)
         local = state.frames.to_body(sides.start.body[edge], normal)
         turn[:, k, : rows.shape[2]] = share / stretch * np.einsum("mcl,mc->ml", rows, local)
-    apart = _apart(contacts, joints, sides, state, stations)
+    apart = _apart(contacts, joints, sides, state, sites)
     found = np.zeros((2, len(contacts), 2 * width))
     for k, (axis, sign) in enumerate(((tangents(normal), 1.0), (normal, -1.0))):
         lever = sign * np.einsum("ij,ij->i", apart, axis)
@@ -51,13 +51,13 @@ def _apart(
     joints: ContactPoints,
     sides: Sides,
     state: State,
-    stations: JointSites | None,
+    sites: JointSites | None,
 ) -> Floats:
     """Where sides a of joints are from their sides b (k, 2)."""
     place = state.frames, state.deformation
-    if stations is None:
+    if sites is None:
         one = sides.at(joints.edge_a, joints.parameter_a).place(*place)
         return np.asarray(one - sides.at(joints.edge_b, joints.parameter_b).place(*place))
-    if stations.whole:
-        return stations.apart(contacts, *place)[contacts.is_joint]
-    return stations.apart(joints, *place)
+    if sites.whole:
+        return sites.apart(contacts, *place)[contacts.is_joint]
+    return sites.apart(joints, *place)

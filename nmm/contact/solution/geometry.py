@@ -38,18 +38,18 @@ class ContactGeometry:
         self, model: Model, sides: Sides, joints: ContactPoints, bends: bool, means: bool
     ) -> None:
         self.model, self.sides, self.bends = model, sides, bends
-        self.traces = TraceSpace.of(sides, model.modulus) if means else None
-        self._stations = JointSites.of(sides, joints)
+        self.trace_space = TraceSpace.of(sides, model.modulus) if means else None
+        self._sites = JointSites.of(sides, joints)
 
     @property
     def curved(self) -> bool:
         """Whether any contact acts at a point of the material instead of on a chord."""
-        return self.bends or self._stations is not None
+        return self.bends or self._sites is not None
 
     @property
     def conserves(self) -> bool:
         """Whether all contacts act on chords, or none: see `conserving`."""
-        return self.bends or self._stations is None
+        return self.bends or self._sites is None
 
     def rows(
         self, contacts: ContactPoints, state: State, midpoint: State | None = None
@@ -58,11 +58,11 @@ class ContactGeometry:
         if midpoint is not None:
             given = contacts, self.sides, self.model, state, midpoint
             return midpoint_rows(*given, self._projection)
-        stations = JointSites.at(self.sides, contacts) if self.bends else self._stations
+        sites = JointSites.at(self.sides, contacts) if self.bends else self._sites
         n_unknowns = self.model.manifold.n_unknowns
-        width = (self.sides.start.rows if stations is None else stations).unknowns.shape[1]
-        more = line_turns(contacts, self.sides, state, stations, width)
-        found = rows(contacts, self.sides, state.frames, n_unknowns, stations, more)
+        width = (self.sides.start.rows if sites is None else sites).unknowns.shape[1]
+        more = line_turns(contacts, self.sides, state, sites, width)
+        found = rows(contacts, self.sides, state.frames, n_unknowns, sites, more)
         return ContactRows(*found, contacts.normal)
 
     @cached_property
@@ -73,15 +73,15 @@ class ContactGeometry:
         """Return the rows of contacts between two states of bodies whose axes do not turn."""
         from nmm.contact.points.conserving_rows import conserving_rows
 
-        stations = JointSites.at(self.sides, contacts) if self.bends else None
-        return conserving_rows(contacts, self.sides, (before, after), stations)
+        sites = JointSites.at(self.sides, contacts) if self.bends else None
+        return conserving_rows(contacts, self.sides, (before, after), sites)
 
     def faces(self, state: State, surface: Surface) -> JointFaces:
         """Return the faces of joints in a state, and how far apart they are."""
-        if self._stations is None:
+        if self._sites is None:
             return JointFaces(surface, self.sides.length, partial(apart_on, surface))
         frames, bent = state.frames, state.deformation
-        apart = partial(self._stations.apart, frames=frames, deformation=bent)
+        apart = partial(self._sites.apart, frames=frames, deformation=bent)
         return JointFaces(surface, self.sides.length, apart)
 
     def gaps(self, points: ContactPoints, state: State) -> Floats:
@@ -93,4 +93,6 @@ class ContactGeometry:
 
     def face_means(self, contacts: ContactPoints, surface: Surface) -> FaceMeans | None:
         """Return how exact conditions on faces of meshes are held in the mean; None elsewhere."""
-        return None if self.traces is None else FaceMeans.of(contacts, surface, self.traces)
+        return (
+            None if self.trace_space is None else FaceMeans.of(contacts, surface, self.trace_space)
+        )

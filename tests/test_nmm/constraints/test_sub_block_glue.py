@@ -40,14 +40,14 @@ def side(model: Model, axis: int, value: float, order: int = 8) -> Place:
     return on_edges(model.manifold, np.abs(middle - value) < 1e-9, order)
 
 
-def glue(model: Model, kind: str, stations: str = "corners") -> ArtificialJoints:
+def glue(model: Model, kind: str, joint_rule: str = "corners") -> ArtificialJoints:
     start = initial_state(model.manifold)
-    return ArtificialJoints.of(model, PieceGlue(kind, 100.0), stations, start)
+    return ArtificialJoints.of(model, PieceGlue(kind, 100.0), joint_rule, start)
 
 
-@pytest.mark.parametrize("stations", ["corners", "gauss"])
+@pytest.mark.parametrize("joint_rule", ["corners", "gauss"])
 @pytest.mark.parametrize("degree", [1, 2, 3])
-def test_a_uniform_traction_stays_uniform_through_springs(degree: int, stations: str) -> None:
+def test_a_uniform_traction_stays_uniform_through_springs(degree: int, joint_rule: str) -> None:
     model = sub_blocks("quads", degree, 0.25)
     size = 0.25
     rollers = [
@@ -55,7 +55,7 @@ def test_a_uniform_traction_stays_uniform_through_springs(degree: int, stations:
         for axis, held in ((0, (True, False)), (1, (False, True)))
     ]
     pull = traction(model, side(model, 0, 1.0), lambda p, n: n)
-    found = equilibrium(model, [*rollers, glue(model, "springs", stations), pull])
+    found = equilibrium(model, [*rollers, glue(model, "springs", joint_rule), pull])
     rule = polygon_rule(model.manifold.elements, 4)
     stress = stresses(model, found.state.deformation, rule)
     np.testing.assert_allclose(stress, np.tile([1.0, 0.0, 0.0], (len(stress), 1)), atol=1e-9)

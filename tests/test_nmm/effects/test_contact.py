@@ -316,8 +316,8 @@ def test_a_jointed_column_shortens_by_its_blocks_and_its_joints():
     assert way == pytest.approx(-1e6 * (4 / 1e10 + 3 / 1e9), rel=1e-3)
 
 
-@pytest.mark.parametrize(("stations", "arm"), [("corners", 2.0), ("gauss", 2 * np.sqrt(3.0))])
-def test_a_bond_pulled_off_its_middle_fails_by_the_rule_of_its_springs(stations, arm):
+@pytest.mark.parametrize(("joint_rule", "arm"), [("corners", 2.0), ("gauss", 2 * np.sqrt(3.0))])
+def test_a_bond_pulled_off_its_middle_fails_by_the_rule_of_its_springs(joint_rule, arm):
     """F = ft A / (1 + arm e / B): two springs at the corners or the Gauss points (B31)."""
     load = {"name": "l", "kind": "point", "point": [0.7, 1.0], "force": [0, 1e5]}
     bond = {"friction_angle": 0.5, "cohesion": 1e8, "tensile_strength": 1e6, "bonded": True}
@@ -332,7 +332,7 @@ def test_a_bond_pulled_off_its_middle_fails_by_the_rule_of_its_springs(stations,
         "loading": {"until": "failure"},
         "contact": {},
     }
-    found = run(Scene.model_validate(scene), steps(0.5, tolerance=1e-3, joint_points=stations))
+    found = run(Scene.model_validate(scene), steps(0.5, tolerance=1e-3, joint_points=joint_rule))
     expected = 1e6 / (1 + arm * 0.2)
     assert found.summary.failure_load == pytest.approx(expected, rel=3e-3)
 

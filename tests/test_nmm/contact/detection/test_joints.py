@@ -101,8 +101,8 @@ def test_faces_of_a_crack_in_one_body_are_paired_only_on_request():
 def test_gauss_points_integrate_a_linear_stress_exactly_and_corners_carry_half_each():
     surface = scene(rectangle(0, 0, 2, 1), rectangle(0, 1, 2, 1))
     joints = find_joints(surface)
-    for stations in ("corners", "gauss"):
-        points = joint_points(surface, joints, stations)
+    for joint_rule in ("corners", "gauss"):
+        points = joint_points(surface, joints, joint_rule)
         np.testing.assert_array_equal(points.length, [1.0, 1.0])
         np.testing.assert_allclose(points.gap, 0.0, atol=1e-15)
         np.testing.assert_allclose(points.position[:, 0].sum(), 2.0, rtol=1e-15)
@@ -121,7 +121,7 @@ def test_joint_points_follow_the_surface_and_measure_its_opening():
     np.testing.assert_allclose(points.gap, 1e-3, rtol=1e-12)
 
 
-def test_unknown_stations_are_refused_by_name():
+def test_unknown_joint_rules_are_refused_by_name():
     surface = brick_wall(1, 2)
     with pytest.raises(FormulationError, match="simpson"):
         joint_points(surface, find_joints(surface), "simpson")

@@ -47,7 +47,7 @@ def faces(kind, degree, **options):
     contact = simulation.stepper.plan.contact
     state = initial_state(simulation.stepper.model.manifold)
     found = contact.candidates(state, 1e-6)
-    weak = FaceMeans.of(found, contact.partners.surface(state), contact.geometry.traces)
+    weak = FaceMeans.of(found, contact.partners.surface(state), contact.geometry.trace_space)
     return found, weak, contact, state
 
 
@@ -87,11 +87,11 @@ def test_forces_of_the_functions_are_determined_where_those_of_points_are_not(ki
 def test_on_a_mesh_that_fits_the_face_places_are_its_nodes(degree):
     fitting = {"net": "", "size": 0.25, "nets": ""}
     _, _, contact, _ = faces("quads", degree, **fitting)
-    edges, traces = contact.geometry.sides.manifold.boundary, contact.geometry.traces
-    assert isinstance(traces, TraceSpace)
+    edges, space = contact.geometry.sides.manifold.boundary, contact.geometry.trace_space
+    assert isinstance(space, TraceSpace)
     # The square has 4 cells a side, the floor 16 x 4: as many intervals as edges.
     assert len(edges) == 16 + 40
-    assert len(traces.node) == len(edges) + 8
+    assert len(space.node) == len(edges) + 8
 
 
 @pytest.mark.parametrize("enforcement", ["lagrange", "augmented", "cone"])
