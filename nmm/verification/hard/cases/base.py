@@ -51,12 +51,15 @@ class HardClass(ABC):
         What is checked, in words.
     share
         Seeds it takes for each that is asked for: more where cases are cheap.
+    listed
+        Whether the page shows it case by case.
     """
 
     name: ClassVar[str]
     title: ClassVar[str]
     oracle: ClassVar[str]
     share: ClassVar[int] = 1
+    listed: ClassVar[bool] = False
 
     @abstractmethod
     def cases(self, seed: int) -> Iterator[HardCase]:

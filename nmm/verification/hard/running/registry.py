@@ -15,6 +15,7 @@ HARD = Registry[type[HardClass]](
         "seams": f"{_HOME}.seams:SeamCases",
         "wedges": f"{_HOME}.wedges:Wedges",
         "slopes": f"{_HOME}.slopes:Slopes",
+        "slope_array": f"{_HOME}.slope_array:SlopeArray",
         "mutations": "nmm.verification.hard.spoilt.mutations:Mutations",
         "heaps": f"{_HOME}.heaps:Heaps",
         "cuts": f"{_HOME}.cuts:Cuts",
