@@ -86,7 +86,7 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
     stepper.seconds["covers"] = built - begun
     stepper.seconds["effects"] = perf_counter() - built
     watched = monitors(setup, all_there=not stages)
-    return Simulation(
+    ready = Simulation(
         scene=asked[0],
         formulation=asked[1],
         regions=regions,
@@ -97,6 +97,11 @@ def _prepared(scene: "Scene", formulation: Formulation) -> Simulation:
         origin=origin,
         stages=stages,
     )
+    if scene.loading is not None and scene.loading.control is not None:
+        from nmm.stepping.control.making import control_of  # no other scene follows a path
+
+        control_of(scene.loading.control, stepper, formulation)
+    return ready
 
 
 def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) -> Staged:

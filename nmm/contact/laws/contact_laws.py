@@ -108,6 +108,18 @@ class ContactLaws:
             after[name] = np.where(tied, column, after[name])
         return after
 
+    def refuse_soft(self, joints: ContactPoints) -> None:
+        """Refuse bonds whose springs are too soft for what their law remembers of them.
+
+        Raises
+        ------
+        SceneError
+            As `InterfaceLaw.evolved` does, which else would be in the middle of a run.
+        """
+        if self.evolving and len(joints):
+            still = np.zeros(len(joints))
+            self.evolved(joints, still, still, self.normal_stiffness(joints))
+
     @cached_property
     def evolving(self) -> dict[str, HistoryColumn]:
         """Columns on which the response of laws hangs within a step."""

@@ -42,8 +42,11 @@ class Ends:
     @classmethod
     def at(cls, setup: Setup, position: Floats, elements: Ints) -> Self:
         """Return ends at positions (m, 2) in elements (m,); -1 is the ground."""
-        points = material_points(setup.model.manifold, np.maximum(elements, 0), position)
-        return cls(points, (elements >= 0).astype(float), position)
+        held, manifold = elements >= 0, setup.model.manifold
+        # Covers need not reach the ground: what stands for its points is a point of a body.
+        reached = np.where(held[:, None], position, manifold.elements.points[0])
+        points = material_points(manifold, np.maximum(elements, 0), reached)
+        return cls(points, held.astype(float), position)
 
     def __len__(self) -> int:
         return len(self.held)

@@ -100,7 +100,7 @@ class Viscous(Elastic):
         gains = (2 * moduli * _share(step / times))[:, None] * (shape - before)[:, None, :]
         variables = {
             "strain_deviator": shape,
-            "branch_stress": (kept + gains).reshape(len(strain), -1),
+            "branch_stress": (kept + gains).reshape(len(strain), 4 * len(times)),
             "stress_zz": stress[:, 3:],
         }
         tangent = np.tile(_tangent(stiff, self.bulk, share), (len(strain), 1, 1))

@@ -119,3 +119,15 @@ def test_nothing_stresses_the_plane_of_plane_stress_across():
 def test_constants_that_make_no_sense_are_refused(make, said):
     with pytest.raises(FormulationError, match=said):
         make()
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_a_material_of_no_block_is_asked_for_no_point(name):
+    """As any law is whose material stands in the file and lies nowhere."""
+    law = LAWS[name]
+    history = {key: np.empty((0, len(value))) for key, value in law.variables("strain").items()}
+    answer = law.update(np.empty((0, 3)), history, "strain", 1.0)
+    assert answer.stress.shape == (0, 3)
+    assert {key: value.shape for key, value in answer.history.items()} == {
+        key: value.shape for key, value in history.items()
+    }

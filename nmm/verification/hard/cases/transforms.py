@@ -64,6 +64,9 @@ def mirrored(scene: Document) -> Document:
             velocity["angular_velocity"] *= -1.0
     for stress in made.get("initial_stresses", []):
         stress["stress"][2] *= -1.0
+    for table in made.get("materials", {}).values():
+        if "axis_angle" in table:
+            table["axis_angle"] *= -1.0
     return made
 
 
@@ -106,7 +109,7 @@ def with_loads_times(scene: Document, factor: float) -> Document:
 def _mapped(key: str, value: Any, place: Map, vector: Map, turn: float) -> Any:
     if isinstance(value, dict):
         return {name: _mapped(name, item, place, vector, turn) for name, item in value.items()}
-    if key in POINTS or key in FORMULATION_POINTS:
+    if key in (*POINTS, *FORMULATION_POINTS) and not isinstance(value, str):
         return place(np.asarray(value, dtype=float)).tolist()
     if key == "holes":
         return [place(np.asarray(ring, dtype=float)).tolist() for ring in value]

@@ -75,7 +75,7 @@ def solid(random: np.random.Generator) -> tuple[Document, float]:
     size = float(10.0 ** random.uniform(-1, 1.5))
     outline, hole = _outline(random, size)
     whole = shapely.Polygon(outline, [hole] if hole is not None else [])
-    pieces = _pieces(whole, random, size)
+    pieces = pieces_of(whole, random, size)
     modulus = float(random.choice(MODULI))
     names = ["soft", "hard"][: 1 + int(len(pieces) > 1)]
     materials = {
@@ -137,7 +137,7 @@ def _outline(random: np.random.Generator, size: float) -> tuple[Floats, Floats |
     return box, None
 
 
-def _pieces(
+def pieces_of(
     whole: shapely.Polygon, random: np.random.Generator, size: float
 ) -> list[shapely.Polygon]:
     """Cut a body by up to two lines; slivers are among what comes out."""

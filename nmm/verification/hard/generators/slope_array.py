@@ -1,8 +1,8 @@
-"""Jointed slopes over friction, step, size, enforcement and integrator: every pair of values once.
+"""Jointed slopes over friction, step, size, enforcement and integrator: every pair of them once.
 
-Twenty-five slopes stand for the 2 500 of the whole product. Row ``(i, j)`` of the array, both of 0 to
-4, takes values ``i``, ``j``, ``i + j``, ``i + 2 j`` and ``i + 3 j`` modulo 5 of its five columns, so
-that of any two columns every pair of values is met exactly once (Bush 1952).
+Twenty-five slopes stand for the 2 500 of the whole product. Row ``(i, j)`` of the array, both of 0
+to 4, takes values ``i``, ``j``, ``i + j``, ``i + 2 j`` and ``i + 3 j`` modulo 5 of its five columns,
+so that of any two columns every pair of values is met exactly once (Bush 1952).
 """
 
 from collections.abc import Iterator
@@ -24,6 +24,7 @@ LEVELS = 5
 FRICTIONS = (0.0, 10.0, 20.0, 35.0, 45.0)
 STEPS = (5e-3, 2e-3, 1e-3, 3e-4, 1e-4)
 SIZES = (40, 60, 100, 200, 400)
+MOST_STEPS = {40: 60, 60: 60, 100: 60, 200: 25, 400: 10}
 
 
 class SlopeArray(HardClass):
@@ -47,7 +48,7 @@ class SlopeArray(HardClass):
         friction, step, count = FRICTIONS[columns[0]], STEPS[columns[1]], SIZES[columns[2]]
         sets = 2 + seed % 2
         scene = slope(sets, count, friction, seed, np.random.default_rng([seed, sets, 37]))
-        steps = int(np.clip(round(0.05 / step), 20, 60 if count <= 100 else 25))
+        steps = int(np.clip(round(0.05 / step), 10, MOST_STEPS[count]))
         heavy = 9.81 if step > 7e-4 else 98.1  # so that corners pass in fewer short steps
         made = with_parts(
             in_time(scene, step, steps, heavy),

@@ -33,7 +33,8 @@ shapely.
 
 def write_page(findings: Sequence[Finding], path: Path, how: str) -> Path:
     """Write the page; ``how`` are the arguments that made the findings."""
-    parts = [HEAD.format(how=how), _classes(findings), _parts(findings), _misses(findings)]
+    tables = (_classes(findings), listed(findings), _parts(findings), _misses(findings))
+    parts = [HEAD.format(how=how), *filter(None, tables)]
     path.write_text("\n".join(parts))
     return path
 
@@ -53,6 +54,31 @@ def _counts(found: Sequence[Finding]) -> str:
     refused = sum(bool(one.fault) and not one.crashed for one in found)
     crashed = sum(one.crashed for one in found)
     return f"{len(found)} | {passed} | {refused} | {crashed}"
+
+
+def listed(findings: Sequence[Finding]) -> str:
+    """Return the cases of classes that are shown one by one, with every figure."""
+    lines: list[str] = []
+    shown = [one for one in findings if HARD.load(one.group).listed]
+    for group, found in _by(shown, lambda one: [one.group]).items():
+        names = list(dict.fromkeys(name for one in found for name in one.checks))
+        lines += [f"## Every case of `{group}`", "", "| case | " + " | ".join(names) + " |"]
+        lines += ["|---" * (len(names) + 1) + "|"]
+        for one in found:
+            cells = [_cell(one, name) for name in names]
+            lines.append(f"| {_short(one.case.label)} | " + " | ".join(cells) + " |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _cell(finding: Finding, name: str) -> str:
+    """Return what was computed, bold where it misses; a statement as yes or no."""
+    check = finding.checks.get(name)
+    if check is None:
+        return _short(finding.fault)
+    statement = check.reference == 1.0 and check.computed in (0.0, 1.0)
+    shown = ("no", "yes")[int(check.computed)] if statement else f"{check.computed:.1e}"
+    return shown if check.passed else f"**{shown}**"
 
 
 def _parts(findings: Sequence[Finding]) -> str:

@@ -28,6 +28,7 @@ HARD = Registry[type[HardClass]](
         "ratios": f"{_HOME}.ratios:Ratios",
         "events": f"{_HOME}.events:Events",
         "solids": f"{_HOME}.random_solids:Solids",
+        "scenes": f"{_HOME}.scenes.scenes:Scenes",
         "features": f"{_HOME}.features:Features",
     },
 )

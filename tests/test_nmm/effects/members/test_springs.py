@@ -55,6 +55,30 @@ def dashpot(viscosity="20 kN s/m", points="[[1, 0.5], [3, 0.5]]"):
     return f'[[dashpots]]\nname = "d"\npoints = {points}\nviscosity = "{viscosity}"\n'
 
 
+HUNG = """
+plane = "strain"
+[materials.m]
+young_modulus = 1e11
+poisson_ratio = 0.2
+density = 2000.0
+[[blocks]]
+name = "b"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[supports]]
+name = "left"
+segment = [[0, 0], [0, 1]]
+fix = ["x"]
+[[springs]]
+name = "rope"
+points = [[0.5, 1], [0.5, 9]]
+blocks = ["b", "ground"]
+stiffness = 1e7
+[gravity]
+[[monitors]]
+name = "o"
+point = [0.5, 1]
+"""
 MASSES = 1000.0, 2000.0
 REDUCED = MASSES[0] * MASSES[1] / sum(MASSES)
 OMEGA = np.sqrt(1e6 / REDUCED)
@@ -214,3 +238,12 @@ def test_springs_keep_what_every_effect_promises(update):
     text = flying(spring(points=OBLIQUE, more="force = 2e3"), spin=1.0)
     scene = nmm.parse_scene(text + f'[formulation.rotation]\nupdate = "{update}"\n')
     check_effect_of(scene, "springs")
+
+
+@pytest.mark.parametrize("cover", ["triangles", "quads", "bspline", "mls"])
+def test_the_end_on_the_ground_may_be_where_no_cover_reaches(cover):
+    """A square that hangs on a spring is stretched by its weight over the stiffness, 1.962 mm."""
+    hung = HUNG + f'[formulation.cover]\ntype = "{cover}"\nsize = 0.6\ndegree = 1\n'
+    run = nmm.run(nmm.parse_scene(hung))
+    # The spring's force over its stiffness; the square's own strain is 1e-5 of that.
+    assert run.history["monitor:o:uy"][-1] == pytest.approx(-2000 * 9.81 / 1e7, rel=1e-3)

@@ -1,0 +1,246 @@
+"""Whether what a run of any scene claims is so, by what needs no answer.
+
+A run that says it has failed, is unbalanced or spent has told; what says it is right is checked.
+"""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.errors import NmmError
+from nmm.verification.base import Check, Checks, holds, limit
+from nmm.verification.hard.cases.base import Document
+from nmm.verification.hard.cases.transforms import with_loads_times
+from nmm.verification.hard.oracles.images import IMAGES, Image, compared
+from nmm.verification.hard.oracles.linear import applied
+from nmm.verification.hard.oracles.motion import (
+    OVERLAP,
+    Ran,
+    energy_checks,
+    overlap,
+    prepared,
+    ran,
+)
+
+if TYPE_CHECKING:
+    from nmm.stepping.run import Run
+
+SURE = ("converged", "failure")
+"""Ends that claim an answer."""
+
+HOLD_ELSEWHERE = (
+    *("springs", "foundations", "dashpots", "viscous_boundaries", "water_pressures", "bars"),
+    *("seepage", "joint_flow", "masses", "initial_stresses", "stages", "splitting", "fracture"),
+    *("cohesive_zones", "free_fields", "strength_reduction"),
+)
+"""Tables whose forces no reaction of a support shows, or whose loads are not those of the file."""
+
+LAWS = ("elastic", "orthotropic")
+
+APART = {"order": 1e-3, "shift": 1e-4, "shift up": 1e-4}
+"""By how much images of contact may differ: it is solved to 1e-8, impacts enlarge that."""
+
+
+class Seen:
+    """How a scene may be looked at a second time."""
+
+    @staticmethod
+    def ways(scene: Document) -> Iterator[str]:
+        """Yield the names of what leaves its answer as it is, or multiplies it."""
+        cover = scene["formulation"]["cover"]["type"]
+        levels = any(key in scene for key in ("seepage", "joint_flow", "water_pressures"))
+        yield from ("again", "mm, N, s", "powers of two", "no weight")
+        yield from () if "contact" in scene or "records" in scene else ("order",)
+        yield from ("shift", "shift up")
+        if not levels and "records" not in scene:
+            yield from ("turn by 37 deg", "mirror") if cover == "block" else ()
+        if linear(scene):
+            yield "times -2.5"
+
+
+def linear(scene: Document) -> bool:
+    """Say whether answers are proportional to loads."""
+    told = ("contact", "bars", "springs", "foundations", "heat", "seepage", "strength_reduction")
+    more = ("water_pressures", "stages", "fracture", "cohesive_zones", "inertia", "duration")
+    law = scene["materials"]["rock"].get("law", "elastic")
+    bent = scene["formulation"].get("rotation", {}).get("update") in ("finite", "exact")
+    pressed = any(load["kind"] == "pressure" for load in scene.get("loads", []))
+    return law in LAWS and not bent and not pressed and not any(key in scene for key in told + more)
+
+
+def sound(scene: Document, way: str) -> Checks:
+    """Run a scene, and see it once more from elsewhere.
+
+    Raises
+    ------
+    NmmError
+        When it is refused before it runs.
+    """
+    prepared(scene)
+    try:
+        found = ran(scene)
+    except NmmError as error:
+        return {"refused before it runs": holds(False, str(error))}
+    checks = _records(found.run) | _named(scene, found.run) | _finite(found.run)
+    if found.run.summary.status in SURE and found.run.history:
+        checks |= _balance(scene, found)
+        checks |= _apart(found.run) if "contact" in scene else {}
+        checks |= _again(scene, found, way)
+    return checks
+
+
+def _finite(run: "Run") -> Checks:
+    """Nothing that is stored of a run that claims an answer is infinite, and no energy missing."""
+    strange = [
+        name
+        for name, column in run.history.items()
+        if np.any(np.isinf(column)) or (name.endswith("_energy") and np.any(np.isnan(column)))
+    ]
+    right = run.summary.status not in SURE or not strange
+    return {"finite": holds(right, ", ".join(strange))}
+
+
+def _told(run: "Run", *names: str) -> bool:
+    return any(name in warning for warning in run.summary.warnings for name in names)
+
+
+def _balance(scene: Document, found: Ran) -> Checks:
+    """Reactions carry the loads, work is stored, energy is not made; or a warning says so."""
+    run, checks = found.run, Checks()
+    timed = "inertia" in scene or "duration" in scene
+    carried = not timed and run.summary.status == "converged"
+    if carried and not any(key in scene for key in HOLD_ELSEWHERE):
+        checks |= _carried(scene, run)
+    if "inertia" in scene and not _brought(scene):
+        checks |= {"a rise is told": energy_checks(found)["a rise is told"]}
+    if not timed and linear(scene):
+        h = run.history
+        stored = sum(float(column[-1]) for name, column in h.items() if name.endswith("_energy"))
+        done = float(h["external_work"][-1])
+        off = abs(done - stored) / max(abs(stored), abs(done), 1e-300)
+        checks["work = energy"] = limit(
+            0.0 if _told(run, "work_not_stored") else off, 1e-5, "linear statics"
+        )
+    return checks
+
+
+def _brought(scene: Document) -> bool:
+    """Say whether something else than loads and weight brings energy."""
+    tables = ("records", "heat", "seepage", "water_pressures", "joint_flow", "initial_stresses")
+    more = ("splitting", "springs", "bars", "fracture", "cohesive_zones", "foundations", "masses")
+    moved = any("displacement" in table for table in scene.get("supports", []))
+    return moved or any(key in scene for key in tables + more)
+
+
+def _carried(scene: Document, run: "Run") -> Checks:
+    """Reactions of supports cancel the loads of the file, resultants worked out from it alone."""
+    loads = [load for load in scene.get("loads", []) if load["kind"] != "moving"]
+    pressed = any(load["kind"] == "pressure" for load in loads)
+    moved = any("displacement" in table for table in scene["supports"])
+    told = _told(run, "residual", "equilibrium", "force")
+    if pressed or moved or told or any("history" in load for load in loads):
+        return {}
+    if not loads and "gravity" not in scene:
+        return {}
+    total, size = applied({**scene, "loads": loads})
+    factor = float(run.history["load_factor"][-1])
+    weight, _ = applied({**scene, "loads": []}) if "gravity" in scene else (np.zeros(2), 0.0)
+    names = [[n for n in run.history if n.startswith("reaction:") and n.endswith(a)] for a in "xy"]
+    held = np.array([sum(float(run.history[n][-1]) for n in names[axis]) for axis in range(2)])
+    off = float(np.abs(held + factor * (total - weight) + weight).max() / (factor * size))
+    return {"equilibrium": Check(off, 0.0, 1e-5, "resultants of the file", 1.0)}
+
+
+def _apart(run: "Run") -> Checks:
+    """Nobody is in anybody, or the run says how deep."""
+    if len(run.topologies) > 1 or _told(run, "penetration", "overlap"):
+        return {}
+    return {"overlap of bodies": limit(overlap(run.frames[-1].points, run), 5 * OVERLAP, "shapely")}
+
+
+def _records(run: "Run") -> Checks:
+    """Summary, history and frames say the same."""
+    if not run.history:
+        return {}
+    last, rows = run.frames[-1], float(len(run.history["step"]))
+    checks = {"steps of the summary": Check(float(run.summary.steps), rows, 0.0, "rows")}
+    if run.summary.status == "converged":
+        off = np.abs(last.points - run.stepper.place(run.state) - run.origin).max()
+        checks["last frame"] = Check(float(off), 0.0, 1e-12, "the last state", _reach(last.points))
+    return checks
+
+
+def _reach(points: Floats) -> float:
+    return float(np.abs(points).max()) or 1.0
+
+
+def _named(scene: Document, run: "Run") -> Checks:
+    """Effects that ran are those whose tables stand in the file."""
+    kinds = {load["kind"] for load in scene.get("loads", [])}
+    bonded = any(table.get("bonded") for table in scene["interfaces"].values())
+    damping = scene.get("damping", {})
+    there = {
+        **{"loads": bool(kinds & {"edge", "point"}), "body loads": "body" in kinds},
+        **{"pressures": "pressure" in kinds, "moving loads": "moving" in kinds},
+        **{"viscous damping": bool({"mass", "stiffness"} & set(damping))},
+        **{"local damping": "local" in damping, "dowels": any("dowel" in b for b in _bars(scene))},
+        **{"bonded interfaces": bonded and "contact" not in scene},
+        **{"initial velocity": "initial_velocities" in scene},
+        **{"initial stress": "initial_stresses" in scene},
+        **{"fracture in time": {"fracture", "inertia"} <= set(scene)},
+    }
+    strange = [
+        name
+        for name in run.summary.effect_seconds
+        if not there.get(name, name.replace(" ", "_") in scene)
+    ]
+    return {"effects nobody named": holds(not strange, ", ".join(strange))}
+
+
+def _bars(scene: Document) -> list[Document]:
+    return list(scene.get("bars", []))
+
+
+def _again(scene: Document, found: Ran, way: str) -> Checks:
+    """Compare with what is seen once more: to the last bit, or to the tolerance of the solution."""
+    first = found.run
+    if way == "again":
+        other = ran(scene).run
+        same = all(
+            np.array_equal(column, other.history.get(name, column[:0]), equal_nan=True)
+            for name, column in first.history.items()
+        )
+        return {"the same bytes": holds(same, "the same scene in the same process")}
+    if way == "times -2.5":
+        return {way: _proportional(first, ran(with_loads_times(scene, -2.5)).run, -2.5)}
+    image = Image(_idle(scene)) if way == "no weight" else IMAGES[way](scene)
+    allowed = APART.get(way, 1e-5) if "contact" in scene else 1e-6
+    try:
+        seen = ran(image.scene).run
+    except NmmError as error:
+        return {way: holds(False, str(error))}
+    if first.summary.status == "converged" != seen.summary.status:
+        return {f"{way}: another verdict": holds(False, seen.summary.sentence)}
+    return {way: compared(first, seen, image, allowed)}
+
+
+def _proportional(first: "Run", other: "Run", factor: float) -> Check:
+    names = [name for name in first.history if name.startswith("monitor:")]
+    ways = np.array([first.history[name][-1] for name in names])
+    there = np.array([other.history[name][-1] for name in names])
+    size = float(np.abs(factor * ways).max()) or 1.0
+    return Check(float(np.abs(there - factor * ways).max()), 0.0, 1e-6, "linearity", size)
+
+
+def _idle(scene: Document) -> Document:
+    """Return a scene that names what has no weight: matter of nothing, a load of no force."""
+    rock, joint = scene["materials"]["rock"], {"friction_angle": 0.3}
+    none = {"name": "none", "kind": "body", "block": "all", "density": [0.0, 0.0]}
+    return {
+        **scene,
+        "materials": {**scene["materials"], "unused": {**rock}},
+        "interfaces": {**scene["interfaces"], "unused": {**joint, "between": ["unused", "unused"]}},
+        "loads": [*scene.get("loads", []), none],
+    }

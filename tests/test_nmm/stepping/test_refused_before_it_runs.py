@@ -1,0 +1,71 @@
+"""What a run would refuse in its midst is refused as it is prepared, so that a check tells it."""
+
+import pytest
+
+from nmm.errors import NmmError
+from nmm.scene import parse_scene
+from nmm.stepping.prepare import prepare
+
+BEAM = """
+plane = "strain"
+[materials.m]
+young_modulus = 1e9
+poisson_ratio = 0.2
+density = 2000.0
+[[blocks]]
+name = "b"
+material = "m"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "c"
+material = "m"
+vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
+[[supports]]
+name = "s"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+[[monitors]]
+name = "o"
+point = [0.5, 1.5]
+[[loads]]
+name = "l"
+kind = "edge"
+segment = [[0, 2], [1, 2]]
+traction = [0, 1e4]
+[contact]
+[interfaces.i]
+friction_angle = 0.5
+tensile_strength = 1e5
+cohesion = 1e5
+bonded = true
+"""
+EVENTS = """[loading]
+until = "failure"
+[loading.control]
+type = "events"
+"""
+SOFTENS = """law = "exponential_softening"
+fracture_energy = 1.0
+normal_stiffness = 5e9
+"""
+
+
+def refusal(text: str) -> str:
+    scene = parse_scene(text)
+    assert scene.formulation is not None
+    with pytest.raises(NmmError) as fault:
+        prepare(scene, scene.formulation)
+    return str(fault.value)
+
+
+@pytest.mark.parametrize("part", ['enforcement = "cone"', 'enforcement = "lagrange"'])
+def test_what_hinders_a_path(part):
+    assert "expected springs" in refusal(f"{BEAM}{EVENTS}[formulation.contact]\n{part}\n")
+
+
+def test_a_spring_of_a_bond_that_is_too_soft_for_its_energy():
+    """Strength squared over energy is 1e10 Pa/m: a softer spring's force falls at a standstill.
+
+    The curve is one of straight pieces, whose steepest falls a little less.
+    """
+    assert "expected above 9.6" in refusal(f"{BEAM}{SOFTENS}[formulation.contact]\n")
