@@ -78,7 +78,7 @@ class Contact(Effect):
         self._bonds = ConsistentBonds.of(model, book.points, self.laws, seamless)
         if self._bonds is not None:
             book = replace(book, points=self._bonds.tied(book.points, self.laws))
-        self.laws.refuse_soft(book.points)
+        self.laws.refuse_soft(book.points.take(~book.points.tied))
         self.record, self._unbonded = ContactRecord(book), book.broken
         self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.means)
         self.momentum = Momentum(model, sides, parts.held, self.geometry.curved)

@@ -38,6 +38,7 @@ SHARE = {
     "ligaments": [["quads degree 1"]],
     "solids": [["block"], ["triangles degree 1"], ["bspline degree 0"], ["mls degree 0"]],
     "steps": [["newmark"]],
+    "scenes": [["block"], ["rigid"]],
     "features": [["events"], ["bars with slip"], ["seasons"], ["standing reactions"]],
 }
 
@@ -72,7 +73,7 @@ RISES = {"rise in a step", "rise in the run"}
 MOMENTA = {"momentum x", "momentum y", "angular momentum"}
 TOLD = {
     **dict.fromkeys(("crossings", "corners", "fans", "heaps"), RISES | MOMENTA),
-    **dict.fromkeys(("wedges", "slopes"), RISES | {"converged"}),
+    **dict.fromkeys(("wedges", "slopes", "slope_array"), RISES | {"converged"}),
     "motions": RISES | MOMENTA | {"other units", "converged"},
     "ratios": {"converged"},
 }

@@ -1,7 +1,7 @@
 """Jointed slopes over friction, step, size, enforcement and integrator: every pair of them once.
 
 Twenty-five slopes stand for the 2 500 of the whole product. Row ``(i, j)`` of the array, both of 0
-to 4, takes values ``i``, ``j``, ``i + j``, ``i + 2 j`` and ``i + 3 j`` modulo 5 of its five columns,
+to 4, takes values ``i``, ``j``, ``i + j``, ``i + 2 j``, ``i + 3 j`` modulo 5 of its five columns,
 so that of any two columns every pair of values is met exactly once (Bush 1952).
 """
 

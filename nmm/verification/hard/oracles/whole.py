@@ -43,21 +43,17 @@ APART = {"order": 1e-3, "shift": 1e-4, "shift up": 1e-4}
 """By how much images of contact may differ: it is solved to 1e-8, impacts enlarge that."""
 
 
-class Seen:
-    """How a scene may be looked at a second time."""
-
-    @staticmethod
-    def ways(scene: Document) -> Iterator[str]:
-        """Yield the names of what leaves its answer as it is, or multiplies it."""
-        cover = scene["formulation"]["cover"]["type"]
-        levels = any(key in scene for key in ("seepage", "joint_flow", "water_pressures"))
-        yield from ("again", "mm, N, s", "powers of two", "no weight")
-        yield from () if "contact" in scene or "records" in scene else ("order",)
-        yield from ("shift", "shift up")
-        if not levels and "records" not in scene:
-            yield from ("turn by 37 deg", "mirror") if cover == "block" else ()
-        if linear(scene):
-            yield "times -2.5"
+def ways(scene: Document) -> Iterator[str]:
+    """Yield the names of what leaves its answer as it is, or multiplies it."""
+    cover = scene["formulation"]["cover"]["type"]
+    levels = any(key in scene for key in ("seepage", "joint_flow", "water_pressures"))
+    yield from ("again", "mm, N, s", "powers of two", "no weight")
+    yield from () if "contact" in scene or "records" in scene else ("order",)
+    yield from ("shift", "shift up")
+    if not levels and "records" not in scene:
+        yield from ("turn by 37 deg", "mirror") if cover == "block" else ()
+    if linear(scene):
+        yield "times -2.5"
 
 
 def linear(scene: Document) -> bool:

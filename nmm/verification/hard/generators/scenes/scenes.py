@@ -9,8 +9,8 @@ import numpy as np
 from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.generators.scenes import acting, bodies, matter
 from nmm.verification.hard.generators.scenes.approximated import formulated
-from nmm.verification.hard.generators.scenes.place import DENSITY, Place, merged
-from nmm.verification.hard.oracles.whole import Seen, sound
+from nmm.verification.hard.generators.scenes.site import DENSITY, Site, merged
+from nmm.verification.hard.oracles.whole import sound, ways
 
 KINDS = {
     **{"rest": 0.36, "time": 0.32, "flight": 0.06, "failure": 0.1},
@@ -45,7 +45,7 @@ class Scenes(HardClass):
         random = np.random.default_rng([seed, 97])
         kind = str(random.choice(list(KINDS), p=list(KINDS.values())))
         scene, parts = _flight(random) if kind == "flight" else _standing(random, kind)
-        seen = str(random.choice(list(Seen.ways(scene))))
+        seen = str(random.choice(list(ways(scene))))
         label = f"seed {seed}, {kind}, {', '.join(parts.values())}, {seen}"
         yield HardCase(label, scene, partial(sound, way=seen), {**parts, "kind": kind})
 
@@ -56,9 +56,9 @@ def _flight(random: np.random.Generator) -> tuple[Document, dict[str, str]]:
     step = float(scene["duration"] / 25)
     names = tuple(table["name"] for table in scene["blocks"])
     ends = names[0], names[-1]
-    place = Place(random, size, 0.5 * size, modulus, step, "time", names, ends)
+    site = Site(random, size, 0.5 * size, modulus, step, "time", names, ends)
     scene = {**scene, "duration": STEPS * step, "formulation": {}}
-    return formulated(scene, place, meshed=False)
+    return formulated(scene, site, meshed=False)
 
 
 def _standing(random: np.random.Generator, kind: str) -> tuple[Document, dict[str, str]]:
@@ -68,19 +68,19 @@ def _standing(random: np.random.Generator, kind: str) -> tuple[Document, dict[st
     names = tuple(table["name"] for table in scene["blocks"])
     width = float(scene["supports"][0]["segment"][1][0])
     ends = _at([0.0, height], scene), _at([width, height], scene)
-    place = Place(random, width, height, modulus, step, kind, names, ends)
-    meshed = _cracks(place) and len(names) == 1
-    scene = merged(merged(scene, matter.materials(place)), matter.joints(place))
+    site = Site(random, width, height, modulus, step, kind, names, ends)
+    meshed = _cracks(site) and len(names) == 1
+    scene = merged(merged(scene, matter.materials(site)), matter.joints(site))
     if meshed:
         scene = bodies.with_a_crack(scene, random)
-    elif kind == "time" and place.seldom(0.3):
+    elif kind == "time" and site.seldom(0.3):
         scene = bodies.with_a_falling_block(scene, height, step, random)
-    if len(scene["blocks"]) > 1 or (meshed and place.seldom(0.5)):
-        scene = merged(scene, {"contact": {}} if place.seldom(0.75) else {})
-    scene = _acted_on(scene, place, meshed)
+    if len(scene["blocks"]) > 1 or (meshed and site.seldom(0.5)):
+        scene = merged(scene, {"contact": {}} if site.seldom(0.75) else {})
+    scene = _acted_on(scene, site, meshed)
     for add in _KINDS.get(kind, ()):
-        scene = merged(scene, add(place))
-    return formulated(scene, place, meshed or "heat" in scene or "seepage" in scene)
+        scene = merged(scene, add(site))
+    return formulated(scene, site, meshed or "heat" in scene or "seepage" in scene)
 
 
 def _at(corner: list[float], scene: Document) -> str:
@@ -88,27 +88,27 @@ def _at(corner: list[float], scene: Document) -> str:
     return next(str(table["name"]) for table in scene["blocks"] if corner in table["vertices"])
 
 
-def _cracks(place: Place) -> bool:
-    return place.kind in ("rest", "time") and place.seldom(0.35)
+def _cracks(site: Site) -> bool:
+    return site.kind in ("rest", "time") and site.seldom(0.35)
 
 
-def _acted_on(scene: Document, place: Place, meshed: bool) -> Document:
+def _acted_on(scene: Document, site: Site, meshed: bool) -> Document:
     chosen = dict(acting.SHARES)
-    if place.moves:
+    if site.moves:
         chosen |= acting.IN_TIME
-        scene = merged(scene, {"inertia": {}, "duration": STEPS * place.step})
-        if place.seldom(0.08):
-            scene = {**scene, **acting.shaken(place)}
+        scene = merged(scene, {"inertia": {}, "duration": STEPS * site.step})
+        if site.seldom(0.08):
+            scene = {**scene, **acting.shaken(site)}
     if meshed:
         chosen["growth"] = (acting.grown, 0.5)
-    elif "contact" in scene and place.kind in ("rest", "time"):
+    elif "contact" in scene and site.kind in ("rest", "time"):
         chosen["splitting"] = (acting.split, 0.08)
         chosen["joint water"] = (acting.joint_water, 0.06)
     for add, share in chosen.values():
-        if place.seldom(share):
-            scene = merged(scene, add(place))
-    if not any(key in scene for key in ACTS) or (place.kind == "failure" and "loads" not in scene):
-        scene = merged(scene, acting.loads(place))
+        if site.seldom(share):
+            scene = merged(scene, add(site))
+    if not any(key in scene for key in ACTS) or (site.kind == "failure" and "loads" not in scene):
+        scene = merged(scene, acting.loads(site))
     return _with_constants(scene)
 
 
@@ -128,42 +128,42 @@ def _with_constants(scene: Document) -> Document:
     return {**scene, "materials": {"rock": rock}, "interfaces": {"joint": joint}}
 
 
-def _creeping(place: Place) -> Document:
-    return {"duration": STEPS * place.step}
+def _creeping(site: Site) -> Document:
+    return {"duration": STEPS * site.step}
 
 
-def _failing(place: Place) -> Document:
+def _failing(site: Site) -> Document:
     """Return a load that grows until failure, along a path in half of them."""
     table: dict[str, Any] = {"until": "failure"}
-    if place.seldom(0.5):
-        last = f"at {place.blocks[-1]}"
-        way = {"monitors": [last], "direction": place.vector(1.0), "end": 1e-3 * place.height}
-        energy = 1e-9 * place.modulus * place.height**2
+    if site.seldom(0.5):
+        last = f"at {site.blocks[-1]}"
+        way = {"monitors": [last], "direction": site.vector(1.0), "end": 1e-3 * site.height}
+        energy = 1e-9 * site.modulus * site.height**2
         table["control"] = [
-            {"type": "displacement", "increment": 2e-4 * place.height, **way},
+            {"type": "displacement", "increment": 2e-4 * site.height, **way},
             {"type": "dissipation", "energy": energy, "end_energy": 5 * energy},
             {"type": "events", "fall": 0.5},
-        ][int(place.random.integers(3))]
+        ][int(site.random.integers(3))]
     else:
         table["maximum_factor"] = 20.0
     return {"loading": table, "contact": {}}
 
 
-def _safe(place: Place) -> Document:
+def _safe(site: Site) -> Document:
     return {"strength_reduction": {"lowest": 0.8, "highest": 2.0, "tolerance": 0.1}}
 
 
-def _staged(place: Place) -> Document:
-    last = place.blocks[-1]
+def _staged(site: Site) -> Document:
+    last = site.blocks[-1]
     stages: list[dict[str, Any]] = [{"name": "one", "loads": []}, {"name": "two"}]
-    if len(place.blocks) > 1:
-        stages[0]["blocks"] = list(place.blocks[:-1])
+    if len(site.blocks) > 1:
+        stages[0]["blocks"] = list(site.blocks[:-1])
         stages[1]["add"] = [last]
-        if place.seldom(0.5):
+        if site.seldom(0.5):
             stages.append({"name": "three", "remove": [last]})
     return {"stages": stages}
 
 
-_KINDS: dict[str, tuple[Callable[[Place], Document], ...]] = {
+_KINDS: dict[str, tuple[Callable[[Site], Document], ...]] = {
     **{"creep": (_creeping,), "failure": (_failing,), "safety": (_safe,), "stages": (_staged,)},
 }

@@ -12,7 +12,7 @@ DENSITY = 2000.0
 
 
 @dataclass(frozen=True)
-class Place:
+class Site:
     """A wall and its measures.
 
     Attributes
