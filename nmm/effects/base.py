@@ -67,6 +67,11 @@ class Effect(ABC):
         return ""
 
     @property
+    def caution(self) -> str:
+        """What is known to spoil answers of it on this model, in words; empty where nothing is."""
+        return ""
+
+    @property
     def resolves(self) -> float | None:
         """Shortest time between samples of what drives it, that steps resolve (s); None is none."""
         return None

@@ -223,11 +223,20 @@ class Simulation(CompiledScene):
             cures=cures(
                 self.stepper.model.manifold, self.stepper.solver, self.stepper.plan.supports
             ),
-            warnings=warnings(self.stepper.model),
+            warnings=self._cautions(),
             seed=seeds[0] if seeds else self.scene.seed,
             scene_hash=scene_hash(self.scene),
             formulation_hash=formulation_hash(self.formulation),
         )
+
+    def _cautions(self) -> list[str]:
+        """Return what is known to spoil answers: of the model, then of its effects."""
+        of_effects = [
+            f"{name}: {effect.caution}"
+            for name, effect in self.stepper.plan.effects.items()
+            if effect.caution
+        ]
+        return warnings(self.stepper.model) + of_effects
 
 
 def _toml(model: "Scene | Formulation") -> str:

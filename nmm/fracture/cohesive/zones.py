@@ -112,6 +112,17 @@ class CohesiveZones(Effect):
         """See `Effect.about`."""
         return f"pieces of {self._table.increment:g} m, stress averaged over {self._length:g} m"
 
+    @property
+    def caution(self) -> str:
+        """See `Effect.caution`: the way of a zone follows a net that is coarser than its means."""
+        size = self._setup.formulation.cover.finest
+        if size is None or size <= self._length:
+            return ""
+        return (
+            f"stress is averaged over {self._length:g} m on cells of {size:g} m: ways of zones "
+            "turn with the net, by up to 4 degrees; take cells no larger than that length"
+        )
+
     def _ahead(self) -> StressMeans:
         """Means of stress ahead of the tips."""
         tips, model = self._setup.model.cut.tips, self._setup.model

@@ -1,0 +1,35 @@
+"""What is known to spoil answers of an effect is told before a run."""
+
+import tomllib
+
+import pytest
+
+from nmm.verification.hard.cases.parts import meshes, with_parts
+from nmm.verification.hard.generators.cuts import SIZE, _bar
+from nmm.verification.hard.generators.features import FEATURES
+from nmm.verification.hard.oracles.motion import prepared
+
+
+@pytest.mark.parametrize(("size", "told"), [(0.25, True), (0.2, False), (0.125, False)])
+def test_cells_larger_than_the_length_of_means_are_told_of_zones(size, told):
+    text = FEATURES["cohesive zones"].text
+    assert "length = 0.2" in text
+    scene = tomllib.loads(text.replace("size = 0.25", f"size = {size}"))
+    found = prepared(scene).identity().warnings
+    assert any("take cells no larger" in one for one in found) == told
+
+
+@pytest.mark.parametrize(
+    ("cover", "away", "glue", "told"),
+    [
+        ("mls degree 1", -1e-12, "nitsche", True),
+        ("mls degree 1", 1e-6, "nitsche", False),
+        ("mls degree 1", -1e-12, "spring", False),
+        ("triangles degree 1", -1e-12, "nitsche", False),
+    ],
+)
+def test_glue_on_slivers_of_least_squares_is_told(cover, away, glue, told):
+    table = {**meshes(SIZE)[cover], "angle": 0.0}
+    parts = {"glue.method": glue, "supports.method": "nitsche"}
+    found = prepared(with_parts(_bar(table, away), parts)).identity().warnings
+    assert any("slivers" in one for one in found) == told
