@@ -1,4 +1,4 @@
-"""Blocks divided along planes through their middles, by the rules of size and number."""
+"""Blocks divided along planes through a place, by the rules of size and number."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -31,7 +31,9 @@ def sizes(shapes: Shapes) -> Floats:
     return np.asarray(4 * shapely.area(shapes) / shapely.length(shapes), dtype=np.float64)
 
 
-def parts_of(polygon: shapely.Polygon, middle: Floats, planes: Floats, rules: SplitRules) -> Shapes:
+def parts_of(
+    polygon: shapely.Polygon, through: Floats, planes: Floats, rules: SplitRules
+) -> Shapes:
     """Return the pieces of a block that splits; it alone where one would be too small.
 
     Of two planes (2,) it splits along the one on which its new faces are shorter, for less strength
@@ -39,10 +41,10 @@ def parts_of(polygon: shapely.Polygon, middle: Floats, planes: Floats, rules: Sp
     """
     wanted = planes[~np.isnan(planes)]
     if len(wanted) == 2:
-        one, other = (face_length(polygon, middle, float(angle)) for angle in wanted)
+        one, other = (face_length(polygon, through, float(angle)) for angle in wanted)
         if abs(one - other) > AS_LONG * max(one, other):
             wanted = wanted[[0]] if one < other else wanted[[1]]
-    found = pieces(polygon, middle, wanted.tolist())
+    found = pieces(polygon, through, wanted.tolist())
     return found if sizes(found).min() >= rules.smallest else np.array([polygon])
 
 

@@ -1,4 +1,4 @@
-"""Blocks whose stress reaches their strength split through their middles (Lin 1995).
+"""Blocks whose stress reaches their strength split (Lin 1995), where they are judged.
 
 In time a piece is judged only once a wave has crossed it since it came to be: until then it has the
 stress that it was born with, which its new faces have not relieved yet. Without this the number of
@@ -6,7 +6,7 @@ pieces would be one of the time step.
 """
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
@@ -17,11 +17,11 @@ from integration.polygons import Polygons
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
-from nmm.splitting.centres import at_centres
 from nmm.splitting.cuts import Shapes
 from nmm.splitting.division import SplitRules, allowed, parts_of, replaced
 from nmm.splitting.outlines import outlines
 from nmm.splitting.refusals import refuse
+from nmm.splitting.sites import Sites, Where
 from nmm.splitting.strength import STRENGTHS, BlockStrength, Judged
 
 if TYPE_CHECKING:
@@ -30,6 +30,15 @@ if TYPE_CHECKING:
     from nmm.scene.tables.splitting import SplittingTable
 
 CONSTANTS = ("tensile_strength", "cohesion", "friction_angle")
+
+
+@dataclass(frozen=True)
+class SplitLaw:
+    """Strength of a material, how far its blocks may split, and where they are judged."""
+
+    strength: BlockStrength
+    rules: SplitRules
+    where: Where
 
 
 class Splitting(Effect):
@@ -47,13 +56,16 @@ class Splitting(Effect):
     name = "splitting"
     external = False
 
-    def __init__(self, setup: Setup, laws: Mapping[int, tuple[BlockStrength, SplitRules]]) -> None:
+    def __init__(self, setup: Setup, laws: Mapping[int, SplitLaw]) -> None:
         self._setup, self._laws, self.kept_whole = setup, laws, 0
         manifold = setup.model.manifold
         self.born = np.full(manifold.n_bodies, -np.inf)
-        self._centres = at_centres(setup.model)
-        self._material = np.zeros(manifold.n_bodies, dtype=np.int64)
-        self._material[manifold.element_body] = setup.region_material[manifold.element_region]
+        material = np.zeros(manifold.n_bodies, dtype=np.int64)
+        material[manifold.element_body] = setup.region_material[manifold.element_region]
+        self._sites = {
+            number: Sites.of(setup.model, law.where, material == number)
+            for number, law in laws.items()
+        }
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -68,7 +80,7 @@ class Splitting(Effect):
         names, laws = list(setup.scene.materials), {}
         for name, table in setup.scene.splitting.items():  # a handful of materials
             rules = SplitRules(table.smallest_block, table.most_blocks)
-            laws[names.index(name)] = strength_of(table), rules
+            laws[names.index(name)] = SplitLaw(strength_of(table), rules, table.judged_at)
         return cls(setup, laws)
 
     def follow(self, change: "Change") -> "Splitting":
@@ -84,22 +96,24 @@ class Splitting(Effect):
 
     def event(self, view: "View") -> Event | None:
         """Ask for all splits that the state calls for."""
-        stress, state = np.asarray(self._centres @ view.stress), view.state
+        stress, state = view.stress, view.state
         rests = self._rests(state.time)
         polygons, home = None, np.zeros(0, dtype=np.int64)
         splits: dict[int, Shapes] = {}
         pulled, kept = 0, 0
-        for number, (law, rules) in self._laws.items():  # a handful of materials
-            own = np.flatnonzero(self._material == number)
-            judged = law.judged(stress[own])
-            over = (judged.use >= 1) & rests[own]
+        for number, law in self._laws.items():  # a handful of materials
+            sites = self._sites[number]
+            judged = law.strength.judged(np.asarray(sites.weights @ stress))
+            worst = sites.worst(judged)
+            body = sites.body[worst]
+            over = (judged.use[worst] >= 1) & rests[body]
             if not over.any():
                 continue
             if polygons is None:
                 polygons, home = outlines(self._setup.model, self._setup.geometry.regions)
-            room = rules.most - len(own)
-            found = self._divided(polygons, own[over], judged.only(over), state, rules, room)
-            pulled += int(judged.tension[np.isin(own, list(found))].sum())
+            room, chosen = law.rules.most - len(body), worst[over]
+            found = self._divided(polygons, sites, chosen, judged.only(chosen), state, law, room)
+            pulled += int(judged.tension[worst][np.isin(body, list(found))].sum())
             kept += int(over.sum()) - len(found)
             splits |= found
         self.kept_whole = kept
@@ -140,20 +154,24 @@ class Splitting(Effect):
     def _divided(
         self,
         polygons: Polygons,
-        bodies: Ints,
+        sites: Sites,
+        chosen: Ints,
         judged: Judged,
         state: State,
-        rules: SplitRules,
+        law: SplitLaw,
         room: int,
     ) -> dict[int, Shapes]:
-        """Return the pieces of the blocks that split, by body; ``room`` more blocks may be."""
-        frames = state.frames
+        """Return the pieces of the blocks that split at the sites ``chosen`` (m,), by body.
+
+        ``room`` more blocks may come to be.
+        """
+        frames, bodies = state.frames, sites.body[chosen]
         turned = frames.angle if frames.tilt is None else frames.angle + frames.tilt
         found = [
-            parts_of(shape, middle, planes, rules)  # a polygon after the other is cut
-            for shape, middle, planes in zip(
+            parts_of(shape, point, planes, law.rules)  # a polygon after the other is cut
+            for shape, point, planes in zip(
                 polygons.take(bodies).to_shapely(),
-                self._setup.model.manifold.body_centroid[bodies],
+                sites.point[chosen],
                 judged.planes - turned[bodies, None],
                 strict=True,
             )

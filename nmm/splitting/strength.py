@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from nmm.registry import Registry
 
 
@@ -28,7 +28,7 @@ class Judged:
     planes: Floats
     tension: Bools
 
-    def only(self, chosen: Bools) -> "Judged":
+    def only(self, chosen: Ints) -> "Judged":
         """Return some of the blocks."""
         return Judged(self.use[chosen], self.planes[chosen], self.tension[chosen])
 

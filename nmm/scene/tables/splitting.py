@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
@@ -15,14 +15,15 @@ from nmm.scene.unread_rows import Finding
 class SplittingTable(Frozen):
     """Blocks of a material split where the stress of one reaches the strength; needs contact.
 
-    The stress is that at the centroid, the mean of the elements that touch it; in time a piece is
-    judged once a wave has crossed it. A block splits along the plane through its centroid that the
-    law names: normal to the larger principal stress by tension; by shear along one of two planes at
-    45 - phi/2 degrees to the direction of the largest compression, the one whose new faces are
-    shorter, along both where they are as long. The new faces meet by the interface of the material
-    with itself, without a bond. A block stays whole where a piece would be smaller than
-    `smallest_block`, or there would be more than `most_blocks`; those that are most beyond their
-    strength come first.
+    The stress is that at the centroid, the mean of the elements that touch it, or that of the
+    element that is nearest to its strength (`judged_at`); in time a piece is judged once a wave has
+    crossed it. A block splits along the plane through that place that the law names: normal to
+    the larger principal stress by tension; by shear along one of two planes at 45 - phi/2
+    degrees to the direction of the largest compression, the one whose new faces are shorter,
+    along both where they are as long. The new faces meet by the interface of the material with
+    itself, without a bond. A block stays whole where a piece would be smaller than
+    `smallest_block`, or there would be more than `most_blocks`; those that are most beyond
+    their strength come first.
     """
 
     law: PartName = Field(
@@ -54,6 +55,12 @@ class SplittingTable(Frozen):
         ge=2,
         description="largest number of blocks of the material, an integer >= 2",
         examples=[200],
+    )
+    judged_at: Literal["centroid", "elements"] = Field(
+        default="centroid",
+        description='"centroid": a block is judged, and splits, at its middle; "elements": at '
+        "the one of its elements that is nearest to its strength",
+        examples=["elements"],
     )
     options: Options = Field(default={}, description="options of a law of one's own")
 

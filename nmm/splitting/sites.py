@@ -1,0 +1,64 @@
+"""Where blocks are judged: at their middles, or at every one of their elements."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
+from nmm.splitting.centres import at_centres
+from nmm.splitting.division import ALIKE
+from nmm.splitting.strength import Judged
+
+Where = Literal["centroid", "elements"]
+
+
+@dataclass(frozen=True)
+class Sites:
+    """Places at which the bodies of a material are judged.
+
+    Attributes
+    ----------
+    weights
+        (s, E) of the elements in the stress at each.
+    body
+        (s,) its body.
+    point
+        (s, 2) where it lies in the reference (m).
+    remote
+        (s,) how far that is from the middle of the body (m).
+    """
+
+    weights: csr_array
+    body: Ints
+    point: Floats
+    remote: Floats
+
+    @classmethod
+    def of(cls, model: Model, where: Where, bodies: Bools) -> "Sites":
+        """Return the sites of some bodies (B,)."""
+        manifold = model.manifold
+        middle, body = manifold.body_centroid, manifold.element_body
+        if where == "centroid":
+            own = np.flatnonzero(bodies)
+            return cls(at_centres(model)[own], own, middle[own], np.zeros(len(own)))
+        own = np.flatnonzero(bodies[body])
+        one = (np.ones(len(own)), (np.arange(len(own)), own))
+        point = manifold.elements.centroids[own]
+        remote = np.hypot(*(point - middle[body[own]]).T)
+        return cls(csr_array(one, shape=(len(own), len(body))), body[own], point, remote)
+
+    def worst(self, judged: Judged) -> Ints:
+        """Return the site (b,) of each body that uses most of the strength, in order of bodies.
+
+        Of those that use as much it is the one nearest to the middle, so that what is symmetric
+        does not hang on the numbers of elements.
+        """
+        n = int(self.body.max(initial=-1)) + 1
+        most = np.full(n, -np.inf)
+        np.maximum.at(most, self.body, judged.use)
+        alike = np.flatnonzero(judged.use >= most[self.body] * (1 - ALIKE))
+        order = alike[np.lexsort((self.remote[alike], self.body[alike]))]
+        return np.asarray(order[np.unique(self.body[order], return_index=True)[1]])
