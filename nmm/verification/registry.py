@@ -96,6 +96,7 @@ CASES = Registry[type[Case]](
         "C4 splitting": f"{_HOME}.splitting:CrushedColumn",
         "SP1": f"{_HOME}.pieces:PiecesInFlight",
         "SP2": f"{_HOME}.splitting:CutBar",
+        "SP3": f"{_HOME}.spalling:SpalledBar",
         "SP5": f"{_HOME}.splitting:SplitDisc",
         "SP6": f"{_HOME}.splitting:StressedBlock",
         "IN1": f"{_HOME}.time_integration:DampedSpring",

@@ -1,8 +1,11 @@
 """The effect of ``[fracture]`` in statics: whole pieces, each in equilibrium."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from nmm.effects.base import Setup
 from nmm.fracture.growth.growing import GrowingCracks
+from nmm.fracture.growth.grown import GrownSoFar
+from nmm.fracture.growth.on_the_way import Station, freed_over_chord
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -11,6 +14,35 @@ if TYPE_CHECKING:
 class CrackGrowth(GrowingCracks):
     """Cracks that grow in statics; what growth takes is the energy that a change of it frees."""
 
+    def __init__(
+        self,
+        setup: Setup,
+        sofar: GrownSoFar | None = None,
+        stations: tuple[Station, ...] = (),
+    ) -> None:
+        super().__init__(setup, sofar)
+        self._stations = stations
+
     def follow(self, change: "Change") -> "CrackGrowth":
         """Return the effect on the new geometry, with what its fronts have gained."""
-        return CrackGrowth(change.setup, self._grown_so_far(change))
+        passed = (*self._stations, self._station(change.state.load_factor))[-2:]
+        return CrackGrowth(change.setup, self._grown_so_far(change), passed)
+
+    def freed_over_chord(self, factor: float) -> float:
+        """See `GrowingCracks.freed_over_chord`."""
+        if self._table.control != "toughness":
+            return 1.0
+        return freed_over_chord((*self._stations, self._station(factor)))
+
+    def _station(self, factor: float) -> Station:
+        return float(self._sofar.length.sum()), factor
+
+    def carried(self) -> tuple[Any, ...]:
+        """See `GrowingCracks.carried`; and the last places and factors at the toughness."""
+        return (*super().carried(), self._stations)
+
+    def carry(self, carried: tuple[Any, ...]) -> None:
+        """See `Effect.carry`."""
+        *sofar, stations = carried
+        super().carry(tuple(sofar))
+        self._stations = tuple((length, factor) for length, factor in stations)

@@ -71,6 +71,10 @@ class GrowingCracks(Effect):
         """Energy (J) that the growth so far took by the toughness of the material."""
         return self._sofar.energy
 
+    def freed_over_chord(self, factor: float) -> float:
+        """What growth frees up to a load factor over what work along a chord says; see there."""
+        return 1.0
+
     def intensities(self, state: State) -> Intensities:
         """Return what the tips have in a state; kept for the last one."""
         if self._known is None or self._known[0] is not state.deformation:

@@ -69,8 +69,8 @@ class Ledger:
         What changes of what is solved have added to the stored energies, the energy shed in the
         first step of statics after one included: with all that is new acting at once, more work is
         done than a slow change needs.
-    settling
-        Whether that step is the next one.
+    settling, change_before
+        Whether that step is the next one, and the energy of changes (J) up to the last step.
     lowest, last
         Energy from nowhere and what the integrator had given of it: where the first was least,
         and after the last step.
@@ -92,6 +92,7 @@ class Ledger:
     given: float = 0.0
     change_energy: float = 0.0
     settling: bool = False
+    change_before: float = 0.0
     lowest: tuple[float, float] = (0.0, 0.0)
     last: tuple[float, float] = (0.0, 0.0)
 
@@ -129,9 +130,19 @@ class Ledger:
         if self.settling and plan.inertia is None:
             shed = min(found._made - self._made, 0.0)
             found = replace(found, change_energy=found.change_energy + shed)
+        found = replace(found, change_before=found.change_energy)
         if attempt.booked is not None:
             found = found._lost_in_time(attempt.booked, earlier, loss)
         return found.weighed(after.time, audited=attempt.booked is not None)
+
+    def along(self, freed_over_chord: float, since: "Ledger") -> "Ledger":
+        """Return the totals where a change frees more on the way of loads than along their chord.
+
+        ``since`` are the totals before the step; work does what is freed beyond the chord.
+        """
+        more = (freed_over_chord - 1) * (since.change_before - self.change_energy)
+        changed = self.change_energy - more
+        return replace(self, work=self.work + more, change_energy=changed, change_before=changed)
 
     def changed(self, plan: "Plan", model: "Model", state: State) -> "Ledger":
         """Return the totals with a change of what is solved, on which ``state`` is now."""

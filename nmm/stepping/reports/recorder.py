@@ -153,9 +153,13 @@ class Recorder:
         ``stands`` is its end where blocks are laid anew after each step.
         """
         plan, after, totals = self.stepper.plan, attempt.state, self.totals
+        ledger = self.ledger.booked(plan, self.stepper.model, before, attempt, stands or after)
+        if plan.fracture is not None:
+            more = plan.fracture.freed_over_chord(after.load_factor)
+            ledger = ledger.along(more, self.ledger)
         self.totals = with_parts(
             totals,
-            ledger=self.ledger.booked(plan, self.stepper.model, before, attempt, stands or after),
+            ledger=ledger,
             passes=totals.passes + attempt.passes,
             residual=max(totals.residual, attempt.residual),
             taken=totals.taken + 1,
