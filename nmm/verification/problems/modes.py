@@ -58,3 +58,37 @@ class FreeSquare(ContinuumCase):
                 float(np.abs(mass - np.eye(9)).max()), 1e-9, "rounding of the iteration"
             ),
         }
+
+
+@dataclass(frozen=True)
+class InertiaOfCovers(ContinuumCase):
+    """Mass and inertia of a body from the mass matrix, on covers that its outline cuts."""
+
+    name: ClassVar[str] = "IN4"
+    title: ClassVar[str] = "Mass and inertia of a body that covers overlap"
+    source: ClassVar[str] = "rho A, rho (Ixx + Iyy) of the polygon; a triangle of 3 by 2 m"
+    formulations: ClassVar[tuple[str, ...]] = ("manifold", "manifold degree 2", "quads", "splines")
+    size: ClassVar[float] = 0.37
+
+    def problem(self, formulation: Formulation) -> Problem:
+        """Return a triangle of density 2."""
+        from nmm.model.from_polygons import solid
+
+        triangle = polygon([[0.03, 0.02], [3.03, 0.02], [0.03, 2.02]])
+        law = Elastic(1.0, 0.3)
+        return Problem(solid(triangle, formulation.cover, [law], "stress", density=[2.0]))
+
+    def checks(self, formulation: str) -> Checks:
+        """Compare what rigid motions of one unit have of momentum: mass and inertia."""
+        model = self.problem(on_mesh(formulation, self.size)).model
+        rigid = model.manifold.rigid_modes.toarray()
+        found = rigid.T @ (model.mass @ rigid)
+        area, (a, b) = 3.0, (3.0, 2.0)
+        # Of a right triangle about its centroid: a b (a^2 + b^2) / 36.
+        inertia = 2.0 * a * b * (a**2 + b**2) / 36
+        rounding = "exact integrals"
+        return {
+            "mass along x (kg)": Check(float(found[0, 0]), 2 * area, 1e-12, rounding),
+            "mass along y (kg)": Check(float(found[1, 1]), 2 * area, 1e-12, rounding),
+            "inertia (kg m2)": Check(float(found[2, 2]), inertia, 1e-11, rounding),
+        }

@@ -88,3 +88,36 @@ class SpunSquare(SceneCase):
         off = float(np.abs(found - exact).max())
         checks["deformation gradient"] = limit(off, 2e-2, "of order 2: a fortieth at half the step")
         return checks
+
+
+@dataclass(frozen=True)
+class LongFlight(SceneCase):
+    """The square in flight for two thousand steps that do not resolve how it swings."""
+
+    name: ClassVar[str] = "IN3"
+    title: ClassVar[str] = "Energy and angular momentum over two thousand steps"
+    source: ClassVar[str] = "E = rho a^4 omega^2 / 12, L = rho a^4 omega / 6"
+    steps: ClassVar[int] = 2_000
+
+    @property
+    def slow(self) -> bool:
+        """Half a minute."""
+        return True
+
+    def scene(self) -> str:
+        """Return the spun square with steps of half a swing."""
+        step, duration = "step = 0.01", f"duration = {0.01 * self.steps!r}"
+        text = SpunSquare().scene().replace("step = 0.001", step)
+        return text.replace("duration = 0.1", f"{duration}")
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare both with the start's, throughout and at the end."""
+        model, history, spin = run.stepper.model, run.history, SpunSquare.spin
+        energy = history["kinetic_energy"] + history["strain_energy"]
+        own = momenta(model, run.state.deformation) @ run.state.velocity
+        off = np.abs(energy / (spin**2 / 12) - 1)
+        kept = "tolerance of the iterations, each of which may add up"
+        return {
+            "change of energy": limit(float(off.max()), 1e-9, kept),
+            "change of angular momentum": limit(float(abs(own[2] / (spin / 6) - 1)), 1e-10, kept),
+        }

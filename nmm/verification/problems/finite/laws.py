@@ -96,3 +96,39 @@ class DeformedMatter(Case):
             label = f"stretch of {stretch:g}, free sides: error of the nominal stress"
             checks[label] = limit(off, 1e-9, digits)
         return checks
+
+
+@dataclass(frozen=True)
+class TurnedMatter(Case):
+    """A stressed body is turned: its energy stays, its stress turns, whatever the angle."""
+
+    law: str = "neo-Hooke"
+    name: ClassVar[str] = "FK6"
+    title: ClassVar[str] = "Laws of finite strain in a body that is turned"
+    source: ClassVar[str] = "Objectivity: W(R F) = W(F), s(R F) = R s(F) R^T"
+
+    @classmethod
+    def variants(cls) -> "Sequence[Self]":
+        """Return both laws."""
+        return [cls(law) for law in LAWS]
+
+    @property
+    def variant(self) -> str:
+        """The law."""
+        return self.law
+
+    def checks(self, formulation: str) -> Checks:
+        """Turn a gradient without symmetry by 30, 90 and 200 degrees in one step."""
+        law, checks = LAWS[self.law], {}
+        stress, _, energy = deformed(law, np.array(SKEW))
+        full = stress[[[0, 2], [2, 1]]]
+        for degrees in (30.0, 90.0, 200.0):
+            c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+            turn = np.array([[c, -s], [s, c]])
+            turned, _, stored = deformed(law, turn @ SKEW)
+            off = np.abs(turned[[[0, 2], [2, 1]]] - turn @ full @ turn.T).max()
+            checks[f"{degrees:g} degrees: change of energy"] = limit(
+                abs(stored / energy - 1), 1e-12, "rounding"
+            )
+            checks[f"{degrees:g} degrees: error of stress"] = limit(float(off), 1e-12, "rounding")
+        return checks

@@ -1,0 +1,85 @@
+"""A reinforced tie whose bond slides: how far from a crack its concrete is pulled, how much."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from nmm.verification import text
+from nmm.verification.base import Check, Checks, SceneCase, holds
+from nmm.verification.reading import converged
+
+if TYPE_CHECKING:
+    from nmm.stepping.run import Run
+
+LENGTH, BLOCKS, JACK, DEPTH, DIAMETER = 1.08, 36, 0.06, 0.1, 16e-3
+STEEL = np.pi * DIAMETER**2 / 4
+# Blocks lie under the bar as well: their area is that of the concrete without it.
+NET = DEPTH**2 - STEEL
+TENSILE, BOND = 2.9e6, 5.8e6
+
+
+@dataclass(frozen=True)
+class CrackedTie(SceneCase):
+    """From a crack on a bar hands its force to the concrete, over a length that its bond sets.
+
+    Where that is done the concrete cracks again: cracks lie one such length apart or more. Pieces
+    of the bar are as long as the blocks, so that each block takes what slides along it.
+    """
+
+    name: ClassVar[str] = "BO3"
+    title: ClassVar[str] = "Tie between cracks under constant bond"
+    source: ClassVar[str] = "N = f (A_c + n A_s), length f A_c / (tau pi d) (CEB-FIP Model Code)"
+    way: ClassVar[float] = 4e-4
+
+    def scene(self) -> str:
+        """Return a row of blocks on a bar that two jacks pull, until two joints have cracked."""
+        wide, end = LENGTH / BLOCKS, LENGTH + JACK
+        return text.scene(
+            f'title = "Tie"\nplane = "stress"\nthickness = {NET / DEPTH!r}\n[contact]\n[loading]\n'
+            '[formulation.rotation]\nupdate = "small"\n[formulation.loading]\nincrement = 0.02\n',
+            [
+                text.material("concrete", 30e9, 0.0, None),
+                text.material("rig", 1e15, 0.0, None),
+                text.interface("joint", 45.0, ("concrete", "concrete"))
+                + f"bonded = true\ncohesion = 1e8\ntensile_strength = {TENSILE!r}\n",
+                text.interface("crack", 0.0, ("concrete", "rig")),
+                *(
+                    text.box(f"b{i}", (i * wide, -DEPTH / 2), (wide, DEPTH), "concrete")
+                    for i in range(BLOCKS)
+                ),
+                text.box("left", (-JACK, -DEPTH / 2), (JACK, DEPTH), "rig"),
+                text.box("right", (LENGTH, -DEPTH / 2), (JACK, DEPTH), "rig"),
+                f'[[bars]]\nname = "bar"\npoints = [[{-JACK}, 0], [{end}, 0]]\nends = "fixed"\n'
+                f"diameter = {DIAMETER!r}\nyoung_modulus = 200e9\n"
+                f'[bars.bond]\nlaw = "plastic"\nstiffness = 1e12\nstrength = {BOND!r}\n',
+                text.held("left"),
+                '[[supports]]\nname = "pull"\nblock = "right"\nfix = ["x", "y"]\n'
+                f"displacement = [{self.way!r}, 0]\n",
+            ],
+        )
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare the force of the first cracks, and how far from them concrete is pulled less."""
+        history, frame, wide = run.history, run.frames[-1], LENGTH / BLOCKS
+        joint = np.round(frame.contact_position[:, 0] / wide).astype(int)
+        carried = np.bincount(joint, frame.contact_force[:, 0], minlength=BLOCKS + 1)
+        cracks = np.flatnonzero(np.abs(carried) < 1e-6 * carried.max())
+        slope = float(np.mean([carried[1:3] / wide / [1, 2], carried[-2:-4:-1] / wide / [1, 2]]))
+        before = int(np.flatnonzero(history["broken"] > 0)[0]) - 1
+        force = float(history["bars:bar:force"][before])
+        rate = BOND * np.pi * DIAMETER
+        return {
+            "force of the first cracks (N)": Check(force, 32304.12, 0.02, "an increment is 2 %"),
+            "concrete takes up along the bar (N/m)": Check(slope, rate, 5e-3, "the bond's yield"),
+            "length of transfer (m)": Check(
+                TENSILE * NET / slope, 97.4718e-3, 5e-3, "it follows from the slope"
+            ),
+            "cracks between the ends": Check(
+                len(cracks) - 2.0, 2.0, 0.0, "by the choice of the way"
+            ),
+            "least distance of cracks (m)": Check(
+                float(np.diff(cracks).min()) * wide, 97.5e-3, 0.0, "Model Code", bound="at_least"
+            ),
+            "at rest": holds(converged(run), "every increment is in equilibrium"),
+        }
