@@ -35,7 +35,8 @@ def line_turns(
     normal, stretch = across(line), np.hypot(*line.T)[:, None]
     turn = np.zeros((len(at), 2, width))
     for k, (edge, share) in enumerate(zip(edges, (shares.a, shares.b), strict=True)):
-        rows = sides.turns(edge)
+        # Rows of all edges may be wider than those of the joints' elements; the rest is empty.
+        rows = sides.turns(edge)[:, :, :width]
         local = state.frames.to_body(sides.start.body[edge], normal)
         turn[:, k, : rows.shape[2]] = share / stretch * np.einsum("mcl,mc->ml", rows, local)
     apart = _apart(contacts, joints, sides, state, sites)
