@@ -123,7 +123,8 @@ class ContactMethod(PartTable):
     joint_points: Literal["auto", "corners", "gauss"] = Field(
         default="auto",
         description='"auto", "corners" or "gauss": where joints act and are judged along their '
-        "edge; auto is gauss where Nitsche's terms hold whole bonds, else corners",
+        "edge; auto is gauss where Nitsche's terms hold whole bonds or fields bend along edges, "
+        "else corners",
         examples=["gauss"],
     )
 
