@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import connected_components
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.motion import MaterialPoints, State, material_points, rotation_matrices
 from nmm.constraints.interface import Interface
 from nmm.constraints.shared_edges import gauss_interface
 from nmm.contact.detection.joints import Joints
@@ -69,7 +69,8 @@ class WetJoints:
         """How far joints have opened (j, 2) at their ends since the reference place (m)."""
         one, other = (side.moved(state.frames, state.deformation) for side in self.sides)
         normal = np.repeat(self.joints.normal, 2, axis=0)
-        turned = state.frames.to_global(self.sides[1].body, normal)
+        angle = np.mean([state.frames.angle[side.body] for side in self.sides], axis=0)
+        turned = np.einsum("mij,mj->mi", rotation_matrices(angle), normal)
         return np.asarray(np.sum((one - other) * turned, axis=1).reshape(-1, 2))
 
     def forces(self, state: State, pressure: Floats) -> Floats:
