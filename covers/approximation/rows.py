@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Floats, Ints
+from integration.contraction import contract
 
 
 @dataclass(frozen=True)
@@ -31,11 +32,11 @@ class Rows:
 
     def apply(self, unknowns: Floats) -> Floats:
         """Displacement (m, 2) at the points for a vector of all unknowns."""
-        return np.asarray(np.einsum("mcl,ml->mc", self.values, unknowns[self.unknowns]))
+        return np.asarray(contract("mcl,ml->mc", self.values, unknowns[self.unknowns]))
 
     def along(self, directions: Floats) -> Floats:
         """Rows (m, L) of the displacement along one direction (m, 2) a point."""
-        return np.asarray(np.einsum("mcl,mc->ml", self.values, directions))
+        return np.asarray(contract("mcl,mc->ml", self.values, directions))
 
     def spread(self, directions: Floats, n_unknowns: int) -> Floats:
         """Return the sums (n,) over the points of what vectors (m, 2) do on each unknown."""

@@ -12,6 +12,7 @@ from covers.approximation.element_groups import ElementGroup
 from covers.approximation.manifold import Manifold
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats, Ints
+from integration.contraction import contract
 from integration.polygons import areas
 from nmm.assembly import element_matrices
 from nmm.assembly.blocks import Part, assemble
@@ -297,17 +298,17 @@ class Model:
         strain = self.mean_strain(deformation)
         known = self.pressure(deformation) if pressure is None else pressure
         if known is None:
-            return np.asarray(np.einsum("eij,ej->ei", self.elasticity, strain))
+            return np.asarray(contract("eij,ej->ei", self.elasticity, strain))
         assert self.pressures is not None
         mean = (self.pressures.integrals(self.manifold) @ known) / self.element_area
-        return np.asarray(np.einsum("eij,ej->ei", self.drained, strain) + mean[:, None] * VOLUME)
+        return np.asarray(contract("eij,ej->ei", self.drained, strain) + mean[:, None] * VOLUME)
 
     def mean_strain(self, deformation: Floats) -> Floats:
         """Mean strain (E, 3) of the unknowns ``deformation``."""
         strain = np.empty((len(self.density), 3))
         for group, rows in zip(self.manifold.groups, self._strain_rows, strict=True):
             local = deformation[group.unknowns]
-            strain[group.elements] = np.einsum("nil,nl->ni", rows[group.shape], local)
+            strain[group.elements] = contract("nil,nl->ni", rows[group.shape], local)
         return strain / self.element_area[:, None]
 
     @cached_property

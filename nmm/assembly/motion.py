@@ -15,6 +15,7 @@ import numpy as np
 from covers.approximation.manifold import Manifold
 from covers.approximation.rows import Rows
 from integration.arrays import Floats, Ints
+from integration.contraction import contract
 from nmm.assembly.model import Model
 from nmm.frozen import with_parts
 from nmm.solvers.unchecked import product
@@ -59,11 +60,11 @@ class Frames:
 
     def to_global(self, body: Ints, vectors: Floats) -> Floats:
         """Turn vectors (m, 2) from body axes to global axes."""
-        return np.asarray(np.einsum("mij,mj->mi", self.rotation[body], vectors))
+        return np.asarray(contract("mij,mj->mi", self.rotation[body], vectors))
 
     def to_body(self, body: Ints, vectors: Floats) -> Floats:
         """Turn vectors (m, 2) from global axes to body axes."""
-        return np.asarray(np.einsum("mji,mj->mi", self.rotation[body], vectors))
+        return np.asarray(contract("mji,mj->mi", self.rotation[body], vectors))
 
 
 @dataclass(frozen=True)
@@ -154,7 +155,7 @@ class MaterialPoints:
             local = local + frames.tilt[self.body, None] * across
         found = frames.way[self.body] + frames.to_global(self.body, local)
         if frames.angle.any():
-            found = found + np.einsum("mij,mj->mi", frames.turn[self.body], self.arm)
+            found = found + contract("mij,mj->mi", frames.turn[self.body], self.arm)
         return np.asarray(found)
 
     def along(self, frames: Frames, directions: Floats) -> Floats:
@@ -199,8 +200,7 @@ def move(model: Model, state: State, increment: Floats) -> State:
     modes = model.manifold.rigid_modes
     rigid = product(model.rigid_projection, increment).reshape(-1, 3)
     frames = state.frames
-    bodies = np.arange(len(rigid))
-    shift = frames.to_global(bodies, rigid[:, :2])
+    shift = np.asarray(contract("mij,mj->mi", frames.rotation, rigid[:, :2]))
     moved = Frames(
         frames.centre + shift,
         frames.angle + rigid[:, 2],
@@ -230,10 +230,9 @@ def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
     if not rate.any():
         return rate
     mean = product(model.rigid_projection, rate).reshape(-1, 3)
-    turned = np.einsum("bji,bj->bi", turn, mean[:, :2])
-    change = np.zeros_like(mean)
-    change[:, :2] = turned - mean[:, :2]
-    return np.asarray(rate + product(model.manifold.rigid_modes, change.ravel()))
+    turned = contract("bji,bj->bi", turn, mean[:, :2])
+    mean[:, :2], mean[:, 2] = turned - mean[:, :2], 0.0
+    return np.asarray(rate + product(model.manifold.rigid_modes, mean.ravel()))
 
 
 def translate(model: Model, state: State, increment: Floats) -> State:

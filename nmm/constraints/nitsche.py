@@ -14,6 +14,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats, Ints
+from integration.contraction import contract
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
@@ -78,7 +79,7 @@ class Nitsche(Imposition):
     def force(self, state: State, jump: Floats) -> Floats:
         """See `Imposition.force`."""
         unknowns, flux = self._flux(state)
-        back = np.einsum("mcl,mc->ml", flux, self.interface.area[:, None] * jump)
+        back = contract("mcl,mc->ml", flux, self.interface.area[:, None] * jump)
         total = self.interface.spread(state, self._consistent(state, jump))
         total += np.bincount(unknowns.ravel(), back.ravel(), minlength=len(total))
         if self.ghost is not None:
@@ -144,7 +145,7 @@ class Nitsche(Imposition):
     def _traction(self, state: State) -> Floats:
         """Average traction (m, 2) on the first side (Pa)."""
         unknowns, flux = self._flux(state)
-        return np.asarray(np.einsum("mcl,ml->mc", flux, state.deformation[unknowns]))
+        return np.asarray(contract("mcl,ml->mc", flux, state.deformation[unknowns]))
 
     def _consistent(self, state: State, jump: Floats) -> Floats:
         """Forces (m, 2) in N of the average traction and the penalty on the first side."""
@@ -158,7 +159,7 @@ class Nitsche(Imposition):
     def _across(self, state: State, n: int) -> csr_array:
         """Rows (m, n) of the same."""
         unknowns, rows = self.interface.rows(state)
-        along = np.einsum("mcl,mc->ml", rows, self.interface.normal(state))
+        along = contract("mcl,mc->ml", rows, self.interface.normal(state))
         m, length = along.shape
         entries = along.ravel(), unknowns.ravel(), np.arange(m + 1) * length
         found = csr_array(entries, shape=(m, n))

@@ -36,6 +36,7 @@ class TiedInterfaces(Effect):
         self._n = n_unknowns
         self._kept: tuple[Floats, csc_array] | None = None  # the matrix, at angles
         self._motions = KeptOfPlaces(self._moved)
+        self._last: tuple[list[Floats], Instant, list[Floats]] | None = None  # jumps of motions
         self._spaces = list({id(t.shared): t.shared for t in ties if t.shared}.values())
         turning = [t.interface.bodies for t in ties if t.turns]
         self._stresses: Sequence[StressAt] = ()
@@ -120,7 +121,7 @@ class TiedInterfaces(Effect):
 
     def forget(self) -> None:
         """See `Effect.forget`."""
-        self._kept = None
+        self._kept = self._last = None
         self._motions.forget()
 
     def energy(self, state: State) -> float:
@@ -159,8 +160,13 @@ class TiedInterfaces(Effect):
         return np.unique(np.concatenate(none + [tie.tied_unknowns for tie in self.ties]))
 
     def _jumps(self, state: State, end: Instant) -> list[Floats]:
-        pairs = zip(self.ties, self._motions.of(state), strict=True)
-        return [tie.interface.jump(motion, end) for tie, motion in pairs]
+        motions, last = self._motions.of(state), self._last
+        if last is not None and last[0] is motions and last[1] == end:
+            return last[2]
+        pairs = zip(self.ties, motions, strict=True)
+        jumps = [tie.interface.jump(motion, end) for tie, motion in pairs]
+        self._last = motions, end, jumps
+        return jumps
 
     def _moved(self, state: State) -> list[Floats]:
         """How far the sides have moved apart."""

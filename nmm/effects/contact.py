@@ -65,7 +65,7 @@ class Contact(Effect):
         self._cracks = parts.cracks
         sides = self.partners.sides
         book = follow_joints(
-            self.partners.surface(start),
+            sides.surface(start.frames, start.deformation),
             model,
             self.partners.interfaces,
             self.laws.makes_joints,

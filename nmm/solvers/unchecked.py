@@ -19,7 +19,7 @@ PRODUCTS = {csr_array: _sparsetools.csr_matvec, csc_array: _sparsetools.csc_matv
 
 def product(matrix: csc_array | csr_array, vector: Floats) -> Floats:
     """Return ``matrix @ vector`` (n,) in floating-point numbers."""
-    height, width = matrix.shape
+    height, width = matrix.__dict__["_shape"]
     found = np.zeros(height)
     PRODUCTS[type(matrix)](height, width, matrix.indptr, matrix.indices, matrix.data, vector, found)
     return found

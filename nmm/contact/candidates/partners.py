@@ -72,7 +72,7 @@ class Partners:
         return self._surfaces.of(state)
 
     def _surface(self, state: State) -> Surface:
-        return self.sides.surface(state.frames, state.deformation)
+        return self.sides.moved(state.frames, state.deformation)
 
     def position(self, contacts: ContactPoints, state: State) -> Floats:
         """Return where contacts are (m, 2)."""

@@ -7,6 +7,9 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
 
+ROUNDING = 1e-9
+"""Share of an area by which it may be off, with much to spare."""
+
 
 @compiled
 def _thickness(start: Floats, end: Floats, body: Ints) -> Floats:
@@ -43,6 +46,7 @@ def can_meet(
 
     Where no end of an edge moves by more than an eighth of its length, a vertex that comes too deep
     does more than three quarters of it along the normal at the start; half is on the safe side.
+    Of what goes on, as all that slides fast, the largest area that the step reaches decides.
 
     Parameters
     ----------
@@ -73,6 +77,34 @@ def can_meet(
             continue
         allowed = depth * min(thickness[body[v]], thickness[body[e]])
         if relative > 0.125 * length or deepest >= 0.5 * allowed:
-            found[count] = k
-            count += 1
+            wx, wy = after[following[e], 0] - after[e, 0], after[following[e], 1] - after[e, 1]
+            px, py = after[v, 0] - after[e, 0], after[v, 1] - after[e, 1]
+            most = _largest_area((dx, dy), (ox, oy), (wx, wy), (px, py))
+            # Whoever looks closer takes lengths and thickness rounded another way.
+            if most >= (1.0 - ROUNDING) * allowed * length:
+                found[count] = k
+                count += 1
     return found[:count].copy()
+
+
+@compiled
+def _largest_area(
+    edge: tuple[float, float],
+    offset: tuple[float, float],
+    edge_after: tuple[float, float],
+    offset_after: tuple[float, float],
+) -> float:
+    """Largest of ``cross(edge, offset)`` while both change evenly: a quadratic in time.
+
+    It is that of the terms' sizes, times `ROUNDING`, larger than found.
+    """
+    ex, ey = edge_after[0] - edge[0], edge_after[1] - edge[1]
+    ox, oy = offset_after[0] - offset[0], offset_after[1] - offset[1]
+    first = edge[0] * offset[1] - edge[1] * offset[0]
+    square = ex * oy - ey * ox
+    slope = edge[0] * oy - edge[1] * ox + ex * offset[1] - ey * offset[0]
+    most = max(first, first + slope + square)
+    if square < 0.0 and 0.0 < slope < -2.0 * square:
+        most = max(most, first - 0.25 * slope * slope / square)
+    size = abs(edge[0] * offset[1]) + abs(edge[1] * offset[0]) + abs(slope) + abs(square)
+    return most + ROUNDING * size

@@ -10,8 +10,8 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
-from nmm.contact.problem.row_products import pushed
-from nmm.contact.problem.step_problem import Compressed, Limits
+from nmm.contact.problem.row_products import Compressed, pushed
+from nmm.contact.problem.step_problem import Limits
 from nmm.solvers.unchecked import made_of
 
 

@@ -14,7 +14,7 @@ from integration.arrays import Floats
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.residual_kernel import SpringColumns, residual
-from nmm.contact.problem.step_problem import Compressed
+from nmm.contact.problem.row_products import Compressed
 from nmm.solvers.factor import PIVOT
 from nmm.solvers.kernels.gauss import eliminated, substituted
 

@@ -16,6 +16,8 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.motion import Frames, MaterialPoints, material_points
 from nmm.contact.detection.surface import Surface
 
+_UPRIGHT = np.zeros(0)
+
 
 @dataclass(frozen=True)
 class Sides:
@@ -27,8 +29,21 @@ class Sides:
 
     def surface(self, frames: Frames, deformation: Floats) -> Surface:
         """Return the edges where they are now."""
+        return self._with_starts(self.start.place(frames, deformation))
+
+    def moved(self, frames: Frames, deformation: Floats) -> Surface:
+        """Return the same by compiled code, which is loaded where steps are taken."""
+        return self._with_starts(self.places(frames, deformation))
+
+    def places(self, frames: Frames, deformation: Floats) -> Floats:
+        """Return where the starts of the edges are now (n, 2), by compiled code."""
+        from nmm.contact.points.places import places
+
+        tilt = _UPRIGHT if frames.tilt is None else frames.tilt
+        return places(*self._columns, frames.centre, frames.rotation, tilt, deformation)
+
+    def _with_starts(self, start: Floats) -> Surface:
         edges = self.manifold.boundary
-        start = self.start.place(frames, deformation)
         return Surface(
             start=start,
             end=start[edges.next],
@@ -42,6 +57,13 @@ class Sides:
         """(n,) lengths of the edges where bodies were laid (m)."""
         edges = self.manifold.boundary
         return np.asarray(np.hypot(*(edges.end - edges.start).T))
+
+    @cached_property
+    def _columns(self) -> tuple[Ints, Floats, Ints, Floats]:
+        """The starts of the edges as compiled code takes them."""
+        at = self.start
+        values = np.ascontiguousarray(at.rows.values)
+        return at.body, np.ascontiguousarray(at.arm), np.ascontiguousarray(at.rows.unknowns), values
 
     @cached_property
     def whole(self) -> bool:

@@ -146,10 +146,12 @@ def rows(
         values = [value + turned for value, turned in zip(values, more, strict=True)]
     offsets = np.arange(len(contacts) + 1, dtype=np.int32) * np.int32(columns.shape[1])
     shape = (len(contacts), n_unknowns)
-    # Columns and offsets of their own: summing changes both in place.
+    # Columns of their own: sorting changes them in place; offsets too where entries are summed.
+    others = columns.flatten(), offsets.copy() if sides.repeats else offsets
+    patterns = (columns.ravel(), offsets), others
     normal, tangent = (
-        made_of(csr_array, value.ravel(), columns.flatten(), offsets.copy(), shape)
-        for value in values
+        made_of(csr_array, value.ravel(), *pattern, shape)
+        for value, pattern in zip(values, patterns, strict=True)
     )
     if sides.repeats:
         for part in (normal, tangent):

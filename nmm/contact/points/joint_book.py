@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from integration.contraction import contract
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.contact.detection.joints import Joints, find_joints, joint_ends, joint_points
@@ -92,11 +93,11 @@ class JointBook:
         if not len(p):
             return p
         normal, apart = faces.normal(p), faces.apart(p)
-        stretch = np.einsum("ij,ij->i", apart, tangents(normal))
+        stretch = contract("ij,ij->i", apart, tangents(normal))
         return replace(
             p,
             normal=normal,
-            gap=np.einsum("ij,ij->i", apart, normal) - p.reference,
+            gap=contract("ij,ij->i", apart, normal) - p.reference,
             slip=np.where(p.bonded, stretch - p.history["plastic_slip"], p.slip),
         )
 
@@ -108,8 +109,8 @@ class JointBook:
         if not len(points) and not len(self.lost):
             return self
         normal, apart = faces.normal(points), faces.apart(points)
-        opened = np.maximum(np.einsum("ij,ij->i", apart, normal), 0.0)
-        far = np.hypot(opened, np.einsum("ij,ij->i", apart, tangents(normal)))
+        opened = np.maximum(contract("ij,ij->i", apart, normal), 0.0)
+        far = np.hypot(opened, contract("ij,ij->i", apart, tangents(normal)))
         lost = (far > JOINT_LEFT * points.length) & ~points.bonded
         gone = np.isin(self.joint, self.joint[lost]) & ~points.bonded
         before = _turned(self.lost, faces)
@@ -213,7 +214,7 @@ def _distance(model: Model, joints: Joints) -> Floats:
     middle = centroids(manifold.elements)
     a, b = (manifold.boundary.element[edge] for edge in (joints.edge_a, joints.edge_b))
     far_a, far_b, apart = (
-        np.abs(np.einsum("ij,ij->i", offset, joints.normal))
+        np.abs(contract("ij,ij->i", offset, joints.normal))
         for offset in (middle[a] - joints.start, middle[b] - joints.start, middle[a] - middle[b])
     )
     # About a tip both faces are of one element, which has no middle on either side.
@@ -230,4 +231,4 @@ def _distance(model: Model, joints: Joints) -> Floats:
 def _turned(points: ContactPoints, faces: JointFaces) -> ContactPoints:
     """Return points with the normal and gap of moved faces."""
     normal, apart = faces.normal(points), faces.apart(points)
-    return replace(points, normal=normal, gap=np.einsum("ij,ij->i", apart, normal))
+    return replace(points, normal=normal, gap=contract("ij,ij->i", apart, normal))

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.sparse import csr_array, diags_array
 
 from integration.arrays import Floats, Ints
+from integration.contraction import contract
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames, MaterialPoints, State
 from nmm.contact.points.between_faces import EdgeShares
@@ -89,7 +90,7 @@ def midpoint_rows(
     Every body must be one element: the rows of its points then hold all of its unknowns. With
     their `body_projection` one compiled pass takes the place of sparse sums and products.
     """
-    surface = sides.surface(half.frames, half.deformation)
+    surface = sides.moved(half.frames, half.deformation)
     edge = contacts.edge_b
     shares = EdgeShares.of(contacts, sides.length)
     line = shares.along(contacts, surface)
@@ -98,7 +99,7 @@ def midpoint_rows(
     direction = tangents(along)
     side_a = sides.at(contacts.edge_a, contacts.parameter_a)
     place_a = side_a.place(half.frames, half.deformation)
-    foot = np.einsum("ij,ij->i", place_a - surface.start[edge], along) / surface.length[edge]
+    foot = contract("ij,ij->i", place_a - surface.start[edge], along) / surface.length[edge]
     contacts = with_parts(
         contacts,
         normal=direction,
@@ -158,7 +159,7 @@ class _HalfWay:
     def levers(self) -> tuple[Floats, Floats]:
         """How far (m,) apart sides are along tangent and normal: what lines that turn move (m)."""
         across = tangents(self.direction)
-        one, other = (np.einsum("ij,ij->i", self.apart, way) for way in (across, self.direction))
+        one, other = (contract("ij,ij->i", self.apart, way) for way in (across, self.direction))
         return one, other
 
 
@@ -170,7 +171,7 @@ def _turned_plainly(
     turning = csr_array((len(at.direction), model.manifold.n_unknowns))
     for side, factor, turn in zip(at.points, at.factors, at.turns, strict=True):
         local = half.frames.to_body(side.body, at.direction)
-        along = factor[:, None] * np.einsum("mcl,mc->ml", turn, local)
+        along = factor[:, None] * contract("mcl,mc->ml", turn, local)
         turning = turning + _sparse(side.rows.unknowns, along, model.manifold.n_unknowns)
     across, found = tangents(at.direction), []
     one, other = at.levers
@@ -220,7 +221,7 @@ def missing_moments(
     acted
         (3 B,) what the rows have made of them: forces and moments on the bodies.
     """
-    half_way = sides.surface(half.frames, half.deformation)
+    half_way = sides.moved(half.frames, half.deformation)
     owed = moments(
         half_way.start,
         half_way.end,

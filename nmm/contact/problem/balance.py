@@ -4,7 +4,6 @@ import numpy as np
 from scipy.sparse import csc_array, diags_array
 
 from integration.arrays import Floats
-from nmm.contact.problem.residual_kernel import weighted
 from nmm.contact.problem.step_problem import StepProblem
 
 
@@ -17,11 +16,10 @@ def weights(
     invariant under a change of the units of single unknowns. ``normal`` and ``shear`` (m,) stand
     in for the problem's stiffnesses.
     """
-    normal = problem.normal_stiffness if normal is None else normal
-    shear = problem.shear_stiffness if shear is None else shear
-    parts = problem.matrix, problem.normal_rows, problem.tangent_rows
-    matrix, *rows = ((one.indptr, one.indices, one.data) for one in parts)
-    return np.asarray(weighted(*matrix, *rows[0], normal, *rows[1], shear))
+    own = problem.normal_stiffness, problem.shear_stiffness
+    normal, shear = own[0] if normal is None else normal, own[1] if shear is None else shear
+    kept = normal is own[0] and shear is own[1]
+    return problem.weight if kept else problem.weight_with(normal, shear)
 
 
 def relative_residual(

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
-from nmm.contact.problem.step_problem import Compressed
+from nmm.contact.problem.row_products import Compressed
 
 Index = npt.NDArray[Any]
 

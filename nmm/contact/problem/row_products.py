@@ -10,6 +10,8 @@ from integration.arrays import Floats
 from nmm.compiled import compiled
 
 Index = npt.NDArray[Any]
+Compressed = tuple[Index, Index, Floats]
+"""Pointers, numbers and entries of a compressed matrix."""
 
 
 def stretched(normal_rows: csr_array, tangent_rows: csr_array, increment: Floats) -> Floats:

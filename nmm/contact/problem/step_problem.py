@@ -15,16 +15,13 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.problem.contact_state import ContactState
-from nmm.contact.problem.row_products import along
+from nmm.contact.problem.residual_kernel import weighted
+from nmm.contact.problem.row_products import Compressed, along
 from nmm.errors import SolveError
 from nmm.interfaces.limits import Limits as Limits
 from nmm.solvers.known import known_load
 
 OPEN, STICK, SLIDE, BONDED, BROKEN = ContactState
-
-
-Compressed = tuple[Any, Any, Floats]
-"""Pointers, numbers and entries of a compressed matrix."""
 
 
 @dataclass(frozen=True)
@@ -103,11 +100,22 @@ class StepProblem:
         return (n.indptr, n.indices, n.data), (t.indptr, t.indices, t.data)
 
     @cached_property
+    def weight(self) -> Floats:
+        """(n,) weights of out-of-balance forces: see `nmm.contact.problem.balance.weights`."""
+        return self.weight_with(self.normal_stiffness, self.shear_stiffness)
+
+    def weight_with(self, normal: Floats, shear: Floats) -> Floats:
+        """The same with other stiffnesses (m,) of the springs."""
+        matrix, rows = self.matrix, self.compressed_rows
+        own = matrix.indptr, matrix.indices, matrix.data
+        return np.asarray(weighted(*own, *rows[0], normal, *rows[1], shear))
+
+    @cached_property
     def paired(self) -> bool:
         """Whether normal and tangent rows hold the same unknowns, entry by entry."""
         normal, tangent = self.normal_rows, self.tangent_rows
         pairs = (normal.indptr, tangent.indptr), (normal.indices, tangent.indices)
-        return all(a is b or np.array_equal(a, b) for a, b in pairs)
+        return all(a is b or (len(a) == len(b) and bool((a == b).all())) for a, b in pairs)
 
     def gaps(self, increment: Floats) -> Floats:
         """(m,) gaps at the end of the step."""
