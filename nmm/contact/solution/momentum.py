@@ -44,11 +44,15 @@ class Momentum:
         """
         if not self._of_blocks or self._curved:
             return None
-        half = middle(before, after)
-        turn, way = _motion(before, half)
-        turned, moved = (turn, way) if used is None else _motion(used, half)
+        turn, way = _motion(before, after)
+        turn, way = turn / 2, way / 2
+        turned, moved = turn, way
+        if used is not None:
+            turned, moved = _motion(used, middle(before, after))
         motions = turn, way + turn * self._across, turned, moved
-        return half if _matters(solved.contacts, solved.answer, motions, self._bodies) else None
+        if not _matters(solved.contacts, solved.answer, motions, self._bodies):
+            return None
+        return middle(before, after)
 
     def turns(self, contacts: ContactPoints, way: Floats) -> bool:
         """Whether a step of ``way`` (n,) turns bodies so far that forces should act half way."""
@@ -110,6 +114,9 @@ class Momentum:
         return np.where(np.repeat(self._held, 3), 0.0, self._compliance_of_all)
 
 
+largest = np.maximum.reduce  # an array's own `max` is three calls
+
+
 def _matters(
     contacts: ContactPoints,
     found: ContactPoints | StepAnswer,
@@ -122,10 +129,10 @@ def _matters(
     act.
     """
     acts = found.normal_force != 0
-    deepest = np.abs(found.gap[acts]).max(initial=0.0)
+    deepest = largest(np.abs(found.gap[acts]), initial=0.0)
     turn, way, turned, moved = motions
     # Most steps turn no body by as much as would matter to any.
-    most = turned.max() * way.max() + moved.max() * turn.max()
+    most = largest(turned) * largest(way) + largest(moved) * largest(turn)
     if not 2 * most > MIDPOINT_GAPS * deepest > 0:
         return False
     a, b = body[contacts.edge_a[acts]], body[contacts.edge_b[acts]]
