@@ -7,6 +7,7 @@ the next bond is at its limit.
 """
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from nmm.progress import Progress
 from nmm.stepping.control.events import Reached, next_event
 from nmm.stepping.control.locating import ABOVE, Tried, located
 from nmm.stepping.control.position import OnPath, PathEnd
+from nmm.stepping.control.settling import settled
 from nmm.stepping.control.trials import Trials
 from nmm.stepping.control.verdicts import arrived, no_balance
 from nmm.stepping.drive.changes import Stands, asked, with_events
@@ -25,6 +27,9 @@ from nmm.stepping.reports.ledger import stored
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
 
 # A step that was cut to this share of the largest is not cut further.
 SMALLEST = 2.0**-20
@@ -88,9 +93,7 @@ class _Following:
 
     def _further(self, at: OnPath) -> OnPath | RunVerdict:
         standing = self.trials.standing(at)
-        row = self.control.row(standing)
-        waits = self.control.idle(at.events, at.softened) and self.trials.may_give_way()
-        if self.control.by_load or waits or not row.any():
+        if self._by_load(at, standing):
             return self._to_event(at)
         step = min(at.advance, self.control.end - at.gone)
         found = self.trials.along(standing, self.control.path(standing, step))
@@ -104,6 +107,11 @@ class _Following:
         after = self._accepted(at, found.attempt, found.way)
         easy = found.attempt.passes <= EASY
         return replace(after, advance=min(self.control.increment, (2 if easy else 1) * at.advance))
+
+    def _by_load(self, at: OnPath, standing: Standing) -> bool:
+        """Whether the load leads from where a path stands, and not what is controlled."""
+        waits = self.control.idle(at.events, at.softened) and self.trials.may_give_way()
+        return self.control.by_load or waits or not self.control.row(standing).any()
 
     def _event_within(self, at: Standing, end: Tried) -> Tried | None:
         """Return where on a step the first bond is at its limit; None where it is not found."""
@@ -132,8 +140,9 @@ class _Following:
 
     def _happened(self, at: OnPath, event: Tried) -> OnPath | RunVerdict:
         """Accept a step to an event, let bonds give way, and find the balance after it."""
-        after = self._accepted(at, event.attempt, event.way)
-        brittle, shed = self.trials.give_way(event.attempt)
+        attempt, state, contacts = self._settled(at, event.attempt)
+        after = self._told(at, attempt, state, contacts, event.way)
+        brittle, shed = self.trials.give_way(attempt)
         after = replace(after, softened=not brittle, events=at.events + 1, shed=shed)
         if not brittle or self.control.by_load:
             return after
@@ -153,11 +162,37 @@ class _Following:
             at = replace(at, softened=not brittle, events=at.events + 1)
 
     def _accepted(self, at: OnPath, attempt: Attempt, way: float, jump: bool = False) -> OnPath:
-        """Accept a step and tell it; time counts steps."""
-        stepper, recorder = self.stepper, self.recorder
-        later = replace(attempt.state, time=at.state.time + 1.0)
+        """Accept a step and tell it."""
+        return self._told(at, *self._settled(at, attempt), way, jump)
+
+    def _settled(
+        self, at: OnPath, attempt: Attempt
+    ) -> tuple[Attempt, State, "ContactPoints | None"]:
+        """Accept a step, and find the balance where it ends with the control held still."""
+        trials = self.trials
+
+        def correction(so_far: Attempt) -> Attempt:
+            now = replace(at, state=so_far.state, way=at.way + so_far.increment)
+            standing = trials.standing(now)
+            if self._by_load(now, standing):
+                return trials.of_load(standing, 0.0).attempt
+            return trials.along(standing, self.control.path(standing, 0.0)).attempt
+
+        return settled(self.stepper, attempt, correction)
+
+    def _told(
+        self,
+        at: OnPath,
+        attempt: Attempt,
+        state: State,
+        contacts: "ContactPoints | None",
+        way: float,
+        jump: bool = False,
+    ) -> OnPath:
+        """Tell a step that was accepted; time counts steps."""
+        recorder, time = self.recorder, at.state.time + 1.0
+        later, state = replace(attempt.state, time=time), replace(state, time=time)
         attempt = replace(attempt, state=later)
-        state, contacts = stepper.accept(attempt)
         if (jump or self.control.by_load) and attempt.solved is not None:
             lost = self._released(at.state, later)
             attempt = replace(attempt, solved=replace(attempt.solved, loss=lost))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 # Corrections for the turn of contacts and bodies end when they move nothing by more than this
 # share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain,
-# or of its distance from the origin: see `_rounding`).
+# or of its distance from the origin: see `rounding`).
 SETTLED = 1e-8
 ROUNDING = 1e-13
 CORRECTIONS = 12
@@ -60,7 +60,7 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
     of them, and what the last one made of it is kept.
     """
     contacts: ContactPoints | None = None
-    rounding = _rounding(stepper)
+    least = rounding(stepper)
     total = attempt = stepper.attempt(state, end, None, breaking)
     way, steady, count = 0.0, 0, 0
     while count < CORRECTIONS or (count < PATIENCE and not steady):
@@ -70,12 +70,12 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
         _, contacts = stepper.accept(attempt)
         if not stepper.anchored and stepper.small:
             return Settled(total, contacts)
-        if attempt.motion <= SETTLED * total.motion + rounding:
+        if attempt.motion <= SETTLED * total.motion + least:
             return Settled(total, contacts)
         last, way = attempt, way + attempt.motion
         attempt = stepper.attempt(_remembering(attempt.state, state), end, None, breaking)
         steady = steady + 1 if attempt.motion > SHRINKS * last.motion else 0
-        total, count = _joined(total, attempt), count + 1
+        total, count = joined(total, attempt), count + 1
         if stepper.anchored and steady >= STEADY and way > COLLAPSE * stepper.size:
             sentence = f"it moved by {way:.3g} m in {count} corrections that did not shrink"
             return Settled(replace(total, converged=False, sentence=sentence), contacts, True)
@@ -88,7 +88,7 @@ def _remembering(moved: State, start: State) -> State:
     return replace(moved, history=start.history, memory=start.memory)
 
 
-def _rounding(stepper: Stepper) -> float:
+def rounding(stepper: Stepper) -> float:
     """How far points must move to be known to have moved (m)."""
     farthest = float(np.abs(stepper.reference).max())
     still = max(ROUNDING * stepper.size, 4 * float(np.finfo(float).eps) * farthest)
@@ -96,7 +96,7 @@ def _rounding(stepper: Stepper) -> float:
     return WANDER * still if stepper.anchored else still
 
 
-def _joined(first: Attempt, then: Attempt) -> Attempt:
+def joined(first: Attempt, then: Attempt) -> Attempt:
     """One attempt of a step and its correction."""
     solved = then.solved
     if solved is not None and first.solved is not None:

@@ -125,7 +125,7 @@ def test_the_share_of_a_limit_is_the_value_over_it():
 
 def test_a_name_stands_for_all_that_begin_with_it():
     assert named("B2") == ["B2"]
-    assert set(named("B8")) == {"B8", "B8 oblique"}
+    assert set(named("B8")) == {"B8", "B8 bar", "B8 oblique"}
     assert set(named("B1")) == {"B1 friction", "B1 cohesion"}
     assert {"B1 friction", "B2", "B18 shear"} <= set(named("b"))
     assert not any(name.startswith("C") for name in named("b"))

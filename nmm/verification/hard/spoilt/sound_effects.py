@@ -287,8 +287,8 @@ friction_angle = "30 deg"
 cohesion = "2 MPa"
 tensile_strength = "1 MPa"
 bonded = true
-fracture_energy = "100 J/m^2"
-shear_fracture_energy = "300 J/m^2"
+fracture_energy = "500 J/m^2"
+shear_fracture_energy = "1500 J/m^2"
 [contact]
 [[loads]]
 name = "l"
@@ -301,9 +301,6 @@ maximum_factor = 10.0
 [loading.control]
 {DISSIPATED}fall = 0.2
 [formulation.contact]
-bonds = "spring"
-bond_stiffness = 2.0
-shear_ratio = 0.5
 max_passes = 30
 """
 PULLED = f"""{HEAD}{SQUARE}{UPPER}{HELD}[interfaces.i]
@@ -332,7 +329,10 @@ motion_after_failure = "1 ms"
 increment = 10.0
 tolerance = 0.05
 """
-OPENED = f"""{SOFTENING.replace(DISSIPATED, OPENING)}[[monitors]]
+OPENED = f"""{SOFTENING.replace(DISSIPATED, OPENING)}bonds = "spring"
+bond_stiffness = 2.0
+shear_ratio = 0.5
+[[monitors]]
 name = "o"
 point = [1, 1]
 block = "c"

@@ -1,0 +1,44 @@
+"""Equilibrium in the moved place after a step along a path, with what is controlled held still.
+
+A step is solved where it begins. Bodies that turn in it by ``r`` leave springs out of balance by
+some ``r^2`` of their size, which stiff supports make much of.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from nmm.stepping.drive.settling import CORRECTIONS, SETTLED, joined, rounding
+from nmm.stepping.step.stepper import Stepper
+from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.assembly.motion import State
+    from nmm.contact.points.contact_points import ContactPoints
+
+Correction = Callable[[Attempt], Attempt]
+"""From where a step has ended to a step from there that advances by nothing."""
+
+
+def settled(
+    stepper: Stepper, attempt: Attempt, correction: Correction
+) -> tuple[Attempt, "State", "ContactPoints | None"]:
+    """Accept a step and correct it until nothing moves.
+
+    Return both as one, the state as blocks are laid now, and the contacts. Where corrections find
+    no balance, at a limit point, the last one that did stands.
+    """
+    state, contacts = stepper.accept(attempt)
+    if stepper.small or state is not attempt.state:  # blocks that are laid anew turn in steps
+        return attempt, state, contacts
+    total, least = attempt, rounding(stepper)
+    for _ in range(CORRECTIONS):
+        then = correction(total)
+        if not then.converged or then.motion > total.motion:
+            break
+        state, contacts = stepper.accept(then)
+        way = total.increment + then.increment
+        total = replace(joined(total, then), increment=way)
+        if then.motion <= SETTLED * total.motion + least:
+            break
+    return total, state, contacts
