@@ -107,6 +107,10 @@ strength = "8 MPa"
 slips = ["1 mm", "2 mm", "5 mm"]
 residual_strength = 1e5
 exponent = 0.4
+[bars.dowel]
+bedding_stiffness = "50 MPa"
+bending_stiffness = 3800.0
+yield_force = "60 kN"
 [[masses]]
 name = "machine"
 point = [0.5, 2]
@@ -271,6 +275,19 @@ point = [1, 1]
 head = 1.0
 history = [[0, 1], [1, 0.5]]
 """
+FILLING = JOINTS_UNDER_WATER.replace(
+    "[joint_flow]\n",
+    """[joint_flow]
+transient = true
+initial = 2.0
+duration = "1 s"
+bulk_modulus = "2.2 GPa"
+""",
+)
+CONSOLIDATING = (
+    SEEPING.replace("transient = true\n", "transient = true\ncoupled = true\n")
+    + '[formulation.supports]\nmethod = "penalty"\n'
+)
 DISSIPATED = """type = "dissipation"
 energy = "1 mJ"
 end_energy = "1 J"
@@ -409,12 +426,17 @@ cohesion = "4 MPa"
 friction_angle = "37 deg"
 smallest_block = "20 mm"
 most_blocks = 20
+judged_at = "elements"
 [[initial_velocities]]
 block = "c"
 velocity = [0, -5]
 [formulation.integrator]
 type = "newmark"
-step = "1 ms"
+step = "auto"
+error = 0.1
+error_of = "bodies"
+shortest = "1 us"
+longest = "2 ms"
 """
 STAGED = f"""{HEAD}{SQUARE}{HELD}{UPPER}[interfaces.i]
 friction_angle = 0.5
@@ -503,6 +525,10 @@ bonded = true
 cohesion = 1e7
 tensile_strength = 1e7
 [gravity]
+[[initial_stresses]]
+block = "b"
+stress = [-1000, -2000, 0]
+across = -1000
 [strength_reduction]
 lowest = 0.5
 highest = 4.0
@@ -560,6 +586,7 @@ degree = 1
 EFFECTS = {
     **{"shaken": SHAKEN, "members": MEMBERS, "loaded": LOADED, "heated": HEATED},
     **{"seeping": SEEPING, "joints under water": JOINTS_UNDER_WATER, "softening": SOFTENING},
+    **{"filling": FILLING, "consolidating": CONSOLIDATING},
     **{
         "pulled": PULLED,
         "opened": OPENED,
