@@ -58,13 +58,10 @@ def deformed(law: "Law", f: Floats) -> tuple[Floats, Floats, float]:
 
 
 @dataclass(frozen=True)
-class DeformedMatter(Case):
-    """Simple shear, a gradient without symmetry, and pull with free sides; no body is solved."""
+class OfEachLaw(Case):
+    """What is asked of every law alike, without a body."""
 
     law: str = "neo-Hooke"
-    name: ClassVar[str] = "FK3"
-    title: ClassVar[str] = "Laws of finite strain under given gradients"
-    source: ClassVar[str] = "E = 1, nu = 0.3: derivatives of the energies by computer algebra"
 
     @classmethod
     def variants(cls) -> "Sequence[Self]":
@@ -75,6 +72,15 @@ class DeformedMatter(Case):
     def variant(self) -> str:
         """The law."""
         return self.law
+
+
+@dataclass(frozen=True)
+class DeformedMatter(OfEachLaw):
+    """Simple shear, a gradient without symmetry, and pull with free sides; no body is solved."""
+
+    name: ClassVar[str] = "FK3"
+    title: ClassVar[str] = "Laws of finite strain under given gradients"
+    source: ClassVar[str] = "E = 1, nu = 0.3: derivatives of the energies by computer algebra"
 
     def checks(self, formulation: str) -> Checks:
         """Compare every stress and energy."""
@@ -99,23 +105,12 @@ class DeformedMatter(Case):
 
 
 @dataclass(frozen=True)
-class TurnedMatter(Case):
+class TurnedMatter(OfEachLaw):
     """A stressed body is turned: its energy stays, its stress turns, whatever the angle."""
 
-    law: str = "neo-Hooke"
     name: ClassVar[str] = "FK6"
     title: ClassVar[str] = "Laws of finite strain in a body that is turned"
     source: ClassVar[str] = "Objectivity: W(R F) = W(F), s(R F) = R s(F) R^T"
-
-    @classmethod
-    def variants(cls) -> "Sequence[Self]":
-        """Return both laws."""
-        return [cls(law) for law in LAWS]
-
-    @property
-    def variant(self) -> str:
-        """The law."""
-        return self.law
 
     def checks(self, formulation: str) -> Checks:
         """Turn a gradient without symmetry by 30, 90 and 200 degrees in one step."""
