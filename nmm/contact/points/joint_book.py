@@ -114,9 +114,9 @@ class JointBook:
         lost = (far > JOINT_LEFT * points.length) & ~points.bonded
         gone = np.isin(self.joint, self.joint[lost]) & ~points.bonded
         before = _turned(self.lost, faces)
+        left = points.take(gone) if gone.any() or len(self.left) else self.left
         if not gone.any():
-            return replace(self, points=points, lost=before, left=points.take(gone))
-        left = points.take(gone)
+            return replace(self, points=points, lost=before, left=left)
         return replace(
             self,
             points=points.take(~gone),

@@ -66,11 +66,8 @@ def counted(
         # A joint stands for all of its length: stretches beside it were not pressed so far.
         instead = (on_face | ~known) & (new.gap < 0)
         instead &= np.isin(_pairs(new, body), _pairs(left, body))
-        givers = left if old is None else concatenate([left, old.take(old.length > 0)])
-        taker, slip = new.take(instead), new.slip.copy()
-        share = _share(taker, givers, stiffness, body)
-        reference[instead] = taker.gap * (1 - share)
-        slip[instead] = share * _mean_slip(taker, left, body)
+        reference, slip = reference.copy(), new.slip.copy()
+        reference[instead], slip[instead] = _in_place(new.take(instead), old, stiffness, body, left)
         new = with_parts(new, slip=slip)
     return with_parts(new, gap=new.gap - reference, reference=reference)
 
@@ -94,25 +91,27 @@ def _passed_on(stretch: Floats, ratio: Floats) -> Floats:
     return stretch * np.minimum(ratio, np.sqrt(ratio))
 
 
-def _share(
+def _in_place(
     new: ContactPoints,
-    old: ContactPoints,
+    old: ContactPoints | None,
     stiffness: Callable[[ContactPoints], Floats],
     body: Ints,
-) -> Floats:
-    """Share (m,) of overlaps with which springs hold no more energy than those of ``old`` did.
+    left: ContactPoints,
+) -> tuple[Floats, Floats]:
+    """Reference and slip (m,) of what is found in place of joints that were ``left``.
 
-    Energies are of all contacts of two bodies; what they overlap by is what they are pressed by.
+    It is pressed by what it overlaps, or by the share of that with which all springs between two
+    bodies hold no more energy than joints and faces did.
     """
-    _, which = np.unique(
-        np.concatenate([_pairs(old, body), _pairs(new, body)]), return_inverse=True
-    )
+    old = left if old is None else concatenate([left, old.take(old.length > 0)])
+    pair_old, pair_new = _matched(old, new, body)
     held, asked = (
-        np.bincount(which[some], stiffness(one) * np.minimum(one.gap, 0.0) ** 2, which.max() + 1)
-        for one, some in ((old, slice(len(old))), (new, slice(len(old), None)))
+        np.bincount(pair, stiffness(one) * np.minimum(one.gap, 0.0) ** 2, 1 + pair_old.max())
+        for one, pair in ((old, pair_old), (new, pair_new))
     )
     wanted = np.maximum(asked, np.finfo(float).tiny)
-    return np.sqrt(np.minimum(held / wanted, 1.0))[which[len(old) :]]
+    share = np.sqrt(np.minimum(held / wanted, 1.0))[pair_new]
+    return new.gap * (1 - share), share * _mean_slip(new, left, body)
 
 
 def _mean_slip(new: ContactPoints, left: ContactPoints, body: Ints) -> Floats:
@@ -127,11 +126,17 @@ def _mean_slip(new: ContactPoints, left: ContactPoints, body: Ints) -> Floats:
 def _beside(born: ContactPoints, old: ContactPoints, body: Ints) -> Floats:
     """Stretch (m,) of the most pressed contact that the same two bodies had on faces."""
     faces = old.take(old.length > 0)
-    pair_old, pair_born = _pairs(faces, body), _pairs(born, body)
-    pair, which = np.unique(np.concatenate([pair_old, pair_born]), return_inverse=True)
-    least = np.zeros(len(pair))
-    np.minimum.at(least, which[: len(faces)], faces.gap)
-    return least[which[len(faces) :]]
+    pair_old, pair_born = _matched(faces, born, body)
+    least = np.zeros(1 + int(max(pair_old.max(initial=0), pair_born.max(initial=0))))
+    np.minimum.at(least, pair_old, faces.gap)
+    return least[pair_born]
+
+
+def _matched(old: ContactPoints, new: ContactPoints, body: Ints) -> tuple[Ints, Ints]:
+    """Numbers of the two bodies of old and new points, the same for the same bodies."""
+    pairs = np.concatenate([_pairs(old, body), _pairs(new, body)])
+    which = np.unique(pairs, return_inverse=True)[1]
+    return which[: len(old)], which[len(old) :]
 
 
 def _pairs(points: ContactPoints, body: Ints) -> Ints:

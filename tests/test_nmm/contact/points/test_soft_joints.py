@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.formulation import parse_formulation
 
 STIFFNESS = 1e7  # Pa/m
 WEIGHT = 2000.0 * 9.81 * 0.5  # N for each metre of the sliding block, 0.5 m high
@@ -55,18 +56,13 @@ block = "foot"
 """
 
 
-def run(folder, scene, formulation=""):
+def run(scene, formulation=""):
     """The run of two texts."""
-    for name, text in (("scene", scene), ("formulation", formulation)):
-        (folder / f"{name}.toml").write_text(text)
-    read = nmm.read_scene(folder / "scene.toml")
-    return nmm.run(read, nmm.read_formulation(folder / "formulation.toml"))
+    return nmm.run(nmm.parse_scene(scene), parse_formulation(formulation))
 
 
 @pytest.mark.parametrize("force", [1e2, 1e6], ids=["light", "4 mrad"])
-def test_a_footing_beyond_its_core_is_carried_by_three_times_the_distance_of_its_force(
-    tmp_path, force
-):
+def test_a_footing_beyond_its_core_is_carried_by_three_times_the_distance_of_its_force(force):
     text = (
         TWO_BLOCKS.format(stiffness=1e9, friction=0.5)
         + f"""
@@ -82,7 +78,7 @@ point = [0.75, 0.5]
 force = [0, {-force}]
 """
     )
-    done = run(tmp_path, text, '[cover]\ntype = "quads"\nsize = 0.05\ndegree = 1\n')
+    done = run(text, '[cover]\ntype = "quads"\nsize = 0.05\ndegree = 1\n')
     # No tension: the pressure is a triangle of three times the distance of the force from the
     # edge, 0.25 m less what the footing of 0.5 m leans.
     slope = 0.0
@@ -96,7 +92,7 @@ force = [0, {-force}]
 
 
 @pytest.mark.parametrize("formulation", list(MESHES))
-def test_a_block_on_a_soft_joint_slides_at_one_height(tmp_path, formulation):
+def test_a_block_on_a_soft_joint_slides_at_one_height(formulation):
     text = (
         TWO_BLOCKS.format(stiffness=STIFFNESS, friction=0.0)
         + """
@@ -122,7 +118,7 @@ duration = 0.5
 """
     )
     text = text.replace("[[monitors]]", SIDE + "[[monitors]]", 1)
-    done = run(tmp_path, text, MESHES[formulation] + "[integrator]\nstep = 5e-3\n")
+    done = run(text, MESHES[formulation] + "[integrator]\nstep = 5e-3\n")
     h = done.history
     height = np.array([h["monitor:left:uy"], h["monitor:right:uy"]]).mean(axis=0)
     assert h["monitor:left:ux"][-1] == pytest.approx(0.5 * 1.0 * 0.5**2, rel=2e-3)
@@ -146,7 +142,7 @@ fix = ["x"]
 
 
 @pytest.mark.parametrize("formulation", list(MESHES))
-def test_friction_on_a_soft_joint_holds_through_stages(tmp_path, formulation):
+def test_friction_on_a_soft_joint_holds_through_stages(formulation):
     aside = """
 [[blocks]]
 name = "aside"
@@ -164,7 +160,7 @@ acceleration = [3, -9.81]
     stages = '[[stages]]\nname = "first"\n[[stages]]\nname = "next"\nremove = ["aside"]\n'
     stages += '[[stages]]\nname = "last"\n'
     text = TWO_BLOCKS.format(stiffness=STIFFNESS, friction=0.6) + aside + stages
-    h = run(tmp_path, text, MESHES[formulation]).history
+    h = run(text, MESHES[formulation]).history
     way = h["monitor:left:ux"]
     # Weight over stiffness; the block turns and is deformed by some per cent of it.
     assert way[0] == pytest.approx(2000 * 3 * 0.5 / STIFFNESS, rel=0.2)
@@ -174,7 +170,7 @@ acceleration = [3, -9.81]
 
 
 @pytest.mark.parametrize("degree", [0, 1, 2])
-def test_a_bar_is_as_stiff_across_a_joint_as_its_parts_and_the_joint_are(tmp_path, degree):
+def test_a_bar_is_as_stiff_across_a_joint_as_its_parts_and_the_joint_are(degree):
     bar = """
 plane = "stress"
 
@@ -216,7 +212,7 @@ block = "right"
 [contact]
 """
     cover = f'[cover]\ntype = "quads"\nsize = 0.5\ndegree = {degree}\n'
-    done = run(tmp_path, bar, cover)
+    done = run(bar, cover)
     # Length over modulus, and one over the stiffness; a strain of 1e-4 and the springs of the
     # wall, 1e-4 of it. Forces at corners of cells add 2e-5 (degree 1) and 4e-5 m to 2.1e-4 m.
     assert done.history["monitor:end:ux"][-1] == pytest.approx(-1e5 * (2e-9 + 1e-10), rel=1e-3)
