@@ -1,7 +1,6 @@
 """What brings a scene to its end: time, loads that grow, a path past the peak, growth, creep."""
 
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -134,9 +133,9 @@ class Drive:
         """Return what looks for limit points."""
         if self.made.stepper.plan.contact is None:
             return unseen
-        from nmm.stepping.control.limit_point import limit_point
+        from nmm.stepping.control.limit_point import LimitPoints
         from nmm.stepping.control.making import hindrances
 
         if hindrances(self.made.stepper, self.made.formulation):
             return unseen
-        return partial(limit_point, self.made.stepper)
+        return LimitPoints(self.made.stepper)

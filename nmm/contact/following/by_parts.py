@@ -18,7 +18,7 @@ from nmm.contact.following.path_problem import PathProblem, PathStep
 from nmm.solvers.linear import LinearSolver
 
 # The first part of the way, and the smallest.
-FIRST_PART, LEAST_PART = 0.25, 2.0**-30
+FIRST_PART, LEAST_PART = 0.25, 2.0**-20
 # Solutions of parts after which a step is given up.
 WAYPOINTS = 60
 

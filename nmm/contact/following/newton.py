@@ -16,6 +16,8 @@ from nmm.solvers.linear import LinearSolver
 
 # Iterations, and the out-of-balance force over the largest one at which they end.
 ITERATIONS, CLOSE = 20, 1e-11
+# Iterations go to and fro where so many of them leave more than this share of the least before.
+FRUITLESS, FRUIT = 6, 0.7
 # Halves of an iteration that are tried where the whole is worse in balance.
 SHORTER = 4
 
@@ -30,7 +32,7 @@ def newton(
     SolveError
         Where nothing holds a part.
     """
-    step = begin
+    step, outs = begin, [begin.residual]
     for count in range(1, ITERATIONS + 1):
         factor = solver.unsymmetric().factorise(problem.tangent(step.contacts))
         along = factor.solve(path.load)
@@ -47,7 +49,17 @@ def newton(
         # A part of an iteration may be in balance short of the target.
         if stands and found.short <= ROUNDED and count > 1:
             break
+        outs.append(found.residual)
+        if _to_and_fro(outs):
+            break
     return step
+
+
+def _to_and_fro(residuals: list[float]) -> bool:
+    """Whether the last iterations brought nothing."""
+    # The first one leaves the guess, which may be in balance short of the target.
+    last, before = residuals[-FRUITLESS:], residuals[1:-FRUITLESS]
+    return bool(before) and min(last) > FRUIT * min(before)
 
 
 def _nearest(

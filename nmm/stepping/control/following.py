@@ -31,8 +31,9 @@ from nmm.stepping.step.trial import Attempt
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
 
-# A step that was cut to this share of the largest is not cut further.
-SMALLEST = 2.0**-20
+# A step that was cut to this share of the largest is not cut further, nor are so many between two
+# of full length: a path that must creep does not come to its end.
+SMALLEST, LOST = 2.0**-12, 20
 # Iterations of a step up to which the next is longer.
 EASY = 8
 
@@ -105,8 +106,9 @@ class _Following:
                 return self._shorter(at, step, found.attempt)
             return self._happened(at, event)
         after = self._accepted(at, found.attempt, found.way)
-        easy = found.attempt.passes <= EASY
-        return replace(after, advance=min(self.control.increment, (2 if easy else 1) * at.advance))
+        easy, whole = found.attempt.passes <= EASY, self.control.increment
+        lost = 0 if at.advance == whole else at.lost
+        return replace(after, advance=min(whole, (2 if easy else 1) * at.advance), lost=lost)
 
     def _by_load(self, at: OnPath, standing: Standing) -> bool:
         """Whether the load leads from where a path stands, and not what is controlled."""
@@ -120,8 +122,8 @@ class _Following:
 
     def _shorter(self, at: OnPath, step: float, attempt: Attempt) -> OnPath | RunVerdict:
         """Try half of a step, or end."""
-        if step / 2 >= SMALLEST * self.control.increment:
-            return replace(at, advance=step / 2)
+        if step / 2 >= SMALLEST * self.control.increment and at.lost < LOST:
+            return replace(at, advance=step / 2, lost=at.lost + 1)
         return no_balance(at, attempt)
 
     def _to_event(self, at: OnPath) -> OnPath | RunVerdict:

@@ -17,6 +17,28 @@ from nmm.stepping.step.stepper import Stepper
 FALLEN, PART = 0.98, 0.01
 
 
+class LimitPoints:
+    """Looks for limit points, once from each state: a path is the same however far it is asked for.
+
+    Parameters
+    ----------
+    stepper
+        Follows the paths.
+    """
+
+    def __init__(self, stepper: Stepper) -> None:
+        self._stepper = stepper
+        self._seen: tuple[State, float] | None = None
+
+    def __call__(self, state: State, factor: float) -> LimitPoint | None:
+        """Return a limit point beyond a state, before a load factor; None where none is seen."""
+        if self._seen is not None and self._seen[0] is state and factor <= self._seen[1]:
+            return None
+        found = limit_point(self._stepper, state, factor)
+        self._seen = (state, factor) if found is None else None
+        return found
+
+
 def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | None:
     """Follow the path from ``state``; None unless it falls before it comes to ``factor``.
 

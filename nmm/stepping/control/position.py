@@ -34,6 +34,8 @@ class OnPath:
         How often bonds gave way.
     shed
         By how much the bonds that gave way last hold less energy (J).
+    lost
+        Steps that found no balance since one of full length did.
     """
 
     state: State
@@ -46,6 +48,7 @@ class OnPath:
     changed: bool = False
     events: int = 0
     shed: float = 0.0
+    lost: int = 0
 
 
 @dataclass(frozen=True)

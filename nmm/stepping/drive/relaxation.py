@@ -35,8 +35,8 @@ FALLEN = 0.25
 LOOK = 20
 # Up to this way the motion that is told of a block that moves freely is looked for.
 FREE_WAY = 0.01
-# A step is lengthened and cut by these; so many steps, cuts in a row, and sizes of the domain
-# travelled end the search.
+# A step is lengthened and cut by these; so many steps end the search, and so many cuts before one
+# as long as those that failed is taken: short ones between them get nowhere.
 LONGER, SHORTER, STEPS, CUTS = 1.5, 0.3, 400, 12
 
 
@@ -91,10 +91,10 @@ def relax(
     )
     moving.budget = stepper.budget
     size = stepper.size
-    length = _first_length(heavy, stepper.plan.force(state, end), size)
+    length = first = _first_length(heavy, stepper.plan.force(state, end), size)
     proof = carried(stepper, state, end.load_factor)
     farthest = COLLAPSE if near else 1.0
-    way, cuts, attempt, start, stands = 0.0, 0, None, None, True
+    way, cuts, failed, attempt, start, stands = 0.0, 0, 0.0, None, None, True
 
     def fallen(first: Attempt | None) -> str:
         assert proof is not None
@@ -103,7 +103,7 @@ def relax(
     for steps in range(1, STEPS + 1):
         found = moving.attempt(state, end, length)
         if not found.converged:
-            cuts += 1
+            cuts, failed = cuts + 1, max(failed, length)
             length *= SHORTER
             if cuts > CUTS:
                 said = f"a step failed: {found.sentence}"
@@ -112,7 +112,8 @@ def relax(
         moving.accept(found)
         rest = np.zeros_like(state.velocity)
         state = replace(found.state, velocity=rest, acceleration=rest)
-        cuts, way = 0, way + found.motion
+        way += found.motion
+        cuts, failed = (0, 0.0) if length >= failed else (cuts, failed)
         if attempt is None and proof is not None and proof.fails:
             stands = not _touched(model, found, largest_mover(model, state, found.increment)[0])
         # What moves first tells what is free, not what it hits later.
@@ -123,7 +124,9 @@ def relax(
             return Relaxed(state, steps, False, f"it gathers speed: {who}", True)
         if not stands and way > FALLEN * size:
             return Relaxed(state, steps, False, fallen(attempt), True)
-        if found.motion < STILL * size and _holds(stepper, state, end):
+        # A step cut short moves little, which is no rest.
+        still = STILL * size * min(1.0, (length / first) ** 2)
+        if found.motion < still and _holds(stepper, state, end):
             return Relaxed(state, steps, True, "", way=way)
         if way > farthest * size:
             break

@@ -29,6 +29,8 @@ Solve = Callable[[Linearisation | None, Attempt | None], Solution]
 ROUNDED = 1e-7
 # Iterations of a step; plasticity takes four to eight.
 MOST = 30
+# Iterations go to and fro where so many of them leave more than this share of the least before.
+FRUITLESS, FRUIT = 8, 0.7
 # Below this imbalance the tangent of effects is kept, with the matrix and its factors: what it
 # misses falls by as much again. Where it falls less than by this factor a new one is made.
 NEARLY, FALLS = 1e-3, 0.1
@@ -76,7 +78,7 @@ def newton(
                 found, state=after, residual=max(found.residual, imbalances[-1])
             )
         way = then.increment - now.increment
-        if len(imbalances) == MOST or not np.isfinite(imbalances[-1]):
+        if _hopeless(imbalances):
             flows = _flow(elastic, line, way)
             said = (
                 f"internal forces are {imbalances[-1]:.1e} of all out of balance after "
@@ -119,6 +121,13 @@ def _balanced(imbalances: list[float], tolerance: float) -> bool:
         return True
     stalls = len(imbalances) > 1 and last > 0.5 * imbalances[-2]
     return last <= ROUNDED and stalls
+
+
+def _hopeless(imbalances: list[float]) -> bool:
+    """Whether enough has been tried, or the last iterations brought nothing."""
+    last, before = imbalances[-FRUITLESS:], imbalances[:-FRUITLESS]
+    fruitless = bool(before) and min(last) > FRUIT * min(before)
+    return fruitless or len(imbalances) == MOST or not np.isfinite(imbalances[-1])
 
 
 def _falls(imbalances: list[float]) -> bool:

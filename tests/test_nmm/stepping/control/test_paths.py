@@ -148,3 +148,15 @@ until = "failure"
         # A correction ends as it moves 1e-8 of that, under springs 1e3 times as stiff as blocks.
         held = np.array(h[f"reaction:ground:{axis}"])
         assert held[0] == pytest.approx(-6 * traction * h["load_factor"][0], rel=1e-6)
+
+
+def test_a_path_is_followed_once_from_each_state(monkeypatch):
+    from nmm.stepping.control import limit_point as room
+
+    asked = []
+    monkeypatch.setattr(room, "limit_point", lambda stepper, state, factor: asked.append(factor))
+    seek, first, then = room.LimitPoints(None), object(), object()
+    for state, factor in ((first, 2.0), (first, 1.5), (first, 3.0), (then, 1.5)):
+        assert seek(state, factor) is None
+    # A shorter part of a path without a limit point has none either.
+    assert asked == [2.0, 3.0, 1.5]

@@ -1,0 +1,90 @@
+"""Relaxation ends after a bounded number of attempts, whatever its steps do."""
+
+from dataclasses import replace
+
+import pytest
+
+import nmm
+from nmm.effects.given.steps import Instant
+from nmm.stepping.drive.relaxation import CUTS, _first_length, relax
+from nmm.stepping.prepare import prepare
+from nmm.stepping.step.newton import FRUITLESS, MOST, _hopeless
+from nmm.stepping.step.stepper import Stepper
+
+LOOSE = """
+plane = "stress"
+[contact]
+[gravity]
+[materials.r]
+young_modulus = 1e9
+poisson_ratio = 0.0
+density = 2000.0
+[interfaces.any]
+friction_angle = "30 deg"
+[[blocks]]
+name = "base"
+material = "r"
+vertices = [[0, 0], [3, 0], [3, -1], [0, -1]]
+[[blocks]]
+name = "above"
+material = "r"
+vertices = [[1, 0.01], [2, 0.01], [2, 1.01], [1, 1.01]]
+[[supports]]
+name = "held"
+block = "base"
+fix = ["x", "y"]
+"""
+
+
+@pytest.fixture
+def made():
+    return prepare(nmm.parse_scene(LOOSE), nmm.Formulation())
+
+
+def relaxed(made, monkeypatch, share):
+    """Relax where every step longer than a share of the first fails; also count the attempts."""
+    tries, attempt = {"in time": 0, "at rest": 0}, Stepper.attempt
+    state, end = made.start, Instant(made.start.time, 1.0)
+    longest = share * _first_length(
+        made.stepper.model, made.stepper.plan.force(state, end), made.stepper.size
+    )
+
+    def limited(self, state, end, length):
+        found = attempt(self, state, end, length)
+        tries["at rest" if length is None else "in time"] += 1
+        fails = length is not None and length > longest
+        return replace(found, converged=False, sentence="made to fail") if fails else found
+
+    monkeypatch.setattr(Stepper, "attempt", limited)
+    return relax(made.stepper, state, end, ["base", "above"]), tries
+
+
+def test_short_steps_between_those_that_fail_do_not_prolong_the_search(made, monkeypatch):
+    # Each cut to 0.3 is followed by three or four steps, 1.5 times as long as the one before.
+    found, tries = relaxed(made, monkeypatch, 1e-3)
+    assert not found.at_rest
+    assert "made to fail" in found.sentence
+    assert tries["in time"] <= 5 * CUTS
+
+
+def test_a_step_that_was_cut_short_is_not_taken_for_rest(made, monkeypatch):
+    # Each static solution takes as long as many steps; a body in free fall has not come to rest.
+    _, tries = relaxed(made, monkeypatch, 1e-3)
+    assert tries["at rest"] == 0
+
+
+def test_a_loose_block_comes_to_rest_where_steps_are_held_at_a_third_of_the_first(
+    made, monkeypatch
+):
+    monkeypatch.setattr("nmm.stepping.drive.relaxation.LONGER", 1.0)
+    found, _ = relaxed(made, monkeypatch, 1 / 3)
+    assert found.at_rest
+
+
+@pytest.mark.parametrize("rate", [0.0, 0.3, 0.9])
+def test_iterations_that_gain_go_on_and_those_that_go_to_and_fro_end(rate):
+    falling = [rate**k for k in range(MOST - 1)]
+    assert not _hopeless(falling)
+    to_and_fro = [(1e-3, 0.6)[k % 2] for k in range(MOST)]
+    ends = next(k for k in range(1, MOST + 1) if _hopeless(to_and_fro[:k]))
+    assert ends <= FRUITLESS + 2
