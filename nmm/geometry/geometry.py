@@ -22,6 +22,9 @@ class Geometry:
         Polylines (n, 2) that cut them, m.
     bonded
         Numbers of the cracks whose faces begin bonded.
+    nuclei
+        Numbers of the cracks that began away from all others: at an edge with two points, inside
+        with a third between.
     in_pieces
         Whether the polygons are pieces that no cover of blocks divides further.
     """
@@ -30,6 +33,7 @@ class Geometry:
     cracks: tuple[Floats, ...] = ()
     in_pieces: bool = False
     bonded: tuple[int, ...] = ()
+    nuclei: tuple[int, ...] = ()
 
     @property
     def held(self) -> tuple[Floats, ...]:

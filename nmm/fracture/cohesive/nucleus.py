@@ -7,7 +7,8 @@ import shapely
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.fracture.cohesive.mean_stress import LargestPrincipal, StressMeans
+from nmm.fracture.cohesive.mean_stress import StressMeans
+from nmm.fracture.principal import LargestPrincipal
 from nmm.geometry.geometry import Geometry
 
 # Distance from cracks below which nothing begins, in lengths of the mean.

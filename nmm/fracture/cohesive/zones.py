@@ -16,12 +16,13 @@ from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.errors import Fault, FormulationError, SceneError
-from nmm.fracture.cohesive.mean_stress import LargestPrincipal, StressMeans
+from nmm.fracture.cohesive.mean_stress import StressMeans
 from nmm.fracture.cohesive.nucleus import Nuclei
 from nmm.fracture.cohesive.pieces import extended, with_nucleus
 from nmm.fracture.cohesive.strength import element_strength
 from nmm.fracture.cohesive.zone_fronts import zone_fronts
 from nmm.fracture.growth.fronts import may_grow
+from nmm.fracture.principal import LargestPrincipal
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints

@@ -11,12 +11,8 @@ import numpy as np
 
 from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats, Ints
+from nmm.fracture.clear_way import clear_length
 from nmm.fracture.growth.fronts import CrackFronts
-
-# Part of the growth length up to which a ligament that would be left is cut through.
-LIGAMENT = 0.25
-# Segments that begin nearer to a tip than this part of the growth length are its own faces.
-OWN = 1e-6
 
 
 def advanced(
@@ -65,25 +61,9 @@ def new_ends(cut: CutCells, begin: Floats, tips: Ints, angle: Floats, length: fl
     bodies = cut.element_body[cut.tips.element[tips]]
     for here, way, mine in zip(begin, ways, bodies, strict=True):  # a handful of fronts
         near = body == mine
-        last = here + _clear(here, way, start[near], end[near], length) * way
+        last = here + clear_length(here, way, start[near], end[near], length) * way
         found.append(last)
         # A piece that comes after this one may not cross it.
         start, end = np.append(start, here[None], axis=0), np.append(end, last[None], axis=0)
         body = np.append(body, mine)
     return np.array(found).reshape(-1, 2)
-
-
-def _clear(begin: Floats, way: Floats, start: Floats, end: Floats, length: float) -> float:
-    """Length to the first segment (m, 2) on the way, or the whole where it is far beyond."""
-    one, two = start - begin, end - begin
-    own = np.minimum(np.hypot(*one.T), np.hypot(*two.T)) < OWN * length
-    one, two = one[~own], two[~own]
-    side_one = way[0] * one[:, 1] - way[1] * one[:, 0]
-    side_two = way[0] * two[:, 1] - way[1] * two[:, 0]
-    crossed = side_one * side_two <= 0
-    with np.errstate(divide="ignore", invalid="ignore"):
-        share = side_one / (side_one - side_two)
-        along = (one + share[:, None] * (two - one)) @ way
-    hits = along[crossed & np.isfinite(along) & (along > OWN * length)]
-    first = float(hits.min(initial=np.inf))
-    return first if first <= (1 + LIGAMENT) * length else length

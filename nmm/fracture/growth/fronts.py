@@ -1,4 +1,4 @@
-"""Fronts: the ends of a scene's cracks, wherever their tips are now."""
+"""Fronts: the ends of cracks, those of a scene and those that began, wherever their tips are."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ ROUNDING = 1e-6
 
 @dataclass(frozen=True)
 class CrackFronts:
-    """Both ends of every crack of a scene, and the ends of branches.
+    """Both ends of every crack of a scene and of every nucleus, and the ends of branches.
 
     Those that are no tips now have ended or never were.
 
@@ -41,13 +41,24 @@ class CrackFronts:
         n = len(names)
         return cls(tuple(both), np.repeat(np.arange(n), 2), np.tile([False, True], n))
 
-    def with_branches(self, cracks: Sequence[Floats]) -> "CrackFronts":
-        """Return these and a front at the last point of every polyline beyond those they have."""
-        first = int(self.crack.max(initial=-1)) + 1
-        more = np.arange(first, len(cracks))
-        names = tuple(f"branch {number}" for number in more - first + 1)
-        last = np.append(self.last, np.ones(len(more), dtype=bool))
-        return CrackFronts((*self.name, *names), np.append(self.crack, more), last)
+    def with_born(self, number: int, nuclei: Sequence[int] = ()) -> "CrackFronts":
+        """Return these and those of the polylines beyond theirs, of ``number`` in all.
+
+        A nucleus has two ends, a branch one: the last.
+        """
+        found, branches = self, 0
+        for line in range(int(self.crack.max(initial=-1)) + 1, number):  # a handful of cracks
+            if line in nuclei:
+                ends = CrackFronts.of([nucleus_name(nuclei.index(line))])
+            else:
+                branches += 1
+                ends = CrackFronts((f"branch {branches}",), np.zeros(1, np.int64), np.array([True]))
+            found = CrackFronts(
+                (*found.name, *ends.name),
+                np.append(found.crack, ends.crack + line),
+                np.append(found.last, ends.last),
+            )
+        return found
 
     def __len__(self) -> int:
         return len(self.crack)
@@ -70,10 +81,13 @@ class CrackFronts:
         return found
 
     def former(self, before: Sequence[Floats], after: Sequence[Floats]) -> Floats:
-        """Points (n, 2) of the polylines ``before``; branches that are new began at their first."""
-        n = len(before)
-        then = [*before, *(line[:1] for line in after[n:])]
-        return self.points(then)
+        """Points (n, 2) of the polylines ``before``; where those that are new began.
+
+        Branches and nuclei at an edge began at the first of two points, nuclei inside at the second
+        of three.
+        """
+        begun = [line[(len(line) - 1) // 2][None] for line in after[len(before) :]]
+        return self.points([*before, *begun])
 
     def gained(self, before: Sequence[Floats], after: Sequence[Floats]) -> Floats:
         """Length (n,) by which each front has gone on from one set of polylines to another (m)."""
@@ -86,6 +100,11 @@ class CrackFronts:
         for name, (x, y), length in zip(self.name, places.tolist(), grown.tolist(), strict=True):
             row |= {f"{name}:x": x, f"{name}:y": y, f"{name}:growth": length}
         return row
+
+
+def nucleus_name(number: int) -> str:
+    """Name of the crack that began after so many others."""
+    return f"nucleus {number + 1}"
 
 
 def may_grow(grown: Floats, most: float) -> Bools:

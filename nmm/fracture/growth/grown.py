@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
@@ -35,16 +36,13 @@ class GrownSoFar:
         """
         gained = fronts.gained(*lines)
         grown = np.flatnonzero(gained > 0)
-        tip = nearest_tips(model, fronts.former(*lines)[grown])
-        stiff = tip_moduli(model, model.cut.tips.element[tip])[1]
+        stiff = tip_moduli(model, nearest_elements(model, fronts.former(*lines)[grown]))[1]
         energy = model.thickness * gained[grown] @ rule.energies(stiff)
         length = np.pad(self.length, (0, len(gained) - len(self.length)))
         return GrownSoFar(length + gained, self.energy + float(energy))
 
 
-def nearest_tips(model: Model, points: Floats) -> Ints:
-    """Number (k,) of the tip nearest to each of some points (k, 2)."""
-    if not len(points):
-        return np.zeros(0, dtype=np.int64)
-    away = np.hypot(*np.moveaxis(points[:, None] - model.cut.tips.point, -1, 0))
-    return np.asarray(np.argmin(away, axis=1))
+def nearest_elements(model: Model, points: Floats) -> Ints:
+    """Element (k,) nearest to each of some points (k, 2)."""
+    tree = shapely.STRtree(model.manifold.elements.to_shapely())
+    return np.asarray(tree.nearest(shapely.points(points)), dtype=np.int64)

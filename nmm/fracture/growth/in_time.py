@@ -15,7 +15,7 @@ from nmm.assembly.motion import State
 from nmm.effects.base import Instant, Setup
 from nmm.fracture.growth.branching import Branching
 from nmm.fracture.growth.growing import GrowingCracks
-from nmm.fracture.growth.grown import GrownSoFar
+from nmm.fracture.growth.grown import GrownSoFar, nearest_elements
 from nmm.fracture.growth.held_faces import HeldFaces, newly_held
 from nmm.fracture.growth.intensities import Intensities, tip_moduli
 from nmm.fracture.growth.running import Running
@@ -72,13 +72,22 @@ class GrowthInTime(GrowingCracks):
         new = GrowthInTime(change.setup, self._grown_so_far(change))
         length, was = new._fronts.gained(before, after), new._fronts.former(before, after)
         grown = np.flatnonzero(length > 0)
-        # Where a tip divides, both branches run on as it ran.
-        born = was[len(self._fronts) :]
-        parents = np.argmin(np.hypot(*np.moveaxis(born[:, None] - self._points, -1, 0)), axis=1)
-        new._running, span = self._running.divided(parents).cut(grown, length[grown])
+        running = self._joined(change, was[len(self._fronts) :])
+        new._running, span = running.cut(grown, length[grown])
         held = newly_held(change, was[grown], span)
         new._held = self._held.followed(change).joined(held)
         return new
+
+    def _joined(self, change: "Change", born: Floats) -> Running:
+        """Return how tips run with those that were born at places (k, 2) before."""
+        if len(change.setup.geometry.nuclei) > len(self._setup.geometry.nuclei):
+            model = self._setup.model
+            element = nearest_elements(model, born)
+            speed = rayleigh_speeds(model, element, tip_moduli(model, element)[0])
+            return self._running.begun(len(born), float(speed.min()))
+        # Where a tip divides, both branches run on as it ran.
+        away = np.hypot(*np.moveaxis(born[:, None] - self._points, -1, 0))
+        return self._running.divided(np.argmin(away, axis=1))
 
     def _laid(self, found: Intensities) -> tuple[tuple[Floats, ...], str]:
         """See `GrowingCracks._laid`; with tips that divide."""

@@ -23,8 +23,9 @@ def refuse(setup: Setup, tips: Ints) -> None:
     """
     scene, model = setup.scene, setup.model
     place = scene.source.place("fracture")
-    if not (tips >= 0).any():
-        remedy = "let one of [[cracks]] end inside a block, or remove [fracture]"
+    begins = scene.fracture is not None and scene.fracture.nucleation is not None
+    if not (tips >= 0).any() and not begins:
+        remedy = "let one of [[cracks]] end inside a block, or add [fracture.nucleation]"
         raise SceneError(Fault(place, "no crack tip", "a crack that can grow", remedy))
     singular = model.manifold.singular
     for point in model.cut.tips.point[tips[tips >= 0]]:  # a handful of tips

@@ -55,6 +55,13 @@ class Running:
         )
         return Running(self.time, way, speed, until)
 
+    def begun(self, number: int, speed: float) -> "Running":
+        """Return the tips with so many that begin, at a speed (m/s)."""
+        way, speeds = np.zeros(number), np.full(number, speed)
+        until = np.full(number, -np.inf)
+        pairs = ((self.way, way), (self.speed, speeds), (self.until, until))
+        return Running(self.time, *(np.concatenate(pair) for pair in pairs))
+
     def cut(self, front: Ints, length: Floats) -> tuple["Running", Floats]:
         """Return the tips where pieces (k,) of a length were cut; and how long each still takes.
 

@@ -71,11 +71,9 @@ class _Growing:
         if isinstance(trial, RunVerdict):
             return trial
         with stepper.clock.phase("events"):
-            found = fracture.intensities(trial.state)
-        if not len(found.front):
+            share = fracture.reached(trial.state)
+        if share is None:
             return self._ended("every crack has come to an end", at)
-        free = fracture.free(found)
-        share = float(found.share[free if free.any() else ...].max())
         if not share > 0:
             return RunVerdict(FAILED, f"no load factor opens a crack: {at.changed or 'at first'}")
         attempt = self._solved(at, at.increment / share)

@@ -20,8 +20,9 @@ def fracture_contradictions(data: Tables) -> Iterator[Finding]:
     table = data.get("fracture")
     if table is None:
         return
-    if not data.get("cracks"):
-        remedy = "add the cracks that are there from the start"
+    begins = isinstance(table, Mapping) and table.get("nucleation")
+    if not data.get("cracks") and not begins:
+        remedy = "add the cracks that are there from the start, or [fracture.nucleation]"
         yield ("fracture",), "no [[cracks]]", "a crack that can grow", remedy
     for key in IN_TIME if isinstance(table, Mapping) and "inertia" not in data else ():
         if table.get(key):

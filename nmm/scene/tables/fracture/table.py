@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from nmm.scene.fields import Angle, Frozen, Length, Number, PartName, SurfaceEnergy, fault, quantity
+from nmm.scene.tables.fracture.nucleation import NucleationTable
 
 Intensity = Annotated[float, quantity("Pa m^0.5", 1e-30)]
 
@@ -74,6 +75,9 @@ class FractureTable(Frozen):
         description="a radius in m, > 0, of the domain of the interaction integral; four cells "
         "of the cover by default",
         examples=["30 mm"],
+    )
+    nucleation: NucleationTable | None = Field(
+        default=None, description="a table [fracture.nucleation]: cracks begin away from others"
     )
 
     @model_validator(mode="after")

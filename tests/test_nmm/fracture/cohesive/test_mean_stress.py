@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from nmm.formulation import parse_formulation
-from nmm.fracture.cohesive.mean_stress import LargestPrincipal, StressMeans
+from nmm.fracture.cohesive.mean_stress import StressMeans
 from nmm.fracture.cohesive.zone_fronts import zone_fronts
+from nmm.fracture.principal import LargestPrincipal
 from nmm.geometry.blocks import Regions
 from nmm.geometry.geometry import Geometry
 from nmm.materials.elastic import Elastic

@@ -1,0 +1,69 @@
+"""Stress averaged along straight lines through the material of one body."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+
+from integration.arrays import Bools, Floats, Ints
+from integration.rules import PointRule
+from nmm.assembly.errors import stresses
+from nmm.assembly.model import Model
+
+# Gauss points along a line.
+POINTS = 8
+# Points nearer to an element than this share of the domain lie in it.
+NEAR = 1e-9
+
+
+@dataclass(frozen=True)
+class LineStress:
+    """Means along lines through a model."""
+
+    model: Model
+
+    def means(
+        self, deformation: Floats, begin: Floats, way: Floats, body: Ints
+    ) -> tuple[Floats, Bools]:
+        """Return mean stresses (k, 3) in body axes, in Pa, and which lines (k,) stay in their body.
+
+        Parameters
+        ----------
+        deformation
+            (n,) unknowns.
+        begin, way
+            (k, 2) where each begins in the reference place, and from there to its end (m).
+        body
+            (k,) of each; what leaves it has no mean.
+        """
+        share, weight = np.polynomial.legendre.leggauss(POINTS)
+        points = begin[:, None] + (1 + share[:, None]) / 2 * way[:, None]
+        flat = points.reshape(-1, 2)
+        element = self._elements(flat, np.repeat(body, POINTS))
+        known = element >= 0
+        found = np.zeros((len(flat), 3))
+        rule = PointRule(flat[known], np.ones(int(known.sum())), element[known])
+        found[known] = stresses(self.model, deformation, rule)
+        mean = np.einsum("q,kqi->ki", weight / 2, found.reshape(-1, POINTS, 3))
+        return mean, known.reshape(-1, POINTS).all(axis=1)
+
+    def _elements(self, points: Floats, body: Ints) -> Ints:
+        """Element (m,) of a body at each point; -1 where it has none there."""
+        manifold = self.model.manifold
+        point, element = self._tree.query(
+            shapely.points(points), predicate="dwithin", distance=self._reach
+        )
+        own = manifold.element_body[element] == body[point]
+        none = len(manifold.elements)
+        found = np.full(len(points), none, dtype=np.int64)
+        np.minimum.at(found, point[own], element[own])
+        return np.where(found == none, -1, found)
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        return shapely.STRtree(self.model.manifold.elements.to_shapely())
+
+    @cached_property
+    def _reach(self) -> float:
+        return NEAR * float(np.hypot(*np.ptp(self.model.manifold.elements.points, axis=0)))

@@ -1,0 +1,151 @@
+"""Which place is nearest to where a crack begins, and the crack that does.
+
+At a place the criterion has reached the smaller of two shares of the strength: of the largest
+principal stress there, and of that of the mean stress along a line (Whitney and Nuismer 1974). The
+line runs in the plane that this mean opens.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+
+from integration.arrays import Bools, Floats, Ints
+from integration.rules import PointRule
+from nmm.assembly.errors import stresses
+from nmm.assembly.model import Model
+from nmm.fracture.clear_way import LIGAMENT, clear_length
+from nmm.fracture.nucleation.line_stress import LineStress
+from nmm.fracture.nucleation.places import Places, outline
+from nmm.fracture.nucleation.rule import NucleationRule
+from nmm.fracture.principal import LargestPrincipal
+from nmm.geometry.geometry import Geometry
+
+# Times that a line is turned into the plane which its mean opens.
+TURNS = 4
+# Shares that differ by less are one: of places in even stress the middle one counts.
+EVEN = 1e-6
+# Places whose lines are looked at together.
+CHUNK = 128
+
+
+@dataclass(frozen=True)
+class Nucleus:
+    """The place that is nearest to where a crack begins.
+
+    Attributes
+    ----------
+    share
+        Of the strength that the criterion has reached there.
+    point
+        (2,) where it is (m).
+    way
+        (2,) direction of the crack, from an edge inwards.
+    body
+        In which it lies.
+    inside
+        Whether it is on no edge.
+    """
+
+    share: float
+    point: Floats
+    way: Floats
+    body: int
+    inside: bool
+
+
+@dataclass(frozen=True)
+class Nuclei:
+    """All places of a model at which cracks may begin by a rule."""
+
+    model: Model
+    rule: NucleationRule
+    places: Places
+
+    @classmethod
+    def of(cls, model: Model, geometry: Geometry, rule: NucleationRule) -> "Nuclei":
+        """Return those of a model on a geometry."""
+        return cls(model, rule, Places.of(model.cut, geometry, rule.length, rule.away))
+
+    def nearest(self, deformation: Floats) -> Nucleus | None:
+        """Return the place that has reached most of the strength; None where none can.
+
+        Places are looked at in the order of the stress at each, which no share exceeds.
+        """
+        places = self.places
+        if not len(places):
+            return None
+        rule = PointRule(places.point, np.ones(len(places)), places.element)
+        pulled = LargestPrincipal.of(stresses(self.model, deformation, rule))
+        order = self._order(pulled.size)
+        best: Nucleus | None = None
+        for first in range(0, len(order), CHUNK):  # until no stress is as large as the best mean
+            rows = order[first : first + CHUNK]
+            bound = float(pulled.size[rows].max()) / self.rule.strength
+            if best is not None and bound <= best.share * (1 + EVEN):
+                break
+            found = self._best(deformation, rows, pulled)
+            if found is not None and (best is None or found.share > best.share * (1 + EVEN)):
+                best = found
+        return best
+
+    def _order(self, stress: Floats) -> Ints:
+        """Places by falling stress (k,); of even ones those on edges first, then the middle one."""
+        level = np.round(stress / max(float(np.abs(stress).max()), 1e-300) / EVEN)
+        most = self.places.point[level == level.max()]
+        middle = (most.min(axis=0) + most.max(axis=0)) / 2
+        away = np.hypot(*(self.places.point - middle).T)
+        return np.lexsort((away, self.places.inside, -level))
+
+    def _best(self, deformation: Floats, rows: Ints, pulled: LargestPrincipal) -> Nucleus | None:
+        """Return the best of some places (k,), the first of even ones."""
+        places, whole = self.places.take(rows), self.rule.length
+        inside, body = places.inside, self.model.manifold.element_body[places.element]
+        way = _inwards(pulled.plane[rows], places.inward)
+        for _ in range(TURNS):
+            begin = places.point - (inside * whole / 2)[:, None] * way
+            mean, known = self._stress.means(deformation, begin, whole * way, body)
+            opened = LargestPrincipal.of(mean)
+            last, way = way, _inwards(opened.plane, places.inward)
+        known &= inside | self._ends_deep(places.point + whole * last)
+        share = np.where(known, np.minimum(opened.size, pulled.size[rows]), -np.inf)
+        level = np.round(share / max(float(np.abs(share[known]).max(initial=0.0)), 1e-300) / EVEN)
+        if not known.any():
+            return None
+        one = int(np.argmax(level))
+        found = float(share[one]) / self.rule.strength
+        return Nucleus(found, places.point[one], way[one], int(body[one]), bool(inside[one]))
+
+    def _ends_deep(self, points: Floats) -> Bools:
+        """Which ends (k, 2) leave a ligament."""
+        near = LIGAMENT * self.rule.length
+        return np.asarray(~shapely.dwithin(shapely.points(points), self._outline, near))
+
+    def laid(self, nucleus: Nucleus) -> Floats:
+        """Return the polyline (2, 2) of the crack from an edge, or (3, 2) of one inside."""
+        one, way = nucleus.point, nucleus.way
+        if not nucleus.inside:
+            return np.array([one, one + self._clear(nucleus, 1.0, self.rule.crack_length) * way])
+        back, ahead = (self._clear(nucleus, to, self.rule.crack_length / 2) for to in (-1.0, 1.0))
+        return np.array([one - back * way, one, one + ahead * way])
+
+    def _clear(self, nucleus: Nucleus, to: float, length: float) -> float:
+        edges = self.model.cut.boundary
+        near = edges.body == nucleus.body
+        start, end = edges.start[near], edges.end[near]
+        return clear_length(nucleus.point, to * nucleus.way, start, end, length)
+
+    @cached_property
+    def _stress(self) -> LineStress:
+        return LineStress(self.model)
+
+    @cached_property
+    def _outline(self) -> shapely.MultiLineString:
+        return outline(self.model.cut)
+
+
+def _inwards(way: Floats, inward: Floats) -> Floats:
+    """Return directions (k, 2), turned round where they lead out of the material."""
+    out = np.einsum("ki,ki->k", way, inward) < 0
+    return np.where(out[:, None], -way, way)

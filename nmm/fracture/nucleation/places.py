@@ -1,0 +1,67 @@
+"""Places at which cracks may begin: along the edges of bodies and inside, away from cracks."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from covers.cutting.cut_cells import CutCells
+from integration.arrays import Bools, Floats, Ints
+from nmm.geometry.geometry import Geometry
+
+
+@dataclass(frozen=True)
+class Places:
+    """Middles and ends of the pieces of edges, and middles of elements.
+
+    Attributes
+    ----------
+    point
+        (k, 2) in the reference place (m).
+    inward
+        (k, 2) normal of the edge into the material; zero inside.
+    element
+        (k,) in which each lies.
+    """
+
+    point: Floats
+    inward: Floats
+    element: Ints
+
+    @classmethod
+    def of(cls, cut: CutCells, geometry: Geometry, deep: float, away: float) -> "Places":
+        """Return those of a cut: inside from ``deep`` (m) on, ``away`` (m) from cracks."""
+        edges = cut.boundary
+        along = edges.end - edges.start
+        along /= np.hypot(*along.T)[:, None]
+        normal = np.stack([-along[:, 1], along[:, 0]], axis=1)
+        bisector = normal + normal[edges.previous]
+        middle = cut.elements.centroids
+        free = np.flatnonzero(edges.crack < 0)
+        inside = np.flatnonzero(~shapely.dwithin(shapely.points(middle), outline(cut), deep))
+        point = [(edges.start + edges.end)[free] / 2, edges.start[free], middle[inside]]
+        inward = [normal[free], bisector[free], np.zeros((len(inside), 2))]
+        element = [edges.element[free], edges.element[free], inside]
+        found = cls(*(np.concatenate(parts) for parts in (point, inward, element)))
+        if not geometry.cracks:
+            return found
+        lines = shapely.MultiLineString([line.tolist() for line in geometry.cracks])
+        return found.take(~shapely.dwithin(shapely.points(found.point), lines, away))
+
+    def __len__(self) -> int:
+        return len(self.point)
+
+    def take(self, rows: Ints | Bools) -> "Places":
+        """Return some of them."""
+        return Places(self.point[rows], self.inward[rows], self.element[rows])
+
+    @property
+    def inside(self) -> Bools:
+        """Which (k,) lie on no edge."""
+        return np.asarray(~self.inward.any(axis=1))
+
+
+def outline(cut: CutCells) -> shapely.MultiLineString:
+    """Return all edges of bodies and faces of cracks."""
+    ends = np.stack([cut.boundary.start, cut.boundary.end], axis=1)
+    return shapely.multilinestrings(shapely.linestrings(ends))

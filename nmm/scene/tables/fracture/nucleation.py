@@ -1,0 +1,36 @@
+"""Nucleation of cracks: the strength that stress reaches over a length, and what begins there."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from nmm.scene.fields import Count, Frozen, Length, Stress
+
+
+class NucleationTable(Frozen):
+    """Cracks begin at edges and inside where the mean stress along a line reaches the strength.
+
+    The line runs from an edge inwards, or both ways from a place inside, normal to the largest
+    principal stress of the mean; the stress where it begins must have reached the strength too. The
+    crack is laid along it.
+    """
+
+    tensile_strength: Stress = Field(
+        gt=0, description="a tensile strength in Pa, > 0", examples=["3 MPa"]
+    )
+    length: Length | None = Field(
+        default=None,
+        gt=0,
+        description="a length in m, > 0, along which stress is averaged; 2 (K_Ic / f_t)^2 / pi if "
+        "not given",
+        examples=["15 mm"],
+    )
+    crack_length: Length | None = Field(
+        default=None,
+        gt=0,
+        description="the length in m, > 0, of a crack that begins; that of the mean if not given",
+        examples=["20 mm"],
+    )
+    number: Count | None = Field(
+        default=None, ge=1, description="how many cracks may begin, >= 1", examples=[1]
+    )
