@@ -1,34 +1,85 @@
-"""Cracks that begin: the rule of a scene on a model, and the geometry with one more crack."""
+"""Cracks that begin: the rule of a scene on a model, the place that is next, the geometry then."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
+from integration.arrays import Floats
+from nmm.assembly.motion import State
 from nmm.effects.base import Setup
+from nmm.effects.event import Event
 from nmm.fracture.growth.intensities import tip_moduli
+from nmm.fracture.growth.refusals import refuse_nucleation, short_nuclei
+from nmm.fracture.growth.rule import ROUNDING
 from nmm.fracture.nucleation.nuclei import Nuclei, Nucleus
 from nmm.fracture.nucleation.rule import NucleationRule
 from nmm.fracture.toughness import Toughness
-from nmm.geometry.geometry import Geometry
 
 
-def nucleation_rule(setup: Setup, toughness: Toughness) -> NucleationRule | None:
-    """Return the rule of ``[fracture.nucleation]`` for the materials of a model."""
-    table = setup.scene.fracture
-    if table is None or table.nucleation is None:
-        return None
-    _, stiff = tip_moduli(setup.model, np.arange(len(setup.model.manifold.elements)))
-    return NucleationRule.of(table.nucleation, toughness, stiff)
+class Beginnings:
+    """Where cracks may begin in the geometry of a setup; nowhere without a rule in its scene."""
 
+    def __init__(self, setup: Setup, toughness: Toughness) -> None:
+        table = setup.scene.fracture
+        self._setup = setup
+        self._rule: NucleationRule | None = None
+        self._nuclei: Nuclei | None = None
+        self._known: tuple[Floats, Nucleus | None] | None = None
+        if table is None or table.nucleation is None:
+            return
+        _, stiff = tip_moduli(setup.model, np.arange(len(setup.model.manifold.elements)))
+        self._rule = NucleationRule.of(table.nucleation, toughness, stiff)
+        if len(setup.geometry.nuclei) < self._rule.most:
+            self._nuclei = Nuclei.of(setup.model, setup.geometry, self._rule)
 
-def nuclei_of(setup: Setup, rule: NucleationRule | None) -> Nuclei | None:
-    """Return where cracks may still begin in a geometry; None where no more may."""
-    if rule is None or len(setup.geometry.nuclei) >= rule.most:
-        return None
-    return Nuclei.of(setup.model, setup.geometry, rule)
+    def refuse(self) -> None:
+        """Refuse what `refuse_nucleation` does."""
+        if self._nuclei is not None:
+            refuse_nucleation(self._setup, self._nuclei)
 
+    @property
+    def about(self) -> str:
+        """How cracks begin, in words."""
+        if self._rule is None:
+            return ""
+        return (
+            f"; cracks of {self._rule.crack_length:g} m begin where the mean stress over "
+            f"{self._rule.length:g} m is {self._rule.strength:g} Pa"
+        )
 
-def with_nucleus(geometry: Geometry, nuclei: Nuclei, one: Nucleus) -> Geometry:
-    """Return the geometry with the crack that begins at a place."""
-    cracks = (*geometry.cracks, nuclei.laid(one))
-    return replace(geometry, cracks=cracks, nuclei=(*geometry.nuclei, len(geometry.cracks)))
+    @property
+    def caution(self) -> str:
+        """What spoils cracks that begin so short, in words."""
+        return "" if self._rule is None else short_nuclei(self._setup, self._rule)
+
+    def next(self, state: State) -> Nucleus | None:
+        """Return the place that is nearest to where a crack begins; kept for the last state."""
+        if self._nuclei is None:
+            return None
+        if self._known is None or self._known[0] is not state.deformation:
+            self._known = state.deformation, self._nuclei.nearest(state.deformation)
+        return self._known[1]
+
+    def event(self, state: State, held: bool) -> Event | None:
+        """Ask for a crack where the mean stress has reached the strength."""
+        nucleus = self.next(state)
+        if nucleus is None or nucleus.share < 1 - ROUNDING:
+            return None
+        assert self._nuclei is not None
+        geometry, (x, y) = self._setup.geometry, nucleus.point + self._setup.origin
+        number, line = len(geometry.cracks), self._nuclei.laid(nucleus)
+        laid = replace(geometry, cracks=(*geometry.cracks, line), nuclei=(*geometry.nuclei, number))
+        return Event(laid, f"a crack began at [{x:.6g}, {y:.6g}]", held=held)
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Share of the strength that is reached where it is largest, and that place (m)."""
+        nucleus = self.next(state)
+        if nucleus is None:
+            return {}
+        x, y = nucleus.point + self._setup.origin
+        return {"nucleation:share": nucleus.share, "nucleation:x": x, "nucleation:y": y}
+
+    def forget(self) -> None:
+        """Drop what is kept for the last state."""
+        self._known = None

@@ -13,16 +13,14 @@ from nmm.assembly.motion import MaterialPoints, State, material_points
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.fracture.growth.advance import advanced
-from nmm.fracture.growth.beginning import nuclei_of, nucleation_rule, with_nucleus
+from nmm.fracture.growth.beginning import Beginnings
 from nmm.fracture.growth.faces import CrackFaces
 from nmm.fracture.growth.fronts import CrackFronts, nucleus_name
 from nmm.fracture.growth.grown import GrownSoFar
 from nmm.fracture.growth.intensities import Intensities, tip_moduli
 from nmm.fracture.growth.refusals import refuse
-from nmm.fracture.growth.rule import ROUNDING, GrowthRule
+from nmm.fracture.growth.rule import GrowthRule
 from nmm.fracture.intensity_rows import IntensityRows
-from nmm.fracture.nucleation.nuclei import Nuclei, Nucleus
-from nmm.fracture.nucleation.rule import NucleationRule
 from nmm.fracture.stress_intensity import check_domain
 from nmm.fracture.surroundings import domain_radius
 from nmm.quantity import SPOT, Quantity
@@ -54,7 +52,7 @@ class GrowingCracks(Effect):
         self._sofar = GrownSoFar(np.zeros(len(self._fronts)), 0.0) if sofar is None else sofar
         self._tips = self._fronts.tips(setup.model.cut, cracks)
         self._known: tuple[Floats, Intensities] | None = None
-        self._begins: tuple[Floats, Nucleus | None] | None = None
+        self._beginnings = Beginnings(setup, self.rule.toughness)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -67,19 +65,19 @@ class GrowingCracks(Effect):
         """
         made = cls(setup)
         refuse(setup, made._tips)
+        made._beginnings.refuse()
         return made
+
+    @property
+    def caution(self) -> str:
+        """See `Effect.caution`: cracks that begin too short for the net or for the toughness."""
+        return self._beginnings.caution
 
     @property
     def about(self) -> str:
         """See `Effect.about`."""
         said = f"{self._table.criterion}, pieces of {self.rule.increment:g} m"
-        begins = self._nucleation
-        if begins is None:
-            return said
-        return (
-            f"{said}; cracks of {begins.crack_length:g} m begin where the mean stress over "
-            f"{begins.length:g} m is {begins.strength:g} Pa"
-        )
+        return said + self._beginnings.about
 
     @property
     def energy_taken(self) -> float:
@@ -96,28 +94,12 @@ class GrowingCracks(Effect):
             self._known = state.deformation, self._found(state)
         return self._known[1]
 
-    @cached_property
-    def _nucleation(self) -> NucleationRule | None:
-        return nucleation_rule(self._setup, self.rule.toughness)
-
-    @cached_property
-    def _nuclei(self) -> Nuclei | None:
-        return nuclei_of(self._setup, self._nucleation)
-
-    def nucleus(self, state: State) -> Nucleus | None:
-        """Return the place that is nearest to where a crack begins; kept for the last state."""
-        if self._nuclei is None:
-            return None
-        if self._begins is None or self._begins[0] is not state.deformation:
-            self._begins = state.deformation, self._nuclei.nearest(state.deformation)
-        return self._begins[1]
-
     def reached(self, state: State) -> float | None:
-        """Share of what it takes that is reached by what grows or begins first; None if nothing can.
+        """Share of what it takes that what grows or begins first has reached; None if nothing can.
 
         Fronts that have grown as far as they may count where nothing else is left.
         """
-        found, nucleus = self.intensities(state), self.nucleus(state)
+        found, nucleus = self.intensities(state), self._beginnings.next(state)
         free = found.share[self.free(found)]
         begins = [] if nucleus is None else [nucleus.share]
         left = np.append(free, begins)
@@ -176,19 +158,9 @@ class GrowingCracks(Effect):
         rows = np.flatnonzero(self._growing(found))
         geometry = self._setup.geometry
         if not len(rows):
-            return self._beginning(view.state)
+            return self._beginnings.event(view.state, self.held)
         cracks, what = self._laid(found.take(rows))
         return Event(replace(geometry, cracks=cracks), what, held=self.held)
-
-    def _beginning(self, state: State) -> Event | None:
-        """Ask for a crack where the mean stress has reached the strength."""
-        nucleus = self.nucleus(state)
-        if nucleus is None or nucleus.share < 1 - ROUNDING:
-            return None
-        assert self._nuclei is not None
-        x, y = nucleus.point + self._setup.origin
-        laid = with_nucleus(self._setup.geometry, self._nuclei, nucleus)
-        return Event(laid, f"a crack began at [{x:.6g}, {y:.6g}]", held=self.held)
 
     def _laid(self, found: Intensities) -> tuple[tuple[Floats, ...], str]:
         """Polylines with new pieces at all fronts ``found``, and what happens, in words."""
@@ -243,10 +215,7 @@ class GrowingCracks(Effect):
         for number, name in self._lines.items():  # a handful
             row[f"{name}:length"] = np.hypot(*np.diff(cracks[number], axis=0).T).sum()
             row[f"{name}:opening"] = opening[self._faces.crack == number].max(initial=0.0)
-        nucleus = self.nucleus(state)
-        if nucleus is not None:
-            x, y = nucleus.point + self._setup.origin
-            row |= {"nucleation:share": nucleus.share, "nucleation:x": x, "nucleation:y": y}
+        row |= self._beginnings.history(state)
         row |= self._fronts.history(cracks, self._setup.origin, self._sofar.length)
         for number, front in enumerate(found.front):
             name = self._fronts.name[front]
@@ -264,4 +233,5 @@ class GrowingCracks(Effect):
 
     def forget(self) -> None:
         """See `Effect.forget`."""
-        self._known = self._begins = None
+        self._known = None
+        self._beginnings.forget()

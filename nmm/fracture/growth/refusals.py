@@ -3,6 +3,11 @@
 from integration.arrays import Ints
 from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError
+from nmm.fracture.nucleation.nuclei import Nuclei
+from nmm.fracture.nucleation.rule import NucleationRule
+
+# Cells in the length of a crack that begins, for its tip to carry functions.
+CELLS = 3
 
 
 def refuse(setup: Setup, tips: Ints) -> None:
@@ -43,3 +48,44 @@ def refuse(setup: Setup, tips: Ints) -> None:
     if model.matter is not None:
         remedy = "use elastic materials and small strain, or remove [fracture]"
         raise FormulationError(Fault(place, model.bent, "elastic matter", remedy))
+
+
+def refuse_nucleation(setup: Setup, nuclei: Nuclei) -> None:
+    """Refuse covers on which no crack can begin, and means over lines that no body holds.
+
+    Raises
+    ------
+    FormulationError
+        A cover that carries no functions of tips.
+    SceneError
+        A length that is too large.
+    """
+    cover, place = setup.formulation.cover, setup.scene.source.place("fracture", "nucleation")
+    plain = cover.enrichment is not None and not cover.enrichment.tips
+    if cover.size is None or cover.functions != "monomials" or plain:
+        value = "tips = false" if plain else f'cover "{cover.type}" of "{cover.functions}"'
+        remedy = 'use type = "triangles" with a size in [cover], and leave tips to it'
+        raise FormulationError(Fault(place, value, "a mesh whose tips carry functions", remedy))
+    if not nuclei.fits:
+        place = setup.scene.source.place("fracture", "nucleation", "length")
+        value = f"{nuclei.rule.length:g} m"
+        remedy = "give a smaller length, or check toughness and strength, from which it follows"
+        expected = "a length that goes across an edge into a block and ends before the other side"
+        raise SceneError(Fault(place, value, expected, remedy))
+
+
+def short_nuclei(setup: Setup, rule: NucleationRule) -> str:
+    """Say what is wrong with cracks that begin so short; empty where nothing is."""
+    size, length = setup.formulation.cover.finest, rule.crack_length
+    said = []
+    if size is not None and length < CELLS * size:
+        said.append(
+            f"cracks begin {length:g} m long on cells of {size:g} m: their tips need cells of at "
+            f"most {length / CELLS:.3g} m"
+        )
+    if length < rule.tough * (1 - 1e-9):
+        said.append(
+            f"cracks begin {length:g} m long: under even stress they free less than their faces "
+            f"take by the toughness, from {rule.tough:.3g} m on as much"
+        )
+    return "; ".join(said)

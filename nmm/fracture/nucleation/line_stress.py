@@ -5,14 +5,15 @@ from functools import cached_property
 
 import numpy as np
 import shapely
+from numpy.polynomial.legendre import leggauss
 
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import PointRule
 from nmm.assembly.errors import stresses
 from nmm.assembly.model import Model
 
-# Gauss points along a line.
-POINTS = 8
+# Gauss points along a line, as parts of it.
+SHARES, WEIGHTS = (1 + leggauss(8)[0]) / 2, leggauss(8)[1] / 2
 # Points nearer to an element than this share of the domain lie in it.
 NEAR = 1e-9
 
@@ -37,16 +38,23 @@ class LineStress:
         body
             (k,) of each; what leaves it has no mean.
         """
-        share, weight = np.polynomial.legendre.leggauss(POINTS)
-        points = begin[:, None] + (1 + share[:, None]) / 2 * way[:, None]
-        flat = points.reshape(-1, 2)
-        element = self._elements(flat, np.repeat(body, POINTS))
+        points, element = self._located(begin, way, body)
         known = element >= 0
-        found = np.zeros((len(flat), 3))
-        rule = PointRule(flat[known], np.ones(int(known.sum())), element[known])
+        found = np.zeros((len(points), 3))
+        rule = PointRule(points[known], np.ones(int(known.sum())), element[known])
         found[known] = stresses(self.model, deformation, rule)
-        mean = np.einsum("q,kqi->ki", weight / 2, found.reshape(-1, POINTS, 3))
-        return mean, known.reshape(-1, POINTS).all(axis=1)
+        mean = np.einsum("q,kqi->ki", WEIGHTS, found.reshape(-1, len(WEIGHTS), 3))
+        return mean, np.asarray(known.reshape(-1, len(WEIGHTS)).all(axis=1))
+
+    def stays(self, begin: Floats, way: Floats, body: Ints) -> Bools:
+        """Which lines (k,) stay in their body; see `means`."""
+        _, element = self._located(begin, way, body)
+        return np.asarray((element.reshape(-1, len(WEIGHTS)) >= 0).all(axis=1))
+
+    def _located(self, begin: Floats, way: Floats, body: Ints) -> tuple[Floats, Ints]:
+        """Gauss points (k Q, 2) of lines, and the element of each; -1 where it has none."""
+        points = (begin[:, None] + SHARES[:, None] * way[:, None]).reshape(-1, 2)
+        return points, self._elements(points, np.repeat(body, len(SHARES)))
 
     def _elements(self, points: Floats, body: Ints) -> Ints:
         """Element (m,) of a body at each point; -1 where it has none there."""

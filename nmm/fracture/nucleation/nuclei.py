@@ -66,7 +66,7 @@ class Nuclei:
     @classmethod
     def of(cls, model: Model, geometry: Geometry, rule: NucleationRule) -> "Nuclei":
         """Return those of a model on a geometry."""
-        return cls(model, rule, Places.of(model.cut, geometry, rule.length, rule.away))
+        return cls(model, rule, Places.of(model.cut, geometry, rule.deep, rule.away))
 
     def nearest(self, deformation: Floats) -> Nucleus | None:
         """Return the place that has reached most of the strength; None where none can.
@@ -104,8 +104,9 @@ class Nuclei:
         inside, body = places.inside, self.model.manifold.element_body[places.element]
         way = _inwards(pulled.plane[rows], places.inward)
         for _ in range(TURNS):
-            begin = places.point - (inside * whole / 2)[:, None] * way
-            mean, known = self._stress.means(deformation, begin, whole * way, body)
+            begin = places.point - (inside * whole)[:, None] * way
+            along = (whole * (1 + inside))[:, None] * way
+            mean, known = self._stress.means(deformation, begin, along, body)
             opened = LargestPrincipal.of(mean)
             last, way = way, _inwards(opened.plane, places.inward)
         known &= inside | self._ends_deep(places.point + whole * last)
@@ -124,17 +125,24 @@ class Nuclei:
 
     def laid(self, nucleus: Nucleus) -> Floats:
         """Return the polyline (2, 2) of the crack from an edge, or (3, 2) of one inside."""
-        one, way = nucleus.point, nucleus.way
-        if not nucleus.inside:
-            return np.array([one, one + self._clear(nucleus, 1.0, self.rule.crack_length) * way])
-        back, ahead = (self._clear(nucleus, to, self.rule.crack_length / 2) for to in (-1.0, 1.0))
-        return np.array([one - back * way, one, one + ahead * way])
+        ahead, back = (self._end(nucleus, to * nucleus.way) for to in (1.0, -1.0))
+        return np.array([*([back] if nucleus.inside else []), nucleus.point, ahead])
 
-    def _clear(self, nucleus: Nucleus, to: float, length: float) -> float:
-        edges = self.model.cut.boundary
+    def _end(self, nucleus: Nucleus, way: Floats) -> Floats:
+        edges, one = self.model.cut.boundary, nucleus.point
         near = edges.body == nucleus.body
-        start, end = edges.start[near], edges.end[near]
-        return clear_length(nucleus.point, to * nucleus.way, start, end, length)
+        length = self.rule.crack_length
+        return one + clear_length(one, way, edges.start[near], edges.end[near], length) * way
+
+    @property
+    def fits(self) -> bool:
+        """Whether any line across an edge stays in its body."""
+        edges = self.places.take(~self.places.inside)
+        inward = edges.inward / np.maximum(np.hypot(*edges.inward.T), 1e-300)[:, None]
+        body = self.model.manifold.element_body[edges.element]
+        ends = edges.point + self.rule.length * inward
+        stays = self._stress.stays(edges.point, self.rule.length * inward, body)
+        return bool((stays & self._ends_deep(ends)).any())
 
     @cached_property
     def _stress(self) -> LineStress:

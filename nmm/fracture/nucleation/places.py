@@ -46,7 +46,8 @@ class Places:
         if not geometry.cracks:
             return found
         lines = shapely.MultiLineString([line.tolist() for line in geometry.cracks])
-        return found.take(~shapely.dwithin(shapely.points(found.point), lines, away))
+        near: Bools = np.asarray(shapely.dwithin(shapely.points(found.point), lines, away))
+        return found.take(~near)
 
     def __len__(self) -> int:
         return len(self.point)
@@ -64,4 +65,4 @@ class Places:
 def outline(cut: CutCells) -> shapely.MultiLineString:
     """Return all edges of bodies and faces of cracks."""
     ends = np.stack([cut.boundary.start, cut.boundary.end], axis=1)
-    return shapely.multilinestrings(shapely.linestrings(ends))
+    return shapely.MultiLineString(list(ends))

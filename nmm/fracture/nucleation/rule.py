@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.fracture.clear_way import LIGAMENT
 from nmm.fracture.toughness import Toughness
 
 if TYPE_CHECKING:
@@ -25,11 +26,11 @@ class NucleationRule:
     strength
         Tensile strength (Pa).
     length
-        Along which stress is averaged (m).
+        Along which stress is averaged (m): from an edge inwards, or both ways from a place inside.
     crack_length
-        Of a crack that begins (m).
-    away
-        Distance from cracks below which none begins (m).
+        Of a crack that begins (m), as long both ways inside.
+    tough
+        The length that goes with the toughness (m), see `mean_length`.
     most
         How many may begin; infinite without a limit.
     """
@@ -37,7 +38,7 @@ class NucleationRule:
     strength: float
     length: float
     crack_length: float
-    away: float
+    tough: float
     most: float
 
     @classmethod
@@ -48,12 +49,23 @@ class NucleationRule:
         length = tough if table.length is None else table.length
         crack_length = length if table.crack_length is None else table.crack_length
         most = np.inf if table.number is None else table.number
-        return cls(strength, length, crack_length, AWAY * max(length, tough), most)
+        return cls(strength, length, crack_length, tough, most)
+
+    @property
+    def away(self) -> float:
+        """Distance from cracks below which none begins (m)."""
+        return AWAY * max(self.length, self.tough)
+
+    @property
+    def deep(self) -> float:
+        """Distance from edges from which places count as inside (m)."""
+        return (1 + LIGAMENT) * self.length
 
 
 def mean_length(toughness: float, strength: float) -> float:
     """Length (m) over which the mean stress ahead of a tip at K_Ic is the strength.
 
     ``2 L`` with ``L = (K_Ic / f_t)^2 / pi``: the line method of critical distances (Taylor 2007).
+    Under even stress at the strength a crack of that length both ways frees what its faces take.
     """
     return 2 / np.pi * (toughness / strength) ** 2

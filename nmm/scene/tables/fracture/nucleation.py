@@ -21,14 +21,15 @@ class NucleationTable(Frozen):
     length: Length | None = Field(
         default=None,
         gt=0,
-        description="a length in m, > 0, along which stress is averaged; 2 (K_Ic / f_t)^2 / pi if "
-        "not given",
+        description="a length in m, > 0, along which stress is averaged, from an edge, and both "
+        "ways inside; 2 (K_Ic / f_t)^2 / pi if not given",
         examples=["15 mm"],
     )
     crack_length: Length | None = Field(
         default=None,
         gt=0,
-        description="the length in m, > 0, of a crack that begins; that of the mean if not given",
+        description="the length in m, > 0, of a crack that begins, from an edge, and both ways "
+        "inside; that of the mean if not given",
         examples=["20 mm"],
     )
     number: Count | None = Field(
