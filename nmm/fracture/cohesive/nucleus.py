@@ -16,7 +16,7 @@ AWAY = 3.0
 
 
 @dataclass(frozen=True)
-class Nuclei:
+class ZoneNuclei:
     """Places at which zones may begin: middles of boundary edges and of elements, away from cracks.
 
     Attributes
@@ -35,7 +35,7 @@ class Nuclei:
     means: StressMeans
 
     @classmethod
-    def of(cls, model: Model, geometry: Geometry, strength: Floats, length: float) -> "Nuclei":
+    def of(cls, model: Model, geometry: Geometry, strength: Floats, length: float) -> "ZoneNuclei":
         """Return the places of a model; ``strength`` (E,) of its elements, means over a length."""
         edges, elements = model.manifold.boundary, model.manifold.elements
         place = np.concatenate([(edges.start + edges.end) / 2, elements.centroids])

@@ -17,7 +17,7 @@ from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.fracture.cohesive.mean_stress import StressMeans
-from nmm.fracture.cohesive.nucleus import Nuclei
+from nmm.fracture.cohesive.nucleus import ZoneNuclei
 from nmm.fracture.cohesive.pieces import extended, with_nucleus
 from nmm.fracture.cohesive.strength import element_strength
 from nmm.fracture.cohesive.zone_fronts import zone_fronts
@@ -131,8 +131,8 @@ class CohesiveZones(Effect):
         body = model.manifold.element_body[tips.element[tip]]
         return StressMeans.about(model, tips.point[tip], body, self._length, tips.direction[tip])
 
-    def _places(self) -> Nuclei:
-        return Nuclei.of(self._setup.model, self._setup.geometry, self._strength, self._length)
+    def _places(self) -> ZoneNuclei:
+        return ZoneNuclei.of(self._setup.model, self._setup.geometry, self._strength, self._length)
 
     def calls(self, state: State) -> Calls:
         """Return what the tips have in a state."""

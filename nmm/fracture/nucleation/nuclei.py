@@ -22,8 +22,9 @@ from nmm.fracture.nucleation.rule import NucleationRule
 from nmm.fracture.principal import LargestPrincipal
 from nmm.geometry.geometry import Geometry
 
-# Times that a line is turned into the plane which its mean opens.
-TURNS = 4
+# Times that lines are turned into the planes which their means open, and the turn (rad) that is
+# left as it is: the mean across is stationary there.
+TURNS, STILL = 4, 1e-3
 # Shares that differ by less are one: of places in even stress the middle one counts.
 EVEN = 1e-6
 # Places whose lines are looked at together.
@@ -109,6 +110,9 @@ class Nuclei:
             mean, known = self._stress.means(deformation, begin, along, body)
             opened = LargestPrincipal.of(mean)
             last, way = way, _inwards(opened.plane, places.inward)
+            turned = np.abs(last[:, 0] * way[:, 1] - last[:, 1] * way[:, 0])
+            if float(turned[known].max(initial=0.0)) < STILL:
+                break
         known &= inside | self._ends_deep(places.point + whole * last)
         share = np.where(known, np.minimum(opened.size, pulled.size[rows]), -np.inf)
         level = np.round(share / max(float(np.abs(share[known]).max(initial=0.0)), 1e-300) / EVEN)

@@ -13,7 +13,7 @@ Intensity = Annotated[float, quantity("Pa m^0.5", 1e-30)]
 
 
 class FractureTable(Frozen):
-    """Cracks of the scene grow where their tips reach the toughness of the material.
+    """Cracks grow where their tips reach the toughness of the material.
 
     A new piece is straight, in the direction of the criterion. One that would meet the boundary, a
     hole or another crack, or end less than a quarter of its length short of it, ends there.
@@ -77,7 +77,7 @@ class FractureTable(Frozen):
         examples=["30 mm"],
     )
     nucleation: NucleationTable | None = Field(
-        default=None, description="a table [fracture.nucleation]: cracks begin away from others"
+        default=None, description="a table [fracture.nucleation]"
     )
 
     @model_validator(mode="after")
