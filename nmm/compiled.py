@@ -6,9 +6,12 @@ a scene calls none of these functions, so that it need not wait for it.
 
 from collections.abc import Callable
 from functools import cached_property, partial
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+OPTIONS: dict[str, Any] = {"cache": True, "no_cfunc_wrapper": True}
+"""Kept on disk; called by Python and by each other, not by C, which takes a twentieth more time."""
 
 
 class Kernel(partial[Any]):
@@ -32,7 +35,7 @@ class Kernel(partial[Any]):
         """What numba makes of the function, which calls go to from now on."""
         from numba import njit
 
-        made: Callable[..., Any] = njit(cache=True)(self.python)
+        made: Callable[..., Any] = njit(**OPTIONS)(self.python)
         self.__setstate__((made, (), {}, vars(self)))
         return made
 
@@ -45,3 +48,11 @@ class Kernel(partial[Any]):
 def compiled(function: Function) -> Function:
     """Return the function, compiled on its first call and kept on disk."""
     return cast(Function, Kernel.of(function))
+
+
+def kept(function: Callable[..., Any]) -> bool:
+    """Whether compiled code of a function is on disk, of this or of an earlier version of it."""
+    kernel = cast(Kernel, function)
+    file = Path(kernel.python.__code__.co_filename).stem
+    folder = Path(kernel.made.stats.cache_path)  # type: ignore[attr-defined]
+    return any(folder.glob(f"{file}.{kernel.python.__qualname__}-*.nbi"))

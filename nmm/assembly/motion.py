@@ -107,12 +107,16 @@ def rotation_matrices(angle: Floats) -> Floats:
     return found
 
 
+def initial_frames(manifold: Manifold) -> Frames:
+    """Return the frames of bodies as they were laid."""
+    centre = manifold.body_centroid.copy()  # free to write, as all later ones: compiled code is one
+    return Frames(centre, np.zeros(manifold.n_bodies), way=np.zeros_like(centre))
+
+
 def initial_state(manifold: Manifold) -> State:
     """Return the state of rest in the reference place."""
     n = manifold.n_unknowns
-    centre = manifold.body_centroid
-    frames = Frames(centre, np.zeros(manifold.n_bodies), way=np.zeros_like(centre))
-    return State(0.0, 0.0, frames, np.zeros(n), np.zeros(n), np.zeros(n))
+    return State(0.0, 0.0, initial_frames(manifold), np.zeros(n), np.zeros(n), np.zeros(n))
 
 
 @dataclass(frozen=True)

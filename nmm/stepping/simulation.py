@@ -109,6 +109,10 @@ class Simulation(CompiledScene):
 
         ``store`` takes checkpoints; ``stood`` is where the run goes on, None from its start.
         """
+        if self.stepper.plan.contact is not None:
+            from nmm.contact.enforcement import ahead  # only a run needs its loops compiled
+
+            ahead.begin()
         bound = self._failure_bound()
         sink: Sink = Tee(sinks)
         if self.origin.any():

@@ -7,6 +7,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
 from nmm.contact.detection.tolerances import REENTRANT
+from nmm.solvers.kernels.ascending import extended
 
 
 @compiled
@@ -134,8 +135,7 @@ def _search(
             if _distance2(p, start[e], end[e]) > distance * distance:
                 continue
             if found == len(vertex):
-                vertex = np.concatenate((vertex, np.empty_like(vertex)))
-                edge = np.concatenate((edge, np.empty_like(edge)))
+                vertex, edge = extended(vertex, 2 * found), extended(edge, 2 * found)
             vertex[found] = v
             edge[found] = e
             found += 1

@@ -35,7 +35,7 @@ def shape_of(
 ) -> Shape:
     """Directions, lengths, convexity of vertices and thickness of bodies."""
     n = len(start)
-    real, link = np.zeros((n, 8)), np.full((n, 6), -1)
+    real, link = np.zeros((n, 8)), np.empty((n, 6), np.int64)
     top = -1
     for e in range(n):
         real[e, SX], real[e, SY], real[e, EX], real[e, EY] = (
@@ -50,6 +50,7 @@ def shape_of(
         if size > 0.0:
             real[e, TX], real[e, TY] = dx / size, dy / size
         link[e, BODY], link[e, NEXT], link[e, PREVIOUS] = body[e], following[e], previous[e]
+        link[e, OWN], link[e, BEFORE] = -1, -1
         top = max(top, body[e])
     first, area, around = np.full(top + 1, -1), np.zeros(top + 1), np.zeros(top + 1)
     for e in range(n):

@@ -4,6 +4,7 @@ A body whose own matrix is much stiffer than the springs of its contacts, as one
 hardly moves whatever its neighbours do: islands that share it are solved one after the other.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -90,7 +91,10 @@ def balances(
     """See `Islands.balance`."""
     load, weight = springs.load, springs.weight
     pointers, indices, entries = springs.matrix
-    rest, largest = np.zeros(islands), np.full((3, islands), springs.least**2)
+    rest, largest = np.zeros(islands), np.empty((3, islands))
+    for one in range(islands):
+        for part in range(3):
+            largest[part, one] = springs.least**2
     for i in range(len(increment)):
         inner = 0.0
         for k in range(pointers[i], pointers[i + 1]):
@@ -100,7 +104,10 @@ def balances(
         largest[0, one] += square * inner**2
         largest[1, one] += square * (force[i] + load[i] - inner) ** 2
         largest[2, one] += square * load[i] ** 2
-    return np.sqrt(rest), np.sqrt(np.maximum(np.maximum(largest[0], largest[1]), largest[2]))
+    for one in range(islands):
+        rest[one] = math.sqrt(rest[one])
+        largest[0, one] = math.sqrt(max(largest[0, one], largest[1, one], largest[2, one]))
+    return rest, largest[0]
 
 
 @compiled

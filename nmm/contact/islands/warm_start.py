@@ -41,15 +41,18 @@ def start_from(
     if len(points) == 1:
         return points[0]
     one = np.zeros(len(points[0]), dtype=np.int64) if islands is None else islands.unknown
-    found: Floats = _nearest(np.stack(points), mixes, one, springs.columns)
+    count = 1 if islands is None else islands.count
+    found: Floats = _nearest(np.stack(points), mixes, one, count, springs.columns)
     return found
 
 
 @compiled
-def _nearest(points: Floats, mixes: bool, island: Ints, springs: SpringColumns) -> Floats:
+def _nearest(
+    points: Floats, mixes: bool, island: Ints, islands: int, springs: SpringColumns
+) -> Floats:
     """Unknowns (n,), of each island the best balanced of ``points`` (k, n) and their mix."""
-    weight, islands = springs.weight, island.max() + 1
-    forces, sizes = np.empty_like(points), np.empty((len(points), islands))
+    weight = springs.weight
+    forces, sizes = np.empty(points.shape), np.empty((len(points), islands))
     for i in range(len(points)):
         force, _ = residual(points[i], springs)
         rest, largest = balances(points[i], force, island, islands, springs)
@@ -115,11 +118,14 @@ def _solved(table: Floats) -> None:
         trace += table[i, i]
         for j in range(i):
             table[j, i] = table[i, j]
-    load, order = table[:, count].copy(), np.arange(count)
-    table[:, count] = 0.0
+    load, order = table[:, count].copy(), np.empty(count, dtype=np.int64)
+    for i in range(count):
+        order[i], table[i, count] = i, 0.0
     if not (np.isfinite(trace) and trace > 0.0):
         return
     for i in range(count):
         table[i, i] += MIX_RIDGE * trace
     if eliminated(table, order, False):
-        table[:, count] = substituted(table, order, load)
+        found = substituted(table, order, load)
+        for i in range(count):
+            table[i, count] = found[i]

@@ -55,13 +55,13 @@ def run(
     steady = float(wait.ahead), float(wait.below), int(wait.look)
     turn = int(depth), float(growth)
     with one_thread():
-        found = _run(x, force, *given, steady, turn, factor.scale, outside, plan, springs)
+        found = loop(x, force, *given, steady, turn, factor.scale, outside, plan, springs)
     increment, force, size, solves = found
     return increment, force, float(size), int(solves)
 
 
 @compiled
-def _run(
+def loop(
     increment: Floats,
     force: Floats,
     size: float,
@@ -74,6 +74,7 @@ def _run(
     plan: fronts.Inside,
     springs: SpringColumns,
 ) -> tuple[Floats, Floats, float, int]:
+    """See `run`; ``outside``, ``plan`` and ``scale`` are those of the factor."""
     depth, growth = steer
     n, count, solves, known = len(increment), 0, 0, False
     sums, corrections = np.empty((depth, n)), np.empty((depth, n))

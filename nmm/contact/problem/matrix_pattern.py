@@ -119,7 +119,7 @@ def _unknowns(ptr_a: Index, idx_a: Index, ptr_b: Index, idx_b: Index) -> Index:
     width = 0
     for c in range(m):
         width = max(width, ptr_a[c + 1] - ptr_a[c] + ptr_b[c + 1] - ptr_b[c])
-    both = np.full((m, width), -1, dtype=np.int32)
+    both = np.empty((m, width), dtype=np.int32)
     merged = np.empty(width, dtype=np.int32)
     most = 0
     for c in range(m):
@@ -137,6 +137,8 @@ def _unknowns(ptr_a: Index, idx_a: Index, ptr_b: Index, idx_b: Index) -> Index:
                 both[c, count] = merged[k]
                 count += 1
         most = max(most, count)
+        for k in range(count, width):
+            both[c, k] = -1
     return both[:, :most].copy()
 
 
@@ -145,7 +147,7 @@ def _pattern(
     n: int, own_ptr: Index, own_idx: Index, who_ptr: Index, who: Index, unknowns: Index
 ) -> tuple[Index, Index]:
     indptr = np.zeros(n + 1, dtype=np.int32)
-    mark = np.full(n, -1, dtype=np.int32)
+    mark = np.full(n, -1)
     indices = np.empty(2 * len(own_idx) + 64, dtype=np.int32)
     total = 0
     for j in range(n):

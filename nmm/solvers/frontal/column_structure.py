@@ -14,8 +14,8 @@ def elimination_tree(ptr: Index, graph: Index, order: Ints) -> tuple[Ints, Ints]
     place = np.empty(n, dtype=np.int64)
     for k in range(n):
         place[order[k]] = k
-    parent = np.full(n, -1, dtype=np.int64)
-    ancestor = np.full(n, -1, dtype=np.int64)
+    parent = np.full(n, -1)
+    ancestor = np.full(n, -1)
     for k in range(n):
         for e in range(ptr[order[k]], ptr[order[k] + 1]):
             i = place[graph[e]]
@@ -25,8 +25,8 @@ def elimination_tree(ptr: Index, graph: Index, order: Ints) -> tuple[Ints, Ints]
                 if above == -1:
                     parent[i] = k
                 i = above
-    head = np.full(n, -1, dtype=np.int64)
-    following = np.full(n, -1, dtype=np.int64)
+    head = np.full(n, -1)
+    following = np.full(n, -1)
     for k in range(n - 1, -1, -1):
         if parent[k] >= 0:
             following[k] = head[parent[k]]
@@ -60,11 +60,11 @@ def structures(ptr: Index, graph: Index, order: Ints, parent: Ints) -> tuple[Int
     place = np.empty(n, dtype=np.int64)
     for k in range(n):
         place[order[k]] = k
-    head = np.full(n, -1, dtype=np.int64)
-    following = np.full(n, -1, dtype=np.int64)
+    head = np.full(n, -1)
+    following = np.full(n, -1)
     start = np.zeros(n + 1, dtype=np.int64)
     rows = np.empty(4 * len(graph) + 64, dtype=np.int64)
-    mark = np.full(n, -1, dtype=np.int64)
+    mark = np.full(n, -1)
     total = 0
     for k in range(n):
         first = total

@@ -93,7 +93,7 @@ def _bisected(
     n = len(ptr) - 1
     order = np.arange(n)
     parted = np.zeros(n, dtype=np.bool_)
-    mark = np.full(n, -1, dtype=np.int64)
+    mark = np.full(n, -1)
     begin, end = [0], [n]
     while len(begin):
         a, b = begin.pop(), end.pop()

@@ -52,7 +52,8 @@ def factorise(
     base[0] = 0
     n_held = 0
     local = np.empty(first[-1], dtype=np.int64)
-    start, shift = np.empty_like(local), np.empty_like(local)
+    start = np.empty(first[-1], dtype=np.int64)
+    shift = np.empty(first[-1], dtype=np.int64)
     at = letters.ctypes.data
     low, plain, right, turned, high = at, at + 1, at + 2, at + 3, at + 4
     n_c = sizes.ctypes.data
@@ -138,7 +139,9 @@ def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> No
     kernels, letters, sizes, scalars = outside
     order, first, row_start, rows, panel_start, beside_start, panels, swaps = inside
     n, count, symmetric = len(rhs), len(first) - 1, len(swaps) == 0
-    top = np.abs(rhs).max() if n > 0 else 0.0
+    top = 0.0
+    for k in range(n):
+        top = max(top, abs(rhs[k]))
     unit = 2.0 ** np.floor(np.log2(top)) if 0.0 < top < np.inf else 1.0
     x, work = np.empty(n, dtype=panels.dtype), np.empty(n, dtype=panels.dtype)
     for k in range(n):

@@ -63,7 +63,7 @@ def _quotient(indptr: Index, indices: Index, node_of: Ints, n: int) -> tuple[Ind
     """Graph of the nodes, each with itself, rows ascending."""
     ptr = np.zeros(n + 1, dtype=np.int32)
     graph = np.empty(len(indices) + n, dtype=np.int32)
-    mark = np.full(n, -1, dtype=np.int64)
+    mark = np.full(n, -1)
     total, first, j = 0, 0, 0
     for node in range(n):
         first = total

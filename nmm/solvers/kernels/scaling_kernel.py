@@ -14,7 +14,7 @@ def scaled_data(
 
     On 100 bricks it takes 30 us, array operations 100.
     """
-    found = np.empty_like(data)
+    found = np.empty(len(data))
     diagonals = 0
     for j in range(len(scale)):
         own = scale[j]

@@ -14,7 +14,7 @@ from covers.approximation.manifold import Manifold
 from covers.change.parentage import Parentage
 from integration.arrays import Floats
 from integration.polygons import Polygons
-from nmm.assembly.motion import Frames, State, initial_state
+from nmm.assembly.motion import State, initial_frames, initial_state
 from nmm.effects.change import Change
 from nmm.errors import FormulationError
 from nmm.model.discretisation import Discretisation
@@ -50,8 +50,7 @@ def remapped(
     """
     model = discretisation.model
     manifold = lay(model.manifold.elements.with_points(place))
-    centre = manifold.body_centroid
-    frames = Frames(centre, np.zeros(manifold.n_bodies), way=np.zeros_like(centre))
+    frames = initial_frames(manifold)
     rest = np.zeros(manifold.n_unknowns)
     return Change(
         before=discretisation.setup,
