@@ -150,6 +150,8 @@ CASES = Registry[type[Case]](
         "PL4": f"{_HOME}.plasticity:Footing",
         "PL5": f"{_HOME}.matter.safety:SoilSlope",
         "PL5 plane": f"{_HOME}.matter.safety:SlidingWedge",
+        "PL5 slope": f"{_HOME}.matter.slopes:JointedSlope",
+        "PL5 toppling": f"{_HOME}.matter.slopes:ToppledSlope",
         "TH1": f"{_HOME}.heat_strain:Bimetal",
         "TH2": f"{_HOME}.heat_strain:Restrained",
         "TH2 gap": f"{_HOME}.heat_strain:ClosingGap",

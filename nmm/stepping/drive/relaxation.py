@@ -1,8 +1,9 @@
-"""Where loose blocks come to rest: steps with a mass and no memory of velocity, then none.
+"""Where loose blocks come to rest: steps with a mass and little memory of velocity, then none.
 
 Each step moves the blocks as if they started from rest (Shi 1988, kinetic factor 0; dynamic
-relaxation in the sense of Day 1965, implicit). The mass lends stiffness to what is not yet held and
-drops out of the state that is found: the last solution is one without it.
+relaxation in the sense of Day 1965, implicit), until long steps fail (`pace`). The mass lends
+stiffness to what is not yet held and drops out of the state that is found: the last solution is
+one without it.
 """
 
 from collections.abc import Sequence
@@ -16,6 +17,7 @@ from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.shi import Shi
+from nmm.stepping.drive.pace import Pace
 from nmm.stepping.drive.settling import COLLAPSE
 from nmm.stepping.drive.static_theorem import carried
 from nmm.stepping.step.anchors import block_name, largest_mover
@@ -35,9 +37,8 @@ FALLEN = 0.25
 LOOK = 20
 # Up to this way the motion that is told of a block that moves freely is looked for.
 FREE_WAY = 0.01
-# A step is lengthened and cut by these; so many steps end the search, and so many cuts before one
-# as long as those that failed is taken: short ones between them get nowhere.
-LONGER, SHORTER, STEPS, CUTS = 1.5, 0.3, 400, 12
+# So many steps end the search.
+STEPS = 400
 
 
 @dataclass(frozen=True)
@@ -85,49 +86,50 @@ def relax(
     inertia = Inertia(heavy, kinematics.turns)
     moving = Stepper(
         stepper.discretisation.joined(inertia),
-        Shi(kinetic_factor=0.0),
+        Shi(),
         stepper.solver,
         kinematics,
     )
     moving.budget = stepper.budget
     size = stepper.size
-    length = first = _first_length(heavy, stepper.plan.force(state, end), size)
+    pace = Pace(_first_length(heavy, stepper.plan.force(state, end), size))
     proof = carried(stepper, state, end.load_factor)
     farthest = COLLAPSE if near else 1.0
-    way, cuts, failed, attempt, start, stands = 0.0, 0, 0.0, None, None, True
+    way, attempt, start, stands = 0.0, None, None, True
 
     def fallen(first: Attempt | None) -> str:
         assert proof is not None
         return f"{proof.sentence}; {_who(moving, first, names)}"
 
     for steps in range(1, STEPS + 1):
+        length = pace.length
         found = moving.attempt(state, end, length)
         if not found.converged:
-            cuts, failed = cuts + 1, max(failed, length)
-            length *= SHORTER
-            if cuts > CUTS:
+            pace.cut()
+            if pace.ends:
                 said = f"a step failed: {found.sentence}"
                 return Relaxed(state, steps, False, said if stands else fallen(attempt), not stands)
             continue
         moving.accept(found)
-        rest = np.zeros_like(state.velocity)
-        state = replace(found.state, velocity=rest, acceleration=rest)
-        way += found.motion
-        cuts, failed = (0, 0.0) if length >= failed else (cuts, failed)
+        goes = pace.speed(heavy, found.state.velocity)
+        rest = np.zeros_like(goes)
+        state, way = replace(found.state, velocity=goes, acceleration=rest), way + found.motion
         if attempt is None and proof is not None and proof.fails:
             stands = not _touched(model, found, largest_mover(model, state, found.increment)[0])
         # What moves first tells what is free, not what it hits later.
         attempt = found if attempt is None or way - found.motion < FREE_WAY * size else attempt
         start = found.motion / length**2 if start is None else start
-        if found.motion > GATHERS * start * length**2 and way > GATHERED * size:
+        gathers = not pace.keeps_speed and found.motion > GATHERS * start * length**2
+        if gathers and way > GATHERED * size:
             who = _who(moving, attempt, names)
             return Relaxed(state, steps, False, f"it gathers speed: {who}", True)
         if not stands and way > FALLEN * size:
             return Relaxed(state, steps, False, fallen(attempt), True)
+        still = replace(state, velocity=rest)
         # A step cut short moves little, which is no rest.
-        still = STILL * size * min(1.0, (length / first) ** 2)
-        if found.motion < still and _holds(stepper, state, end):
-            return Relaxed(state, steps, True, "", way=way)
+        slow = found.motion < STILL * size * min(1.0, (length / pace.first) ** 2)
+        if slow and pace.may_ask(steps) and _holds(stepper, still, end):
+            return Relaxed(still, steps, True, "", way=way)
         if way > farthest * size:
             break
         if near and steps % LOOK == 0:
@@ -135,7 +137,8 @@ def relax(
             if now is not None and now.fails:
                 said = f"{now.sentence} after {way:.3g} m; {_who(moving, attempt, names)}"
                 return Relaxed(state, steps, False, said, True)
-        length *= LONGER if found.motion < SLOW * size else 1.0
+        if found.motion < SLOW * size:
+            pace.lengthen()
     return Relaxed(state, steps, False, _who(moving, attempt, names), way > farthest * size)
 
 
