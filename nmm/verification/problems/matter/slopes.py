@@ -123,7 +123,7 @@ class JointedSlope(SceneCase):
         from shapely.ops import polygonize, unary_union
 
         whole = Polygon(self.outline)
-        lines = [whole.boundary]
+        lines: list[Any] = [whole.boundary]
         for dip, apart, at in zip(self.dips, self.spacings, self.origins, strict=True):
             along = np.array([np.cos(np.radians(dip)), np.sin(np.radians(dip))])
             across = np.array([-along[1], along[0]])
