@@ -211,7 +211,7 @@ def _bound(place: Path, formulation: Path | None) -> None:
     import nmm
     from nmm.errors import SceneError
     from nmm.formulation import Formulation
-    from nmm.stepping.drive.static_theorem import load_bound
+    from nmm.stepping.bounds.static_theorem import load_bound
     from nmm.stepping.prepare import prepare
     from nmm.stepping.step.anchors import block_name, largest_mover
 

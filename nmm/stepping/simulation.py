@@ -26,11 +26,11 @@ from nmm.results.storage.values import Arrays
 from nmm.results.summary import Safety, Summary
 from nmm.results.tee import Tee
 from nmm.scene import scene_hash
+from nmm.stepping.bounds.static_theorem import load_bound
 from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled import CompiledScene
 from nmm.stepping.drive.changes import topology
 from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages
-from nmm.stepping.drive.static_theorem import load_bound
 from nmm.stepping.driving import Drive
 from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.output import (

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from nmm.progress import Progress
 from nmm.results.sink import MemorySink
 from nmm.results.summary import Safety
-from nmm.stepping.drive.safety_bound import FINE, safety_bound
+from nmm.stepping.bounds.safety_bound import FINE, safety_bound
 from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED
 from nmm.stepping.prepare import prepare
 from nmm.stepping.simulation import Simulation

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from nmm.assembly.motion import State
+from nmm.stepping.bounds.static_theorem import carried
 from nmm.stepping.drive.settling import Settled, too_far
-from nmm.stepping.drive.static_theorem import carried
 from nmm.stepping.drive.vanishing_stiffness import vanishing_stiffness
 from nmm.stepping.step.anchors import block_name, largest_mover
 from nmm.stepping.step.stepper import Stepper

@@ -17,9 +17,9 @@ from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
 from nmm.integrators.shi import Shi
+from nmm.stepping.bounds.static_theorem import carried
 from nmm.stepping.drive.pace import Pace
 from nmm.stepping.drive.settling import COLLAPSE
-from nmm.stepping.drive.static_theorem import carried
 from nmm.stepping.step.anchors import block_name, largest_mover
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt

@@ -6,7 +6,7 @@ from typer.testing import CliRunner
 
 import nmm
 from nmm.cli.app import app
-from nmm.stepping.drive.static_theorem import carried
+from nmm.stepping.bounds.static_theorem import carried
 from nmm.stepping.drive.verdict import EXIT_CODES, MEANT
 from nmm.stepping.prepare import prepare
 

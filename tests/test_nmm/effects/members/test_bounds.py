@@ -4,7 +4,7 @@ import pytest
 
 import nmm
 from nmm.formulation import Formulation
-from nmm.stepping.drive.static_theorem import load_bound
+from nmm.stepping.bounds.static_theorem import load_bound
 from nmm.stepping.prepare import prepare
 
 SLIDING = """

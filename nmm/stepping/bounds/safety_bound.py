@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from nmm.stepping.drive.static_theorem import carried
+from nmm.stepping.bounds.static_theorem import carried
 
 if TYPE_CHECKING:
     from nmm.assembly.motion import State

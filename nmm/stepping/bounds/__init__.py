@@ -1,0 +1,1 @@
+"""What no run is needed for: loads and factors over which nothing can hold (static theorem)."""
