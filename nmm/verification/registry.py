@@ -135,6 +135,8 @@ CASES = Registry[type[Case]](
         "GR10": f"{_HOME}.crack_paths:StressAlongCrack",
         "GR11": f"{_HOME}.growth_invariants:SameAnywhere",
         "GR12": f"{_HOME}.cracks_in_motion:StruckCrack",
+        "GR13": f"{_HOME}.nucleation:CrackAtHole",
+        "GR14": f"{_HOME}.nucleation:CrackInPlate",
         "CO1": f"{_HOME}.cohesive.double_cantilever:BentByMoments",
         "CO3": f"{_HOME}.cohesive.notched_beam:CohesiveBeam",
         "CO4": f"{_HOME}.cohesive.double_cantilever:ClosedAgain",

@@ -14,10 +14,11 @@ from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
 from nmm.stepping.run import Run
 from nmm.testing.scenes import edge_support, turned_net
+from nmm.verification.problems.nucleation import led
 
-from .nucleating_scenes import body, led, plate
+from .nucleating_scenes import body, plate
 
-BAR = [[0.0, 0.0], [2.0, 0.5]]
+BAR = ((0.0, 0.0), (2.0, 0.5))
 TENSION = ["1", "0", "0"]
 STRONG = "tensile_strength = 3.0\nlength = 0.2\ncrack_length = 0.2"
 FOLLOW = 'control = "toughness"\n'
@@ -149,7 +150,7 @@ def test_a_crack_that_has_begun_is_in_frames_paraview_and_pictures(tmp_path: Pat
 
 
 def test_far_from_the_origin_cracks_begin_alike() -> None:
-    away = [[1e5, 2e5], [1e5 + 2, 2e5 + 0.5]]
+    away = ((1e5, 2e5), (1e5 + 2, 2e5 + 0.5))
     tables = [plate(away), *led(away, TENSION)]
     found = run(parse_scene(body(tables, FOLLOW + "max_growth = 1e-3\n", STRONG + "\nnumber = 1")))
     assert found.history["load_factor"][0] == pytest.approx(3.0, rel=1e-6)

@@ -11,10 +11,11 @@ from nmm.scene.read import parse_scene
 from nmm.stepping.run import Run
 from nmm.testing.scenes import turned_net
 from nmm.verification import text
+from nmm.verification.problems.nucleation import KIRSCH, Box, led, ring
 
-from .nucleating_scenes import ONCE, Box, body, led, plate
+from .nucleating_scenes import ONCE, body, plate
 
-BAR = [[0.0, 0.0], [2.0, 0.5]]
+BAR = ((0.0, 0.0), (2.0, 0.5))
 NETS = [(0.1, 0.0, (0.13, 0.27)), (0.13, 0.5, (0.4, 0.6)), (0.17, 1.1, (0.7, 0.05))]
 
 
@@ -80,7 +81,7 @@ def test_a_crack_begins_across_the_largest_principal_stress(degrees: float) -> N
         [repr(float(one)) for one in stress],
         "tensile_strength = 2.0\nlength = 0.2",
         turned_net(0.1),
-        [[0.0, 0.0], [1.0, 1.0]],
+        ((0.0, 0.0), (1.0, 1.0)),
     )
     assert run.history["load_factor"][0] == pytest.approx(2.0, rel=1e-9)
     pulled = np.array([np.cos(turn / 2), np.sin(turn / 2)])
@@ -89,21 +90,10 @@ def test_a_crack_begins_across_the_largest_principal_stress(degrees: float) -> N
     assert np.hypot(*way(run)) == pytest.approx(0.2, abs=1e-3)
 
 
-# Kirsch 1898: stress about a hole of radius 1 under tension along x.
-_R, _T = "(x*x+y*y)", "atan2(y,x)"
-KIRSCH = [
-    f"1-(1.5*cos(2*{_T})+cos(4*{_T}))/{_R}+1.5*cos(4*{_T})/{_R}**2",
-    f"-(0.5*cos(2*{_T})-cos(4*{_T}))/{_R}-1.5*cos(4*{_T})/{_R}**2",
-    f"-(0.5*sin(2*{_T})+sin(4*{_T}))/{_R}+1.5*sin(4*{_T})/{_R}**2",
-]
-
-
 @pytest.mark.parametrize("length", [0.25, 0.5, 1.0])
 def test_a_hole_begins_a_crack_at_the_load_of_whitney_and_nuismer(length: float) -> None:
-    turn = np.arange(128) * 2 * np.pi / 128
-    ring = np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    box = [[-3.0, -3.0], [3.0, 3.0]]
-    tables = [f"{plate(box)}holes = [{ring.tolist()}]\n", *led(box, KIRSCH)]
+    box = ((-3.0, -3.0), (3.0, 3.0))
+    tables = [f"{plate(box)}holes = [{ring(128).tolist()}]\n", *led(box, KIRSCH)]
     nucleation = f"tensile_strength = 1.0\nlength = {length}\nnumber = 1"
     run = nmm.run(
         parse_scene(body(tables, ONCE, nucleation)), parse_formulation(turned_net(0.22, 0.0))
@@ -121,19 +111,19 @@ def test_a_hole_begins_a_crack_at_the_load_of_whitney_and_nuismer(length: float)
 def test_a_disc_pressed_between_two_arcs_begins_a_crack_inside_along_the_line_between() -> None:
     n = 96
     angle = (np.arange(n) + 0.5) * 2 * np.pi / n
-    ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    rim = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     middle = angle + np.pi / n
     half = 7 * np.pi / n
     pressed = np.flatnonzero(np.abs(np.abs(np.sin(middle)) - 1) < 1 - np.cos(half))
-    tables = [text.block("disc", "m", ring)]
+    tables = [text.block("disc", "m", rim)]
     for k in pressed:
-        at = [ring[k].tolist(), ring[(k + 1) % n].tolist()]
+        at = [rim[k].tolist(), rim[(k + 1) % n].tolist()]
         push = [-float(np.cos(middle[k])), -float(np.sin(middle[k]))]
         tables.append(
             f'[[loads]]\nname = "p{k}"\nkind = "edge"\nsegment = {at}\ntraction = {push}\n'
         )
     for name, k, fix in (("one", n // 2 - 1, '"x", "y"'), ("other", n - 1, '"y"')):
-        tables.append(f'[[supports]]\nname = "{name}"\npoint = {ring[k].tolist()}\nfix = [{fix}]\n')
+        tables.append(f'[[supports]]\nname = "{name}"\npoint = {rim[k].tolist()}\nfix = [{fix}]\n')
     nucleation = "tensile_strength = 1.0\nlength = 0.1\nnumber = 1"
     run = nmm.run(parse_scene(body(tables, ONCE, nucleation)), parse_formulation(turned_net(0.12)))
     # Hondros 1959: tension in the middle of a disc under pressures on arcs of 2 alpha.
@@ -150,5 +140,5 @@ def test_the_length_of_the_mean_follows_from_toughness_and_strength() -> None:
     r = length * (np.arange(4000) + 0.5) ** 2 / 4000**2
     mean = np.mean(2e6 / np.sqrt(2 * np.pi * r) * 2 * np.sqrt(r / length))
     assert mean == pytest.approx(4e6, rel=1e-9)
-    run = begun(["1", "0", "0"], "tensile_strength = 3.0", turned_net(0.02), [[0, 0], [0.4, 0.2]])
+    run = begun(["1", "0", "0"], "tensile_strength = 3.0", turned_net(0.02), ((0, 0), (0.4, 0.2)))
     assert run.history["fracture:nucleus 1:length"][1] == pytest.approx(2 / np.pi / 9, rel=1e-3)
