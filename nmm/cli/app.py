@@ -230,7 +230,7 @@ def _stopped_told(out: Path) -> Iterator[None]:
 
 def _tell_done(scene: "Scene", done: "Run", out: Path, quiet: bool, pictures: bool = False) -> None:
     """Tell of a run that has ended, with the files that were asked for; leave with its code."""
-    from nmm.results.summary import render
+    from nmm.results.summary_lines import render
     from nmm.stepping.drive.verdict import EXIT_CODES
 
     files = _shown(scene, done, out, pictures)

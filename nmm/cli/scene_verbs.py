@@ -1,6 +1,6 @@
 """The verbs of files before a run: check, explain, new. What they need they import."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeVar
@@ -12,7 +12,6 @@ from nmm.cli.terminal import console, faults_told, tell_faults, tell_next
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
     from nmm.scene import Scene
-    from nmm.stepping.simulation import Simulation
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene file, TOML.", metavar="SCENE")]
 FormulationFile = Annotated[
@@ -28,34 +27,6 @@ AllowCode = Annotated[
     ),
 ]
 Read = TypeVar("Read")
-
-CALLED_BY = {
-    "loads": "[[loads]] with force or traction",
-    "body loads": '[[loads]] of kind "body"',
-    "field loads": "[[loads]] with a field",
-    "pressures": '[[loads]] of kind "pressure"',
-    "moving loads": '[[loads]] of kind "moving"',
-    "supports": "[[supports]]",
-    "bonded interfaces": "bonded interface without contact",
-    "initial velocity": "[[initial_velocities]]",
-    "initial stress": "[[initial_stresses]]",
-    "water pressures": "[[water_pressures]]",
-    "joint flow": "[joint_flow]",
-    "transient joint flow": "[joint_flow] with transient",
-    "viscous boundaries": "[[viscous_boundaries]]",
-    "free fields": "[[free_fields]]",
-    "springs": "[[springs]]",
-    "dashpots": "[[dashpots]]",
-    "bars": "[[bars]]",
-    "dowels": "[bars.dowel]",
-    "foundations": "[[foundations]]",
-    "masses": "[[masses]]",
-    "splitting": "[splitting.MATERIAL]",
-    "viscous damping": "[damping] with mass, stiffness or ratios, and no ground",
-    "damping against the ground": "[damping] with ground",
-    "local damping": "[damping] with local",
-}
-"""How a scene names an effect, where that is not `[effect]`."""
 
 
 def check(
@@ -79,8 +50,10 @@ def explain(
     allow_code: AllowCode = None,
 ) -> None:
     """Say what a scene simulates and what it does not, and how large it is."""
+    from nmm.cli.explaining import told
+
     with faults_told(), allowed(scene, allow_code):
-        _explain(scene, formulation, cost)
+        told(scene, read_formulation(formulation), cost)
 
 
 def new(
@@ -165,48 +138,6 @@ def allowed(scene: Path, modules: list[str] | None) -> AbstractContextManager[No
     return allowing(*(modules or ()), folder=scene.resolve().parent if modules else None)
 
 
-def _explain(place: Path, formulation: Path | None, cost: bool) -> None:
-    from rich.markup import escape
-    from rich.table import Table
-
-    import nmm
-    from nmm.formulation import Formulation
-    from nmm.model.effects_table import called_for
-    from nmm.model.tips import tip_lines
-    from nmm.stepping.prepare import prepare
-
-    scene = nmm.read_scene(place)
-    chosen = read_formulation(formulation) or scene.formulation or Formulation()
-    prepared = prepare(scene, chosen)
-    manifold = prepared.stepper.model.manifold
-    effects = Table(title=escape(scene.title), title_justify="left", show_header=False)
-    for name, named in called_for(scene).items():
-        key = CALLED_BY.get(name, f"[{name}]")
-        effects.add_row(
-            name,
-            "simulated" if named else f"not simulated: the scene has no {escape(key)}",
-            style=None if named else "dim",
-        )
-    for name, table in scene.effects.items():
-        effects.add_row(escape(name), f"simulated: {escape(table.type)}")
-    out = console()
-    out.print(effects)
-    for line in _sizes(scene, chosen, len(prepared.regions), len(manifold.elements)):
-        out.print(line, highlight=False)
-    for name, effect in prepared.stepper.plan.effects.items():
-        if effect.about:
-            out.print(f"{name}: {effect.about}", highlight=False, markup=False)
-    for line in tip_lines(prepared.stepper.model):
-        out.print(line, highlight=False, markup=False)
-    out.print(f"unknowns: {manifold.n_unknowns:,}", highlight=False)
-    for warning in prepared.identity().warnings:
-        out.print(f"warning: {warning}", style="yellow", highlight=False, markup=False)
-    out.print(str(prepared.storage), highlight=False)
-    if cost:
-        _tell_cost(prepared)
-    tell_next(f"nmm run {place}")
-
-
 def _bound(place: Path, formulation: Path | None) -> None:
     import nmm
     from nmm.errors import SceneError
@@ -247,58 +178,6 @@ def _bound(place: Path, formulation: Path | None) -> None:
     tell_next(f"nmm run {place}")
 
 
-def _steps(chosen: "Formulation") -> str:
-    """Say how long steps are, or what chooses it."""
-    table = chosen.integrator
-    if table.fixed_step is not None:
-        return f"step {table.fixed_step:g} s"
-    from nmm.stepping.adaptive.control import ERROR
-
-    return f"steps by an error of {table.error or ERROR:g} a cycle, of three solutions each"
-
-
-def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) -> Iterator[str]:
-    """Yield the lines that say what kind of run it is."""
-    dynamic = scene.inertia is not None
-    kind = "dynamic" if dynamic else "quasi-static, over time" if scene.in_time else "static"
-    yield f"run: {kind}, plane {scene.plane}"
-    if dynamic:
-        yield f"integrator: {chosen.integrator.type}, {_steps(chosen)}"
-        if scene.contact is not None:
-            yield from _rule_among_contacts(chosen)
-        if scene.duration is not None:
-            yield f"duration: {scene.duration:g} s"
-    elif scene.in_time:
-        yield f"duration: {scene.duration:g} s, {_steps(chosen)}, no inertia"
-    elif scene.loading is not None:
-        yield f"loading: until {scene.loading.until}, increment {chosen.loading.increment:g}"
-    if scene.strength_reduction is not None:
-        asked = scene.strength_reduction
-        bounds = f"factors {asked.lowest:g} to {asked.highest:g}, within {asked.tolerance:g}"
-        yield f"strength reduction: {bounds}; a run each, some 10"
-    if scene.stages:
-        spans = (
-            "to rest" if one.duration is None else f"{one.duration:g} s" for one in scene.stages
-        )
-        named = zip((one.name for one in scene.stages), spans, strict=True)
-        yield "stages: " + ", ".join(f"{name} ({span})" for name, span in named)
-    if scene.contact is not None:
-        yield f"contact: {chosen.contact.enforcement}"
-    yield f"cover: {chosen.cover.type}, {chosen.cover.functions}"
-    yield f"blocks: {blocks:,}"
-    yield f"elements: {elements:,}"
-
-
-def _rule_among_contacts(chosen: "Formulation") -> Iterator[str]:
-    """Yield what an integrator that carries accelerations does in a scene with contact."""
-    from nmm.integrators.base import make_integrator
-
-    rule = make_integrator(chosen.integrator)
-    if rule.among_contacts is not rule:
-        weight = rule.among_contacts.end_weight
-        yield f"  with contact: carries no acceleration, forces act with {weight:.4g} of the end"
-
-
 def _faults(place: Path, formulation: Path | None) -> list[str]:
     """Lines about keys and values of both files, then about blocks and parts that they name."""
     import nmm
@@ -335,23 +214,3 @@ def _prepared(scene: "Scene", formulation: "Formulation") -> None:
     from nmm.stepping.prepare import prepare
 
     prepare(scene, formulation).identity()
-
-
-def _tell_cost(simulation: "Simulation") -> None:
-    """Print what a compiled scene will cost on this machine."""
-    from nmm.study.cost.cost_model import load_model, size_of, steps_of
-
-    model = load_model()
-    if model is None:
-        typer.echo("cost: not known on this machine; measure it once: nmm calibrate")
-        return
-    steps = steps_of(simulation)
-    one, two = (model.seconds(size_of(simulation, n)) for n in (1.0, 2.0))
-    size = size_of(simulation, steps or 1.0)
-    if steps is None:
-        text = f"{one:.2g} s and {two - one:.2g} s for each further step, failure decides how many"
-    else:
-        text = f"{model.seconds(size):.2g} s of {steps:,.0f} steps"
-    typer.echo(f"cost: about {text}; {model.bytes(size) / 2**20:.0f} MiB more memory")
-    if size.unknowns > 5 * model.largest[size.kind]:
-        typer.echo(f"cost: fitted up to {model.largest[size.kind]:,} unknowns: read it as a guess")

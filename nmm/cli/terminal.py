@@ -69,7 +69,7 @@ def tell_faults(faults: Sequence[str]) -> None:
 def tell_run(scene: "Scene", done: "Run") -> None:
     """Print verdict, failure load and comparison with the references of the scene."""
     from nmm.results.references import compare
-    from nmm.results.summary import failure_line
+    from nmm.results.summary_lines import failure_line
 
     out = console()
     style = STYLES.get(done.summary.status, "red")

@@ -18,12 +18,13 @@ from nmm.model.origin import MovedBack
 from nmm.model.solver_settings import cures, warnings
 from nmm.progress import Progress
 from nmm.results.frame import Topology
+from nmm.results.safety import Safety
 from nmm.results.sink import Sink
 from nmm.results.storage import files
 from nmm.results.storage.checkpoint import damaged
 from nmm.results.storage.run_folder import RunFolder, checkpoint_header
 from nmm.results.storage.values import Arrays
-from nmm.results.summary import Safety, Summary
+from nmm.results.summary import Summary
 from nmm.results.tee import Tee
 from nmm.scene import scene_hash
 from nmm.stepping.bounds.static_theorem import load_bound

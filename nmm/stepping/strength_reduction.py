@@ -13,8 +13,8 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from nmm.progress import Progress
+from nmm.results.safety import Safety
 from nmm.results.sink import MemorySink
-from nmm.results.summary import Safety
 from nmm.stepping.bounds.safety_bound import FINE, safety_bound
 from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED
 from nmm.stepping.prepare import prepare

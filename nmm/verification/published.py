@@ -14,7 +14,7 @@ from pydantic import Field
 
 from nmm.errors import NmmError
 from nmm.formulation import Formulation, read_formulation
-from nmm.results.summary import installed_versions
+from nmm.results.versions import installed_versions
 from nmm.scene import read_scene
 from nmm.scene.document import parse, read_text
 from nmm.scene.fields import Frozen, Number, Prose, Text

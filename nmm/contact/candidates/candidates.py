@@ -15,15 +15,15 @@ from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.tolerances import FLUSH
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.contact_points import ContactPoints, concatenate
-from nmm.contact.points.joint_book import JointBook
-from nmm.contact.points.reference_gap import counted, counted_on
-from nmm.contact.points.tracking import (
+from nmm.contact.points.continued.reference_gap import counted, counted_on
+from nmm.contact.points.continued.tracking import (
     answered,
     continued,
     continues,
     remember,
     searched_points,
 )
+from nmm.contact.points.joint_book import JointBook
 from nmm.contact.problem.step_problem import Limits
 from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.record import ContactRecord, ContactSolution

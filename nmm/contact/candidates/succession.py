@@ -11,7 +11,7 @@ from nmm.assembly.motion import State
 from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.points.bonded_cracks import BondedCracks
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.inheritance import (
+from nmm.contact.points.continued.inheritance import (
     continued,
     continued_joints,
     heirs,

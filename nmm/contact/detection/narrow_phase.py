@@ -21,7 +21,7 @@ Flush neighbours
 
 What these rules overlook is found afterwards: a step that lets a vertex through an edge is solved
 again with that pair (`with_pairs`), and what still overlaps as it appears stores no energy
-(`nmm.contact.points.reference_gap`).
+(`nmm.contact.points.continued.reference_gap`).
 
 `ANGLE`, `DEPTH` and `FLUSH` stand in `rules`; the last two are fractions of the thickness (twice
 the area over the perimeter) of the thinner of the two bodies.
@@ -121,7 +121,7 @@ def find_contacts(
         none = np.empty(0)
         return contacts_of(surface, vertex, edge, none, none, none > 0, rules)
     # Compiled code is loaded by the first search, not by whoever names this module.
-    from nmm.contact.detection.narrow_kernel import find
+    from nmm.contact.detection.narrow.selection import find
 
     columns = find(
         np.ascontiguousarray(surface.start),

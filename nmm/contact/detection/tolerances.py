@@ -1,7 +1,7 @@
 """All numbers that steer the geometry of contact, with their units and reasons.
 
 Compiled code keeps those that it imports until its own file changes: after an edit here
-``narrow_kernel.py`` and ``grid.py`` have to be touched.
+the files of ``narrow`` and ``grid.py`` have to be touched.
 """
 
 from typing import NamedTuple

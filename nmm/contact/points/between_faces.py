@@ -18,7 +18,7 @@ from integration.arrays import Floats
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.tracking import Apart
+from nmm.contact.points.continued.tracking import Apart
 
 
 @dataclass(frozen=True)

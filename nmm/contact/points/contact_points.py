@@ -44,7 +44,7 @@ class ContactPoints:
         (m,) what the last step left, the warm start of this one.
     reference
         (m,) overlap that no step has made, as a gap (m), not positive; see
-        `nmm.contact.points.reference_gap`.
+        `nmm.contact.points.continued.reference_gap`.
     history
         What interface laws remember: columns (m,) by name (`nmm.interfaces.history`).
     """

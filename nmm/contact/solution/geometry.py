@@ -13,9 +13,9 @@ from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.points.between_faces import JointFaces
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints, rows
+from nmm.contact.points.continued.tracking import apart_on
 from nmm.contact.points.joint_points import JointSites
 from nmm.contact.points.midpoint import ContactRows, body_projection, midpoint_rows
-from nmm.contact.points.tracking import apart_on
 from nmm.contact.points.turning_lines import line_turns
 
 

@@ -107,7 +107,7 @@ def _once(case: StudyCase, names: Sequence[str]) -> tuple[Record, Spent]:
 
 def _identity(case: StudyCase) -> dict[str, Any]:
     from nmm.formulation import formulation_hash
-    from nmm.results.summary import installed_versions
+    from nmm.results.versions import installed_versions
     from nmm.scene import scene_hash
 
     seeds = [item.seed for item in case.scene.tessellations if item.seed is not None]

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from nmm.errors import NmmError
-from nmm.results.summary import Summary, failure_line, installed_versions, render
+from nmm.results.summary import Summary
+from nmm.results.summary_lines import failure_line, render
+from nmm.results.versions import installed_versions
 
 
 def text_of(summary):

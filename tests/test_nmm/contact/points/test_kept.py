@@ -6,9 +6,9 @@ import numpy as np
 
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.continued.reference_gap import counted, counted_on
+from nmm.contact.points.continued.tracking import continued, continues, remember, searched_points
 from nmm.contact.points.kept import KeptOfPairs
-from nmm.contact.points.reference_gap import counted, counted_on
-from nmm.contact.points.tracking import continued, continues, remember, searched_points
 
 
 def contacts(keys: list[int], gap: float = 0.0) -> Contacts:

@@ -16,8 +16,8 @@ from collections.abc import Callable
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.contact.detection.pair_keys import unordered_key
-from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.continued.of_neighbours import beside, found_for, in_place_of
 from nmm.frozen import with_parts
 
 
@@ -61,13 +61,14 @@ def counted(
         born = np.flatnonzero(~known & on_face & (new.gap < 0))
         if len(born):
             taker = new.take(born)
-            reference[born] = _from_stretch(taker.gap, _beside(taker, old, body))
+            reference[born] = _from_stretch(taker.gap, beside(taker, old, body))
     if len(left):
         # A joint stands for all of its length: stretches beside it were not pressed so far.
-        instead = (on_face | ~known) & (new.gap < 0)
-        instead &= np.isin(_pairs(new, body), _pairs(left, body))
+        instead = (on_face | ~known) & (new.gap < 0) & found_for(left, new, body)
         reference, slip = reference.copy(), new.slip.copy()
-        reference[instead], slip[instead] = _in_place(new.take(instead), old, stiffness, body, left)
+        reference[instead], slip[instead] = in_place_of(
+            new.take(instead), old, stiffness, body, left
+        )
         new = with_parts(new, slip=slip)
     return with_parts(new, gap=new.gap - reference, reference=reference)
 
@@ -89,57 +90,3 @@ def _passed_on(stretch: Floats, ratio: Floats) -> Floats:
     ``ratio`` (m,) is the stiffness of the last one over that of the new one.
     """
     return stretch * np.minimum(ratio, np.sqrt(ratio))
-
-
-def _in_place(
-    new: ContactPoints,
-    old: ContactPoints | None,
-    stiffness: Callable[[ContactPoints], Floats],
-    body: Ints,
-    left: ContactPoints,
-) -> tuple[Floats, Floats]:
-    """Reference and slip (m,) of what is found in place of joints that were ``left``.
-
-    It is pressed by what it overlaps, or by the share of that with which all springs between two
-    bodies hold no more energy than joints and faces did.
-    """
-    old = left if old is None else concatenate([left, old.take(old.length > 0)])
-    pair_old, pair_new = _matched(old, new, body)
-    held, asked = (
-        np.bincount(pair, stiffness(one) * np.minimum(one.gap, 0.0) ** 2, 1 + pair_old.max())
-        for one, pair in ((old, pair_old), (new, pair_new))
-    )
-    wanted = np.maximum(asked, np.finfo(float).tiny)
-    share = np.sqrt(np.minimum(held / wanted, 1.0))[pair_new]
-    return new.gap * (1 - share), share * _mean_slip(new, left, body)
-
-
-def _mean_slip(new: ContactPoints, left: ContactPoints, body: Ints) -> Floats:
-    """Stretch (m,) along the faces that pressed joints of the same two bodies had, by length."""
-    pair, which = np.unique(_pairs(left, body), return_inverse=True)
-    weight = np.where(left.normal_force < 0, left.length, 0.0)
-    total, length = (np.bincount(which, weight * one) for one in (left.slip, np.ones(len(left))))
-    mean = np.divide(total, length, out=np.zeros(len(pair)), where=length > 0)
-    return mean[np.searchsorted(pair, _pairs(new, body))]
-
-
-def _beside(born: ContactPoints, old: ContactPoints, body: Ints) -> Floats:
-    """Stretch (m,) of the most pressed contact that the same two bodies had on faces."""
-    faces = old.take(old.length > 0)
-    pair_old, pair_born = _matched(faces, born, body)
-    least = np.zeros(1 + int(max(pair_old.max(initial=0), pair_born.max(initial=0))))
-    np.minimum.at(least, pair_old, faces.gap)
-    return least[pair_born]
-
-
-def _matched(old: ContactPoints, new: ContactPoints, body: Ints) -> tuple[Ints, Ints]:
-    """Numbers of the two bodies of old and new points, the same for the same bodies."""
-    pairs = np.concatenate([_pairs(old, body), _pairs(new, body)])
-    which = np.unique(pairs, return_inverse=True)[1]
-    return which[: len(old)], which[len(old) :]
-
-
-def _pairs(points: ContactPoints, body: Ints) -> Ints:
-    """Key (m,) of the two bodies of each point."""
-    count = int(body.max(initial=0)) + 1
-    return unordered_key(body[points.edge_a], body[points.edge_b], count)

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nmm.contact.points.contact_points import PARTS, ContactPoints
-from nmm.contact.points.reference_gap import counted
+from nmm.contact.points.continued.reference_gap import counted
 
 BODY = np.array([0, 0, 1, 1, 2, 2])
 GAP = st.floats(-1e-2, 1e-2)

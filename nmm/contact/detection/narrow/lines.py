@@ -1,0 +1,161 @@
+"""Each line of a vertex and an edge by itself, and those of one vertex among each other."""
+
+import math
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.compiled import compiled
+from nmm.contact.detection.narrow.edges import thinner
+from nmm.contact.detection.narrow.shields import leaves, rays, shielded
+from nmm.contact.detection.narrow.tables import (
+    BEFORE,
+    BODY,
+    CONVEX,
+    EX,
+    EY,
+    LENGTH,
+    NEXT,
+    OWN,
+    PREVIOUS,
+    SX,
+    SY,
+    TX,
+    TY,
+    Shape,
+    Small,
+)
+from nmm.contact.detection.tolerances import Rules
+
+INTERIOR, USABLE = 1, 2
+"""Bits of a state."""
+
+
+@compiled
+def rank_of(
+    shape: Shape, motion: Floats, v: int, e: int, s: float, gap: float, known: bool, rules: Rules
+) -> float:
+    """Smallest gap over the step in whole grains, so that rounding does not choose."""
+    rank = gap
+    tx, ty = shape.real[e, TX], shape.real[e, TY]
+    if len(motion) > 0:
+        length = shape.real[e, LENGTH] if shape.real[e, LENGTH] > 0.0 else 1.0
+        a, f = min(max(s / length, 0.0), 1.0), shape.link[e, NEXT]
+        mx = motion[v, 0] - (motion[e, 0] + a * (motion[f, 0] - motion[e, 0]))
+        my = motion[v, 1] - (motion[e, 1] + a * (motion[f, 1] - motion[e, 1]))
+        rank = min(gap, gap + mx * ty - my * tx)
+    if known:
+        rank += rules.flush * thinner(shape, v, e)
+    return math.floor(rank / rules.grain + 0.5)
+
+
+@compiled
+def _inside(shape: Shape, one: int, other: int, rules: Rules) -> bool:
+    """Whether the middle of one edge is not outside the line of the other."""
+    mx = 0.5 * (shape.real[one, SX] + shape.real[one, EX]) - shape.real[other, SX]
+    my = 0.5 * (shape.real[one, SY] + shape.real[one, EY]) - shape.real[other, SY]
+    off = mx * shape.real[other, TY] - my * shape.real[other, TX]
+    both = shape.real[one, LENGTH] + shape.real[other, LENGTH]
+    return bool(off <= 0.5 * rules.sine * both)
+
+
+@compiled
+def judge(
+    shape: Shape,
+    v: int,
+    edge: Ints,
+    low: int,
+    high: int,
+    s: Floats,
+    gap: Floats,
+    known: Bools,
+    state: Small,
+    rules: Rules,
+) -> None:
+    """Enter for each row of a vertex whether the foot is inside and the edge can be entered."""
+    p = shape.link[v, PREVIOUS]
+    ox, oy = shape.real[v, TX], shape.real[v, TY]
+    bx, by = -shape.real[p, TX], -shape.real[p, TY]
+    covered = shape.link[v, OWN] >= 0 or shape.link[v, BEFORE] >= 0
+    for k in range(low, high):
+        e = edge[k]
+        # A contact stays a little beyond the end of its edge, lest two vertices take turns.
+        slop = rules.rounding
+        slop += (
+            rules.flush * thinner(shape, v, e) if known[k] else rules.end * shape.real[e, LENGTH]
+        )
+        state[k] = 0
+        if s[k] >= -slop and s[k] <= shape.real[e, LENGTH] + slop:
+            state[k] = INTERIOR
+        if not shape.link[v, CONVEX] or gap[k] > rules.reach or shape.real[e, LENGTH] <= 0.0:
+            continue
+        # In one body the far face of a thin neck looks like a face that is overlapped.
+        trusted = known[k] or shape.link[v, BODY] != shape.link[e, BODY]
+        if gap[k] < -(rules.depth if trusted else rules.flush) * thinner(shape, v, e):
+            continue
+        if not leaves(shape, e, ox, oy, bx, by, rules):
+            continue
+        if covered:
+            ux, uy, wx, wy = rays(shape, v, shape.link[e, BODY], rules)
+            if not leaves(shape, e, ux, uy, wx, wy, rules):
+                continue
+        if not shielded(shape, v, e, s[k], rules):
+            state[k] |= USABLE
+
+
+@compiled
+def _passes(shape: Shape, v: int, e: int, s: float, gap: float) -> bool:
+    """Whether one of the edges at a vertex outside an edge passes through it."""
+    p = shape.link[v, PREVIOUS]
+    tx, ty = shape.real[e, TX], shape.real[e, TY]
+    for side in range(2):
+        if side == 0:
+            rx, ry, length = shape.real[v, TX], shape.real[v, TY], shape.real[v, LENGTH]
+        else:
+            rx, ry, length = -shape.real[p, TX], -shape.real[p, TY], shape.real[p, LENGTH]
+        down = ry * tx - rx * ty
+        if down > 0.0 and gap <= down * length:
+            at = s + gap / down * (rx * tx + ry * ty)
+            if at > 0.0 and at < shape.real[e, LENGTH]:
+                return True
+    return False
+
+
+@compiled
+def dominate(
+    shape: Shape,
+    v: int,
+    edge: Ints,
+    low: int,
+    high: int,
+    s: Floats,
+    gap: Floats,
+    state: Small,
+    rank: Floats,
+    kept: Small,
+    rules: Rules,
+) -> None:
+    """Keep of the rows of a vertex those over which no other edge of the same body stands."""
+    both = INTERIOR | USABLE
+    for i in range(low, high):
+        kept[i] = 0
+        if state[i] != both:
+            continue
+        kept[i] = 1
+        for j in range(low, high):
+            if (
+                i == j
+                or not state[j] & INTERIOR
+                or shape.link[edge[i], BODY] != shape.link[edge[j], BODY]
+            ):
+                continue
+            if state[j] == both:
+                better = rank[j] > rank[i] or (rank[j] == rank[i] and j < i)
+            else:
+                better = gap[j] > rules.grain and gap[i] < 0.0
+                better = better and not _passes(shape, v, edge[j], s[j], gap[j])
+            if (
+                better
+                and _inside(shape, edge[i], edge[j], rules)
+                and _inside(shape, edge[j], edge[i], rules)
+            ):
+                kept[i] = -1
+                break

@@ -1,0 +1,115 @@
+"""The four lines of two near vertices, judged as a whole."""
+
+import math
+
+from integration.arrays import Floats, Ints
+from nmm.compiled import compiled
+from nmm.contact.detection.narrow.edges import dot, thinner
+from nmm.contact.detection.narrow.lines import USABLE
+from nmm.contact.detection.narrow.shields import rays
+from nmm.contact.detection.narrow.tables import BODY, LENGTH, PREVIOUS, SX, SY, TX, TY, Shape, Small
+from nmm.contact.detection.tolerances import Rules
+
+Lines = tuple[int, int, int, int]
+
+
+@compiled
+def _find(edge: Ints, offset: Ints, v: int, e: int) -> int:
+    for k in range(offset[v], offset[v + 1]):
+        if edge[k] == e:
+            return k
+    return -1
+
+
+@compiled
+def _beyond(
+    shape: Shape, w: int, partner: int, dx: float, dy: float, slop: float, rules: Rules
+) -> bool:
+    ox, oy, bx, by = rays(shape, w, partner, rules)
+    return dx * ox + dy * oy <= slop and dx * bx + dy * by <= slop
+
+
+@compiled
+def _best(lines: Lines, eligible: tuple[bool, bool, bool, bool], rank: Floats) -> int:
+    """Index of the eligible line of highest rank, the first row among equals; -1 without any."""
+    best = -1
+    for i in range(4):
+        if not eligible[i]:
+            continue
+        k, b = lines[i], lines[best]
+        if best < 0 or rank[k] > rank[b] or (rank[k] == rank[b] and k < b):
+            best = i
+    return best
+
+
+@compiled
+def pair(
+    shape: Shape,
+    v: int,
+    w: int,
+    edge: Ints,
+    offset: Ints,
+    state: Small,
+    rank: Floats,
+    kept: Small,
+    final: Small,
+    rules: Rules,
+) -> None:
+    """Judge the four lines at a pair of near vertices as a whole."""
+    dx = shape.real[v, SX] - shape.real[w, SX]
+    dy = shape.real[v, SY] - shape.real[w, SY]
+    apart = math.sqrt(dx * dx + dy * dy)
+    thin = thinner(shape, v, w)
+    if apart > max(rules.reach, rules.depth * thin):
+        return
+    p, q = shape.link[v, PREVIOUS], shape.link[w, PREVIOUS]
+    lines = (
+        _find(edge, offset, v, w),
+        _find(edge, offset, v, q),
+        _find(edge, offset, w, v),
+        _find(edge, offset, w, p),
+    )
+    on = (w, q, v, p)
+    entered = False
+    for k in lines:
+        entered |= k >= 0 and kept[k] != 0
+    if entered:
+        standing = (
+            lines[0] >= 0 and kept[lines[0]] == 1,
+            lines[1] >= 0 and kept[lines[1]] == 1,
+            lines[2] >= 0 and kept[lines[2]] == 1,
+            lines[3] >= 0 and kept[lines[3]] == 1,
+        )
+        best = _best(lines, standing, rank)
+        if best < 0:
+            return
+        # Contacts that are one above the other are one, however wide the gap.
+        beside = abs(dx * shape.real[on[best], TX] + dy * shape.real[on[best], TY])
+        merged = beside <= rules.flush * thin + rules.rounding
+        for i in range(4):
+            if i == best or not standing[i]:
+                continue
+            # Edges of the other body have the opposite sense.
+            agree = dot(shape, on[i], on[best])
+            if (i < 2) != (best < 2):
+                agree = -agree
+            if merged or agree < 1.0 - 2.0 * rules.sine * rules.sine:
+                final[lines[i]] = -1
+        return
+    free = (
+        lines[0] >= 0 and state[lines[0]] & USABLE != 0,
+        lines[1] >= 0 and state[lines[1]] & USABLE != 0,
+        lines[2] >= 0 and state[lines[2]] & USABLE != 0,
+        lines[3] >= 0 and state[lines[3]] & USABLE != 0,
+    )
+    best = _best(lines, free, rank)
+    if best < 0:
+        return
+    longest = max(
+        shape.real[v, LENGTH], shape.real[w, LENGTH], shape.real[p, LENGTH], shape.real[q, LENGTH]
+    )
+    slop = rules.end * longest + rules.rounding
+    if _beyond(shape, w, shape.link[v, BODY], dx, dy, slop, rules) and _beyond(
+        shape, v, shape.link[w, BODY], -dx, -dy, slop, rules
+    ):
+        final[lines[best]] = 2

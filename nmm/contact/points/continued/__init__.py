@@ -1,0 +1,1 @@
+"""What contact points take over from those that they continue: gap, slip, history. No search."""
