@@ -22,12 +22,13 @@ class Kernel(partial[Any]):
     """
 
     python: Callable[..., Any]
+    loose: frozenset[str]
 
     @classmethod
-    def of(cls, python: Callable[..., Any]) -> "Kernel":
-        """Return the kernel of a function in Python."""
+    def of(cls, python: Callable[..., Any], loose: frozenset[str] = frozenset()) -> "Kernel":
+        """Return the kernel of a function in Python; ``loose``: rules that its sums need not keep."""
         kernel = cls(lambda *given: kernel.made(*given))
-        kernel.python = python
+        kernel.python, kernel.loose = python, loose
         return kernel
 
     @cached_property
@@ -35,7 +36,7 @@ class Kernel(partial[Any]):
         """What numba makes of the function, which calls go to from now on."""
         from numba import njit
 
-        made: Callable[..., Any] = njit(**OPTIONS)(self.python)
+        made: Callable[..., Any] = njit(**OPTIONS, fastmath=set(self.loose))(self.python)
         self.__setstate__((made, (), {}, vars(self)))
         return made
 
@@ -48,6 +49,11 @@ class Kernel(partial[Any]):
 def compiled(function: Function) -> Function:
     """Return the function, compiled on its first call and kept on disk."""
     return cast(Function, Kernel.of(function))
+
+
+def compiled_sums(function: Function) -> Function:
+    """Return the same of a function whose sums may be added up in any order: several at once."""
+    return cast(Function, Kernel.of(function, frozenset({"reassoc", "contract", "nsz"})))
 
 
 def kept(function: Callable[..., Any]) -> bool:

@@ -6,6 +6,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.compiled import compiled
+from nmm.solvers.kernels.dot import dot
 from nmm.solvers.kernels.gauss import eliminated, substituted
 
 RIDGE = 1e-12
@@ -91,11 +92,9 @@ def add_step(
     for i in range(len(step)):
         corrections[at, i] = new[i] - old[i]
         sums[at, i] = step[i] + corrections[at, i]
+    gained = force_new - force_old
     for j in range(used):
-        total = 0.0
-        for i in range(len(step)):
-            total -= corrections[j, i] * (force_new[i] - force_old[i])
-        gram[at, j] = gram[j, at] = total
+        gram[at, j] = gram[j, at] = -dot(corrections[j], gained)
 
 
 @compiled
@@ -117,10 +116,7 @@ def mixed_step(
     for k in range(used):
         table[k, :] = gram[k, :used]
         table[k, k] += RIDGE * trace
-        total = 0.0
-        for i in range(len(force)):
-            total -= corrections[k, i] * force[i]
-        load[k] = total
+        load[k] = -dot(corrections[k], force)
     order = np.arange(used)
     if not eliminated(table, order, True):
         return result

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
-from nmm.contact.problem.row_products import Compressed
+from nmm.contact.problem.row_products import Compressed, place, span
 
 Index = npt.NDArray[Any]
 
@@ -90,34 +90,34 @@ def residual(increment: Floats, springs: SpringColumns) -> tuple[Floats, float]:
     for c in range(len(gap)):
         opening, sliding = gap[c], slip[c]
         if paired:
-            for k in range(normal_pointers[c], normal_pointers[c + 1]):
-                moved = increment[normal_columns[k]]
+            for k in span(normal_pointers, c):
+                moved = increment[place(normal_columns[k])]
                 opening += normal_entries[k] * moved
                 sliding += tangent_entries[k] * moved
         else:
-            for k in range(normal_pointers[c], normal_pointers[c + 1]):
-                opening += normal_entries[k] * increment[normal_columns[k]]
-            for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
-                sliding += tangent_entries[k] * increment[tangent_columns[k]]
+            for k in span(normal_pointers, c):
+                opening += normal_entries[k] * increment[place(normal_columns[k])]
+            for k in span(tangent_pointers, c):
+                sliding += tangent_entries[k] * increment[place(tangent_columns[k])]
         normal = normal_stiffness[c] * opening + normal_shift[c]
         shear = shear_stiffness[c] * sliding + shear_shift[c]
         normal, shear = projected(normal, shear, tension[c], cohesion[c], friction[c])
         if paired and (normal != 0.0 or shear != 0.0):
-            for k in range(normal_pointers[c], normal_pointers[c + 1]):
+            for k in span(normal_pointers, c):
                 push = normal_entries[k] * normal + tangent_entries[k] * shear
-                contact[normal_columns[k]] += push
+                contact[place(normal_columns[k])] += push
         if normal != 0.0 and not paired:
-            for k in range(normal_pointers[c], normal_pointers[c + 1]):
-                contact[normal_columns[k]] += normal_entries[k] * normal
+            for k in span(normal_pointers, c):
+                contact[place(normal_columns[k])] += normal_entries[k] * normal
         if shear != 0.0 and not paired:
-            for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
-                contact[tangent_columns[k]] += tangent_entries[k] * shear
+            for k in span(tangent_pointers, c):
+                contact[place(tangent_columns[k])] += tangent_entries[k] * shear
     force = np.empty(n)
     inner_size, contact_size, load_size, rest_size = 0.0, 0.0, 0.0, 0.0
     for i in range(n):
         inner = 0.0
-        for k in range(pointers[i], pointers[i + 1]):
-            inner += entries[k] * increment[columns[k]]
+        for k in span(pointers, i):
+            inner += entries[k] * increment[place(columns[k])]
         force[i] = inner + contact[i] - load[i]
         inner_size += (weight[i] * inner) ** 2
         contact_size += (weight[i] * contact[i]) ** 2
@@ -144,15 +144,15 @@ def weighted(
     """Inverse roots (n,) of the diagonal of matrix and springs; 1 where that is not positive."""
     found = np.zeros(len(pointers) - 1)
     for j in range(len(found)):
-        for k in range(pointers[j], pointers[j + 1]):
+        for k in span(pointers, j):
             if rows[k] == j:
                 found[j] += entries[k]
     for c in range(len(normal_stiffness)):
-        for k in range(normal_pointers[c], normal_pointers[c + 1]):
-            found[normal_columns[k]] += normal_entries[k] ** 2 * normal_stiffness[c]
+        for k in span(normal_pointers, c):
+            found[place(normal_columns[k])] += normal_entries[k] ** 2 * normal_stiffness[c]
     for c in range(len(shear_stiffness)):
-        for k in range(tangent_pointers[c], tangent_pointers[c + 1]):
-            found[tangent_columns[k]] += tangent_entries[k] ** 2 * shear_stiffness[c]
+        for k in span(tangent_pointers, c):
+            found[place(tangent_columns[k])] += tangent_entries[k] ** 2 * shear_stiffness[c]
     for j in range(len(found)):
         found[j] = 1.0 / np.sqrt(found[j]) if found[j] > 0.0 else 1.0
     return found
@@ -178,10 +178,10 @@ def unevenness(
     rest, whole = -load, np.abs(load)
     pointers, numbers, entries = matrix
     for j in range(len(increment)):
-        for k in range(pointers[j], pointers[j + 1]):
+        for k in span(pointers, j):
             part = entries[k] * increment[j]
-            rest[numbers[k]] += part
-            whole[numbers[k]] += abs(part)
+            rest[place(numbers[k])] += part
+            whole[place(numbers[k])] += abs(part)
     pressed = np.abs(forces[0]) + np.abs(forces[1])
     _add_forces(*rows[0], forces[0], pressed, rest, whole)
     _add_forces(*rows[1], forces[1], pressed, rest, whole)
@@ -212,6 +212,6 @@ def _add_forces(
 ) -> None:
     """Add forces (m,) through rows to ``rest`` (n,), and what is ``pressed`` by size to another."""
     for c in range(len(force)):
-        for k in range(pointers[c], pointers[c + 1]):
-            rest[columns[k]] += entries[k] * force[c]
-            whole[columns[k]] += abs(entries[k]) * pressed[c]
+        for k in span(pointers, c):
+            rest[place(columns[k])] += entries[k] * force[c]
+            whole[place(columns[k])] += abs(entries[k]) * pressed[c]
