@@ -9,9 +9,14 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
+import numpy as np
+
 Function = TypeVar("Function", bound=Callable[..., Any])
 OPTIONS: dict[str, Any] = {"cache": True, "no_cfunc_wrapper": True}
 """Kept on disk; called by Python and by each other, not by C, which takes a twentieth more time."""
+place = np.uint64
+"""Of an entry in an array, without sign: compiled code need not look whether it counts from the
+end, which takes as long as the rest of a sparse product."""
 
 
 class Kernel(partial[Any]):
@@ -26,7 +31,7 @@ class Kernel(partial[Any]):
 
     @classmethod
     def of(cls, python: Callable[..., Any], loose: frozenset[str] = frozenset()) -> "Kernel":
-        """Return the kernel of a function in Python; ``loose``: rules that its sums need not keep."""
+        """Return the kernel of a function in Python; ``loose``: rules sums need not keep."""
         kernel = cls(lambda *given: kernel.made(*given))
         kernel.python, kernel.loose = python, loose
         return kernel

@@ -1,8 +1,6 @@
 """One thread of dense linear algebra while a run goes on."""
 
 import ctypes
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cache
 from importlib import import_module
 from typing import Any
@@ -12,21 +10,22 @@ LINKED = ("scipy.linalg.cython_blas", "numpy.linalg._umath_linalg")
 VERBS = ("set", "get")
 
 
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """Keep OpenBLAS, scipy's and numpy's, from starting threads.
+class OneThread:
+    """Keeps OpenBLAS, scipy's and numpy's, from starting threads within a ``with``.
 
     Fronts are too small for them (6 times slower), and sums over parts that threads choose differ
-    in their last digits with the number of threads.
+    in their last digits with the number of threads. Entered for each solution, so that it is a
+    class: a generator takes twice as long.
     """
-    controls = _thread_controls()
-    before = [getter() for _, getter in controls]
-    for setter, _ in controls:
-        setter(1)
-    try:
-        yield
-    finally:
-        for (setter, _), count in zip(controls, before, strict=True):
+
+    def __enter__(self) -> None:
+        counts = [(setter, getter()) for setter, getter in _thread_controls()]
+        self._changed = [(setter, count) for setter, count in counts if count != 1]
+        for setter, _ in self._changed:
+            setter(1)
+
+    def __exit__(self, *_: object) -> None:
+        for setter, count in self._changed:
             setter(count)
 
 

@@ -15,7 +15,7 @@ from nmm.results.storage.mark import Mark
 from nmm.results.storage.stored_run import StoredRun, read_run
 from nmm.results.summary import RUNNING, STOPPED, UNKNOWN
 from nmm.scene import read_scene
-from nmm.solvers.threads import one_thread
+from nmm.solvers.threads import OneThread
 from nmm.stepping.drive.verdict import SPENT
 from nmm.stepping.prepare import prepare
 from nmm.stepping.run import Run, finished
@@ -61,7 +61,7 @@ def resume(
         _refuse_altered(read_run(path))
     modules = given().modules.union(allow_code)
     beside = path if modules else None
-    with allowing(*modules, folder=beside), one_thread():
+    with allowing(*modules, folder=beside), OneThread():
         return _resumed(path, progress or (lambda share, text: None), budget)
 
 

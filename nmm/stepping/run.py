@@ -13,7 +13,7 @@ from nmm.results.frame import Frame, Topology
 from nmm.results.sink import MemorySink, Sink
 from nmm.results.storage.run_folder import RunFolder
 from nmm.results.summary import Summary
-from nmm.solvers.threads import one_thread
+from nmm.solvers.threads import OneThread
 from nmm.stepping.prepare import prepare
 from nmm.stepping.run_state import RunState
 from nmm.stepping.simulation import Simulation
@@ -124,7 +124,7 @@ def run(
         raise TypeError(f"nmm.run: allow_code {allow_code!r}: expected a list of names of modules")
     modules = given().modules.union(allow_code)
     # With several threads sums differ in their last digits from one number of threads to another.
-    with allowing(*modules, folder=beside(scene.source.name, modules)), one_thread():
+    with allowing(*modules, folder=beside(scene.source.name, modules)), OneThread():
         return _run(scene, formulation, out, progress or (lambda share, text: None), budget)
 
 

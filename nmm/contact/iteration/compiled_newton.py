@@ -1,4 +1,4 @@
-"""`modified_newton` in one compiled loop, for factors on fronts.
+"""`modified_newton` in one compiled loop, for factors on substitution.
 
 Residual, solution, mixing and judging of a pass call no Python. What it finds is what the plain
 loop finds, to the last digits.
@@ -11,10 +11,10 @@ from nmm.compiled import compiled
 from nmm.contact.iteration.options import Patience
 from nmm.contact.problem.residual_kernel import SpringColumns, residual
 from nmm.solvers.anderson import add_step, mixed_step
-from nmm.solvers.frontal import fronts
 from nmm.solvers.frontal.frontal_factor import FrontalFactor
+from nmm.solvers.frontal.numbers import substitution
 from nmm.solvers.linear import Factor
-from nmm.solvers.threads import one_thread
+from nmm.solvers.threads import OneThread
 
 NEVER = Patience(-1.0)
 """Of a loop that is not lost however slow it is."""
@@ -54,7 +54,7 @@ def run(
     given = float(size), int(budget), float(tolerance)
     steady = float(wait.ahead), float(wait.below), int(wait.look)
     turn = int(depth), float(growth)
-    with one_thread():
+    with OneThread():
         found = loop(x, force, *given, steady, turn, factor.scale, outside, plan, springs)
     increment, force, size, solves = found
     return increment, force, float(size), int(solves)
@@ -70,8 +70,8 @@ def loop(
     patience: tuple[float, float, int],
     steer: tuple[int, float],
     scale: Floats,
-    outside: fronts.Outside,
-    plan: fronts.Inside,
+    outside: substitution.Outside,
+    plan: substitution.Inside,
     springs: SpringColumns,
 ) -> tuple[Floats, Floats, float, int]:
     """See `run`; ``outside``, ``plan`` and ``scale`` are those of the factor."""
@@ -84,7 +84,7 @@ def loop(
     sizes[0] = size
     while best_size > tolerance and solves < budget:
         if not known:
-            fronts.solve(outside, scale * force, plan, solution)
+            substitution.solve(outside, scale * force, plan, solution)
             correction, known, solves = -scale * solution, True, solves + 1
         used = min(count, depth)
         step = mixed_step(sums, corrections, gram, used, correction, force)
@@ -96,7 +96,7 @@ def loop(
         if new_size <= tolerance:
             best, best_force, best_size = there, new_force, new_size
             break
-        fronts.solve(outside, scale * new_force, plan, solution)
+        substitution.solve(outside, scale * new_force, plan, solution)
         new, solves = -scale * solution, solves + 1
         place, count = count % depth, count + 1
         used = min(count, depth)

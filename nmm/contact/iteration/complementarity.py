@@ -6,10 +6,12 @@ bounds (the *slack*); where one is used up the contact opens by ``w``, slides by
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from nmm.compiled import compiled
 from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.row_products import stretched
@@ -37,8 +39,13 @@ class InteriorIterate:
 
     def moved(self, step: "InteriorIterate", length: float) -> "InteriorIterate":
         """Point at ``length`` along ``step``."""
-        pairs = zip(vars(self).values(), vars(step).values(), strict=True)
-        return InteriorIterate(*(mine + length * other for mine, other in pairs))
+        return InteriorIterate(
+            self.increment + length * step.increment,
+            self.normal + length * step.normal,
+            self.shear + length * step.shear,
+            self.slack + length * step.slack,
+            self.flow + length * step.flow,
+        )
 
 
 @dataclass(frozen=True)
@@ -74,12 +81,12 @@ class Complementarity:
             springs, exact, compliance, np.stack([np.isfinite(limits.tension), bounded, bounded])
         )
 
-    @property
+    @cached_property
     def smooth(self) -> Bools:
         """(m,) contacts that carry no shear force."""
         return frictionless(self.springs.problem.limits)
 
-    @property
+    @cached_property
     def give(self) -> Floats:
         """(2, m) compliance (m/N) of springs; 0 of exact contacts."""
         return np.where(self.exact, 0.0, self.compliance)
@@ -91,12 +98,8 @@ class Complementarity:
 
     def length(self, point: InteriorIterate, step: InteriorIterate) -> float:
         """Largest part of a step, up to 1, that leaves slack and flow positive."""
-        longest = 1.0
-        for value, change in ((point.slack, step.slack), (point.flow, step.flow)):
-            falls = self.active & (change < 0)
-            if falls.any():
-                longest = min(longest, float((-value[falls] / change[falls]).min()))
-        return longest
+        slack = _longest(self.active, point.slack, step.slack)
+        return float(min(slack, _longest(self.active, point.flow, step.flow)))
 
     def bound(self, normal: Floats, slack: Floats, flow: Floats) -> Floats:
         """Bound of the shear force; the cohesion of an unbonded contact counts while it closes.
@@ -158,3 +161,14 @@ class Complementarity:
         return IterationResult(
             carried, increment, carried.residual(increment).size, 0, 0, "", error
         )
+
+
+@compiled
+def _longest(active: Bools, value: Floats, change: Floats) -> float:
+    """Largest part of a change (3, m), up to 1, that leaves all active values positive."""
+    longest = 1.0
+    for side in range(len(active)):
+        for c in range(active.shape[1]):
+            if active[side, c] and change[side, c] < 0.0:
+                longest = min(longest, -value[side, c] / change[side, c])
+    return longest

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
-from nmm.compiled import compiled
-from nmm.contact.problem.row_products import Compressed, place, span
+from nmm.compiled import compiled, place
+from nmm.contact.problem.row_products import Compressed
 
 Index = npt.NDArray[Any]
 
@@ -90,33 +90,33 @@ def residual(increment: Floats, springs: SpringColumns) -> tuple[Floats, float]:
     for c in range(len(gap)):
         opening, sliding = gap[c], slip[c]
         if paired:
-            for k in span(normal_pointers, c):
+            for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):
                 moved = increment[place(normal_columns[k])]
                 opening += normal_entries[k] * moved
                 sliding += tangent_entries[k] * moved
         else:
-            for k in span(normal_pointers, c):
+            for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):
                 opening += normal_entries[k] * increment[place(normal_columns[k])]
-            for k in span(tangent_pointers, c):
+            for k in range(place(tangent_pointers[c]), place(tangent_pointers[c + 1])):
                 sliding += tangent_entries[k] * increment[place(tangent_columns[k])]
         normal = normal_stiffness[c] * opening + normal_shift[c]
         shear = shear_stiffness[c] * sliding + shear_shift[c]
         normal, shear = projected(normal, shear, tension[c], cohesion[c], friction[c])
         if paired and (normal != 0.0 or shear != 0.0):
-            for k in span(normal_pointers, c):
+            for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):
                 push = normal_entries[k] * normal + tangent_entries[k] * shear
                 contact[place(normal_columns[k])] += push
         if normal != 0.0 and not paired:
-            for k in span(normal_pointers, c):
+            for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):
                 contact[place(normal_columns[k])] += normal_entries[k] * normal
         if shear != 0.0 and not paired:
-            for k in span(tangent_pointers, c):
+            for k in range(place(tangent_pointers[c]), place(tangent_pointers[c + 1])):
                 contact[place(tangent_columns[k])] += tangent_entries[k] * shear
     force = np.empty(n)
     inner_size, contact_size, load_size, rest_size = 0.0, 0.0, 0.0, 0.0
     for i in range(n):
         inner = 0.0
-        for k in span(pointers, i):
+        for k in range(place(pointers[i]), place(pointers[i + 1])):
             inner += entries[k] * increment[place(columns[k])]
         force[i] = inner + contact[i] - load[i]
         inner_size += (weight[i] * inner) ** 2
@@ -144,14 +144,14 @@ def weighted(
     """Inverse roots (n,) of the diagonal of matrix and springs; 1 where that is not positive."""
     found = np.zeros(len(pointers) - 1)
     for j in range(len(found)):
-        for k in span(pointers, j):
+        for k in range(place(pointers[j]), place(pointers[j + 1])):
             if rows[k] == j:
                 found[j] += entries[k]
     for c in range(len(normal_stiffness)):
-        for k in span(normal_pointers, c):
+        for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):
             found[place(normal_columns[k])] += normal_entries[k] ** 2 * normal_stiffness[c]
     for c in range(len(shear_stiffness)):
-        for k in span(tangent_pointers, c):
+        for k in range(place(tangent_pointers[c]), place(tangent_pointers[c + 1])):
             found[place(tangent_columns[k])] += tangent_entries[k] ** 2 * shear_stiffness[c]
     for j in range(len(found)):
         found[j] = 1.0 / np.sqrt(found[j]) if found[j] > 0.0 else 1.0
@@ -178,7 +178,7 @@ def unevenness(
     rest, whole = -load, np.abs(load)
     pointers, numbers, entries = matrix
     for j in range(len(increment)):
-        for k in span(pointers, j):
+        for k in range(place(pointers[j]), place(pointers[j + 1])):
             part = entries[k] * increment[j]
             rest[place(numbers[k])] += part
             whole[place(numbers[k])] += abs(part)
@@ -212,6 +212,6 @@ def _add_forces(
 ) -> None:
     """Add forces (m,) through rows to ``rest`` (n,), and what is ``pressed`` by size to another."""
     for c in range(len(force)):
-        for k in span(pointers, c):
+        for k in range(place(pointers[c]), place(pointers[c + 1])):
             rest[place(columns[k])] += entries[k] * force[c]
             whole[place(columns[k])] += abs(entries[k]) * pressed[c]

@@ -7,13 +7,11 @@ import numpy.typing as npt
 from scipy.sparse import csr_array
 
 from integration.arrays import Floats
-from nmm.compiled import compiled
+from nmm.compiled import compiled, place
 
 Index = npt.NDArray[Any]
 Compressed = tuple[Index, Index, Floats]
 """Pointers, numbers and entries of a compressed matrix."""
-place = np.uint64
-"""Numbers without sign: compiled code need not look whether a place counts from the end."""
 
 
 def stretched(normal_rows: csr_array, tangent_rows: csr_array, increment: Floats) -> Floats:
@@ -52,19 +50,13 @@ def pushed(
 
 
 @compiled
-def span(pointers: Index, row: int) -> range:
-    """Places of the entries of a compressed row."""
-    return range(place(pointers[row]), place(pointers[row + 1]))
-
-
-@compiled
 def products_along(
     pointers: Index, columns: Index, entries: Floats, x: Floats, found: Floats
 ) -> None:
     """Write the products of compressed rows with ``x`` (n,) to ``found`` (m,)."""
     for c in range(len(pointers) - 1):
         total = 0.0
-        for k in span(pointers, c):
+        for k in range(place(pointers[c]), place(pointers[c + 1])):
             total += entries[k] * x[place(columns[k])]
         found[c] = total
 
@@ -83,8 +75,8 @@ def _pushed(
 ) -> Floats:
     found = np.zeros(n)
     for c in range(len(normal)):
-        for k in span(normal_pointers, c):
+        for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):
             found[place(normal_columns[k])] += normal_entries[k] * normal[c]
-        for k in span(tangent_pointers, c):
+        for k in range(place(tangent_pointers[c]), place(tangent_pointers[c + 1])):
             found[place(tangent_columns[k])] += tangent_entries[k] * shear[c]
     return found

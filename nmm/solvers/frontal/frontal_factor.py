@@ -1,7 +1,9 @@
 """Factors on fronts: panels of numbers, and the plan they belong to."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import count
 from typing import Any, Self
 
 import numpy as np
@@ -9,21 +11,25 @@ import numpy.typing as npt
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Index, Ints
-from nmm.solvers.frontal import fronts
-from nmm.solvers.frontal.blas import addresses, words
 from nmm.solvers.frontal.elimination import Fronts
-from nmm.solvers.frontal.workspace import Loan
-from nmm.solvers.threads import one_thread
+from nmm.solvers.frontal.numbers import fronts, inverted, substitution
+from nmm.solvers.frontal.numbers.blas import addresses, words
+from nmm.solvers.frontal.numbers.workspace import Loan
+from nmm.solvers.threads import OneThread
 
 CHOLESKY_KERNELS = "dpotrf", "dtrsm", "dsyrk", "dtrsv", "dgemv"
 LU_KERNELS = "dgetrf", "dtrsm", "dgemm", "dtrsv", "dgemv"
 SINGLE_KERNELS = "spotrf", "strsm", "ssyrk", "strsv", "sgemv"
+INVERTING = "dtrtri", "dtrsm"
+SINGLE_INVERTING = "strtri", "strsm"
 SINGLE = 1e-4
 """Least pivot of a matrix of unit diagonal whose factor is rounded to single precision. Walls,
 piles and slopes with springs of 10 E have 2e-3 and more, and keep six digits of a solution."""
 LARGE = 200_000
 """Numbers of a factor from which reading half of them is quicker: about a core's own cache. Walls
 of 100 blocks have a quarter of it, of 1 000 five times as many."""
+ForLoops = tuple[substitution.Outside, substitution.Inside]
+"""What compiled loops hand to `substitution.solve` before and after the right-hand side."""
 NO_SWAPS = np.empty(0, dtype=np.int32)
 
 
@@ -39,11 +45,14 @@ class FrontalFactor:
         Numbers of the factor, or of both.
     swaps
         Rows exchanged (n,) in LU; empty in Cholesky, which exchanges none.
+    turns
+        Counts how often loops have asked for it.
     """
 
     plan: Fronts
     panels: Loan
     swaps: Index
+    turns: Iterator[int] = field(default_factory=count, compare=False, repr=False)
 
     @classmethod
     def cholesky(cls, matrix: csc_array, plan: Fronts) -> Self | None:
@@ -62,35 +71,46 @@ class FrontalFactor:
         """Return the solution of one right-hand side (n,) or of several (n, k)."""
         if rhs.ndim == 2:
             return np.stack([self.solve(column) for column in rhs.T], axis=1)
-        return self._solved(rhs, self._inside(self.panels.numbers))
+        return self._solved(rhs, self._plain)
 
     def rough(self, rhs: Floats) -> Floats:
         """Return the solution (n,) in the precision of `for_loops`."""
         return self._solved(rhs, self.for_loops)
 
-    def _solved(self, rhs: Floats, given: tuple[fronts.Outside, fronts.Inside]) -> Floats:
-        x, (outside, factor) = np.empty(len(rhs)), given
+    def _solved(self, rhs: Floats, given: ForLoops) -> Floats:
+        x, (outside, inside) = np.empty(len(rhs)), given
         one = np.ascontiguousarray(rhs, dtype=np.float64)
-        with one_thread():
-            fronts.solve(outside, one, factor, x)
+        with OneThread():
+            substitution.solve(outside, one, inside, x)
         return x
 
     @property
-    def for_loops(self) -> tuple[fronts.Outside, fronts.Inside]:
-        """What compiled loops hand to `fronts.solve` before and after the right-hand side.
+    def for_loops(self) -> ForLoops:
+        """What compiled loops solve with.
 
         In single precision where that keeps digits enough for a correction that later ones mend:
         a solution is as long as its factor takes to be read. They hold the factor, whose panels
-        are lent, as long as they use it.
+        are lent, as long as they use it. A factor that is asked for again goes on being so: from
+        then on its pivot blocks are inverted.
         """
-        return self._inside(self.panels.numbers if self._single is None else self._single[1])
+        if next(self.turns) > 0 and self.symmetric:
+            return self._again
+        return self._plain if self._single is None else self._inside(self._single[1])
 
-    def _inside(self, panels: npt.NDArray[Any]) -> tuple[fronts.Outside, fronts.Inside]:
+    @cached_property
+    def _plain(self) -> ForLoops:
+        return self._inside(self.panels.numbers)
+
+    @cached_property
+    def _again(self) -> ForLoops:
+        return self._inside(self._inverted[1], True)
+
+    def _inside(self, panels: npt.NDArray[Any], inverted: bool = False) -> ForLoops:
         plan, single = self.plan, panels.dtype == np.float32
         kernels = addresses(*(SINGLE_KERNELS if single else self._kernels))
         first, row_start, rows, panel_start = plan.shape
         places = plan.order, first, row_start, rows, panel_start, self._beside_start
-        return (kernels, *words(single)), (*places, panels, self.swaps)
+        return (kernels, *words(single)), (*places, panels, self.swaps, inverted)
 
     @cached_property
     def _single(self) -> tuple[Loan, npt.NDArray[np.float32]] | None:
@@ -107,10 +127,28 @@ class FrontalFactor:
         rounded[:] = panels
         return loan, rounded
 
+    @cached_property
+    def _inverted(self) -> tuple[Loan, npt.NDArray[Any]]:
+        """Panels with inverted pivot blocks, in the room of those in single precision if any."""
+        loan, panels = self._single or self._copied
+        first, row_start, _, panel_start = self.plan.shape
+        single = panels.dtype == np.float32
+        kernels = addresses(*(SINGLE_INVERTING if single else INVERTING))
+        with OneThread():
+            inverted.invert(kernels, words(single), first, row_start, panel_start, panels)
+        return loan, panels
+
+    @property
+    def _copied(self) -> tuple[Loan, npt.NDArray[Any]]:
+        size = self.plan.panel_start[-1]
+        loan = Loan(size)
+        loan.numbers[:size] = self.panels.numbers[:size]
+        return loan, loan.numbers
+
     def _filled(self, matrix: csc_array, places: tuple[Ints, Ints]) -> bool:
         """Factorise a matrix whose entries go to ``places``; say whether all pivots will do."""
         plan, stack = self.plan, Loan(self.plan.stack_size)
-        with one_thread():
+        with OneThread():
             bad = fronts.factorise(
                 addresses(*self._kernels),
                 *words(),

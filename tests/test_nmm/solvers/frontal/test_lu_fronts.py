@@ -7,10 +7,11 @@ import pytest
 from scipy.sparse import csc_array, csr_array, eye_array, kron, random_array
 
 from integration.arrays import Floats
-from nmm.solvers.frontal import symbolic, workspace
+from nmm.solvers.frontal import symbolic
 from nmm.solvers.frontal.cholesky import Cholesky
 from nmm.solvers.frontal.lu import FrontalLU
-from nmm.solvers.frontal.workspace import Loan
+from nmm.solvers.frontal.numbers import workspace
+from nmm.solvers.frontal.numbers.workspace import Loan
 from nmm.solvers.libraries.superlu import SuperLU
 from nmm.solvers.linear import LinearSolver, jacobi_scale, make_solver
 from nmm.testing.solvers import is_cholesky, is_lu

@@ -47,3 +47,23 @@ def test_a_factor_with_small_pivots_stays_in_double_precision(
 def test_a_load_of_nothing_moves_nothing() -> None:
     factor = make_solver("cholesky").factorise(chain(200, 0.1))
     assert not factor.rough(np.zeros(200)).any()
+
+
+@pytest.mark.parametrize(("large", "rounding"), [(0, 1e-5), (10**9, 1e-14)])
+def test_a_factor_that_is_asked_again_solves_with_inverted_pivots(
+    large: int, rounding: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Springs between every two of 60 masses and of 30 others, joined at one: fronts of many."""
+    monkeypatch.setattr(frontal_factor, "LARGE", large)
+    rng, matrix = np.random.default_rng(1), np.zeros((90, 90))
+    for part in (slice(0, 60), slice(59, 90)):
+        size = part.stop - part.start
+        joints = rng.normal(size=(size, size))
+        matrix[part, part] += joints @ joints.T / size + 2.0 * np.eye(size)
+    factor = make_solver("cholesky").factorise(csc_array(matrix))
+    load = rng.normal(size=90)
+    exact = np.linalg.solve(matrix, load)
+    once, again = factor.rough(load), factor.rough(load)
+    assert not np.array_equal(once, again)
+    np.testing.assert_allclose(again, exact, atol=rounding * np.abs(exact).max())
+    np.testing.assert_allclose(factor.apply(load), exact, atol=1e-14 * np.abs(exact).max())

@@ -6,20 +6,13 @@ the transpose of ``U`` beside the pivot block is kept behind all panels. What di
 whether there is room for exchanges, ``swaps``; the two share all that runs over fronts.
 """
 
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 
 from integration.arrays import Floats, Index, Ints
 from nmm.compiled import compiled
-from nmm.solvers.frontal import blas
-from nmm.solvers.frontal.extend_add import collect_lower, collect_whole, runs
-
-Outside = tuple[Ints, npt.NDArray[np.uint8], Index, npt.NDArray[Any]]
-"""Addresses of kernels, and room for the letters, sizes and numbers they take."""
-Inside = tuple[Ints, Ints, Ints, Ints, Ints, Ints, npt.NDArray[Any], Index]
-"""A plan and the numbers of a factor on it, as `solve` takes them."""
+from nmm.solvers.frontal.numbers import blas
+from nmm.solvers.frontal.numbers.extend_add import collect_lower, collect_whole, runs
 
 
 @compiled
@@ -127,71 +120,3 @@ def _exchange(beside: Floats, swap: Index, r: int) -> None:
             for i in range(r):
                 a, b = beside[k * r + i], beside[other * r + i]
                 beside[k * r + i], beside[other * r + i] = b, a
-
-
-@compiled
-def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> None:
-    """Fill in the solution for one right-hand side: arrays are slow to return.
-
-    It is found in the precision of the panels. The load is scaled to about one, by a power of two
-    which changes no digit: single precision has no small numbers.
-    """
-    kernels, letters, sizes, scalars = outside
-    order, first, row_start, rows, panel_start, beside_start, panels, swaps = inside
-    n, count, symmetric = len(rhs), len(first) - 1, len(swaps) == 0
-    top = 0.0
-    for k in range(n):
-        top = max(top, abs(rhs[k]))
-    unit = 2.0 ** np.floor(np.log2(top)) if 0.0 < top < np.inf else 1.0
-    x, work = np.empty(n, dtype=panels.dtype), np.empty(n, dtype=panels.dtype)
-    for k in range(n):
-        x[k] = rhs[order[k]] / unit
-    at = letters.ctypes.data
-    low, plain, turned, high = at, at + 1, at + 3, at + 4
-    n_c = sizes.ctypes.data
-    n_r, n_h, step = n_c + 4, n_c + 8, n_c + 12
-    sizes[3] = 1
-    one = scalars.ctypes.data
-    minus, zero = one + scalars.itemsize, one + 2 * scalars.itemsize
-    ends = work.ctypes.data
-    for s in range(count):
-        c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
-        sizes[0], sizes[1], sizes[2] = c, r, c + r
-        if not symmetric:
-            for k in range(first[s], first[s + 1]):
-                other = first[s] + swaps[k] - 1
-                x[k], x[other] = x[other], x[k]
-        own, block = x[first[s] :].ctypes.data, panels[panel_start[s] :].ctypes.data
-        if symmetric:
-            blas.call8(kernels[3], (low, plain, plain, n_c, block, n_h, own, step))
-        else:  # the diagonal of L is ones
-            blas.call8(kernels[3], (low, plain, high, n_c, block, n_h, own, step))
-        if r > 0:
-            left = panels[panel_start[s] + c :].ctypes.data
-            blas.call11(
-                kernels[4], (plain, n_r, n_c, minus, left, n_h, own, step, zero, ends, step)
-            )
-            for k in range(r):
-                x[rows[row_start[s] + k]] += work[k]
-    for s in range(count - 1, -1, -1):
-        c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
-        sizes[0], sizes[1], sizes[2] = c, r, c + r
-        own, block = x[first[s] :].ctypes.data, panels[panel_start[s] :].ctypes.data
-        for k in range(r):
-            work[k] = x[rows[row_start[s] + k]]
-        if symmetric:
-            if r > 0:
-                left = panels[panel_start[s] + c :].ctypes.data
-                blas.call11(
-                    kernels[4], (turned, n_r, n_c, minus, left, n_h, ends, step, one, own, step)
-                )
-            blas.call8(kernels[3], (low, turned, plain, n_c, block, n_h, own, step))
-        else:
-            if r > 0:
-                top = panels[beside_start[s] :].ctypes.data
-                blas.call11(
-                    kernels[4], (turned, n_r, n_c, minus, top, n_r, ends, step, one, own, step)
-                )
-            blas.call8(kernels[3], (high, plain, plain, n_c, block, n_h, own, step))
-    for k in range(n):
-        solution[order[k]] = unit * x[k]

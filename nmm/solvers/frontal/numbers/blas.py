@@ -12,6 +12,8 @@ import numpy.typing as npt
 from integration.arrays import Index, Ints
 
 LETTERS, SCALARS = np.frombuffer(b"LNRTU", dtype=np.uint8), np.array([1.0, -1.0, 0.0])
+ARGUMENTS = 5, 6, 8, 10, 11, 13
+"""How many the kernels take."""
 SINGLES = SCALARS.astype(np.float32)
 
 
@@ -20,6 +22,8 @@ def addresses(lapack: str, *blas: str) -> Ints:
     """Return the addresses of kernels by name, which compiled code takes as arguments."""
     from numba.extending import get_cython_function_address
 
+    for arguments in ARGUMENTS:  # numba knows what is there before it begins to compile
+        _caller(arguments)
     found = [get_cython_function_address("scipy.linalg.cython_lapack", lapack)]
     found += [get_cython_function_address("scipy.linalg.cython_blas", name) for name in blas]
     return np.array(found, dtype=np.int64)
