@@ -98,6 +98,8 @@ CASES = Registry[type[Case]](
         "SP1": f"{_HOME}.pieces:PiecesInFlight",
         "SP2": f"{_HOME}.splitting:CutBar",
         "SP3": f"{_HOME}.spalling:SpalledBar",
+        "SP4": f"{_HOME}.driven_wedge:SplittingWedge",
+        "SP4 blow": f"{_HOME}.driven_wedge:StruckApart",
         "SP5": f"{_HOME}.splitting:SplitDisc",
         "SP6": f"{_HOME}.splitting:StressedBlock",
         "IN1": f"{_HOME}.time_integration:DampedSpring",

@@ -2,13 +2,16 @@
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from nmm.effects.base import Setup
 from nmm.fracture.growth.growing import GrowingCracks
 from nmm.fracture.growth.grown import GrownSoFar
-from nmm.fracture.growth.on_the_way import Station, freed_over_chord
+from nmm.fracture.growth.on_the_way import GrowthPath
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
+    from nmm.stepping.reports.ledger import Ledger
 
 
 class CrackGrowth(GrowingCracks):
@@ -18,37 +21,54 @@ class CrackGrowth(GrowingCracks):
         self,
         setup: Setup,
         sofar: GrownSoFar | None = None,
-        stations: tuple[Station, ...] = (),
-        jump: float | None = None,
+        path: GrowthPath | None = None,
+        parted: bool = False,
     ) -> None:
         super().__init__(setup, sofar)
-        self._stations, self._jump = stations, jump
+        self._path = GrowthPath() if path is None else path
+        self._parted = parted
+        # A crack that begins frees what it does under the load at which strength was reached.
+        self.at_toughness = self._followed and not setup.geometry.nuclei
 
     def follow(self, change: "Change") -> "CrackGrowth":
         """Return the effect on the new geometry, with what its fronts have gained."""
-        factor, sofar = change.state.load_factor, self._grown_so_far(change)
-        if len(change.setup.geometry.nuclei) > len(self._setup.geometry.nuclei):
-            return CrackGrowth(change.setup, sofar, jump=factor)
-        passed = (*self._stations, self._station(factor))[-2:]
-        return CrackGrowth(change.setup, sofar, passed)
+        parted = change.new.manifold.n_bodies > change.old.manifold.n_bodies
+        begun = len(change.setup.geometry.nuclei) > len(self._setup.geometry.nuclei)
+        path = self._path.begun_anew() if begun else self._path
+        return CrackGrowth(change.setup, self._grown_so_far(change), path, parted)
 
-    def freed_over_chord(self, factor: float) -> float:
-        """See `GrowingCracks.freed_over_chord`; a crack begins at once, under the load before."""
-        if self._table.control != "toughness":
-            return 1.0
-        if self._jump is not None:
-            return self._jump / factor if self._jump * factor > 0 else 1.0
-        return freed_over_chord((*self._stations, self._station(factor)))
+    def arrived(self, factor: float, stored: float) -> float:
+        """See `GrowingCracks.arrived`."""
+        if not self._followed:
+            return 0.0
+        before = self._path
+        self._path = before.on(self._length, factor, stored)
+        return self._path.beyond_chord() - before.beyond_chord()
 
-    def _station(self, factor: float) -> Station:
-        return float(self._sofar.length.sum()), factor
+    @property
+    def _followed(self) -> bool:
+        """Whether loads follow the toughness."""
+        return self._table.control == "toughness"
+
+    def freed(self, ledger: "Ledger") -> float:
+        """See `GrowingCracks.freed`; with what the piece freed that parted a body at the end."""
+        freed = super().freed(ledger)
+        if not self._parted:
+            return freed
+        # What the last cut let go of by itself is in the books already.
+        let_go = float(self._path.stations[-1, 2]) - ledger.in_store
+        return freed - let_go + self._path.to_the_end(self._length)
+
+    @property
+    def _length(self) -> float:
+        return float(self._sofar.length.sum())
 
     def carried(self) -> tuple[Any, ...]:
-        """See `GrowingCracks.carried`; and the last loads at the toughness, or at a beginning."""
-        return (*super().carried(), self._stations, self._jump)
+        """See `GrowingCracks.carried`; and the way at the toughness."""
+        return (*super().carried(), self._path.stations, self._path.jumped, self._parted)
 
     def carry(self, carried: tuple[Any, ...]) -> None:
         """See `Effect.carry`."""
-        *sofar, stations, self._jump = carried
+        *sofar, stations, jumped, parted = carried
         super().carry(tuple(sofar))
-        self._stations = tuple((length, factor) for length, factor in stations)
+        self._path, self._parted = GrowthPath(np.asarray(stations), jumped), parted

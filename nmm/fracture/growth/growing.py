@@ -28,6 +28,7 @@ from nmm.quantity import SPOT, Quantity
 if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.effects.view import View
+    from nmm.stepping.reports.ledger import Ledger
 
 
 class GrowingCracks(Effect):
@@ -37,6 +38,8 @@ class GrowingCracks(Effect):
     external = False
     held: ClassVar[bool] = False
     """Whether new faces are held at first."""
+    at_toughness: bool = False
+    """Whether the load keeps cracks at their toughness, so that they free just what they take."""
 
     def __init__(self, setup: Setup, sofar: GrownSoFar | None = None) -> None:
         table = setup.scene.fracture
@@ -84,9 +87,16 @@ class GrowingCracks(Effect):
         """Energy (J) that the growth so far took by the toughness of the material."""
         return self._sofar.energy
 
-    def freed_over_chord(self, factor: float) -> float:
-        """What growth frees up to a load factor over what work along a chord says; see there."""
-        return 1.0
+    def arrived(self, factor: float, stored: float) -> float:
+        """Note a balance at the toughness; return the energy (J) to book beside that of chords.
+
+        ``stored`` is the energy (J) stored under the load factor.
+        """
+        return 0.0
+
+    def freed(self, ledger: "Ledger") -> float:
+        """Energy (J) that growth freed by the books of a run."""
+        return ledger.freed(self.name)
 
     def intensities(self, state: State) -> Intensities:
         """Return what the tips have in a state; kept for the last one."""

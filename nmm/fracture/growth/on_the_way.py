@@ -1,45 +1,124 @@
-"""The energy that a crack frees on its way from one piece to the next, at its toughness throughout.
+"""The energy that cracks free between one balance and the next, at their toughness all along.
 
 With linear matter under loads of one factor L the energy freed by growth da is L^2 g(a) da, where
 g is what a unit of the factor frees. Work along a chord, from one factor to the next, frees L1 L2
 times the integral of g. But the crack was at its toughness between them too: there
 L^2 g is constant, 1 / L goes with the intensity of a unit of the factor, and what is freed is the
-integral of g over the mean of 1 / L^2.
+integral of g over the mean of 1 / L^2. The integral of g is the gain of U / L^2, U being stored.
+
+The logarithm of L is a cubic through four lengths, two on either side where there are as many.
 """
 
-from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats, Ints
 
-# Gauss points on (0, 1), which have squares of parabolas exactly.
-POINTS = (1 + np.array([-1, 0, 1]) * np.sqrt(0.6)) / 2
-WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18
-Station = tuple[float, float]
-"""How far cracks have grown (m), and the load factor at which they are at their toughness."""
+# Gauss points on (-1, 1) between two lengths: ten have a ligament that falls to a fifth to 1e-9.
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(10)
+# Lengths through which a polynomial goes.
+NODES = 4
 
 
-def freed_over_chord(stations: Sequence[Station]) -> float:
-    """Return what a crack frees over what a chord says, from the last station but one to the last.
+@dataclass(frozen=True)
+class GrowthPath:
+    """Where cracks were at their toughness.
 
-    1 / L is linear in the growth between two stations, which a double cantilever beam has exactly;
-    with one more before them it is a parabola. Where the factor passes zero it is one.
+    Attributes
+    ----------
+    stations
+        (n, 3): how far they had grown (m), the load factor, and the energy stored (J).
+    jumped
+        Load factor and energy stored under which a crack began at once; None without.
     """
-    length, factor = np.array(stations[-3:]).T
-    if len(length) < 2 or not ((factor > 0).all() or (factor < 0).all()):
-        return 1.0
-    inverse = 1 / factor
-    between = _through(length, inverse, length[-2] + POINTS * (length[-1] - length[-2]))
-    return float(inverse[-2] * inverse[-1] / (WEIGHTS @ between**2))
+
+    stations: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+    jumped: tuple[float, float] | None = None
+
+    def on(self, length: float, factor: float, stored: float) -> "GrowthPath":
+        """Return the path with one more station."""
+        return replace(self, stations=np.append(self.stations, [[length, factor, stored]], axis=0))
+
+    def begun_anew(self) -> "GrowthPath":
+        """Return the path of cracks of which another begins under the last load."""
+        _, factor, stored = self.stations[-1].tolist()
+        return GrowthPath(jumped=(factor, stored))
+
+    def beyond_chord(self, end: float | None = None) -> float:
+        """Energy (J) that was freed on the whole way beyond what chords say.
+
+        Towards the ``end`` (m) of a ligament, intensities go with a power of what is left of it:
+        there the logarithm of that is what the cubics run over. Pieces about which the factor
+        changes its sign count as their chords.
+        """
+        length, factor, stored = self.stations.T
+        compliance = stored / factor**2
+        if len(length) < 2:
+            return self._beyond_jump
+        nearly = np.exp(-2 * self._between(_place(length, end), np.log(np.abs(factor)), end))
+        freed = np.diff(compliance) / (nearly @ WEIGHTS / 2)
+        chord = np.diff(compliance) * factor[1:] * factor[:-1]
+        return float((freed - chord)[self._one_sign].sum()) + self._beyond_jump
+
+    def to_the_end(self, end: float) -> float:
+        """Energy (J) freed from the last station until bodies part at the length ``end``.
+
+        With what is left of a ligament, c, the factor falls as c^p, and g rises as c^(-2 p): as
+        much as (2 p - 1) times what is stored is freed until nothing is, by p of the last piece.
+        Nothing is said where the factor does not fall so. What is known now of the end corrects
+        the way before it.
+        """
+        if len(self.stations) < 2:
+            return 0.0
+        length, factor, stored = self.stations.T
+        left = np.log(end - length[-2:])
+        power = np.diff(np.log(np.abs(factor[-2:])))[0] / np.diff(left)[0]
+        more = self.beyond_chord(end) - self.beyond_chord()
+        return float(max(2 * power - 1, 0.0) * stored[-1] + more)
+
+    @property
+    def _beyond_jump(self) -> float:
+        """Energy (J) that a crack frees beyond the chord if it begins under the load before."""
+        if (
+            self.jumped is None
+            or not len(self.stations)
+            or self.jumped[0] * self.stations[0, 1] <= 0
+        ):
+            return 0.0
+        (before, held), (_, factor, stored) = self.jumped, self.stations[0].tolist()
+        return float((stored / factor**2 - held / before**2) * before * (before - factor))
+
+    @cached_property
+    def _window(self) -> Ints:
+        """Stations (n - 1, m) through which the polynomial of each piece goes."""
+        n = len(self.stations)
+        m = min(n, NODES)
+        first = np.clip(np.arange(n - 1) - 1, 0, n - m)
+        return np.asarray(first[:, None] + np.arange(m))
+
+    @cached_property
+    def _one_sign(self) -> Bools:
+        sign = np.sign(self.stations[self._window, 1])
+        return np.asarray((sign == sign[:, :1]).all(axis=1))
+
+    def _between(self, x: Floats, y: Floats, end: float | None) -> Floats:
+        """Values (n - 1, g) at the Gauss points of each piece (Lagrange's form)."""
+        length = self.stations[:, 0]
+        where = _place(length[:-1, None] + (1 + POINTS) / 2 * np.diff(length)[:, None], end)
+        nodes = x[self._window]
+        m = nodes.shape[1]
+        found = np.zeros_like(where)
+        for one in range(m):  # four at most
+            others = np.delete(nodes, one, axis=1)
+            share = (where[..., None] - others[:, None]) / (
+                nodes[:, None, one, None] - others[:, None]
+            )
+            found += y[self._window][:, one, None] * share.prod(axis=2)
+        return found
 
 
-def _through(x: Floats, y: Floats, where: Floats) -> Floats:
-    """Values at places of the polynomial through two or three points (Newton's form)."""
-    first = (y[-1] - y[-2]) / (x[-1] - x[-2])
-    found = y[-2] + first * (where - x[-2])
-    if len(x) < 3:
-        return np.asarray(found)
-    earlier = (y[-2] - y[-3]) / (x[-2] - x[-3])
-    second = (first - earlier) / (x[-1] - x[-3])
-    return np.asarray(found + second * (where - x[-2]) * (where - x[-1]))
+def _place(length: Floats, end: float | None) -> Floats:
+    """What the cubics run over."""
+    return length if end is None else np.log(end - length)

@@ -8,10 +8,18 @@ from nmm.stepping.audits.bodies import bodies
 from nmm.stepping.audits.energy import energy
 from nmm.stepping.audits.equations import equations
 from nmm.stepping.audits.fields import fields
+from nmm.stepping.audits.growth import growth
 from nmm.stepping.audits.steps import steps
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdict
 
-AUDITS: tuple[Callable[[Ended], Findings], ...] = (energy, equations, fields, bodies, steps)
+AUDITS: tuple[Callable[[Ended], Findings], ...] = (
+    energy,
+    equations,
+    fields,
+    bodies,
+    growth,
+    steps,
+)
 
 
 def audit(run: Ended) -> list[AuditFinding]:

@@ -122,6 +122,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "runs until failure",
     ),
+    "growth_energy": Threshold(
+        "energy that growth freed less what its toughness took, over the largest energy",
+        1e-3,
+        None,
+        '`[fracture]` with `control = "toughness"`',
+    ),
     "increments": Threshold(
         "ten over the number of increments in which friction slid or bonds broke",
         1.0,

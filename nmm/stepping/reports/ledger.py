@@ -69,8 +69,8 @@ class Ledger:
         What changes of what is solved have added to the stored energies, the energy shed in the
         first step of statics after one included: with all that is new acting at once, more work is
         done than a slow change needs.
-    settling, change_before
-        Whether that step is the next one, and the energy of changes (J) up to the last step.
+    settling
+        Whether that step is the next one.
     lowest, last
         Energy from nowhere and what the integrator had given of it: where the first was least,
         and after the last step.
@@ -92,7 +92,6 @@ class Ledger:
     given: float = 0.0
     change_energy: float = 0.0
     settling: bool = False
-    change_before: float = 0.0
     lowest: tuple[float, float] = (0.0, 0.0)
     last: tuple[float, float] = (0.0, 0.0)
 
@@ -130,24 +129,21 @@ class Ledger:
         if self.settling and plan.inertia is None:
             shed = min(found._made - self._made, 0.0)
             found = replace(found, change_energy=found.change_energy + shed)
-        found = replace(found, change_before=found.change_energy)
         if attempt.booked is not None:
             found = found._lost_in_time(attempt.booked, earlier, loss)
         return found.weighed(after.time, audited=attempt.booked is not None)
 
-    def along(self, freed_over_chord: float, since: "Ledger") -> "Ledger":
-        """Return the totals where a change frees more on the way of loads than along their chord.
+    def along(self, more: float) -> "Ledger":
+        """Return the totals where changes free ``more`` (J) on the way of loads than along chords.
 
-        ``since`` are the totals before the step; work does what is freed beyond the chord.
+        Work does what is freed beyond the chord.
         """
-        more = (freed_over_chord - 1) * (since.change_before - self.change_energy)
-        changed = self.change_energy - more
-        return replace(self, work=self.work + more, change_energy=changed, change_before=changed)
+        return replace(self, work=self.work + more, change_energy=self.change_energy - more)
 
     def changed(self, plan: "Plan", model: "Model", state: State) -> "Ledger":
         """Return the totals with a change of what is solved, on which ``state`` is now."""
         energies = stored(plan, model, state)
-        added = sum(energies.values()) - sum(self.energies.values())
+        added = sum(energies.values()) - self.in_store
         return replace(
             self, energies=energies, change_energy=self.change_energy + added, settling=True
         )
@@ -168,6 +164,11 @@ class Ledger:
         )
 
     @property
+    def in_store(self) -> float:
+        """Energy (J) stored now."""
+        return sum(self.energies.values())
+
+    @property
     def row(self) -> Mapping[str, float]:
         """What the history says of a step."""
         damping = {f"damping_loss:{name}": loss for name, loss in self.damping_loss.items()}
@@ -184,13 +185,13 @@ class Ledger:
 
     def freed(self, effect: str) -> float:
         """Energy (J) that work and stores say went where ``effect`` changed what is solved."""
-        gained = sum(self.energies.values()) - self.stored_first
+        gained = self.in_store - self.stored_first
         others = self.dissipated - self.effect_loss.get(effect, 0.0)
         return self.work - gained - others
 
     @property
     def _made(self) -> float:
-        gained = sum(self.energies.values()) - self.stored_first - self.change_energy
+        gained = self.in_store - self.stored_first - self.change_energy
         return gained + self.dissipated - self.work
 
     @property
@@ -205,7 +206,7 @@ class Ledger:
         Steps of statics are not ``audited``: what they make is no motion, and rises count from
         their end.
         """
-        total = sum(self.energies.values())
+        total = self.in_store
         largest = max(
             self.throughput, abs(self.work), abs(total), abs(self.stored_first), self.dissipated
         )

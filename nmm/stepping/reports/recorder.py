@@ -155,8 +155,7 @@ class Recorder:
         plan, after, totals = self.stepper.plan, attempt.state, self.totals
         ledger = self.ledger.booked(plan, self.stepper.model, before, attempt, stands or after)
         if plan.fracture is not None:
-            more = plan.fracture.freed_over_chord(after.load_factor)
-            ledger = ledger.along(more, self.ledger)
+            ledger = ledger.along(plan.fracture.arrived(after.load_factor, ledger.in_store))
         self.totals = with_parts(
             totals,
             ledger=ledger,

@@ -12,6 +12,7 @@ from nmm.verification.base import Check, Checks, holds, limit
 from nmm.verification.problems.growing_cracks import (
     GrowingCrack,
     crack,
+    energy_kept,
     grown,
     net,
     path,
@@ -133,6 +134,7 @@ class ShearedBeam(GrowingCrack):
             "where it meets the top (mm)": Check(
                 float(place[-1, 0]), 90.0, 4.0, "the benchmark's", 1.0
             ),
+            **energy_kept(run, 2.5e-3, "its first piece, which kinks by 73 degrees"),
         }
 
 
@@ -175,7 +177,8 @@ class LPanel(GrowingCrack):
         return {
             "distance from the path (mm)": limit(
                 float(away(place, self.path).max()), 4.0, "the benchmark's"
-            )
+            ),
+            **energy_kept(run),
         }
 
 
@@ -243,4 +246,4 @@ class StressAlongCrack(GrowingCrack):
                 "largest height": limit(float(place[:, 1].max()), 0.005, "the benchmark's"),
                 "it turns back": holds(at[1.3] < at[0.6], "tension across alone"),
             }
-        return {**found, "point symmetry": symmetry}
+        return {**found, "point symmetry": symmetry, **energy_kept(run)}

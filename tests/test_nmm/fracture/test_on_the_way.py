@@ -1,34 +1,75 @@
-"""What a crack at its toughness frees between two of its lengths, against closed forms."""
+"""What cracks at their toughness free between their lengths, against closed forms."""
 
 import numpy as np
 import pytest
 
-from nmm.fracture.growth.on_the_way import freed_over_chord
+from nmm.fracture.growth.on_the_way import GrowthPath
+
+
+def passed(length, factor, stored):
+    """Return a path through stations."""
+    path = GrowthPath()
+    for station in zip(length, factor, stored, strict=True):
+        path = path.on(*station)
+    return path
+
+
+def over_chords(path):
+    """Return what chords say of a path (J)."""
+    _, factor, stored = path.stations.T
+    return float(np.sum(np.diff(stored / factor**2) * factor[1:] * factor[:-1]))
+
+
+def cantilever(length):
+    """Arms of C = s^3 at their toughness: L = 1 / s, so that growth by ds frees 1.5 ds."""
+    return passed(length, 1 / length, length / 2)
 
 
 def test_a_double_cantilever_beam_frees_what_its_toughness_takes():
-    """C = s^3, L = 1 / s: a chord says L1 L2 (s2^3 - s1^3) / 2, right is 3 (s2 - s1) / 2."""
-    one, two = 0.567, 0.667
-    chord = 1 / (one * two) * (two**3 - one**3) / 2
-    found = freed_over_chord([(one, 1 / one), (two, 1 / two)])
-    assert found * chord == pytest.approx(1.5 * (two - one), rel=1e-12)
-    assert found == pytest.approx(1 / (1 + 0.1**2 / (3 * one * two)), rel=1e-12)
+    path = cantilever(0.5 + 0.1 * np.arange(8))
+    found = over_chords(path) + path.beyond_chord()
+    assert found == pytest.approx(1.5 * 0.7, rel=1e-5)
+    assert over_chords(path) == pytest.approx(1.5 * 0.7, rel=0.01)
+    assert over_chords(path) > 1.5 * 0.7 * 1.004
 
 
-@pytest.mark.parametrize("scale", [1.0, -2.0])
-def test_a_third_length_brings_it_from_second_to_third_order(scale):
-    """K of a unit grows as exp(a): the mean of exp(2 a) over the piece is known."""
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_four_lengths_have_it_to_the_fourth_order(sign):
+    """1 / L = 1 + a^2: the mean of its square over the whole way is known."""
     errors = []
-    for piece in (0.4, 0.2):
-        lengths = 1 + piece * np.arange(-1, 2)
-        stations = [(a, scale * np.exp(-a)) for a in lengths]
-        mean = (np.exp(2 * lengths[2]) - np.exp(2 * lengths[1])) / (2 * piece)
-        right = np.exp(lengths[1] + lengths[2]) / mean
-        errors.append(abs(freed_over_chord(stations) / right - 1))
-    assert errors[1] < errors[0] / 7
-    assert errors[1] < 1e-3
+    for pieces in (8, 16):
+        a = np.linspace(0, 1, pieces + 1)
+        compliance = 2 * (a + 2 * a**3 / 3 + a**5 / 5)
+        factor = sign / (1 + a**2)
+        path = passed(a, factor, compliance * factor**2 / 2)
+        errors.append(abs(over_chords(path) + path.beyond_chord() - 1))
+    assert errors[1] < errors[0] / 12
+    assert errors[1] < 2e-5
+
+
+def test_a_ligament_of_a_bent_beam_frees_its_share_until_nothing_is_left():
+    """With c left of it L = c^1.5 and C = 1 / c^2: growth by dc frees dc, half of it is stored."""
+    length = 0.1 * np.arange(10)
+    left = 0.93 - length
+    path = passed(length, left**1.5, left / 2)
+    found = over_chords(path) + path.beyond_chord() + path.to_the_end(0.93)
+    assert found == pytest.approx(0.93, rel=1e-7)
 
 
 def test_the_first_factor_and_one_that_turns_round_have_no_way_between():
-    assert freed_over_chord([(0.5, 2.0)]) == 1.0
-    assert freed_over_chord([(0.5, 2.0), (0.6, -1.0)]) == 1.0
+    assert GrowthPath().on(0.5, 2.0, 1.0).beyond_chord() == 0.0
+    turned = passed([0.5, 0.6], [2.0, -1.0], [1.0, 1.0])
+    assert turned.beyond_chord() == 0.0
+
+
+def test_where_the_factor_does_not_fall_nothing_is_said_of_the_end():
+    path = passed([0.0, 0.1], [1.0, 1.0], [1.0, 1.1])
+    assert path.to_the_end(0.15) == 0.0
+
+
+def test_a_crack_that_begins_frees_under_the_load_before():
+    """U = C L^2 of C = 1 and 3: at L = 2 it frees 8, whatever the load that comes then."""
+    path = GrowthPath().on(0.0, 2.0, 4.0).begun_anew()
+    assert path.beyond_chord() == 0.0
+    path = path.on(0.1, 0.5, 0.75)
+    assert (3.0 - 1.0) * 2.0 * 0.5 + path.beyond_chord() == pytest.approx(8.0)
