@@ -73,7 +73,7 @@ def summed_up(
         change_energy=totals.ledger.change_energy if totals.changes else None,
         changes=list(totals.changes),
         fracture_energy=None if growth is None else growth.energy_taken,
-        freed_energy=None if growth is None else growth.freed(totals.ledger),
+        freed_energy=None if growth is None else recorder.freed_by(growth),
     )
 
 

@@ -11,7 +11,6 @@ from nmm.fracture.growth.on_the_way import GrowthPath
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
-    from nmm.stepping.reports.ledger import Ledger
 
 
 class CrackGrowth(GrowingCracks):
@@ -50,14 +49,13 @@ class CrackGrowth(GrowingCracks):
         """Whether loads follow the toughness."""
         return self._table.control == "toughness"
 
-    def freed(self, ledger: "Ledger") -> float:
-        """See `GrowingCracks.freed`; with what the piece freed that parted a body at the end."""
-        freed = super().freed(ledger)
-        if not self._parted:
-            return freed
-        # What the last cut let go of by itself is in the books already.
-        let_go = float(self._path.stations[-1, 2]) - ledger.in_store
-        return freed - let_go + self._path.to_the_end(self._length)
+    def freed_until_now(self, booked: float, stored: float) -> float:
+        """See `GrowingCracks.freed_until_now`; with the piece that parted a body at the end."""
+        if not self._parted or not len(self._path.stations):
+            return booked
+        # What the last cut let go of by itself is booked already.
+        let_go = float(self._path.stations[-1, 2]) - stored
+        return booked - let_go + self._path.to_the_end(self._length)
 
     @property
     def _length(self) -> float:

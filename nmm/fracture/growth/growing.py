@@ -28,7 +28,6 @@ from nmm.quantity import SPOT, Quantity
 if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.effects.view import View
-    from nmm.stepping.reports.ledger import Ledger
 
 
 class GrowingCracks(Effect):
@@ -94,9 +93,9 @@ class GrowingCracks(Effect):
         """
         return 0.0
 
-    def freed(self, ledger: "Ledger") -> float:
-        """Energy (J) that growth freed by the books of a run."""
-        return ledger.freed(self.name)
+    def freed_until_now(self, booked: float, stored: float) -> float:
+        """Energy (J) that growth freed: what is ``booked``, where so much is ``stored`` at last."""
+        return booked
 
     def intensities(self, state: State) -> Intensities:
         """Return what the tips have in a state; kept for the last one."""

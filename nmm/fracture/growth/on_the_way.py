@@ -43,6 +43,8 @@ class GrowthPath:
 
     def begun_anew(self) -> "GrowthPath":
         """Return the path of cracks of which another begins under the last load."""
+        if not len(self.stations):
+            return self
         _, factor, stored = self.stations[-1].tolist()
         return GrowthPath(jumped=(factor, stored))
 

@@ -8,7 +8,7 @@ def growth(run: Ended) -> Findings:
     cracks, ledger = run.stepper.plan.fracture, run.recorder.ledger
     if cracks is None or not cracks.at_toughness or not ledger.throughput:
         return
-    missed = (cracks.freed(ledger) - cracks.energy_taken) / ledger.throughput
+    missed = (run.recorder.freed_by(cracks) - cracks.energy_taken) / ledger.throughput
     word = "more" if missed > 0 else "less"
     yield AuditFinding(
         "growth_energy",

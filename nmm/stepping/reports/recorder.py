@@ -25,6 +25,7 @@ from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
+    from nmm.fracture.growth.growing import GrowingCracks
 
 
 @dataclass(frozen=True)
@@ -140,6 +141,10 @@ class Recorder:
     def ledger(self) -> Ledger:
         """Energies so far."""
         return self.totals.ledger
+
+    def freed_by(self, growth: "GrowingCracks") -> float:
+        """Energy (J) that growth of cracks freed so far."""
+        return growth.freed_until_now(self.ledger.freed(growth.name), self.ledger.in_store)
 
     def step(
         self,

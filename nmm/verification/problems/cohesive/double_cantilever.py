@@ -164,29 +164,37 @@ class BentByMoments(BentApart):
 
 @dataclass(frozen=True)
 class ClosedAgain(BentApart):
-    """The moments rise to half of the width, are taken away, and rise again."""
+    """The moments rise to half of the width, are taken away, and rise again.
+
+    The straight line back belongs to displacements that are small. Where arms turn as they open,
+    by some 1e-4, they leave it by as much, and what they take and give on the way is not the same.
+    """
 
     name: ClassVar[str] = "CO4"
     title: ClassVar[str] = "A cohesive crack that closes and opens again"
     source: ClassVar[str] = "Closed form: an opened bond goes back to its origin on the secant"
     steps: int = 10
     angle: float = 17.0
+    turning: bool = False
 
     @classmethod
     def variants(cls) -> Sequence[Self]:
-        """Return two lengths of steps, and two nets."""
-        return [cls(), cls(steps=16), cls(angle=40.0)]
+        """Return two lengths of steps, two nets, and arms that turn."""
+        return [cls(), cls(steps=16), cls(angle=40.0), cls(turning=True)]
 
     @property
     def variant(self) -> str:
-        """Steps and net."""
-        return f"{self.steps} steps each way, net at {self.angle:g} degrees"
+        """Steps, net and geometry."""
+        turns = ", arms turn" if self.turning else ""
+        return f"{self.steps} steps each way, net at {self.angle:g} degrees{turns}"
 
     def scene(self) -> str:
         """Return a shorter beam, which the crack does not run through, and moments over time."""
         most = 484.12292 / UNIT
         own = f"history = [[0, 0], [1, {most}], [2, 0], [3, {most}]]\n"
         step = f"[formulation.integrator]\nstep = {1 / self.steps}\n"
+        if not self.turning:
+            step += '[formulation.rotation]\nupdate = "small"\n'
         net = quadratic("triangles", 0.04, self.angle)
         return "duration = 3.0\n" + beam(0.4, "linear", net, own=own) + step
 
@@ -195,14 +203,19 @@ class ClosedAgain(BentApart):
         width, time, loss = opening(run), run.history["time"], run.history["friction_loss"]
         top, foot = np.searchsorted(time, [1 - 1e-9, 2 - 1e-9])
         most, line = width[top], width[top] * np.abs(time - 2)
+        # Steps are balanced to 1e-8.
+        way, back, cycle = (1e-4, 1e-5, 1e-4) if self.turning else (1e-7, 1e-6, 1e-8)
+        reason = "arms turn by 1e-4" if self.turning else "the benchmark's"
         return {
             "opening beside the secant, share of the largest": limit(
-                float(np.abs(width - line)[top:].max() / most), 1e-4, "balance of each step"
+                float(np.abs(width - line)[top:].max() / most),
+                way,
+                "balance of each step, arms that turn",
             ),
             "opening without moments, share of the largest": limit(
-                float(abs(width[foot]) / most), 1e-5, "balance of each step"
+                float(abs(width[foot]) / most), back, reason
             ),
             "energy that the cycle took, share of what opening took": limit(
-                float(abs(loss[-1] / loss[top] - 1)), 1e-4, "balance of each step"
+                float(abs(loss[-1] / loss[top] - 1)), cycle, reason
             ),
         }
