@@ -7,6 +7,8 @@ import numpy as np
 from scipy.sparse import block_diag, csc_array, csr_array
 from scipy.spatial import Voronoi
 
+from integration.moments import moments
+from integration.polygons import Polygons
 from nmm.contact.problem.step_problem import STICK, Limits, StepAnswer, StepProblem
 
 YOUNG, POISSON, DENSITY, FRICTION, GRAVITY = 1e9, 0.2, 2000.0, 0.6, 9.81
@@ -158,8 +160,8 @@ def _scene(
     friction: float = FRICTION,
     damping: float = 1.0,
 ) -> Scene:
-    area, centre, second = np.array([_moments(p) for p in polygons], dtype=object).T
-    area, centre = area.astype(float), np.array(list(centre))
+    rings = Polygons.from_vertices(polygons)
+    area, centre, second = rings.areas, rings.centroids, moments(rings, 2)[:, 3:]
     mass = block_diag(
         [DENSITY * _mass(a, s) for a, s in zip(area, second, strict=True)], format="csc"
     )
@@ -213,23 +215,8 @@ def _rows(point, side_a, side_b, direction, centre, n) -> csr_array:
     return rows
 
 
-def _moments(p: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
-    q = np.roll(p, -1, axis=0)
-    cross = p[:, 0] * q[:, 1] - q[:, 0] * p[:, 1]
-    area = cross.sum() / 2
-    centre = ((p + q) * cross[:, None]).sum(axis=0) / 6 / area
-    p, q = p - centre, q - centre
-    cross = p[:, 0] * q[:, 1] - q[:, 0] * p[:, 1]
-    xx, yy = ((p**2 + p * q + q**2) * cross[:, None]).sum(axis=0) / 12
-    xy = (
-        (2 * p[:, 0] * p[:, 1] + p[:, 0] * q[:, 1] + q[:, 0] * p[:, 1] + 2 * q[:, 0] * q[:, 1])
-        * cross
-    ).sum() / 24
-    return area, centre, np.array([xx, yy, xy])
-
-
 def _mass(area: float, second: np.ndarray) -> np.ndarray:
-    xx, yy, xy = second
+    xx, xy, yy = second
     mass = np.diag([area, area, xx + yy, xx, yy, (xx + yy) / 4])
     mass[2, 3], mass[2, 4], mass[2, 5] = -xy, xy, (xx - yy) / 2
     mass[3, 5], mass[4, 5] = xy / 2, xy / 2

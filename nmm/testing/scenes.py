@@ -1,4 +1,4 @@
-"""Texts of small scenes whose answers are known: bars that are pulled, a block on a slab."""
+"""Texts of small scenes that several tests share: bars, a block on a slab, a pile with water."""
 
 from collections.abc import Sequence
 
@@ -113,4 +113,30 @@ def edge_support(
     """Return the table of a support of a straight edge."""
     return (
         f'[[supports]]\nname = "{name}"\nsegment = {[list(start), list(end)]}\nfix = {list(fix)}\n'
+    )
+
+
+def roller_and_pin(height: float = 1.0) -> str:
+    """Return tables that hold the left end of a bar from the origin: along it, and its corner."""
+    return edge_support("left", (0, 0), (0, height), ("x",)) + (
+        '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["y"]\n'
+    )
+
+
+def wet_pile(aperture: str = "0.2 mm") -> str:
+    """Return tables of two blocks of 2 m by 1 m on a held one, with water in their joints.
+
+    The joints let water through by their ``aperture``; it stands 1.5 m high at the left end of
+    the lying joint.
+    """
+    blocks = {"base": ((0, -1), (4, 1)), "left": ((0, 0), (2, 1)), "right": ((2, 0), (2, 1))}
+    return text.scene(
+        text.material("rock", 10e9, 0.2, 2500.0),
+        [
+            text.interface("joint", 40.0, more={"normal_stiffness": 1e10, "shear_stiffness": 1e10}),
+            f'aperture = "{aperture}"\nresidual_aperture = "0.01 mm"\n',
+            *(text.box(name, *place) for name, place in blocks.items()),
+            text.held("base"),
+            '[[joint_heads]]\nname = "in"\npoint = [0, 0]\nhead = 1.5\n',
+        ],
     )

@@ -8,6 +8,7 @@ from skfem.models.elasticity import linear_elasticity
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
 from nmm.stepping.run import Run, run
+from nmm.testing.scenes import roller_and_pin
 
 MESHES = {
     "finite elements": '[cover]\ntype = "triangles"\nsize = 0.4\ndegree = 0\nangle = 0.3\n',
@@ -21,7 +22,8 @@ MESHES = {
 }
 DDA = '[cover]\ntype = "block"\n'
 
-BAR = """
+BAR = (
+    """
 plane = "stress"
 duration = 20.0
 [inertia]
@@ -33,15 +35,9 @@ density = 1
 name = "b"
 material = "m"
 vertices = [[0, 0], [10, 0], [10, 0.5], [0, 0.5]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 0.5]]
-fix = ["x"]
-[[supports]]
-name = "pin"
-point = [0, 0]
-fix = ["y"]
-[[loads]]
+"""
+    + roller_and_pin(0.5)
+    + """[[loads]]
 name = "pull"
 kind = "edge"
 segment = [[10, 0], [10, 0.5]]
@@ -53,6 +49,7 @@ point = [10, 0.25]
 name = "middle"
 point = [5, 0.25]
 """
+)
 
 STACK = """
 plane = "stress"

@@ -6,6 +6,8 @@ something from step to step.
 
 import re
 
+from nmm.testing.scenes import wet_pile
+
 HEAD = """
 title = "restart"
 plane = "strain"
@@ -661,7 +663,8 @@ method = "penalty"
 [formulation.loading]
 increment = 0.1
 """
-FILLING_JOINT = """
+FILLING_JOINT = (
+    """
 title = "joint that fills and opens"
 plane = "strain"
 [contact]
@@ -670,42 +673,15 @@ plane = "strain"
 transient = true
 initial = 0.0
 duration = "10 min"
-[materials.rock]
-young_modulus = "10 GPa"
-poisson_ratio = 0.2
-density = 2500
-[interfaces.joint]
-friction_angle = "40 deg"
-aperture = "0.1 mm"
-residual_aperture = "0.01 mm"
-normal_stiffness = 1e10
-shear_stiffness = 1e10
-[[blocks]]
-name = "base"
-material = "rock"
-vertices = [[0, -1], [4, -1], [4, 0], [0, 0]]
-[[blocks]]
-name = "left"
-material = "rock"
-vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
-[[blocks]]
-name = "right"
-material = "rock"
-vertices = [[2, 0], [4, 0], [4, 1], [2, 1]]
-[[supports]]
-name = "ground"
-block = "base"
-fix = ["x", "y"]
-[[joint_heads]]
-name = "in"
-point = [0, 0]
-head = 1.5
-[output]
+"""
+    + wet_pile("0.1 mm")
+    + """[output]
 every_steps = 3
 {checkpoint}
 [formulation.loading]
 increment = 0.1
 """
+)
 SHAKEN_ON_ROCK = """
 duration = 0.03
 title = "shaken block"

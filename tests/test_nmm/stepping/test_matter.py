@@ -9,10 +9,12 @@ from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
+from nmm.testing.scenes import roller_and_pin
 
 E, Y, H = 200e9, 250e6, 20e9
 
-BAR = """
+BAR = (
+    """
 plane = "{plane}"
 [materials.steel]
 law = "von_mises"
@@ -24,15 +26,9 @@ hardening_modulus = "20 GPa"
 [[blocks]]
 material = "steel"
 vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 1]]
-fix = ["x"]
-[[supports]]
-name = "pin"
-point = [0, 0]
-fix = ["y"]
-[[loads]]
+"""
+    + roller_and_pin()
+    + """[[loads]]
 name = "pull"
 kind = "edge"
 segment = [[2, 0], [2, 1]]
@@ -42,6 +38,7 @@ traction = ["300 MPa", 0]
 name = "tip"
 point = [2, 0.5]
 """
+)
 CYCLE = "history = [[0, 0], [1, 1], [2, 0]]"
 # Yield, at 5/6 of the load, is the end of an increment: work by trapezia is then exact.
 TWELFTHS = f"[loading]\nincrement = {1 / 12!r}\n"

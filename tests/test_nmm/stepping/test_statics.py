@@ -9,8 +9,10 @@ import pytest
 import nmm
 from nmm.formulation import Formulation
 from nmm.model.effects_table import EFFECTS
+from nmm.testing.scenes import roller_and_pin
 
-BAR = """
+BAR = (
+    """
 plane = "stress"
 thickness = 0.5
 [materials.steel]
@@ -19,15 +21,9 @@ poisson_ratio = 0.3
 [[blocks]]
 material = "steel"
 vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 1]]
-fix = ["x"]
-[[supports]]
-name = "pin"
-point = [0, 0]
-fix = ["y"]
-[[loads]]
+"""
+    + roller_and_pin()
+    + """[[loads]]
 name = "pull"
 kind = "edge"
 segment = [[2, 0], [2, 1]]
@@ -36,6 +32,7 @@ traction = [1.0, 0]
 name = "tip"
 point = [2, 1]
 """
+)
 
 # Two blocks bonded on their shared edge of 1 m, pulled apart.
 BOND = """

@@ -6,48 +6,24 @@ import pytest
 import nmm
 from nmm.errors import SceneError
 from nmm.testing import check_effect_of
+from nmm.testing.scenes import wet_pile
 
-PILE = """
+PILE = (
+    """
 title = "pile"
 plane = "strain"
 [gravity]
 [contact]
 [joint_flow]
-[materials.m]
-young_modulus = "10 GPa"
-poisson_ratio = 0.2
-density = 2500.0
-[interfaces.j]
-friction_angle = "40 deg"
-aperture = "0.2 mm"
-residual_aperture = "0.01 mm"
-normal_stiffness = 1e10
-shear_stiffness = 1e10
-[[blocks]]
-name = "base"
-material = "m"
-vertices = [[0, -1], [4, -1], [4, 0], [0, 0]]
-[[blocks]]
-name = "left"
-material = "m"
-vertices = [[0, 0], [2, 0], [2, 1], [0, 1]]
-[[blocks]]
-name = "right"
-material = "m"
-vertices = [[2, 0], [4, 0], [4, 1], [2, 1]]
-[[supports]]
-name = "ground"
-block = "base"
-fix = ["x", "y"]
-[[joint_heads]]
-name = "in"
-point = [0, 0]
-head = 1.5
+"""
+    + wet_pile()
+    + """
 [[joint_heads]]
 name = "out"
 point = [4, 0]
 head = 0.0
 """
+)
 
 
 def test_a_pile_with_water_in_its_joints_is_in_balance_with_it():
@@ -108,7 +84,7 @@ def test_joints_are_found_again_when_a_block_leaves():
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('aperture = "0.2 mm"', 'aperture = "-0.2 mm"', "interfaces.j.aperture: .*an aperture"),
+        ('aperture = "0.2 mm"', 'aperture = "-0.2 mm"', "interfaces.joint.aperture: .*an aperture"),
         ("[joint_flow]\n", "", "joint_heads: no .joint_flow."),
         ('name = "out"', 'name = "in"', "a name of its own"),
         ("head = 0.0", "head = 0.0\nblock = 'base'", "a point or a segment"),
@@ -133,9 +109,10 @@ def test_water_without_a_way_is_refused_by_line(old, new, said):
 
 def test_joints_that_no_head_reaches_are_named_by_their_place():
     apart = PILE + (
-        '[[blocks]]\nname = "far"\nmaterial = "m"\n'
+        '[[blocks]]\nname = "far"\nmaterial = "rock"\n'
         "vertices = [[9, -1], [11, -1], [11, 0], [9, 0]]\n"
-        '[[blocks]]\nname = "top"\nmaterial = "m"\nvertices = [[9, 0], [11, 0], [11, 1], [9, 1]]\n'
+        '[[blocks]]\nname = "top"\nmaterial = "rock"\n'
+        "vertices = [[9, 0], [11, 0], [11, 1], [9, 1]]\n"
         '[[supports]]\nname = "more"\nblock = "far"\nfix = ["x", "y"]\n'
     )
     with pytest.raises(SceneError, match=r"joint_flow: 2 ends of joints.*\((9|11), 0\)"):
