@@ -139,6 +139,7 @@ CASES = Registry[type[Case]](
         "GR12": f"{_HOME}.cracks_in_motion:StruckCrack",
         "GR13": f"{_HOME}.nucleation:CrackAtHole",
         "GR14": f"{_HOME}.nucleation:CrackInPlate",
+        "GR15": f"{_HOME}.branched_cracks:BranchedCrack",
         "CO1": f"{_HOME}.cohesive.double_cantilever:BentByMoments",
         "CO3": f"{_HOME}.cohesive.notched_beam:CohesiveBeam",
         "CO4": f"{_HOME}.cohesive.double_cantilever:ClosedAgain",
