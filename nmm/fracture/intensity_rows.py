@@ -122,14 +122,17 @@ class IntensityRows:
         for part in self.pulled:  # close to the tip and further out
             rows = model.manifold.rows(part.owner, part.points)
             force = -model.density[part.owner, None, None] * part.force
-            total += _summed(rows.unknowns, np.einsum("mni,mil->nml", force, rows.values), model)
+            values = np.moveaxis(force @ rows.values, 1, 0)
+            total += _summed(rows.unknowns, values, model)
         return self.stiff / 2 * total
 
 
 def _on_unknowns(model: Model, part: Weighed) -> Floats:
     """Factors (2, n) of the unknowns, from those of the gradient at places."""
     index, rows = model.manifold.gradient_rows(part.owner, part.points)
-    return _summed(index, np.einsum("mnij,mijl->nml", part.gradient, rows, optimize=True), model)
+    m, n = part.gradient.shape[:2]
+    values = part.gradient.reshape(m, n, 4) @ rows.reshape(m, 4, -1)
+    return _summed(index, np.moveaxis(values, 1, 0), model)
 
 
 def _summed(index: Ints, values: Floats, model: Model) -> Floats:

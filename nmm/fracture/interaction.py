@@ -24,6 +24,8 @@ Traction = Callable[[Floats, Floats], Floats]
 
 # Degree to which smooth parts are integrated.
 ORDER = 12
+# Elements whose middle is nearer to the tip than so many of their sizes are integrated about it.
+BESIDE = 1.5
 # Edges off the line behind the tip by more than this part of their distance are kinked.
 STRAIGHT = 1e-6
 
@@ -99,8 +101,10 @@ class Interaction:
         """Yield what counts over the material."""
         near, point = self._elements, self.fields.tip.point
         polygons = self.model.manifold.elements.take(near)
-        reach = np.hypot(*(polygons.points - point).T)
-        close = np.maximum.reduceat(reach, polygons.first_point) < 0.5 * self.radius
+        middle = polygons.centroids
+        out = np.hypot(*(polygons.points - middle[polygons.polygon_of_point]).T)
+        size = np.maximum.reduceat(out, polygons.first_point)
+        close = np.hypot(*(middle - point).T) < BESIDE * size
         # About the tip fields are singular; further out the cut-off is what is not polynomial.
         for chosen, singular in ((close, True), (~close, False)):
             index = np.flatnonzero(chosen)

@@ -54,7 +54,7 @@ def singular_fields(item: Enrichment, points: Floats, bearing: Floats) -> tuple[
     turn = np.array([[d[0], -d[1]], [d[1], d[0]]])
     radius, angle = polar(item, points)
     value, gradient = item.functions.evaluate(np.maximum(radius, 1e-30), near(angle, bearing))
-    return value @ turn.T, np.einsum("ab,mnbc,dc->mnad", turn, gradient, turn)
+    return value @ turn.T, turn @ gradient @ turn.T
 
 
 def _local(item: Enrichment, points: Floats) -> Floats:

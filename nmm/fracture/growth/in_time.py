@@ -6,6 +6,7 @@ withdrawn over the time that the other half takes at the speed that was reached.
 further from where it is seen than half a piece.
 """
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -59,12 +60,17 @@ class GrowthInTime(GrowingCracks):
 
     def accepted(self, state: State) -> None:
         """Let tips run on by what a step brings them."""
-        found, model = self.intensities(state), self._setup.model
-        element = model.cut.tips.element[found.tip]
+        found = self.intensities(state)
         speed = np.zeros(len(self._fronts))
-        bound = rayleigh_speeds(model, element, tip_moduli(model, element)[0])
-        speed[found.front] = bound * self._law(found.share) * self.free(found)
+        speed[found.front] = self._bound * self._law(found.share) * self.free(found)
         self._running = self._running.advanced(state.time, speed)
+
+    @cached_property
+    def _bound(self) -> Floats:
+        """Speeds (k,) of Rayleigh's wave at fronts with a tip, which none can reach (m/s)."""
+        model = self._setup.model
+        element = model.cut.tips.element[self._tips[self._tips >= 0]]
+        return rayleigh_speeds(model, element, tip_moduli(model, element)[0])
 
     def follow(self, change: "Change") -> "GrowthInTime":
         """Return the effect on the new geometry, with faces held where tips have gone on."""

@@ -77,8 +77,9 @@ def test_a_straight_crack_drawn_in_short_pieces_is_one() -> None:
     x = np.linspace(-0.4, 0.4, 33)
     drawn, straight = np.stack([x, 0 * x], axis=1), np.array([[-0.4, 0.0], [0.4, 0.0]])
     one, other = (plate([crack], 0.1, 0.3, 0.15) for crack in (drawn, straight))
-    # Elements with vertices on the crack have other points, of a rule that is exact to 1e-5.
-    assert one == pytest.approx(other, abs=2e-5 * np.abs(other).max())
+    # Elements with vertices on the crack have other points, of rules that are exact to 1e-5 each in
+    # a domain of one cell and a half.
+    assert one == pytest.approx(other, abs=3e-5 * np.abs(other).max())
 
 
 def test_tips_in_the_same_covers_have_their_own_functions() -> None:
