@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,26 +13,20 @@ from nmm.effects.event import Event
 from nmm.fracture.growth.intensities import tip_moduli
 from nmm.fracture.growth.refusals import refuse_nucleation, short_nuclei
 from nmm.fracture.growth.rule import ROUNDING
-from nmm.fracture.nucleation.nuclei import Nuclei, Nucleus
-from nmm.fracture.nucleation.rule import NucleationRule
 from nmm.fracture.toughness import Toughness
+
+if TYPE_CHECKING:
+    from nmm.fracture.nucleation.nuclei import Nuclei, Nucleus
+    from nmm.fracture.nucleation.rule import NucleationRule
 
 
 class Beginnings:
     """Where cracks may begin in the geometry of a setup; nowhere without a rule in its scene."""
 
     def __init__(self, setup: Setup, toughness: Toughness) -> None:
-        table = setup.scene.fracture
         self._setup = setup
-        self._rule: NucleationRule | None = None
-        self._nuclei: Nuclei | None = None
+        self._rule, self._nuclei = _places(setup, toughness)
         self._known: tuple[Floats, Nucleus | None] | None = None
-        if table is None or table.nucleation is None:
-            return
-        _, stiff = tip_moduli(setup.model, np.arange(len(setup.model.manifold.elements)))
-        self._rule = NucleationRule.of(table.nucleation, toughness, stiff)
-        if len(setup.geometry.nuclei) < self._rule.most:
-            self._nuclei = Nuclei.of(setup.model, setup.geometry, self._rule)
 
     def refuse(self) -> None:
         """Refuse what `refuse_nucleation` does."""
@@ -53,7 +48,7 @@ class Beginnings:
         """What spoils cracks that begin so short, in words."""
         return "" if self._rule is None else short_nuclei(self._setup, self._rule)
 
-    def next(self, state: State) -> Nucleus | None:
+    def next(self, state: State) -> "Nucleus | None":
         """Return the place that is nearest to where a crack begins; kept for the last state."""
         if self._nuclei is None:
             return None
@@ -83,3 +78,17 @@ class Beginnings:
     def forget(self) -> None:
         """Drop what is kept for the last state."""
         self._known = None
+
+
+def _places(setup: Setup, toughness: Toughness) -> "tuple[NucleationRule | None, Nuclei | None]":
+    """Return the rule of a scene, and where cracks may still begin by it; None without."""
+    table = setup.scene.fracture
+    if table is None or table.nucleation is None:
+        return None, None
+    from nmm.fracture.nucleation.nuclei import Nuclei
+    from nmm.fracture.nucleation.rule import NucleationRule
+
+    model, geometry = setup.model, setup.geometry
+    _, stiff = tip_moduli(model, np.arange(len(model.manifold.elements)))
+    rule = NucleationRule.of(table.nucleation, toughness, stiff)
+    return rule, Nuclei.of(model, geometry, rule) if len(geometry.nuclei) < rule.most else None

@@ -1,10 +1,14 @@
 """What cracks cannot grow by, told before anything runs."""
 
+from typing import TYPE_CHECKING
+
 from integration.arrays import Ints
 from nmm.effects.base import Setup
 from nmm.errors import Fault, FormulationError, SceneError
-from nmm.fracture.nucleation.nuclei import Nuclei
-from nmm.fracture.nucleation.rule import NucleationRule
+
+if TYPE_CHECKING:
+    from nmm.fracture.nucleation.nuclei import Nuclei
+    from nmm.fracture.nucleation.rule import NucleationRule
 
 
 def refuse(setup: Setup, tips: Ints) -> None:
@@ -47,7 +51,7 @@ def refuse(setup: Setup, tips: Ints) -> None:
         raise FormulationError(Fault(place, model.bent, "elastic matter", remedy))
 
 
-def refuse_nucleation(setup: Setup, nuclei: Nuclei) -> None:
+def refuse_nucleation(setup: Setup, nuclei: "Nuclei") -> None:
     """Refuse covers on which no crack can begin, and means over lines that no body holds.
 
     Raises
@@ -71,7 +75,7 @@ def refuse_nucleation(setup: Setup, nuclei: Nuclei) -> None:
         raise SceneError(Fault(place, value, expected, remedy))
 
 
-def short_nuclei(setup: Setup, rule: NucleationRule) -> str:
+def short_nuclei(setup: Setup, rule: "NucleationRule") -> str:
     """Say what is wrong with cracks that begin so short; empty where nothing is."""
     size, length = setup.formulation.cover.finest, rule.crack_length
     said = []
