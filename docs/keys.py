@@ -140,7 +140,7 @@ found, not what is accepted. They are tables within the options of an enforcemen
 boundary = 0.99
 ```
 
-and say what they do in `nmm/contact/iteration/options.py`.
+and say what they do in `nmm/contact/iteration/options`.
 
 | table | options, with their defaults |
 |---|---|"""

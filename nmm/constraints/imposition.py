@@ -173,11 +173,10 @@ class Method:
         place: Place,
         displacement: "Callable[[Instant], Floats]",
         held: tuple[bool, bool] = (True, True),
-        name: str = "edge",
     ) -> Imposition:
         """Hold points against the ground; ``displacement`` may differ from point to point."""
         area = place.weight * model.thickness
-        interface = Interface(place, None, area, name, np.array(held), displacement)
+        interface = Interface(place, None, area, "edge", np.array(held), displacement)
         return self.impose(model, [interface])[0]
 
     def at_points(self) -> "Method":

@@ -117,15 +117,13 @@ def crossings_in(motion: Motion, share: float) -> Crossings:
     return Crossings(v[hit], e[hit], np.minimum(touch, deep)[hit])
 
 
-def over_seams(
-    found: Crossings, motion: Motion, pairs: tuple[Ints, Ints], share: float = FLUSH
-) -> Bools:
+def over_seams(found: Crossings, motion: Motion, pairs: tuple[Ints, Ints]) -> Bools:
     """Which crossings (m,) are corners that slide from one body on to the next, flush with it.
 
     The corner of a block on a floor lies lower than it by its own penetration. Where the floor ends
     and another body goes on at its level, it comes in through the side of that body just below the
     end of it, and the corners of both floors come in through the side of the block just above its
-    corner: no more than ``share`` of the thickness. The floor that goes on bears it.
+    corner: no more than `FLUSH` of the thinner body's thickness. The floor that goes on bears it.
 
     Parameters
     ----------
@@ -133,11 +131,9 @@ def over_seams(
         The crossings of a step.
     pairs
         Vertex and edge (k,) of the contacts of the step.
-    share
-        Of the thickness of the thinner body, up to which faces are flush.
     """
     before, edge, vertex = motion.before, found.edge, found.vertex
-    flush = share * np.minimum(before.thickness[vertex], before.thickness[edge])
+    flush = FLUSH * np.minimum(before.thickness[vertex], before.thickness[edge])
     over = np.zeros(len(found), dtype=bool)
     for corner, beyond in ((edge, before.previous[edge]), (before.next[edge], before.next[edge])):
         either = (vertex[:, None] == pairs[0]) | (corner[:, None] == pairs[0])

@@ -87,28 +87,24 @@ class JointPoints:
         return len(self.joint)
 
 
-def find_joints(
-    surface: Surface, tolerance: float | None = None, within_bodies: bool = False
-) -> Joints:
+def find_joints(surface: Surface, within_bodies: bool = False) -> Joints:
     """Intervals along which edges of two bodies run opposite to each other and coincide.
 
     Parameters
     ----------
     surface
         The edges.
-    tolerance
-        Length (m): the largest distance between the two edges over the interval, and the length
-        that an interval must exceed. The default is `JOINT` of the mean edge.
     within_bodies
         Also pair edges of one body: the two faces of a crack.
 
     Notes
     -----
-    The distance is measured at both ends of the interval, so the allowed angle shrinks with its
-    length. Ends of edges within the tolerance of each other are taken as the same point.
+    The largest distance (m) between the two edges over the interval, and the length that an
+    interval must exceed, are `JOINT` of the mean edge. The distance is measured at both ends of the
+    interval, so the allowed angle shrinks with its length. Ends of edges within it of each other
+    are taken as the same point.
     """
-    if tolerance is None:
-        tolerance = JOINT * float(surface.length.mean()) if len(surface) else 0.0
+    tolerance = JOINT * float(surface.length.mean()) if len(surface) else 0.0
     a, b = _pairs(surface, tolerance)
     keep = np.einsum("ij,ij->i", surface.direction[a], surface.direction[b]) < 0.0
     if not within_bodies:

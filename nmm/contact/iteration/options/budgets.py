@@ -1,0 +1,64 @@
+"""How long a method may try, and how long it may go on slowly."""
+
+from dataclasses import dataclass
+from math import inf, log
+
+SMALL = 120
+"""Unknowns up to which exactness costs nothing: Newton's method is tried first."""
+
+
+@dataclass(frozen=True)
+class IterationBudget:
+    """How long each method may try.
+
+    Attributes
+    ----------
+    solves
+        Most search steps.
+    factors
+        Most factorisations of the springs that act.
+    interior
+        Most factorisations of the interior point.
+    cost
+        Solves after which no new factor is made, factorisations counted as `WayOptions.acting`.
+    """
+
+    solves: int = 1000
+    factors: int = 40
+    interior: int = 100
+    cost: float = inf
+
+
+@dataclass(frozen=True)
+class Patience:
+    """How long an iteration may go on that gets on slowly.
+
+    Attributes
+    ----------
+    ahead
+        Most solves that may lie ahead at the rate of the last ones.
+    below
+        Relative out-of-balance force (-) below which it is judged.
+    look
+        Solves over which the rate is taken.
+    """
+
+    ahead: float
+    below: float = inf
+    look: int = 4
+
+    def lost(self, sizes: list[float], tolerance: float) -> bool:
+        """Whether the best ``sizes`` so far, one a solve, forecast too many solves."""
+        if len(sizes) <= self.look or not sizes[-1] < self.below:
+            return False
+        gain = log(sizes[-1 - self.look] / sizes[-1]) / self.look
+        return not gain * self.ahead >= log(sizes[-1] / tolerance)
+
+    def longer(self, size: float, stay: float) -> "Patience":
+        """Patience of a problem in which a factorisation costs ``size`` times as many solves.
+
+        ``stay`` is how many times as many solves may lie ahead besides.
+        """
+        return Patience(
+            stay * size * self.ahead, self.below / size**3, max(1, int(size * self.look))
+        )
