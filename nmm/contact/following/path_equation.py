@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from integration.arrays import Floats
+from nmm.errors import SolveError
 
 
 @dataclass(frozen=True)
@@ -31,8 +32,16 @@ class PathEquation:
 
         ``along`` (n,) is what a load factor of one moves, ``still`` (n,) the increment without a
         further change, ``so_far`` the change of the step before.
+
+        Raises
+        ------
+        SolveError
+            Where the load moves nothing that is controlled.
         """
-        return self.left(still, so_far) / float(self.row @ along + self.share)
+        moved = float(self.row @ along + self.share)
+        if moved == 0:
+            raise SolveError("the path has no next step: the load moves nothing that is controlled")
+        return self.left(still, so_far) / moved
 
     def left(self, increment: Floats, change: float) -> float:
         """Return what an increment (n,) and a change of the load factor lack of the target."""

@@ -20,8 +20,11 @@ from nmm.solvers.anderson import FixedPoint
 
 MOST = 200
 """Solutions after which a step is given up."""
-UNCHANGED = 1e-9
-"""Change of a column, beside one or the largest length, that is as good as none."""
+UNCHANGED, ROUNDED = 1e-9, 1e-7
+"""Change of a column, beside one or the largest length, that is as good as none; and where it
+shrinks no more, for functions depend on one another and rounding is large."""
+FRUITLESS, FRUIT = 50, 0.5
+"""Changes shrink no more where so many solutions leave more than this share of the least before."""
 ENDED = ("gap", "slip", "normal_force", "shear_force")
 """What contacts have at the end of a solution."""
 
@@ -47,7 +50,7 @@ class HistoryIteration:
         self.springs = laws.springs(start)
         self.before = self.response = laws.response(start, self.springs[0])
         self.done = False
-        self._count = 0
+        self._changes: list[float] = []
         self._iteration = FixedPoint()
         self._index = {
             name: np.flatnonzero(
@@ -78,19 +81,27 @@ class HistoryIteration:
         """Take note of an answer; return a verdict when there have been too many."""
         image = self._laws.evolved(self.start, answer.gap, sliding, self.springs[0])
         change, size = self._change(answer, image)
-        self.done = change <= UNCHANGED
-        self._count += 1
+        self._changes.append(change)
+        stays = self._stays
+        self.done = change <= (ROUNDED if stays else UNCHANGED)
         if self.done:
             self.contacts = with_parts(self.contacts, history=image)
             return None
-        if self._count == MOST:
+        if stays or len(self._changes) == MOST:
             sentence = (
-                f"what interface laws remember still changed by {change:.1e} after {MOST} "
-                "solutions of the step; shorten the step or the load increment"
+                f"what interface laws remember still changed by {change:.1e} after "
+                f"{len(self._changes)} solutions of the step; shorten the step or the load "
+                "increment"
             )
             return Verdict(False, "passes", sentence)
         self._follow(image, size)
         return None
+
+    @property
+    def _stays(self) -> bool:
+        """Whether the last solutions brought nothing."""
+        last, before = self._changes[-FRUITLESS:], self._changes[:-FRUITLESS]
+        return bool(before) and min(last) > FRUIT * min(before)
 
     def _change(self, answer: StepAnswer, image: History) -> tuple[float, dict[str, float]]:
         """Largest change of a column, each beside its size, and the sizes."""

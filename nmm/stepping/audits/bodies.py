@@ -19,7 +19,8 @@ def bodies(run: Ended) -> Findings:
         yield AuditFinding(
             "penetration",
             deep / size,
-            f"bodies overlap by up to {deep:.3g} m, {percent(deep / size)} of the smallest",
+            f"bodies overlap by up to {deep:.3g} m, {percent(deep / size)} of the smallest: "
+            f"{run.recorder.totals.deepest}",
             "raise [contact] normal_penalty, take smaller steps, or an exact enforcement",
             mild=contact.laws.stiff,
         )

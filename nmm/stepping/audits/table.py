@@ -76,7 +76,7 @@ THRESHOLDS: dict[str, Threshold] = {
     ),
     "penetration": Threshold(
         "largest overlap over the size (root of the area) of the smallest body",
-        1e-2,
+        2e-3,
         0.1,
         "contact; it only warns where an interface names its stiffness",
     ),

@@ -20,6 +20,7 @@ from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.ledger import Ledger
 from nmm.stepping.reports.lengths import StepLengths
 from nmm.stepping.reports.output import Choice, Watch
+from nmm.stepping.step.anchors import block_name
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -73,6 +74,8 @@ class Totals:
         Linear systems solved, and frames stored.
     residual, penetration, stiffest
         Largest relative out-of-balance force, overlap (m) and stiffness of a contact (N/m).
+    deepest
+        Which bodies overlapped most, and when, in words; empty before any did.
     largest, counts
         Contact points in each state: most of all steps, and after the last.
     watch
@@ -94,6 +97,7 @@ class Totals:
     frames: int = 0
     residual: float = 0.0
     penetration: float = 0.0
+    deepest: str = ""
     stiffest: float = 0.0
     largest: Mapping[str, int] = field(default_factory=dict)
     counts: Mapping[str, int] = field(default_factory=dict)
@@ -288,15 +292,18 @@ class Recorder:
 
         contact = self.stepper.plan.contact
         assert contact is not None
-        penetration = -float(contacts.gap.min(initial=0.0))
+        penetration, totals = -float(contacts.gap.min(initial=0.0)), self.totals
+        deepest = totals.deepest
+        if penetration > totals.penetration:
+            deepest = self._pair(contacts, int(contacts.gap.argmin()), attempt.state.time)
         tally = np.bincount(contacts.state, minlength=len(NAMES)).tolist()
         counts = dict(zip(NAMES, tally, strict=True))
         counts["broken"] = contact.broken_bonds
-        totals = self.totals
         self.totals = with_parts(
             totals,
             stiffest=max(totals.stiffest, contact.solver.stiffest or 0.0),
             penetration=max(totals.penetration, penetration),
+            deepest=deepest,
             largest={name: max(totals.largest.get(name, 0), n) for name, n in counts.items()},
             counts=counts,
         )
@@ -308,6 +315,15 @@ class Recorder:
             **lost,
             **{name: float(count) for name, count in counts.items()},
         }
+
+    def _pair(self, contacts: "ContactPoints", at: int, time: float) -> str:
+        """Say between which blocks a contact point is, and when it was so."""
+        made = self.stepper.discretisation
+        owner = made.model.manifold.boundary.body
+        bodies = owner[[contacts.edge_a[at], contacts.edge_b[at]]]
+        pair = [block_name(made.model, body, made.setup.region_name) for body in bodies]
+        when = f" at {time:.4g} s" if "inertia" in made.plan.effects else ""
+        return " and ".join(pair) + when
 
     def _contact_arrays(self, state: State, contacts: "ContactPoints | None") -> dict[str, Any]:
         contact = self.stepper.plan.contact

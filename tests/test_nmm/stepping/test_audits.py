@@ -75,7 +75,10 @@ def test_an_impact_shorter_than_its_steps_is_told():
 
 def test_soft_springs_of_contact_are_told_by_the_overlap():
     found = run(DROP, contact={"normal_penalty": 0.02}, integrator={"step": 1e-3})
-    assert any("audit penetration" in one for one in found.warnings)
+    told = next(one for one in found.warnings if "audit penetration" in one)
+    # Which bodies, how deep and when: what is to be looked at.
+    assert " and " in told
+    assert " s; raise" in told
 
 
 def test_the_growth_of_the_linear_update_is_told():
