@@ -20,10 +20,10 @@ from nmm.solvers.anderson import FixedPoint
 
 MOST = 200
 """Solutions after which a step is given up."""
-UNCHANGED, ROUNDED = 1e-9, 1e-7
+UNCHANGED, BY_ROUNDING = 1e-9, 1e-7
 """Change of a column, beside one or the largest length, that is as good as none; and where it
 shrinks no more, for functions depend on one another and rounding is large."""
-FRUITLESS, FRUIT = 50, 0.5
+LASTING, SHRUNK = 50, 0.5
 """Changes shrink no more where so many solutions leave more than this share of the least before."""
 ENDED = ("gap", "slip", "normal_force", "shear_force")
 """What contacts have at the end of a solution."""
@@ -83,7 +83,7 @@ class HistoryIteration:
         change, size = self._change(answer, image)
         self._changes.append(change)
         stays = self._stays
-        self.done = change <= (ROUNDED if stays else UNCHANGED)
+        self.done = change <= (BY_ROUNDING if stays else UNCHANGED)
         if self.done:
             self.contacts = with_parts(self.contacts, history=image)
             return None
@@ -100,8 +100,8 @@ class HistoryIteration:
     @property
     def _stays(self) -> bool:
         """Whether the last solutions brought nothing."""
-        last, before = self._changes[-FRUITLESS:], self._changes[:-FRUITLESS]
-        return bool(before) and min(last) > FRUIT * min(before)
+        last, before = self._changes[-LASTING:], self._changes[:-LASTING]
+        return bool(before) and min(last) > SHRUNK * min(before)
 
     def _change(self, answer: StepAnswer, image: History) -> tuple[float, dict[str, float]]:
         """Largest change of a column, each beside its size, and the sizes."""
