@@ -93,7 +93,7 @@ class Nuclei:
 
     def _order(self, stress: Floats) -> Ints:
         """Places by falling stress (k,); of even ones those on edges first, then the middle one."""
-        level = np.round(stress / max(float(np.abs(stress).max()), 1e-300) / EVEN)
+        level = _levels(stress)
         most = self.places.point[level == level.max()]
         middle = (most.min(axis=0) + most.max(axis=0)) / 2
         away = np.hypot(*(self.places.point - middle).T)
@@ -114,12 +114,11 @@ class Nuclei:
             if float(turned[known].max(initial=0.0)) < STILL:
                 break
         known &= inside | self._ends_deep(places.point + whole * last)
-        share = np.where(known, np.minimum(opened.size, pulled.size[rows]), -np.inf)
-        level = np.round(share / max(float(np.abs(share[known]).max(initial=0.0)), 1e-300) / EVEN)
         if not known.any():
             return None
-        one = int(np.argmax(level))
-        found = float(share[one]) / self.rule.strength
+        bound = np.minimum(opened.size, pulled.size[rows])
+        one = np.flatnonzero(known)[np.argmax(_levels(bound[known]))]
+        found = float(bound[one]) / self.rule.strength
         return Nucleus(found, places.point[one], way[one], int(body[one]), bool(inside[one]))
 
     def _ends_deep(self, points: Floats) -> Bools:
@@ -155,6 +154,11 @@ class Nuclei:
     @cached_property
     def _outline(self) -> shapely.MultiLineString:
         return outline(self.model.cut)
+
+
+def _levels(stress: Floats) -> Floats:
+    """Stresses (k,) in steps of `EVEN` of the largest."""
+    return np.round(stress / max(float(np.abs(stress).max()), 1e-300) / EVEN)
 
 
 def _inwards(way: Floats, inward: Floats) -> Floats:
