@@ -6,6 +6,7 @@ ordering sees whole blocks.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy.typing as npt
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Index
-from nmm.compiled import compiled
+from nmm.compiled import compiled, place
 from nmm.contact.problem.step_problem import StepProblem
 from nmm.solvers.kernels.ascending import ascend, extended, place_of
 from nmm.solvers.unchecked import made_of
@@ -86,13 +87,28 @@ class SpringPattern:
         """``matrix + Gn^T diag(normal) Gn + Gt^T diag(shear) Gt + Gt^T diag(mixed) Gn``."""
         data = np.zeros(len(self.indices))
         data[self.matrix_place] = problem.matrix.data
-        width = self.unknowns.shape
-        rows = [np.zeros(width), np.zeros(width)]
-        rows[0].ravel()[self.normal_place] = problem.normal_rows.data
-        rows[1].ravel()[self.tangent_place] = problem.tangent_rows.data
+        rows = (
+            self._in_full(problem.normal_rows.data, self.normal_place),
+            self._in_full(problem.tangent_rows.data, self.tangent_place),
+        )
         cross = np.zeros(len(normal)) if mixed is None else mixed
         _add_springs(data, self.unknowns, self.run_start, rows[0], rows[1], normal, shear, cross)
         return made_of(csc_array, data, self.indices, self.indptr, problem.matrix.shape)
+
+    def _in_full(self, entries: Floats, places: Index) -> Floats:
+        """Entries (m, L) of rows at their places; those of full rows stand there already."""
+        if self._full:
+            return entries.reshape(self.unknowns.shape)
+        rows = np.zeros(self.unknowns.size)
+        rows[places] = entries
+        return rows.reshape(self.unknowns.shape)
+
+    @cached_property
+    def _full(self) -> bool:
+        """Whether all rows hold all unknowns of their contacts, in order."""
+        ascending = np.arange(self.unknowns.size)
+        pairs = self.normal_place, self.tangent_place
+        return all(np.array_equal(places, ascending) for places in pairs)
 
 
 def _equal(old: npt.NDArray[Any], new: npt.NDArray[Any]) -> bool:
@@ -236,21 +252,22 @@ def _add_springs(
     mixed: Floats,
 ) -> None:
     m, width = unknowns.shape
+    first = np.empty(width + 1, dtype=np.int64)  # where each run of neighbours begins in a row
     for c in range(m):
         if kn[c] == 0.0 and kt[c] == 0.0 and mixed[c] == 0.0:
             continue
-        for spot in range(width):
-            if unknowns[c, spot] < 0:
-                break
+        runs = used = 0
+        while used < width and unknowns[c, used] >= 0:
+            if used == 0 or unknowns[c, used] != unknowns[c, used - 1] + 1:
+                first[runs] = used
+                runs += 1
+            used += 1
+        first[runs] = used
+        for spot in range(used):
             along_n = kn[c] * normal[c, spot]
             along_t = kt[c] * tangent[c, spot] + mixed[c] * normal[c, spot]
-            run, at = -1, 0
-            for k in range(width):
-                i = unknowns[c, k]
-                if i < 0:
-                    break
-                if k == 0 or i != unknowns[c, k - 1] + 1:
-                    run += 1
-                    at = start[c, spot, run]
-                data[at] += along_n * normal[c, k] + along_t * tangent[c, k]
-                at += 1
+            for run in range(runs):
+                shift = start[c, spot, run] - first[run]
+                for k in range(first[run], first[run + 1]):
+                    part = along_n * normal[c, place(k)] + along_t * tangent[c, place(k)]
+                    data[place(k + shift)] += part

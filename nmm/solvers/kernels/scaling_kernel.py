@@ -3,7 +3,7 @@
 import numpy as np
 
 from integration.arrays import Floats, Index
-from nmm.compiled import compiled
+from nmm.compiled import compiled, place
 
 
 @compiled
@@ -18,9 +18,9 @@ def scaled_data(
     diagonals = 0
     for j in range(len(scale)):
         own = scale[j]
-        for k in range(indptr[j], indptr[j + 1]):
+        for k in range(place(indptr[j]), place(indptr[j + 1])):
             i = indices[k]
-            found[k] = data[k] * scale[i] * own
+            found[k] = data[k] * scale[place(i)] * own
             if i == j:
                 found[k] += shift
                 diagonals += 1
