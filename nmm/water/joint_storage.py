@@ -24,7 +24,6 @@ from nmm.assembly.motion import State
 from nmm.diffusion.problem import step_between
 from nmm.effects.base import Instant, Setup
 from nmm.effects.change import Change
-from nmm.errors import Fault, SceneError
 from nmm.water.joint_water import JointWater
 
 
@@ -53,10 +52,6 @@ class JointStorage(JointWater):
         table = setup.scene.joint_flow
         assert table is not None
         assert table.initial is not None
-        if not setup.small and setup.scene.stages:
-            place = setup.scene.source.place("joint_flow", "transient")
-            expected = "steady joint flow"
-            raise SceneError(Fault(place, "[[stages]]", expected, "remove transient, or stages"))
         found = super().from_setup(setup)
         found._bulk = table.bulk_modulus
         found._second = 1.0 if table.duration is None else table.duration

@@ -96,6 +96,7 @@ def test_a_weighty_water_gives_the_same_excess():
     [
         (("transient = true\n", ""), "transient = true"),
         (('method = "lagrange"', 'method = "nitsche"'), "supports"),
+        (('update = "small"', 'update = "finite"'), "a body that bends by any angle"),
         (
             (
                 "[formulation.supports]",

@@ -65,3 +65,11 @@ def test_transient_water_in_joints_keeps_what_every_effect_promises():
 def test_what_is_missing_is_told_by_line(change, said):
     with pytest.raises(SceneError, match=said):
         nmm.parse_scene(SHORT.scene().replace(*change, 1), "scene")
+
+
+def test_stages_are_refused_by_line():
+    text = SHORT.scene() + '\n[[stages]]\nname = "one"\n'
+    with pytest.raises(
+        SceneError, match=r"scene:\d+: joint_flow.transient: .*steady in each stage"
+    ):
+        nmm.parse_scene(text, "scene")
