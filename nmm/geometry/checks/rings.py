@@ -14,6 +14,7 @@ from nmm.errors import Fault
 
 _SAME_POINT = 1e-12  # of the block's diameter
 _FLAT = 1e-12  # area over squared diameter
+_TINY = float(np.finfo(float).tiny)  # below it numbers lose their digits, and quotients overflow
 OVERLAP = 1e-6  # of the smaller block's area: what coordinates of six digits leave
 
 
@@ -24,6 +25,8 @@ def outline_faults(outlines: Polygons, place: Callable[[int, int], str]) -> list
     """
     rings = _rings(outlines)
     start = outlines.points
+    if (lost := _vanishing(outlines, place)) is not None:
+        return [lost]
     gap = np.hypot(*(start[outlines.next_point] - start).T)
     twice = gap <= _SAME_POINT * diameters(rings)[outlines.ring_of_point]
     lines = np.asarray(shapely.linearrings(start, indices=outlines.ring_of_point), dtype=object)
@@ -40,6 +43,19 @@ def outline_faults(outlines: Polygons, place: Callable[[int, int], str]) -> list
     if found or not len(with_holes):
         return found
     return [fault for n in with_holes for fault in _hole_faults(outlines, int(n), place)]
+
+
+def _vanishing(outlines: Polygons, place: Callable[[int, int], str]) -> Fault | None:
+    """Return a fault of the first coordinate that is neither zero nor a number with its digits."""
+    found = np.argwhere((outlines.points != 0) & (np.abs(outlines.points) < _TINY))
+    if not len(found):
+        return None
+    point, axis = (int(one) for one in found[0])
+    ring = int(outlines.ring_of_point[point])
+    owner = int(outlines.polygon_of_ring[ring])
+    value = f"a coordinate of {outlines.points[point, axis]:.3g} m"
+    number = ring - int(outlines.polygon_offsets[owner])
+    return Fault(place(owner, number), value, "zero, or a length", "write 0")
 
 
 def _rings(polygons: Polygons) -> Polygons:

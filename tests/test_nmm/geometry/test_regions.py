@@ -250,3 +250,12 @@ def test_a_far_scene_is_read_like_a_near_one() -> None:
 def test_a_wall_of_two_thousand_blocks_passes() -> None:
     wall = [_moved(x, y) for x in range(50) for y in range(40)]
     assert len(regions(_scene(*wall))) == 2000
+
+
+@pytest.mark.parametrize("tiny", [1e-320, -5e-324])
+def test_a_coordinate_that_has_lost_its_digits_is_refused(tiny):
+    # GEOS divides by it: points on surfaces overflow. Smaller than any length it is meant as zero.
+    faults = _faults(_scene([[tiny, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]))
+    assert len(faults) == 1
+    assert "b0" in faults[0] or "blocks.0" in faults[0]
+    assert "expected zero" in faults[0]
