@@ -110,10 +110,7 @@ class Simulation(CompiledScene):
 
         ``store`` takes checkpoints; ``stood`` is where the run goes on, None from its start.
         """
-        if self.stepper.plan.contact is not None:
-            from nmm.contact.enforcement import ahead  # only a run needs its loops compiled
-
-            ahead.begin()
+        self._compile_ahead()
         bound = self._failure_bound()
         sink: Sink = Tee(sinks)
         if self.origin.any():
@@ -145,6 +142,15 @@ class Simulation(CompiledScene):
             summary = self.safety.told(summary)
         sink.finish(replace(summary, failure_bound=bound))
         return state
+
+    def _compile_ahead(self) -> None:
+        """Have the loops of contact compiled beside the run where it will call them."""
+        stepper = self.stepper
+        n = stepper.model.manifold.n_unknowns
+        if stepper.plan.contact is not None and not stepper.solver.in_full(n):
+            from nmm.contact.enforcement import ahead  # what only checks a scene compiles nothing
+
+            ahead.begin()
 
     @property
     def topology(self) -> Topology:
