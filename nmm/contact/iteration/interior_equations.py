@@ -48,11 +48,11 @@ class Linearised:
         springs, give = sides.springs, sides.give
         flow = np.where(sides.active, at.flow, 0.0)
         bound = sides.bound(at.normal, at.slack[0], at.flow[0])
-        held = np.stack([problem.limits.tension - at.normal, bound - at.shear, bound + at.shear])
+        held = np.array([problem.limits.tension - at.normal, bound - at.shear, bound + at.shear])
         rows = problem.normal_rows, problem.tangent_rows
         carried = pushed(*rows, at.normal, at.shear)
         self.rest = problem.matrix @ at.increment - problem.force + carried
-        gap, slip = np.stack([problem.gap, problem.slip]) + stretched(*rows, at.increment)
+        gap, slip = np.array([problem.gap, problem.slip]) + stretched(*rows, at.increment)
         self.rest_gap = gap - flow[0] - (at.normal - springs.normal_shift) * give[0]
         self.rest_slip = slip - flow[1] + flow[2] - (at.shear - springs.shear_shift) * give[1]
         self.rest_slack = np.where(sides.active, at.slack - np.where(sides.active, held, 0), 0.0)
@@ -72,5 +72,5 @@ class Linearised:
         normal = self.spring_n * (opened + known_n)
         shear = self.spring_t * (slipped + known_t) + self.mixed * normal
         bound = -self.slope * normal
-        slack = np.stack([-normal, bound - shear, bound + shear]) - rest
+        slack = np.array([-normal, bound - shear, bound + shear]) - rest
         return InteriorIterate(increment, normal, shear, slack, flow - ratio * slack)
