@@ -21,7 +21,17 @@ UNEVEN, WARY = 2, 0.5
 
 @dataclass
 class Pace:
-    """Lengths of steps (s), cut where one fails and lengthened where all goes slowly."""
+    """Lengths of steps (s), cut where one fails and lengthened where all goes slowly.
+
+    Attributes
+    ----------
+    first, length, longest
+        Of the first step, the next one, and of any from here on.
+    failed, cuts
+        The longest that failed, and how many did, since one as long was taken.
+    energy
+        Kinetic energy, twice, after the last step (J); zero where no speed is kept.
+    """
 
     first: float
     length: float = field(init=False)
