@@ -139,6 +139,8 @@ def relax(
                 return Relaxed(state, steps, False, said, True)
         if found.motion < SLOW * size:
             pace.lengthen()
+    if not stands:
+        return Relaxed(state, steps, False, fallen(attempt), True)
     return Relaxed(state, steps, False, _who(moving, attempt, names), way > farthest * size)
 
 
