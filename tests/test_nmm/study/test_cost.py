@@ -186,7 +186,7 @@ def test_a_cost_study_writes_figure_page_and_records(bar, tmp_path):
     assert "Richardson extrapolation of the finest runs of NMM" in page
     assert page.count("**error**") == 3
     assert "broken (formulation.cover.size = 2.0)" in page
-    assert study.records[0].memory is None or study.records[0].memory > 0
+    assert study.records[0].memory is None or study.records[0].memory >= 0
     # bending and shear of the bar by beam theory: 1e-6 (4^3 / (3 I) + 4 (2.6) / (5/6)) / 2
     beam = 0.5e-6 * (64 * 4 + 4 * 2.6 * 1.2)
     assert study.reference.value == pytest.approx(beam, rel=0.02)  # the wall holds the corners
