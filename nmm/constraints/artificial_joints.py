@@ -12,12 +12,12 @@ from integration.arrays import Floats
 from integration.polygons import centroids
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.constraints.imposition import Method
+from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface
 from nmm.constraints.linear_matter import check_linear
 from nmm.constraints.shared_edges import gauss_interface, joint_interface, shared_edges
 from nmm.constraints.springs import Springs
-from nmm.constraints.tied_interfaces import TiedInterfaces
+from nmm.constraints.tied_interfaces import TiedInterfaces, turning
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 from nmm.geometry.tessellation.block_cover import PieceGlue
@@ -35,11 +35,13 @@ class ArtificialJoints(TiedInterfaces):
         """Build from the options of the cover."""
         glue = piece_glue(setup.formulation.cover)
         assert glue is not None
-        return cls.of(setup.model, glue, setup.formulation.contact.joint_points, setup.start)
+        rule = setup.formulation.contact.joint_points
+        ties = cls.ties_of(setup.model, glue, rule, setup.start)
+        return cls(ties, setup.model.manifold.n_unknowns, turning(setup))
 
-    @classmethod
-    def of(cls, model: Model, glue: PieceGlue, joint_rule: str, start: State) -> Self:
-        """Find the joints.
+    @staticmethod
+    def ties_of(model: Model, glue: PieceGlue, joint_rule: str, start: State) -> list[Imposition]:
+        """Find the joints, and return what holds them.
 
         Parameters
         ----------
@@ -53,9 +55,9 @@ class ArtificialJoints(TiedInterfaces):
         joints = shared_edges(model)
         own = region[edges.element[joints.edge_a]] == region[edges.element[joints.edge_b]]
         joints = joints.take(own)
-        degree, n = model.manifold.degree, model.manifold.n_unknowns
+        degree = model.manifold.degree
         if not len(joints):  # blocks that are not divided
-            return cls([], n)
+            return []
         if glue.kind == "nitsche":
             check_linear(model, "[cover.options] glue", 'glue = "springs"')
             interface = gauss_interface(model, joints, 2 * degree)
@@ -65,12 +67,12 @@ class ArtificialJoints(TiedInterfaces):
                     '[cover.options] glue: "nitsche": with functions without strain: expected '
                     'functions with strain: use glue = "springs"'
                 )
-            return cls([tie], n)
+            return [tie]
         if degree > 1 or joint_rule == "gauss":
             interface = gauss_interface(model, joints, 2 * max(degree, 1))
         else:
             interface = joint_interface(model, joints, "corners", start)
-        return cls([Springs(interface, _spring(model, interface, glue.stiffness))], n)
+        return [Springs(interface, _spring(model, interface, glue.stiffness))]
 
 
 def _spring(model: Model, interface: Interface, stiffness: float) -> Floats:

@@ -20,7 +20,7 @@ from nmm.constraints.linear_matter import method_for
 from nmm.constraints.nitsche import Nitsche
 from nmm.constraints.shared_edges import ORDER, gauss_interface, shared_edges
 from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
-from nmm.constraints.tied_interfaces import TiedInterfaces
+from nmm.constraints.tied_interfaces import TiedInterfaces, turning
 from nmm.contact.detection.joints import Joints
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError, SceneError
@@ -59,7 +59,7 @@ class BondedInterfaces(TiedInterfaces):
         if glued.any():
             size = cover.finest if model.manifold.shared_covers else None
             ties += glue_edges(model, joints.take(glued), part, size)
-        made = cls(ties, model.manifold.n_unknowns)
+        made = cls(ties, model.manifold.n_unknowns, turning(setup))
         made.least_cut = _least_cut(model, ties)
         return made
 

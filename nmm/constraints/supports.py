@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
 from nmm.constraints.nitsche import Nitsche
-from nmm.constraints.tied_interfaces import TiedInterfaces
+from nmm.constraints.tied_interfaces import TiedInterfaces, turning
 from nmm.constraints.volume_lift import sharing
 from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Instant, Setup
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.scene.actions import SupportTable
 
+# Of the size of a body: points of one coordinate.
+ALIKE = 1e-6
 # Degree of polynomials that points along edges of blocks integrate exactly.
 ORDER = 4
 
@@ -39,8 +42,10 @@ class Supports(TiedInterfaces):
         n_unknowns: int,
         state: State,
         in_time: bool = False,
+        turning: Model | None = None,
     ) -> None:
-        super().__init__([_anchored(one, state) for one in _sharing(supports)], n_unknowns)
+        held = [_anchored(one, state) for one in _sharing(supports)]
+        super().__init__(held, n_unknowns, turning)
         self._in_time = in_time
         grounds = [tie.interface.displacement for tie in self.ties]
         self._grounds = [ground for ground in grounds if isinstance(ground, Ground)]
@@ -61,8 +66,9 @@ class Supports(TiedInterfaces):
         along = method.impose(setup.model, [interfaces[i] for i in edges])
         for i, support in zip(edges, along, strict=True):
             found[i] = support
-        n_unknowns = setup.model.manifold.n_unknowns
-        return cls(found, n_unknowns, setup.start, scene.inertia is not None)
+        n_unknowns, in_time = setup.model.manifold.n_unknowns, scene.inertia is not None
+        model = turning(setup) if _lets_turn(setup.model, interfaces) else None
+        return cls(found, n_unknowns, setup.start, in_time, model)
 
     def follow(self, change: "Change") -> "Supports":
         """Return the supports of the new model; those that are new hold the material as it is."""
@@ -180,6 +186,27 @@ class Supports(TiedInterfaces):
 def _anchored(tie: Imposition, state: State) -> Imposition:
     """Return a support whose ground takes hold of the points where they are."""
     return replace(tie, interface=replace(tie.interface, anchor=tie.interface.motion(state)))
+
+
+def _lets_turn(model: Model, interfaces: Sequence[Interface]) -> bool:
+    """Whether a body may turn though points of it are held.
+
+    It may not where points of different y are held along x, or of different x along y.
+    """
+    size = np.sqrt(model.manifold.body_area)
+    reached, held = (np.zeros(len(size), dtype=bool) for _ in range(2))
+    for axis in (0, 1):
+        along = [one for one in interfaces if one.held[axis] and len(one)]
+        if not along:
+            continue
+        body = np.concatenate([one.first.points.body for one in along])
+        other = np.concatenate([one.first.position[:, 1 - axis] for one in along])
+        low, high = np.full(len(size), np.inf), np.full(len(size), -np.inf)
+        np.minimum.at(low, body, other)
+        np.maximum.at(high, body, other)
+        reached[body] = True
+        held |= high - low > ALIKE * size
+    return bool((reached & ~held).any())
 
 
 def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:

@@ -1,20 +1,25 @@
 """The effect of interfaces that are tied for good, whatever holds them.
 
-Forces are read from the whole jump as it stands, so that nothing drifts over steps.
+Forces are read from the whole jump as it stands, so that nothing drifts over steps. Where bodies
+turn, a point that a linear step holds has moved by half the angle squared times its arm when the
+step ends: stiff ties that were left there would push back by far more than they carry. So steps
+in time of what may turn are solved for the forces at their end.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, vstack
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfPlaces
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import joined
-from nmm.effects.base import Effect, Instant
+from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 
 # Multipliers (k,) of each space as found last and as the step began (Pa).
 LastMultipliers = tuple[tuple[Floats | None, Floats | None], ...]
@@ -29,18 +34,25 @@ class TiedInterfaces(Effect):
         The interfaces.
     n_unknowns
         Of the model.
+    turning
+        The model, where its bodies may turn in steps in time; None: forces are lines in the
+        unknowns of a step.
     """
 
-    def __init__(self, ties: Sequence[Imposition], n_unknowns: int) -> None:
+    def __init__(
+        self, ties: Sequence[Imposition], n_unknowns: int, turning: Model | None = None
+    ) -> None:
         self.ties = list(ties)
+        # Multipliers hold jumps of lines.
+        self._model = None if any(tie.shared is not None for tie in self.ties) else turning
         self._n = n_unknowns
         self._kept: tuple[Floats, csc_array] | None = None  # the matrix, at angles
         self._motions = KeptOfPlaces(self._moved)
         self._last: tuple[list[Floats], Instant, list[Floats]] | None = None  # jumps of motions
         self._spaces = list({id(t.shared): t.shared for t in ties if t.shared}.values())
-        turning = [t.interface.bodies for t in ties if t.turns]
+        unlike = [t.interface.bodies for t in ties if t.turns]
         self._stresses: Sequence[StressAt] = ()
-        self._turning = np.unique(np.concatenate([*turning, np.zeros(0, dtype=np.int64)]))
+        self._turning = np.unique(np.concatenate([*unlike, np.zeros(0, dtype=np.int64)]))
 
     @property
     def about(self) -> str:
@@ -81,6 +93,58 @@ class TiedInterfaces(Effect):
             if self._stresses:
                 total += tie.interface.spread(state, self._added(tie, state, end))
         return total
+
+    @property
+    def bends(self) -> bool:
+        """See `Effect.bends`: where bodies turn."""
+        return self._model is not None
+
+    @property
+    def in_flight(self) -> bool:
+        """See `Effect.in_flight`: where bodies turn."""
+        return self.bends
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`: forces at both ends of the step, at the arms it has.
+
+        Half way these keep angular momentum of two bodies that are tied.
+        """
+        assert self._model is not None
+        end, total = Instant.of(after), np.zeros(self._n)
+        late, soon = self._pulls(after, end), self._pulls(before, Instant.of(before))
+        rounding = np.zeros(self._n)
+        for tie, (last, more), (first, some) in zip(self.ties, late, soon, strict=True):
+            interface = tie.interface
+            total += span.weight * more + (1 - span.weight) * some
+            pull = span.weight * last + (1 - span.weight) * first
+            total += interface.spread(before, pull)
+            # Of the force at the start: that of an iterate is off by far more than all it carries.
+            total += interface.owed(self._model, before, after, first, span.half)
+            rounding += np.abs(interface.spread(before, _rounded(tie, after)))
+        return StepForce(total, lambda: span.weight * self.matrix(before), rounding=rounding)
+
+    def off_line(self, before: State, after: State, increment: Floats, span: Span) -> float:
+        """See `Effect.off_line`."""
+        now, end = Instant.of(before), Instant.of(after)
+        rise = self.through(before, after, replace(span, weight=1.0)).force
+        total = -float((rise - self.force(before, now)) @ increment)
+        pairs = zip(self.ties, self._pulls(before, now), self._pulls(after, end), strict=True)
+        for tie, (first, some), (last, more) in pairs:
+            way = tie.interface.motion(after) - tie.interface.motion(before)
+            total += float(np.sum(tie.interface.held * (last - first) * way))
+            total += float((more - some) @ increment)
+        return total
+
+    def _pulls(self, state: State, end: Instant) -> list[tuple[Floats, Floats]]:
+        """Forces (m, 2) in N on the first side of each tie, and (n,) what it does besides."""
+        found = []
+        for tie, jump in zip(self.ties, self._jumps(state, end), strict=True):
+            pull = tie.point_forces(state, jump)
+            beside = tie.force(state, jump) - tie.interface.spread(state, pull)
+            if self._stresses:
+                pull = pull + self._added(tie, state, end)
+            found.append((pull, beside))
+        return found
 
     def feel(self, stresses: Sequence[StressAt]) -> None:
         """See `Effect.feel`."""
@@ -173,4 +237,20 @@ class TiedInterfaces(Effect):
         return [tie.interface.motion(state) for tie in self.ties]
 
 
+def _rounded(tie: Imposition, state: State) -> Floats:
+    """Forces (m, 2) in N that the rounding of places (m) makes of a tie's points."""
+    interface = tie.interface
+    far = max(float(np.abs(side.points.arm).max(initial=0.0)) for side in interface.sides)
+    far = max(far, float(np.abs(interface.motion(state)).max(initial=0.0)))
+    none = np.zeros((len(interface), 2))
+    tiny = tie.point_forces(state, none + float(np.finfo(float).eps) * far)
+    return np.asarray(tiny - tie.point_forces(state, none))
+
+
 _NOTHING = (np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))
+
+
+def turning(setup: Setup) -> Model | None:
+    """Return the model of a scene in time whose bodies' axes turn with them; else None."""
+    turns = setup.kinematics.turns and setup.scene.inertia is not None
+    return setup.model if turns else None

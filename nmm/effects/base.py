@@ -126,6 +126,11 @@ class Effect(ABC):
         """Whether the matrix of `through` is; of others contact takes the symmetric part."""
         return True
 
+    @property
+    def in_flight(self) -> bool:
+        """Whether bent forces are best sought where the step ends if all moves on as it does."""
+        return False
+
     def through(self, before: State, after: State, span: Span) -> StepForce:
         """Return the weighed force through a step from one state to a trial of its end.
 
@@ -136,6 +141,13 @@ class Effect(ABC):
         ------
         SolveError
             When there is none; the step is then cut.
+        """
+        raise NotImplementedError
+
+    def off_line(self, before: State, after: State, increment: Floats, span: Span) -> float:
+        """Work (J) that its forces, as they rise, seem to do on the increment, less what they do.
+
+        They do it on the way that its points went.
         """
         raise NotImplementedError
 

@@ -63,8 +63,11 @@ class StepForce:
         Makes the matrix (n, n) of about how it falls with the increment (`Effect.symmetric`).
     memory
         What the effect remembers if the step is accepted.
+    rounding
+        (n,) what of the force rounding of places makes; None is nothing that matters.
     """
 
     force: Floats
     stiffness: Callable[[], csc_array]
     memory: Mapping[str, Floats] = field(default_factory=dict)
+    rounding: Floats | None = None

@@ -217,6 +217,11 @@ class Plan:
         """Return what a bent effect does through a step."""
         return self.timed(name, partial(self.effects[name].through, before, after, span))
 
+    def off_line(self, before: State, after: State, increment: Floats, span: Span) -> float:
+        """Return what the rise of bent forces seems to do in a step and does not (J)."""
+        bent = [one for one in self.having("off_line") if one.bends]
+        return sum(one.off_line(before, after, increment, span) for one in bent)
+
     def losses(self, before: State, after: State) -> dict[str, float]:
         """Return what each effect took for good in an accepted step (J)."""
         return {name: one.loss(before, after) for name, one in self._named("loss")}

@@ -57,10 +57,12 @@ def booked(
     increment: Floats,
     solved: "ContactSolution | None",
     missed: float = 0.0,
+    off_line: float = 0.0,
 ) -> Booked | None:
     """Return the work in a step in time, None in statics.
 
-    ``missed`` (J) is what the mean force of matter at both ends does beyond what it stores.
+    ``missed`` (J) is what the mean force of matter at both ends does beyond what it stores,
+    ``off_line`` what forces of effects seem to do in it and do not (`Effect.off_line`).
     """
     terms = equations.inertia
     if terms is None:
@@ -80,7 +82,7 @@ def booked(
         # The matrix is that of inertia and, weighted, of all that is elastic, over the share.
         whole = share * float(increment @ product(equations.matrix, increment))
         elastic = whole - heavy - damped - added
-        beyond += (terms.weight - 0.5) * (elastic / terms.weight - more)
+        beyond += (terms.weight - 0.5) * (elastic / terms.weight - off_line - more)
     work = 0.0
     if solved is not None and solved.rows is not None:
         forces = solved.answer.normal_force, solved.answer.shear_force

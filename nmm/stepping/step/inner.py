@@ -31,6 +31,8 @@ CONSERVED = 1e-13
 HARDLY = 1e-6
 # What effects miss is rounding up to so many times that of their stiffness times the motion.
 ROUNDING = 1e3 * float(np.finfo(float).eps)
+# ... and up to so many times what rounding of places makes of their forces.
+PLACES = 10.0
 
 
 @dataclass(frozen=True)
@@ -60,6 +62,8 @@ class Iterate:
         Their parts; of effects beyond their line at the start of the step.
     pull
         (n,) force of effects through the step.
+    rounding
+        (n,) what of it rounding of places makes.
     history, memory
         What matter and effects remember at the end of the step.
     """
@@ -68,6 +72,7 @@ class Iterate:
     matter: InnerPart
     effects: InnerPart
     pull: Floats
+    rounding: Floats
     history: Mapping[str, Floats]
     memory: Mapping[str, Floats]
 
@@ -149,6 +154,14 @@ class Inner:
         self._lines = {name: self._line(name) for name in self._plan.bent}
         self._lined = all(defines(one, "matrix") for one in self._plan.bent.values())
 
+    @property
+    def first_guess(self) -> Floats:
+        """(n,) the increment about which forces are made lines first."""
+        step, state = self._step, self._state
+        if step is None or not any(one.in_flight for one in self._plan.bent.values()):
+            return np.zeros_like(self.start)
+        return step * state.velocity
+
     def _line(self, name: str) -> tuple[Floats, csc_array]:
         """Force (n,) and matrix (n, n) of an effect in the equations of the step."""
         effect, n = self._plan.bent[name], len(self.start)
@@ -177,21 +190,25 @@ class Inner:
             return self._first(increment, matter, history)
         pulls = self._pulls(increment)
         memory = dict(self._state.memory)
-        total, beyond = np.zeros_like(increment), np.zeros_like(increment)
+        total, beyond, rounding = (np.zeros_like(increment) for _ in range(3))
         for name, one in pulls.items():
             start, matrix = self._lines[name]
             total = total + one.force
             beyond = beyond + (start - one.force) / self._span.weight - matrix @ increment
             memory |= one.memory
+            if one.rounding is not None:
+                rounding += np.abs(one.rounding)
         effects = InnerPart(beyond, lambda: self._beyond(pulls))
-        return Iterate(increment, matter, effects, total, history, memory)
+        return Iterate(increment, matter, effects, total, rounding, history, memory)
 
     def _first(self, still: Floats, matter: InnerPart, history: Mapping[str, Floats]) -> Iterate:
         """Return the iterate at no increment, where effects are on their lines."""
         nothing = csc_array(self.elastic.shape)
         pull = sum((force for force, _ in self._lines.values()), start=np.zeros_like(still))
         effects = InnerPart(np.zeros_like(still), lambda: nothing)
-        return Iterate(still, matter, effects, pull, history, self._state.memory)
+        return Iterate(
+            still, matter, effects, pull, np.zeros_like(still), history, self._state.memory
+        )
 
     def imbalance(
         self,
@@ -219,7 +236,8 @@ class Inner:
             known = now.pull, then.pull, HARDLY * applied
             size = max(_size(scale * one) for one in known)
             left = _size(scale * missed)
-            if left > ROUNDING * _size(scale * self._gross(then.increment)):
+            gross = ROUNDING * _size(scale * self._gross(then.increment))
+            if left > gross + PLACES * _size(scale * then.rounding):
                 shares.append(left / size if size else np.inf)
         return max(shares)
 

@@ -27,6 +27,8 @@ Solve = Callable[[Linearisation | None, Attempt | None], Solution]
 # Out-of-balance force of matter, as a share of the forces, that is taken for a solution where it
 # falls no more for rounding.
 ROUNDED = 1e-7
+# What rounding leaves of a linear solution moves forces by about so many times as much.
+LEFT = 10.0
 # Iterations of a step; plasticity takes four to eight.
 MOST = 30
 # Iterations go to and fro where so many of them leave more than this share of the least before.
@@ -56,7 +58,7 @@ def newton(
     at = inner.at
     elastic = inner.elastic if inner.flows else None
     scale = _scale(inner.elastic)
-    way, passes = np.zeros_like(inner.start), 0
+    way, passes = inner.first_guess, 0
     now = at(way)
     found: Attempt | None = None
     imbalances: list[float] = []
@@ -72,7 +74,7 @@ def newton(
         then = at(found.increment, now)
         imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
         found = replace(found, passes=passes, imbalances=tuple(imbalances))
-        if _balanced(imbalances, inner.tolerance):
+        if _balanced(imbalances, inner.tolerance, found.residual):
             after = replace(found.state, history=then.history, memory=then.memory)
             return equations, replace(
                 found, state=after, residual=max(found.residual, imbalances[-1])
@@ -115,12 +117,13 @@ def _scale(elastic: csc_array) -> Floats:
     return np.asarray(1 / np.sqrt(np.where(diagonal > 0, diagonal, np.inf)))
 
 
-def _balanced(imbalances: list[float], tolerance: float) -> bool:
+def _balanced(imbalances: list[float], tolerance: float, residual: float) -> bool:
+    """Whether forces balance, or as far as rounding lets them: that of the solutions too."""
     last = imbalances[-1]
     if last <= tolerance:
         return True
     stalls = len(imbalances) > 1 and last > 0.5 * imbalances[-2]
-    return last <= ROUNDED and stalls
+    return stalls and last <= max(ROUNDED, LEFT * residual)
 
 
 def _hopeless(imbalances: list[float]) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.motion import MaterialPoints, State
-from nmm.effects.base import Instant
+from nmm.effects.base import Instant, Span
 from nmm.errors import SolveError
 from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
@@ -205,7 +205,11 @@ class Stepper:
             return found
         conserves = equations.rule.conserves
         missed = 0.0 if conserves else self.model.missed_work(state, found.state)
-        work = booked(equations, found.increment, found.solved, missed)
+        off = 0.0
+        if equations.inertia.weight != 0.5:
+            span = Span(step, equations.inertia.weight, half=not equations.rule.carries)
+            off = self.plan.off_line(state, found.state, found.increment, span)
+        work = booked(equations, found.increment, found.solved, missed, off)
         return with_parts(found, booked=work)
 
     def _bent(

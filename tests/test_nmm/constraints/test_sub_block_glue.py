@@ -42,7 +42,8 @@ def side(model: Model, axis: int, value: float, order: int = 8) -> Place:
 
 def glue(model: Model, kind: str, joint_rule: str = "corners") -> ArtificialJoints:
     start = initial_state(model.manifold)
-    return ArtificialJoints.of(model, PieceGlue(kind, 100.0), joint_rule, start)
+    ties = ArtificialJoints.ties_of(model, PieceGlue(kind, 100.0), joint_rule, start)
+    return ArtificialJoints(ties, model.manifold.n_unknowns)
 
 
 @pytest.mark.parametrize("joint_rule", ["corners", "gauss"])
