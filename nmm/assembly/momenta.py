@@ -4,7 +4,7 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array, csr_array
 
 from covers.approximation.own_rule import own_rule
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 
@@ -52,11 +52,3 @@ def momenta(model: Model, deformation: Floats) -> csr_array:
     row = 3 * manifold.element_body[rule.owner] + 2
     place = np.repeat(row, at.unknowns.shape[1]), at.unknowns.ravel()
     return csr_array(rows + csc_array(coo_array((values, place), shape=rows.shape)))
-
-
-def moments_on(model: Model, body: Ints, arm: Floats, force: Floats) -> Floats:
-    """Return what moments of forces (m, 2) at arms (m, 2) of bodies (m,) do on unknowns (n,)."""
-    moment = np.zeros((model.manifold.n_bodies, 3))
-    across = arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
-    moment[:, 2] = np.bincount(body, across, minlength=len(moment))
-    return np.asarray(model.rigid_projection.T @ moment.ravel())

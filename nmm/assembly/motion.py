@@ -171,18 +171,6 @@ class MaterialPoints:
         local = state.frames.to_body(self.body, forces)
         return self.rows.spread(local, len(state.deformation))
 
-    def arms_missed(self, before: State, after: State, half: bool) -> Floats:
-        """Return the arms (m, 2) of a step less those that rows at its start have (m).
-
-        They are those at its end, or ``half`` way.
-        """
-        start, end = (
-            self.place(one.frames, one.deformation) - one.frames.centre[self.body]
-            for one in (before, after)
-        )
-        arms = (start + end) / 2 if half else end
-        return np.asarray(arms - before.frames.to_global(self.body, self.arm))
-
     def work(self, before: State, after: State, force: Floats) -> float:
         """Return the work (J) of mean forces (m, 2) of a step in global axes (N)."""
         return float(np.sum(force * self.way(before, after)))

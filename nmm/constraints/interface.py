@@ -7,8 +7,6 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.model import Model
-from nmm.assembly.momenta import moments_on
 from nmm.assembly.motion import State, rotation_matrices
 from nmm.assembly.places import Place
 from nmm.effects.base import Instant
@@ -86,18 +84,6 @@ class Interface:
         total = np.zeros(len(state.deformation))
         for sign, side in zip((1.0, -1.0), self.sides, strict=False):
             total += side.points.push(state, sign * self.held * forces)
-        return total
-
-    def owed(self, model: Model, before: State, after: State, forces: Floats, half: bool) -> Floats:
-        """Return what forces (m, 2) do on unknowns (n,) by arms that a step has and `spread` not.
-
-        The arms are those at the end of the step, or ``half`` way.
-        """
-        total = np.zeros(len(before.deformation))
-        for sign, side in zip((1.0, -1.0), self.sides, strict=False):
-            points, pull = side.points, sign * self.held * forces
-            arms = points.arms_missed(before, after, half)
-            total += moments_on(model, points.body, arms, pull)
         return total
 
     def turned(self, state: State) -> Floats:

@@ -10,17 +10,20 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, vstack
+from scipy.sparse import bsr_array, csc_array, csr_array, eye_array, vstack
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.motion import State, rotation_matrices
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import joined
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
+from nmm.integrators.base import make_integrator
 
+# Of a body: forces half way couple all of them.
+MOST_UNKNOWNS = 100
 # Multipliers (k,) of each space as found last and as the step began (Pa).
 LastMultipliers = tuple[tuple[Floats | None, Floats | None], ...]
 
@@ -80,10 +83,12 @@ class TiedInterfaces(Effect):
         """Return the stiffness of all ties, the same object as long as no tied body turns."""
         angle = state.frames.angle[self._turning]
         if self._kept is None or not np.array_equal(self._kept[0], angle):
-            shape = (self._n, self._n)
-            row, column, value = joined([_NOTHING, *(tie.matrix(state) for tie in self.ties)])
-            self._kept = angle, csc_array((value, (row, column)), shape=shape)
+            self._kept = angle, self._stiffness(state)
         return self._kept[1]
+
+    def _stiffness(self, state: State) -> csc_array:
+        row, column, value = joined([_NOTHING, *(tie.matrix(state) for tie in self.ties)])
+        return csc_array((value, (row, column)), shape=(self._n, self._n))
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the pull at the start of the step towards the places at its end."""
@@ -105,23 +110,26 @@ class TiedInterfaces(Effect):
         return self.bends
 
     def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`: forces at both ends of the step, at the arms it has.
+        """See `Effect.through`: forces at both ends of the step, where bodies are half way.
 
-        Half way these keep angular momentum of two bodies that are tied.
+        There these keep angular momentum of two bodies that are tied.
         """
         assert self._model is not None
-        end, total = Instant.of(after), np.zeros(self._n)
-        late, soon = self._pulls(after, end), self._pulls(before, Instant.of(before))
-        rounding = np.zeros(self._n)
+        at = _between(before, after) if span.half else after
+        turned = _turned(self._model, before, at)
+        late = self._pulls(after, Instant.of(after))
+        soon = late if span.weight == 1 else self._pulls(before, Instant.of(before))
+        total, rounding = np.zeros(self._n), np.zeros(self._n)
         for tie, (last, more), (first, some) in zip(self.ties, late, soon, strict=True):
-            interface = tie.interface
-            total += span.weight * more + (1 - span.weight) * some
             pull = span.weight * last + (1 - span.weight) * first
-            total += interface.spread(before, pull)
-            # Of the force at the start: that of an iterate is off by far more than all it carries.
-            total += interface.owed(self._model, before, after, first, span.half)
-            rounding += np.abs(interface.spread(before, _rounded(tie, after)))
-        return StepForce(total, lambda: span.weight * self.matrix(before), rounding=rounding)
+            total += tie.interface.spread(at, pull)
+            total += span.weight * more + (1 - span.weight) * some
+            rounding += np.abs(tie.interface.spread(at, _rounded(tie, after)))
+
+        def stiffness() -> csc_array:
+            return csc_array(span.weight * (turned.T @ self._stiffness(at) @ turned))
+
+        return StepForce(turned.T @ total, stiffness, rounding=rounding)
 
     def off_line(self, before: State, after: State, increment: Floats, span: Span) -> float:
         """See `Effect.off_line`."""
@@ -251,6 +259,36 @@ _NOTHING = (np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0
 
 
 def turning(setup: Setup) -> Model | None:
-    """Return the model of a scene in time whose bodies' axes turn with them; else None."""
-    turns = setup.kinematics.turns and setup.scene.inertia is not None
-    return setup.model if turns else None
+    """Return the model of a scene whose ties are solved for their forces at the end of steps.
+
+    That is one in time of bodies that turn and have few unknowns, under a rule that takes forces at
+    the end alone: means of both ends let the force of a stiff tie go to and fro, and grow.
+    """
+    model, scene = setup.model, setup.scene
+    if scene.inertia is None or not setup.kinematics.turns:
+        return None
+    rule = make_integrator(setup.formulation.integrator)
+    rule = rule.among_contacts if scene.contact is not None else rule
+    unknowns = np.diff(model.rigid_projection.indptr).max(initial=0)
+    return model if rule.end_weight == 1 and unknowns <= MOST_UNKNOWNS else None
+
+
+def _between(before: State, after: State) -> State:
+    """Return where bodies are half way, as far as forces ask for it."""
+    angle = (before.frames.angle + after.frames.angle) / 2
+    return replace(before, frames=replace(before.frames, angle=angle))
+
+
+def _turned(model: Model, before: State, at: State) -> csr_array:
+    """Matrix (n, n) from the unknowns of a step to those in axes that have turned on since.
+
+    All but the mean translation of a body turns with its axes.
+    """
+    turn = rotation_matrices(before.frames.angle - at.frames.angle) - np.eye(2)
+    blocks = np.zeros((len(turn), 3, 3))
+    blocks[:, :2, :2] = turn
+    bodies = np.arange(len(turn) + 1)
+    size = 3 * len(turn)
+    shifted = bsr_array((blocks, bodies[:-1], bodies), shape=(size, size))
+    more = model.manifold.rigid_modes @ shifted @ model.rigid_projection
+    return csr_array(eye_array(len(before.deformation)) + more)

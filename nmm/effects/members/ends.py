@@ -59,9 +59,15 @@ class Ends:
         """Rows (m, L) of the motion along global directions (m, 2), in the bodies' axes."""
         return self.held[:, None] * self.points.along(frames, directions)
 
-    def arms_missed(self, before: State, after: State) -> Floats:
+    def arm(self, before: State, after: State) -> Floats:
         """Arms (m, 2) half way through a step, less those that rows at its start have (m)."""
-        return np.asarray(self.held[:, None] * self.points.arms_missed(before, after, half=True))
+        points, frames = self.points, before.frames
+        arms = [
+            points.place(one.frames, one.deformation) - one.frames.centre[points.body]
+            for one in (before, after)
+        ]
+        first = frames.to_global(points.body, points.arm)
+        return np.asarray(self.held[:, None] * ((arms[0] + arms[1]) / 2 - first))
 
 
 def ends_of(setup: Setup, key: str, members: "Sequence[Between]") -> tuple[Ends, Ends]:

@@ -14,7 +14,6 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.momenta import moments_on
 from nmm.assembly.motion import State
 from nmm.effects.members.ends import Ends
 
@@ -175,8 +174,10 @@ class Links:
         """Moments, as forces (n,), that rows at the start of a step lack of those half way."""
         if self.small or not force.any():
             return np.zeros(len(before.deformation))
+        moment = np.zeros((model.manifold.n_bodies, 3))
         pulls = force[:, None] * lines.along
-        total = np.zeros(len(before.deformation))
         for end, pull in ((self.first, pulls), (self.second, -pulls)):
-            total += moments_on(model, end.points.body, end.arms_missed(before, after), pull)
-        return total
+            arm = end.arm(before, after)
+            turning = arm[:, 0] * pull[:, 1] - arm[:, 1] * pull[:, 0]
+            moment[:, 2] += np.bincount(end.points.body, turning, minlength=len(moment))
+        return np.asarray(model.rigid_projection.T @ moment.ravel())

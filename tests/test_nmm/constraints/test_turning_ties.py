@@ -73,9 +73,8 @@ def ran(text, **tables):
     return nmm.run(parse_scene(text), formulation)
 
 
-@pytest.mark.parametrize("rule", ["shi", "newmark"])
-def test_a_bar_on_a_pin_swings_as_the_pendulum_of_the_elliptic_integral(rule):
-    run = ran(PENDULUM, integrator={"type": rule, "step": 1e-3})
+def test_a_bar_on_a_pin_swings_as_the_pendulum_of_the_elliptic_integral():
+    run = ran(PENDULUM, integrator={"step": 1e-3})
     assert run.summary.status == "converged"
     history = run.history
     angle = np.arctan2(history["monitor:end:uy"], LENGTH + history["monitor:end:ux"])
@@ -94,13 +93,12 @@ def test_a_bar_on_a_pin_swings_as_the_pendulum_of_the_elliptic_integral(rule):
 @pytest.mark.parametrize("stiffness", ["", STIFF], ids=["glue", "joint"])
 @pytest.mark.parametrize("cover", [{}, {"type": "triangles", "size": 0.5}], ids=["dda", "mesh"])
 def test_two_tied_blocks_spin_on_with_their_energy_and_angular_momentum(stiffness, cover):
-    integrator = {"type": "newmark", "step": 1e-3}
-    run = ran(PAIR.replace("STIFFNESS", stiffness), cover=cover, integrator=integrator)
+    run = ran(PAIR.replace("STIFFNESS", stiffness), cover=cover, integrator={"step": 1e-3})
     assert run.summary.status == "converged"
     energy = sum(run.history[f"{kind}_energy"] for kind in ("kinetic", "strain", "support"))
-    # Masses of 1000 kg at 0.5 m from the middle and of 104.17 kg m2 each, at 5 rad/s. A step that
-    # knows no force at its start owes its moment: 1.5e-5.
-    assert energy == pytest.approx(2 * (1000 * 0.25 + 1250 / 12) * 12.5, rel=3e-5)
+    # Masses of 1000 kg at 0.5 m from the middle and of 104.17 kg m2 each, at 5 rad/s. The rule
+    # damps the stretch that the spin begins with.
+    assert energy == pytest.approx(2 * (1000 * 0.25 + 1250 / 12) * 12.5, rel=1e-5)
 
 
 def test_a_held_body_stays_on_one_solution_a_step():
