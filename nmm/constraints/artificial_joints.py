@@ -17,7 +17,8 @@ from nmm.constraints.interface import Interface
 from nmm.constraints.linear_matter import check_linear
 from nmm.constraints.shared_edges import gauss_interface, joint_interface, shared_edges
 from nmm.constraints.springs import Springs
-from nmm.constraints.tied_interfaces import TiedInterfaces, turning
+from nmm.constraints.tied_interfaces import TiedInterfaces
+from nmm.constraints.turned_axes import turning
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError
 from nmm.geometry.tessellation.block_cover import PieceGlue

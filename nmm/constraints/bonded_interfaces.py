@@ -20,7 +20,8 @@ from nmm.constraints.linear_matter import method_for
 from nmm.constraints.nitsche import Nitsche
 from nmm.constraints.shared_edges import ORDER, gauss_interface, shared_edges
 from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
-from nmm.constraints.tied_interfaces import TiedInterfaces, turning
+from nmm.constraints.tied_interfaces import TiedInterfaces
+from nmm.constraints.turned_axes import turning
 from nmm.contact.detection.joints import Joints
 from nmm.effects.base import Setup
 from nmm.errors import FormulationError, SceneError

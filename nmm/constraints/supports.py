@@ -14,7 +14,8 @@ from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
 from nmm.constraints.nitsche import Nitsche
-from nmm.constraints.tied_interfaces import TiedInterfaces, turning
+from nmm.constraints.tied_interfaces import TiedInterfaces
+from nmm.constraints.turned_axes import turning
 from nmm.constraints.volume_lift import sharing
 from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Instant, Setup

@@ -10,20 +10,18 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import bsr_array, csc_array, csr_array, eye_array, vstack
+from scipy.sparse import csc_array, csr_array, vstack
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State, rotation_matrices
+from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import joined
-from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
-from nmm.integrators.base import make_integrator
+from nmm.constraints.turned_axes import half_way, rounded, turned_axes
+from nmm.effects.base import Effect, Instant, Span, StepForce
 
-# Of a body: forces half way couple all of them.
-MOST_UNKNOWNS = 100
 # Multipliers (k,) of each space as found last and as the step began (Pa).
 LastMultipliers = tuple[tuple[Floats | None, Floats | None], ...]
 
@@ -104,19 +102,14 @@ class TiedInterfaces(Effect):
         """See `Effect.bends`: where bodies turn."""
         return self._model is not None
 
-    @property
-    def in_flight(self) -> bool:
-        """See `Effect.in_flight`: where bodies turn."""
-        return self.bends
-
     def through(self, before: State, after: State, span: Span) -> StepForce:
         """See `Effect.through`: forces at both ends of the step, where bodies are half way.
 
         There these keep angular momentum of two bodies that are tied.
         """
         assert self._model is not None
-        at = _between(before, after) if span.half else after
-        turned = _turned(self._model, before, at)
+        at = half_way(before, after) if span.half else after
+        turned = turned_axes(self._model, before, at)
         late = self._pulls(after, Instant.of(after))
         soon = late if span.weight == 1 else self._pulls(before, Instant.of(before))
         total, rounding = np.zeros(self._n), np.zeros(self._n)
@@ -124,7 +117,7 @@ class TiedInterfaces(Effect):
             pull = span.weight * last + (1 - span.weight) * first
             total += tie.interface.spread(at, pull)
             total += span.weight * more + (1 - span.weight) * some
-            rounding += np.abs(tie.interface.spread(at, _rounded(tie, after)))
+            rounding += np.abs(tie.interface.spread(at, rounded(tie, after)))
 
         def stiffness() -> csc_array:
             return csc_array(span.weight * (turned.T @ self._stiffness(at) @ turned))
@@ -245,50 +238,4 @@ class TiedInterfaces(Effect):
         return [tie.interface.motion(state) for tie in self.ties]
 
 
-def _rounded(tie: Imposition, state: State) -> Floats:
-    """Forces (m, 2) in N that the rounding of places (m) makes of a tie's points."""
-    interface = tie.interface
-    far = max(float(np.abs(side.points.arm).max(initial=0.0)) for side in interface.sides)
-    far = max(far, float(np.abs(interface.motion(state)).max(initial=0.0)))
-    none = np.zeros((len(interface), 2))
-    tiny = tie.point_forces(state, none + float(np.finfo(float).eps) * far)
-    return np.asarray(tiny - tie.point_forces(state, none))
-
-
 _NOTHING = (np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))
-
-
-def turning(setup: Setup) -> Model | None:
-    """Return the model of a scene whose ties are solved for their forces at the end of steps.
-
-    That is one in time of bodies that turn and have few unknowns, under a rule that takes forces at
-    the end alone: means of both ends let the force of a stiff tie go to and fro, and grow.
-    """
-    model, scene = setup.model, setup.scene
-    if scene.inertia is None or not setup.kinematics.turns:
-        return None
-    rule = make_integrator(setup.formulation.integrator)
-    rule = rule.among_contacts if scene.contact is not None else rule
-    unknowns = np.diff(model.rigid_projection.indptr).max(initial=0)
-    return model if rule.end_weight == 1 and unknowns <= MOST_UNKNOWNS else None
-
-
-def _between(before: State, after: State) -> State:
-    """Return where bodies are half way, as far as forces ask for it."""
-    angle = (before.frames.angle + after.frames.angle) / 2
-    return replace(before, frames=replace(before.frames, angle=angle))
-
-
-def _turned(model: Model, before: State, at: State) -> csr_array:
-    """Matrix (n, n) from the unknowns of a step to those in axes that have turned on since.
-
-    All but the mean translation of a body turns with its axes.
-    """
-    turn = rotation_matrices(before.frames.angle - at.frames.angle) - np.eye(2)
-    blocks = np.zeros((len(turn), 3, 3))
-    blocks[:, :2, :2] = turn
-    bodies = np.arange(len(turn) + 1)
-    size = 3 * len(turn)
-    shifted = bsr_array((blocks, bodies[:-1], bodies), shape=(size, size))
-    more = model.manifold.rigid_modes @ shifted @ model.rigid_projection
-    return csr_array(eye_array(len(before.deformation)) + more)

@@ -126,11 +126,6 @@ class Effect(ABC):
         """Whether the matrix of `through` is; of others contact takes the symmetric part."""
         return True
 
-    @property
-    def in_flight(self) -> bool:
-        """Whether bent forces are best sought where the step ends if all moves on as it does."""
-        return False
-
     def through(self, before: State, after: State, span: Span) -> StepForce:
         """Return the weighed force through a step from one state to a trial of its end.
 

@@ -154,14 +154,6 @@ class Inner:
         self._lines = {name: self._line(name) for name in self._plan.bent}
         self._lined = all(defines(one, "matrix") for one in self._plan.bent.values())
 
-    @property
-    def first_guess(self) -> Floats:
-        """(n,) the increment about which forces are made lines first."""
-        step, state = self._step, self._state
-        if step is None or not any(one.in_flight for one in self._plan.bent.values()):
-            return np.zeros_like(self.start)
-        return step * state.velocity
-
     def _line(self, name: str) -> tuple[Floats, csc_array]:
         """Force (n,) and matrix (n, n) of an effect in the equations of the step."""
         effect, n = self._plan.bent[name], len(self.start)

@@ -58,7 +58,7 @@ def newton(
     at = inner.at
     elastic = inner.elastic if inner.flows else None
     scale = _scale(inner.elastic)
-    way, passes = inner.first_guess, 0
+    way, passes = np.zeros_like(inner.start), 0
     now = at(way)
     found: Attempt | None = None
     imbalances: list[float] = []
