@@ -222,6 +222,17 @@ def move(model: Model, state: State, increment: Floats) -> State:
     )
 
 
+def middle(before: State, after: State) -> State:
+    """Return the place half way between two states."""
+    frames = Frames(
+        (before.frames.centre + after.frames.centre) / 2,
+        (before.frames.angle + after.frames.angle) / 2,
+    )
+    return with_parts(
+        before, frames=frames, deformation=(before.deformation + after.deformation) / 2
+    )
+
+
 def rigid_rates(model: Model, state: State) -> Floats:
     """Velocity of the centroid and rate of rotation (B, 3) of the bodies, along the global axes."""
     mean = np.asarray(model.rigid_projection @ state.velocity).reshape(-1, 3)

@@ -15,11 +15,11 @@ from scipy.sparse import csc_array, csr_array, vstack
 from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
+from nmm.assembly.motion import State, middle
 from nmm.assembly.stress_points import StressAt
 from nmm.constraints.imposition import Imposition
 from nmm.constraints.interface import joined
-from nmm.constraints.turned_axes import half_way, rounded, turned_axes
+from nmm.constraints.turned_axes import rounded, turned_axes
 from nmm.effects.base import Effect, Instant, Span, StepForce
 
 # Multipliers (k,) of each space as found last and as the step began (Pa).
@@ -108,7 +108,7 @@ class TiedInterfaces(Effect):
         There these keep angular momentum of two bodies that are tied.
         """
         assert self._model is not None
-        at = half_way(before, after) if span.half else after
+        at = middle(before, after) if span.half else after
         turned = turned_axes(self._model, before, at)
         late = self._pulls(after, Instant.of(after))
         soon = late if span.weight == 1 else self._pulls(before, Instant.of(before))

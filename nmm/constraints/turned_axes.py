@@ -4,8 +4,6 @@ A force that acts on bodies in the axes of the start of a step has the arms of t
 it keeps the angular momentum of two bodies that are tied.
 """
 
-from dataclasses import replace
-
 import numpy as np
 from scipy.sparse import bsr_array, csr_array, eye_array
 
@@ -33,12 +31,6 @@ def turning(setup: Setup) -> Model | None:
     rule = rule.among_contacts if scene.contact is not None else rule
     unknowns = np.diff(model.rigid_projection.indptr).max(initial=0)
     return model if rule.end_weight == 1 and unknowns <= MOST_UNKNOWNS else None
-
-
-def half_way(before: State, after: State) -> State:
-    """Return where bodies are half way, as far as forces ask for it."""
-    angle = (before.frames.angle + after.frames.angle) / 2
-    return replace(before, frames=replace(before.frames, angle=angle))
 
 
 def turned_axes(model: Model, before: State, at: State) -> csr_array:

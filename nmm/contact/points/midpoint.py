@@ -19,7 +19,7 @@ from scipy.sparse import csr_array, diags_array
 from integration.arrays import Floats, Ints
 from integration.contraction import contract
 from nmm.assembly.model import Model
-from nmm.assembly.motion import Frames, MaterialPoints, State
+from nmm.assembly.motion import MaterialPoints, State
 from nmm.contact.points.between_faces import EdgeShares
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints, rows
@@ -48,17 +48,6 @@ class ContactRows:
     def push(self, normal: Floats, shear: Floats) -> Floats:
         """Return what forces (m,) of the contacts are on the unknowns (n,)."""
         return pushed(self.normal, self.tangent, normal, shear)
-
-
-def middle(before: State, after: State) -> State:
-    """Return the place half way between two states."""
-    frames = Frames(
-        (before.frames.centre + after.frames.centre) / 2,
-        (before.frames.angle + after.frames.angle) / 2,
-    )
-    return with_parts(
-        before, frames=frames, deformation=(before.deformation + after.deformation) / 2
-    )
 
 
 def body_projection(sides: Sides, model: Model) -> Floats | None:

@@ -8,11 +8,11 @@ from scipy.sparse import csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.momenta import rigid_masses
-from nmm.assembly.motion import State
+from nmm.assembly.motion import State, middle
 from nmm.contact.detection.tolerances import MIDPOINT_GAPS
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.midpoint import middle, missing_moments
+from nmm.contact.points.midpoint import missing_moments
 from nmm.contact.problem.step_problem import StepAnswer
 from nmm.contact.solution.record import ContactSolution
 from nmm.solvers.unchecked import product

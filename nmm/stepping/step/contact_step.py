@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.assembly.motion import State
+from nmm.assembly.motion import State, middle
 from nmm.contact.detection.tolerances import (
     CROSSING_SOLUTIONS,
     FIRST_REACH,
     FURTHER,
     MIDPOINT_SOLUTIONS,
 )
-from nmm.contact.points.midpoint import middle
 from nmm.contact.solution.request import StepRequest
 from nmm.effects.base import Instant
 from nmm.frozen import with_parts

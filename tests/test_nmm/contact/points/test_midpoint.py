@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.contact.points.midpoint import body_projection, middle, midpoint_rows
+from nmm.assembly.motion import middle
+from nmm.contact.points.midpoint import body_projection, midpoint_rows
 from nmm.frozen import with_parts
 
 TEXT = """
