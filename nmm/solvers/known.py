@@ -1,11 +1,20 @@
 """What is known of a load that is left of forces that cancel."""
 
+from collections.abc import Sequence
+
 import numpy as np
+from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 
 LEAST = 1e-6
 """Part of forces that cancel below which what is left of them is not looked at more closely."""
+
+RESOLVED = 1e-6
+"""Share of forces that cancel from which on their sum is a load without a closer look."""
+TERMS = 4.0
+"""Roundings of a product of a matrix: errors of a row's terms add up as the root of their number,
+and the solution that it is computed from left about one rounding more."""
 
 
 def known_load(among: Floats) -> float:
@@ -15,3 +24,33 @@ def known_load(among: Floats) -> float:
     nothing balances it. A load a million times as small as they are would be judged by that.
     """
     return LEAST * float(np.sqrt(np.einsum("i,i->", among, among)))
+
+
+def is_rounding(
+    force: Floats, parts: Sequence[Floats], share: float, matrix: csc_array, at: Floats
+) -> bool:
+    """Whether a force (n,) is nothing but rounding of the parts that it is the sum of.
+
+    That is no load that dependent functions can carry: it does work on motions without strain.
+
+    Parameters
+    ----------
+    parts
+        (n,) each: the sum of which is less than ``share`` of their sizes where they cancel.
+    matrix, at
+        (n, n) stiffness and the unknowns (n,) that it is multiplied by in one of the parts. Soft
+        bodies move far by little strain: the product is the difference of forces far larger than
+        itself, and is known to the rounding of these (Higham 2002, 3.5).
+    """
+    size, left = sum(_norm(part) for part in parts), _norm(force)
+    if left < share * size:
+        return True
+    if left > RESOLVED * size:
+        return False
+    magnitudes = csc_array((np.abs(matrix.data), matrix.indices, matrix.indptr), matrix.shape)
+    eps = float(np.finfo(float).eps)
+    return left < TERMS * eps * _norm(magnitudes @ np.abs(at))
+
+
+def _norm(vector: Floats) -> float:
+    return float(np.linalg.norm(vector))

@@ -4,7 +4,6 @@ Matter that is not linear enters by its `Linearisation` at an iterate of the ste
 stay linear in the whole increment, whatever the iterate.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,6 +17,7 @@ from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
 from nmm.integrators.damping import Damping
 from nmm.model.discretisation import ModelWithEffects
+from nmm.solvers.known import is_rounding
 from nmm.solvers.unchecked import product
 
 
@@ -156,10 +156,12 @@ class Assembly:
             nothing, among = ROUNDING if matter is None else BALANCED, None
             if model.manifold.dependent:
                 among = sum((np.abs(part) for part in parts), start=np.abs(line.force))
-                if _rounded(force, [*parts, line.force], nothing):
-                    force = np.zeros_like(force)
             held = self._anchored(line.stiffness) if anchored else line.stiffness
             matrix, even = plan.matrix(state, held), line.symmetric
+            if among is not None and is_rounding(
+                force, [*parts, line.force], nothing, matrix, state.deformation
+            ):
+                force = np.zeros_like(force)
             return Equations(state, end, step, rule, matrix, force, symmetric=even, among=among)
         given = Equations(state, end, step, rule, line.stiffness, force, symmetric=line.symmetric)
         return self._in_time(given, line, matter is None)
@@ -239,12 +241,3 @@ def _are(some: list[tuple[float, csc_array]], others: list[tuple[float, csc_arra
         return False
     pairs = zip(some, others, strict=True)
     return all(a == b and one is other for (a, one), (b, other) in pairs)
-
-
-def _rounded(force: Floats, parts: Sequence[Floats], share: float) -> bool:
-    """Whether a force (n,) is nothing but rounding of the parts that it is the sum of.
-
-    That is no load that dependent functions can carry: it does work on motions without strain.
-    """
-    size = sum(float(np.linalg.norm(part)) for part in parts)
-    return float(np.linalg.norm(force)) < share * size
