@@ -13,7 +13,8 @@ from nmm.stepping.drive.dynamics import run_in_time
 from nmm.stepping.drive.in_time import InTime, Schedule
 from nmm.stepping.drive.verdict import RunVerdict
 from nmm.stepping.reports.output import FRAMES_AFTER_FAILURE, choice_in_time
-from nmm.stepping.reports.recorder import Recorder, Totals
+from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.reports.totals import Totals
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:

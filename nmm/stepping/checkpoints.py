@@ -12,8 +12,9 @@ from nmm.results.storage.values import Arrays
 from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.statics import UnderLoad
+from nmm.stepping.reports.monitors import monitors
 from nmm.stepping.reports.output import Choice
-from nmm.stepping.reports.recorder import Recorder, monitors
+from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.run_state import RunState
 from nmm.stepping.step.stepper import Stepper
 

@@ -27,7 +27,7 @@ from nmm.model.solver_settings import solver_for
 from nmm.model.stages import Stage, stages_of
 from nmm.stepping.drive.changes import refuse_events
 from nmm.stepping.drive.stages import Staged
-from nmm.stepping.reports.recorder import monitors
+from nmm.stepping.reports.monitors import monitors
 from nmm.stepping.simulation import Simulation
 from nmm.stepping.step.budget import Budget
 from nmm.stepping.step.remap import Lay, check_remap

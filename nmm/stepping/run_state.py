@@ -8,7 +8,7 @@ from nmm.results.storage.values import Arrays, Kinds, decoded, encoded
 from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.statics import UnderLoad
-from nmm.stepping.reports.recorder import Totals
+from nmm.stepping.reports.totals import Totals
 from nmm.stepping.step.carried import CarriedOver
 
 if TYPE_CHECKING:
@@ -108,7 +108,7 @@ _PLACES = {
     "nmm.stepping.reports.ledger": ("Ledger", "Rise"),
     "nmm.stepping.reports.lengths": ("StepLengths",),
     "nmm.stepping.reports.output": ("Watch",),
-    "nmm.stepping.reports.recorder": ("Totals",),
+    "nmm.stepping.reports.totals": ("Totals",),
     "nmm.stepping.run_state": ("RunState",),
     "nmm.stepping.step.carried": ("CarriedOver", "LaidAnew"),
 }

@@ -34,6 +34,7 @@ from nmm.stepping.drive.changes import topology
 from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages
 from nmm.stepping.driving import Drive
 from nmm.stepping.reports.declared import Declared
+from nmm.stepping.reports.monitors import Monitor
 from nmm.stepping.reports.output import (
     Choice,
     Storage,
@@ -41,7 +42,7 @@ from nmm.stepping.reports.output import (
     choice_under_loads,
     storage,
 )
-from nmm.stepping.reports.recorder import Monitor, Recorder
+from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.run_state import RunState
 from nmm.stepping.summing_up import summed_up
 

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Self
 from nmm.results.tee import Held
 
 if TYPE_CHECKING:
-    from nmm.stepping.reports.recorder import Recorder, Totals
+    from nmm.stepping.reports.recorder import Recorder
+    from nmm.stepping.reports.totals import Totals
     from nmm.stepping.step.carried import CarriedOver
 
 

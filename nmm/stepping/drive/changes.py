@@ -16,7 +16,8 @@ from nmm.assembly.motion import State
 from nmm.errors import Fault, SceneError
 from nmm.frozen import with_parts
 from nmm.results.frame import Topology
-from nmm.stepping.reports.recorder import Recorder, monitors
+from nmm.stepping.reports.monitors import monitors
+from nmm.stepping.reports.recorder import Recorder
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints

@@ -14,8 +14,9 @@ from nmm.stepping.drive.dynamics import run_in_time
 from nmm.stepping.drive.in_time import InTime, Schedule
 from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
 from nmm.stepping.drive.verdict import CONVERGED, RunVerdict
+from nmm.stepping.reports.monitors import monitors
 from nmm.stepping.reports.output import choice_in_time, choice_under_loads
-from nmm.stepping.reports.recorder import Recorder, monitors
+from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:

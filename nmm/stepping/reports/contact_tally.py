@@ -1,0 +1,47 @@
+"""How contacts stand after a step: how many in which state, how deep, how stiff."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nmm.frozen import with_parts
+from nmm.stepping.reports.totals import Totals
+from nmm.stepping.step.anchors import block_name
+from nmm.stepping.step.stepper import Stepper
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
+
+
+def tallied(
+    totals: Totals, stepper: Stepper, contacts: "ContactPoints", time: float
+) -> tuple[Totals, float]:
+    """Return the totals with the contacts of a step that ends at ``time`` (s); the overlap (m)."""
+    from nmm.contact.problem.contact_state import NAMES
+
+    contact, deepest = stepper.plan.contact, totals.deepest
+    assert contact is not None
+    overlap = -float(contacts.gap.min(initial=0.0))
+    if overlap > totals.penetration:
+        deepest = _pair(stepper, contacts, int(contacts.gap.argmin()), time)
+    tally = np.bincount(contacts.state, minlength=len(NAMES)).tolist()
+    counts = dict(zip(NAMES, tally, strict=True)) | {"broken": contact.broken_bonds}
+    totals = with_parts(
+        totals,
+        stiffest=max(totals.stiffest, contact.solver.stiffest or 0.0),
+        penetration=max(totals.penetration, overlap),
+        deepest=deepest,
+        largest={name: max(totals.largest.get(name, 0), n) for name, n in counts.items()},
+        counts=counts,
+    )
+    return totals, overlap
+
+
+def _pair(stepper: Stepper, contacts: "ContactPoints", at: int, time: float) -> str:
+    """Say between which blocks a contact point is, and when it was so."""
+    made = stepper.discretisation
+    owner = made.model.manifold.boundary.body
+    bodies = owner[[contacts.edge_a[at], contacts.edge_b[at]]]
+    pair = [block_name(made.model, body, made.setup.region_name) for body in bodies]
+    when = f" at {time:.4g} s" if "inertia" in made.plan.effects else ""
+    return " and ".join(pair) + when

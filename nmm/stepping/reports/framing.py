@@ -1,0 +1,81 @@
+"""An accepted state as it is handed over: as a view for those who read it, as a frame to store."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.effects.view import View
+from nmm.model.planning.pressures import patch_pressures
+from nmm.results.frame import Frame
+from nmm.stepping.reports.declared import Declared
+from nmm.stepping.step.stepper import Stepper
+
+if TYPE_CHECKING:
+    from nmm.contact.points.contact_points import ContactPoints
+
+
+def viewed(stepper: Stepper, state: State, contacts: "ContactPoints | None") -> View:
+    """Return a state with what can be read from it; stress is computed when it is asked for."""
+    return View(stepper.model, state, contacts, lambda state: _stress(stepper, state))
+
+
+def framed(stepper: Stepper, view: View, declared: Declared, index: int, stage: str) -> Frame:
+    """Return the frame of a state; ``declared`` are its quantities besides."""
+    state, manifold = view.state, view.model.manifold
+    place = stepper.place(state)
+    body = manifold.element_body[manifold.elements.polygon_of_point]
+    velocity = stepper.vertices.rows.apply(state.velocity)
+    return Frame(
+        index=index,
+        time=state.time,
+        load_factor=state.load_factor,
+        stage=stage,
+        points=place,
+        displacement=place - stepper.reference,
+        velocity=state.frames.to_global(body, velocity),
+        stress=view.stress,
+        **_contact_arrays(stepper, view),
+        fields=declared.fields(stepper.plan, view),
+    )
+
+
+def _stress(stepper: Stepper, state: State) -> Floats:
+    """Return the mean Cauchy stress (E, 3) of the elements in global axes (Pa)."""
+    model, added = stepper.model, stepper.plan.added_stress(state)
+    stress = model.stress(state, patch_pressures(stepper.plan, model, state))
+    if added is not None:
+        stress = stress + added
+    return _turned(stress, state.frames.angle[model.manifold.element_body])
+
+
+def _turned(stress: Floats, angle: Floats) -> Floats:
+    """Return stresses (E, 3) of bodies turned by ``angle`` (E,) in global axes: Mohr's circle."""
+    mean, half = (stress[:, 0] + stress[:, 1]) / 2, (stress[:, 0] - stress[:, 1]) / 2
+    c, s = np.cos(2 * angle), np.sin(2 * angle)
+    off = half * c - stress[:, 2] * s
+    return np.stack([mean + off, mean - off, half * s + stress[:, 2] * c], axis=1)
+
+
+def _contact_arrays(stepper: Stepper, view: View) -> dict[str, Any]:
+    """Return the contact arrays of a frame, which are empty without contacts."""
+    contacts, contact = view.contacts, stepper.plan.contact
+    if contacts is None or contact is None:
+        empty, pairs = np.zeros(0), np.zeros((0, 2))
+        return {
+            "contact_position": pairs,
+            "contact_normal": pairs,
+            "contact_length": empty,
+            "contact_force": pairs,
+            "contact_gap": empty,
+            "contact_state": np.zeros(0, dtype=np.int64),
+        }
+    return {
+        "contact_position": contact.partners.position(contacts, view.state),
+        "contact_normal": contacts.normal,
+        "contact_length": contacts.length,
+        "contact_force": np.stack([contacts.normal_force, contacts.shear_force], axis=1),
+        "contact_gap": contacts.gap,
+        "contact_state": contacts.state,
+    }
