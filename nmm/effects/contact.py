@@ -14,8 +14,6 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
-from nmm.contact.bonds.consistent_bonds import ConsistentBonds
-from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.candidates.succession import succeeding
 from nmm.contact.detection.crossing import Motion
@@ -25,15 +23,14 @@ from nmm.contact.following.path_solution import path_solution
 from nmm.contact.following.release import let_go
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import follow_joints
-from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.problem.step_problem import Limits, StepAnswer
 from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.driver import ContactSolver
 from nmm.contact.solution.geometry import ContactGeometry
-from nmm.contact.solution.mixed_bonds import MixedBonds
 from nmm.contact.solution.momentum import Momentum
 from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
 from nmm.contact.solution.request import StepRequest
+from nmm.contact.solution.step_bonds import StepBonds
 from nmm.effects.base import Effect, Setup
 from nmm.effects.contact_parts import ContactParts, contact_parts
 
@@ -75,9 +72,8 @@ class Contact(Effect):
             parts.cracks,
         )
         seamless = parts.mixed & parts.cracks.points(model.manifold, book.points)
-        self._bonds = ConsistentBonds.of(model, book.points, self.laws, seamless)
-        if self._bonds is not None:
-            book = replace(book, points=self._bonds.tied(book.points, self.laws))
+        self._bonds, points = StepBonds.of(model, book.points, self.laws, seamless)
+        book = replace(book, points=points)
         self.laws.refuse_soft(book.points.take(~book.points.tied))
         self.record, self._unbonded = ContactRecord(book), book.broken
         self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.means)
@@ -86,7 +82,6 @@ class Contact(Effect):
         self.solver = ContactSolver.of(model, self.laws, parts.enforcement, compliance)
         self._candidates = Candidates(self.partners, self.laws, self.geometry)
         self._found: Contacts | None = None
-        self._stresses: Sequence[StressAt] = ()
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -138,12 +133,13 @@ class Contact(Effect):
             rows = self.geometry.rows(contacts, state, midpoint)
         else:
             rows = self.geometry.conserving(contacts, state, end)
-        surface, mixed = self.partners.surface(state), self._mixed(contacts, state, request.time)
+        surface = self.partners.surface(state)
+        mixed = self._bonds.mixed(contacts, state, request.time)
         posed = contacts, rows, request
         posed = posed if mixed is None else mixed.posed(*posed)
 
         def besides(present: ContactPoints) -> list[Transform]:
-            tied = self._tied(present, state, rows, request.weight, request.time)
+            tied = self._bonds.tied(present, state, rows, request.weight, request.time)
             free = present if tied is None else present.take(~present.tied)
             means = self.geometry.face_means(free, surface)
             return [part for part in (tied, means, request.null_space) if part is not None]
@@ -156,11 +152,11 @@ class Contact(Effect):
     ) -> tuple[ContactSolution, float]:
         """Solve a step along a path; return it and by how much the load factor changes."""
         rows = self.geometry.rows(contacts, state)
-        tied = self._tied(contacts, state, rows, request.weight, request.time)
-        mixed = self._mixed(contacts, state, request.time)
+        tied = self._bonds.tied(contacts, state, rows, request.weight, request.time)
+        mixed = self._bonds.mixed(contacts, state, request.time)
         posed = contacts, rows, request
         posed = posed if mixed is None else mixed.posed(*posed)
-        whole = self._beginning(contacts)
+        whole = self._bonds.unsoftened(contacts, self.record.book.points)
         solved, change = path_solution(self.laws, *posed, tied, path, whole)
         return solved if mixed is None else mixed.told(solved, contacts), change
 
@@ -173,24 +169,17 @@ class Contact(Effect):
         first of them softens.
         """
         answer = contacts if answer is None else answer
-        return self.laws.overload(contacts, answer, self._beginning(contacts))
+        whole = self._bonds.unsoftened(contacts, self.record.book.points)
+        return self.laws.overload(contacts, answer, whole)
 
     @property
     def may_give_way(self) -> bool:
         """Whether any bond is left that breaks at once, or begins to soften, at a limit."""
         points = self.standing
         brittle = points.bonded & self.laws.brittle[points.interface]
-        beginning = self._beginning(points)
-        return bool((points.tied | brittle).any() or beginning is not None)
-
-    def _beginning(self, contacts: ContactPoints) -> Bools | None:
-        """Return which (m,) are bonds of the mixed form while none has softened; else None."""
-        points = self.record.book.points
-        if self._bonds is None or not self._bonds.mixed_among(points).any():
-            return None
-        begun = (points.history["damage"] > 0) | ~points.bonded
-        begun &= self._bonds.mixed_among(points)
-        return None if begun.any() else self._bonds.mixed_among(contacts)
+        if (points.tied | brittle).any():
+            return True
+        return self._bonds.unsoftened(points, self.record.book.points) is not None
 
     def release(self, solved: ContactSolution, gone: Bools) -> float:
         """Let bonds (m,) give way before the next step, though the solution be no step.
@@ -199,27 +188,6 @@ class Contact(Effect):
         """
         self.record, shed = let_go(self.record, self.laws, solved, gone)
         return shed
-
-    def _tied(
-        self,
-        contacts: ContactPoints,
-        state: State,
-        rows: ContactRows,
-        weight: float = 1.0,
-        time: float | None = None,
-    ) -> TiedBonds | None:
-        """Return the bonds that consistent terms hold, see `TiedBonds.of`; None without any."""
-        if self._bonds is None or not contacts.tied.any():
-            return None
-        return TiedBonds.of(self._bonds, contacts, state, rows, weight, self._stresses, time)
-
-    def _mixed(
-        self, contacts: ContactPoints, state: State, time: float | None = None
-    ) -> MixedBonds | None:
-        """Return the bonds whose law has the mixed form, see `MixedBonds.of`; None without any."""
-        if self._bonds is None:
-            return None
-        return MixedBonds.of(self._bonds, self.laws, contacts, state, self._stresses, time)
 
     def overlooked(self, contacts: ContactPoints, motion: Motion) -> tuple[Ints, Ints] | None:
         """Return pairs that crossed and were no contacts; see `Candidates.overlooked`."""
@@ -279,18 +247,18 @@ class Contact(Effect):
         record = self.record
         known = [] if record.known is None else [record.known]
         points = concatenate([record.book.points, *known])
-        total, mixed = record.stored, self._mixed(points, state)
+        total, mixed = record.stored, self._bonds.mixed(points, state)
         if mixed is not None:
             points, total = mixed.stretched(points), total - mixed.energy
         points = concatenate([points, record.book.left])
         if len(points):
             total += self.laws.energy(points, own_only=self._exact)
-        if self._bonds is None:
+        if self._bonds.terms is None:
             return total
         joints = self._candidates.joints(record.book, state)
-        tied = self._tied(joints, state, self.geometry.rows(joints, state))
+        tied = self._bonds.tied(joints, state, self.geometry.rows(joints, state))
         return total if tied is None else total + tied.energy
 
     def feel(self, stresses: Sequence[StressAt]) -> None:
         """See `Effect.feel`: the tractions of whole bonds are of the whole stress."""
-        self._stresses = stresses
+        self._bonds.stresses = stresses
