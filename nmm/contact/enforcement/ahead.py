@@ -16,7 +16,7 @@ from functools import cache
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from nmm.compiled import kept
+from nmm.compiled.store import kept
 from nmm.contact.enforcement.penalty import Penalty
 from nmm.contact.islands.partition import Islands
 from nmm.contact.islands.warm_start import start_from

@@ -1,0 +1,5 @@
+"""Functions that numba compiles when they are first called; what it makes is kept on disk."""
+
+from nmm.compiled.kernel import Kernel, compiled, compiled_sums, place
+
+__all__ = ["Kernel", "compiled", "compiled_sums", "place"]
