@@ -19,6 +19,8 @@ class Safety:
         What the run that fails says.
     runs
         How many factors were tried.
+    bound
+        Factor that no forces within strength allow (static theorem); None where none was found.
     """
 
     holds: float | None
@@ -26,6 +28,7 @@ class Safety:
     shown: bool
     sentence: str
     runs: int
+    bound: float | None = None
 
     def told(self, summary: Summary) -> Summary:
         """Return the summary of the run at the factor that holds with what is known of others."""
@@ -40,5 +43,7 @@ class Safety:
             f"factor of safety {self.holds:.6g}: in equilibrium with strength over it, not over "
             f"{self.fails:.6g} ({self.runs} runs): {self.sentence}"
         )
+        if self.bound is not None and self.bound > self.fails:
+            said += f"; the static theorem lets none be above {self.bound:.6g}"
         spoilt = summary.status == "converged" and not self.shown
         return replace(found, status="failed" if spoilt else summary.status, sentence=said)

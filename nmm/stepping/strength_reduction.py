@@ -61,14 +61,20 @@ def reduced(scene: "Scene", formulation: "Formulation", progress: Progress) -> S
     """
     table = scene.strength_reduction
     assert table is not None
-    begun, tried = perf_counter(), list[FactorTried]()
+    begun, tried, bounds = perf_counter(), list[FactorTried](), list[float]()
     at_once = not _grows(scene)
 
     def run(factor: float) -> FactorTried:
         made, memory = prepare(weakened(scene, factor), formulation), MemorySink()
         state = replace(made, at_once=at_once).run([memory], lambda share, text: None)
         found, reached = memory.summary, partial(safety_bound, made.stepper, state, factor)
-        tried.append(FactorTried(factor, found.status, found.sentence, reached))
+
+        def bound(highest: float, width: float) -> float | None:
+            shown = reached(highest, width)
+            bounds.extend([] if shown is None else [shown])
+            return shown
+
+        tried.append(FactorTried(factor, found.status, found.sentence, bound))
         says = "equilibrium" if tried[-1].holds else "none"
         progress(min(len(tried) / 12, 1.0), f"strength / {factor:.5g}: {says}")
         return tried[-1]
@@ -81,6 +87,7 @@ def reduced(scene: "Scene", formulation: "Formulation", progress: Progress) -> S
         shown,
         "" if high is None else high.sentence,
         len(tried),
+        min(bounds, default=None),
     )
     at = prepare(weakened(scene, tried[-1].factor if low is None else low.factor), formulation)
     at.stepper.seconds["strength reduction"] = (

@@ -158,6 +158,7 @@ CASES = Registry[type[Case]](
         "PL4": f"{_HOME}.plasticity:Footing",
         "PL5": f"{_HOME}.matter.safety:SoilSlope",
         "PL5 plane": f"{_HOME}.matter.safety:SlidingWedge",
+        "PL5 cohesion": f"{_HOME}.matter.cohesive_slopes:CohesiveSlope",
         "PL5 slope": f"{_HOME}.matter.slopes:JointedSlope",
         "PL5 toppling": f"{_HOME}.matter.slopes:ToppledSlope",
         "TH1": f"{_HOME}.heat_strain:Bimetal",

@@ -20,6 +20,7 @@ from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import Dashpots, RigidMass
 from nmm.contact.laws.history_iteration import HistoryIteration, slid_under_load
+from nmm.contact.laws.late_cohesion import LateCohesion
 from nmm.contact.laws.time_weighting import RaisedFaces, TimeWeighting, end_shares
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.midpoint import ContactRows
@@ -46,7 +47,7 @@ class PosedStep:
     transforms
         In the order of their application.
     springs
-        That of springs over the time of the step, the first of them; None where none is.
+        That of springs over the time of the step, one of them; None where none is.
     dashpots
         Dampers among them; None without.
     weight
@@ -249,7 +250,8 @@ class ContactSolver:
         )
         weight = end_shares(request.weight, exact, own, iteration.softening)
         springs = _weighted(weight, iteration.before.rise, problem, contacts, request.foreseen)
-        transforms: list[Transform] = [] if springs is None else [springs]
+        late = None if request.step is None else LateCohesion.of(problem.limits, contacts)
+        transforms: list[Transform] = [part for part in (late, springs) if part is not None]
         dashpots = None
         if request.step is not None and laws.damps:
             damping = laws.damping(contacts)

@@ -1,7 +1,6 @@
 """Factors of safety of slopes that joints cut into blocks: two joint sets, and toppling columns."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -10,6 +9,7 @@ from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.problems.columns import LeaningColumns
+from nmm.verification.problems.matter.joint_forces import JointForces
 from nmm.verification.text import G
 
 if TYPE_CHECKING:
@@ -79,6 +79,11 @@ class JointedSlope(SceneCase):
         """A point on a joint of either set."""
         return (0.0, 0.7), (float(self.outline[3, 0]) + 1.5, self.height)
 
+    @property
+    def joint(self) -> str:
+        """The joints' interface."""
+        return text.interface("joint", self.friction)
+
     def scene(self) -> str:
         """Return the slope on and before rock that is held."""
         far, high = self.behind, self.height
@@ -87,7 +92,7 @@ class JointedSlope(SceneCase):
             'title = "Jointed slope"\nplane = "strain"\n',
             [
                 text.material("rock", 10e9, 0.25, DENSITY),
-                text.interface("joint", self.friction),
+                self.joint,
                 text.block("base", "rock", base),
                 text.block("slope", "rock", self.outline),
                 *(
@@ -108,16 +113,15 @@ class JointedSlope(SceneCase):
         if self.slides:
             tangents = np.tan(np.radians([self.friction, self.dips[0]]))
             return float(tangents[0] / tangents[1])
-        low, high = 1.0, 4.0
-        blocks, ground = self._pieces()
-        balance, weight = _balance(blocks, ground)
-        while high - low > 1e-5:
-            middle = (low + high) / 2
-            slope = float(np.tan(np.radians(self.friction))) / middle
-            low, high = (middle, high) if _carries(balance, weight, slope) else (low, middle)
-        return high
+        return self.bound()
 
-    def _pieces(self) -> tuple[list[Any], Any]:
+    def bound(self, cohesion: float = 0.0) -> float:
+        """Least factor over which no forces at ends of joints carry the weight."""
+        blocks, ground = self.pieces()
+        forces = JointForces.of(blocks, ground, DENSITY * G)
+        return forces.factor(float(np.tan(np.radians(self.friction))), cohesion)
+
+    def pieces(self) -> tuple[list[Any], Any]:
         """Polygons between the joints, and the ground below and behind."""
         from shapely import LineString, Polygon
         from shapely.ops import polygonize, unary_union
@@ -146,64 +150,6 @@ class JointedSlope(SceneCase):
             "width of the bracket": Check(high - low, 0.01, 1e-9, "as asked", bound="at_most"),
             "failing is the structure's": holds(run.summary.status == "converged", "it is shown"),
         }
-
-
-def _balance(blocks: list[Any], ground: Any) -> tuple[Floats, Floats]:
-    """Rows (3 n, 2 m) of forces at both ends of every joint, and weights (3 n,) of the blocks."""
-    bodies = [*blocks, ground]
-    columns = []
-    for a, one in enumerate(blocks):
-        for b in range(a + 1, len(bodies)):
-            shared = one.intersection(bodies[b])
-            if shared.length < 1e-6:
-                continue
-            for part in getattr(shared, "geoms", [shared]):
-                corners = np.array(part.coords)
-                for face in pairwise(corners):
-                    if np.hypot(*(face[1] - face[0])) > 1e-6:
-                        columns += _of_joint(np.array(face), a, b, blocks)
-    weight = np.zeros(3 * len(blocks))
-    weight[1::3] = [-DENSITY * G * one.area for one in blocks]
-    return np.array(columns).T, weight
-
-
-def _of_joint(ends: Floats, a: int, b: int, blocks: list[Any]) -> list[Floats]:
-    """Columns (3 n,) of pressure and shear at both ends of a joint, on the blocks beside it."""
-    along = (ends[1] - ends[0]) / np.hypot(*(ends[1] - ends[0]))
-    normal = np.array([-along[1], along[0]])
-    if (np.array(blocks[a].centroid.coords[0]) - ends[0]) @ normal < 0:
-        normal = -normal
-    found = []
-    for end in ends:
-        for push in (normal, along):
-            column = np.zeros(3 * len(blocks))
-            for body, sign in ((a, 1.0), (b, -1.0)):
-                if body < len(blocks):
-                    arm = end - np.array(blocks[body].centroid.coords[0])
-                    column[3 * body : 3 * body + 2] += sign * push
-                    column[3 * body + 2] += sign * (arm[0] * push[1] - arm[1] * push[0])
-            found.append(column)
-    return found
-
-
-def _carries(balance: Floats, weight: Floats, slope: float) -> bool:
-    """Whether pressures and shear forces within friction carry the weight."""
-    from scipy import optimize
-    from scipy.sparse import csr_array, eye_array, kron
-
-    m = balance.shape[1] // 2
-    pair = np.array([[-slope, 1.0], [-slope, -1.0]])
-    linprog: Any = optimize.linprog
-    found = linprog(
-        np.zeros(2 * m),
-        A_ub=csr_array(kron(eye_array(m), pair)),
-        b_ub=np.zeros(2 * m),
-        A_eq=csr_array(balance),
-        b_eq=-weight,
-        bounds=[(0.0, None), (None, None)] * m,
-        method="highs",
-    )
-    return bool(found.status == 0)
 
 
 @dataclass(frozen=True)
