@@ -98,16 +98,14 @@ class Supports(TiedInterfaces):
         """Return what each support exerts; multipliers are those of the supports ``before``."""
         known = {tie.interface.name: tie for tie in before.ties}
         found = []
-        for tie, jump in zip(self.ties, self._jumps(state, Instant.of(state)), strict=True):
-            old = known[tie.interface.name]
-            from_old = tie.shared is not None and len(old.interface) == len(tie.interface)
-            forces = (old if from_old else tie).point_forces(state, jump)
-            whole = self._with_added(forces, tie, state)
-            beside = tie.force(state, jump) - tie.interface.spread(state, forces)
-            beside = np.zeros_like(beside) if tie.shared is not None else beside
-            place = tie.interface.first
+        for tie, (pull, beside) in zip(
+            self.ties, self._pulls(state, Instant.of(state)), strict=True
+        ):
+            old, place = known[tie.interface.name], tie.interface.first
+            if tie.shared is not None and len(old.interface) == len(tie.interface):
+                pull = pull + old.point_forces(state, np.zeros_like(pull))
             found.append(
-                Reactions(place.elements, place.position, tie.interface.held * whole, beside)
+                Reactions(place.elements, place.position, tie.interface.held * pull, beside)
             )
         return found
 
