@@ -2,10 +2,9 @@
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from covers.concatenate import numbers
 from integration.arrays import Floats, Ints
+from integration.permutations import inverse
 from integration.polygons import Polygons
 
 
@@ -41,8 +40,7 @@ class BoundaryEdges:
 def ring_edges(polygons: Polygons, body: Ints) -> BoundaryEdges:
     """Return all edges of all rings as boundary: the case of one element a body."""
     follower = polygons.next_point
-    previous = np.empty_like(follower)
-    previous[follower] = np.arange(len(follower))
+    previous = inverse(follower)
     element = polygons.polygon_of_point
     return BoundaryEdges(
         start=polygons.points,

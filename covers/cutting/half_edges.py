@@ -8,6 +8,7 @@ import numpy as np
 
 from covers.cutting.components import components
 from integration.arrays import Floats, Ints
+from integration.permutations import inverse
 
 
 @dataclass(frozen=True)
@@ -54,10 +55,8 @@ def half_edges(steps: Floats, edges: Ints) -> HalfEdges:
     last = np.append(start[1:], len(order)) - 1
     clockwise[order[start]] = order[last]
     following = clockwise[np.arange(len(origin)) ^ 1]
-    previous = np.empty_like(following)
-    previous[following] = np.arange(len(following))
     loop = components(len(origin), np.arange(len(origin)), following)
-    return HalfEdges(origin, head, following, previous, loop, angle)
+    return HalfEdges(origin, head, following, inverse(following), loop, angle)
 
 
 def walks(following: Ints, start: Ints, length: Ints) -> Ints:

@@ -33,6 +33,12 @@ def momenta_about(state: State, own: Floats, about: Floats) -> tuple[Floats, Flo
     return pushed, arm[:, 0] * pushed[:, 1] - arm[:, 1] * pushed[:, 0] + own[:, 2]
 
 
+def whole_momentum(model: Model, state: State, about: Floats) -> Floats:
+    """Momentum x, y (N s) and angular momentum about a point (N m s) of all bodies (3,)."""
+    linear, angular = momenta_about(state, rigid_momenta(model, state), about)
+    return np.array([*linear.sum(axis=0), angular.sum()])
+
+
 def momenta(model: Model, deformation: Floats) -> csr_array:
     """Rows (3 B, n): linear momentum, and angular momentum about where the frames' centres are.
 

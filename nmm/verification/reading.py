@@ -6,7 +6,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import areas
-from nmm.assembly.momenta import momenta_about, rigid_momenta
+from nmm.assembly.momenta import whole_momentum
 from nmm.assembly.motion import rigid_rates
 
 if TYPE_CHECKING:
@@ -31,9 +31,7 @@ def rates(run: "Run") -> Floats:
 
 def momentum(run: "Run") -> Floats:
     """Momentum x, y (N s) and angular momentum about the origin (N m s) of all bodies (3,)."""
-    own = rigid_momenta(run.stepper.model, run.state)
-    linear, spin = momenta_about(run.state, own, np.zeros(2))
-    return np.array([*linear.sum(axis=0), spin.sum()])
+    return whole_momentum(run.stepper.model, run.state, np.zeros(2))
 
 
 def masses(run: "Run") -> Floats:

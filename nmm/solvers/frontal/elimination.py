@@ -14,6 +14,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Index, Ints
+from integration.permutations import inverse
 from nmm.solvers.frontal.node_graph import node_graph
 from nmm.solvers.frontal.ordering import columns
 from nmm.solvers.frontal.scatter import Shape, lower_places, upper_places
@@ -71,9 +72,7 @@ class Fronts:
         node_order, node_weight = found.order, weight[found.order]
         first_node = supernodes(found.start, found.structure, found.parent, node_weight)
         fronts = in_unknowns(first_node, found.start, found.structure, node_weight)
-        rank = np.empty_like(node_order)
-        rank[node_order] = np.arange(len(rank))
-        order = np.argsort(rank[node_of], kind="stable")
+        order = np.argsort(inverse(node_order)[node_of], kind="stable")
         source, target = lower_places(indptr, indices, order, fronts)
         n_children, stack = stack_of_updates(*fronts[:3])
         places = n_children, source, target, int(stack)
