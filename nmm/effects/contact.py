@@ -21,6 +21,7 @@ from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.following.path_equation import PathEquation
 from nmm.contact.following.path_solution import path_solution
 from nmm.contact.following.release import let_go
+from nmm.contact.laws.failing_bonds import overload
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import follow_joints
 from nmm.contact.problem.step_problem import Limits, StepAnswer
@@ -170,7 +171,7 @@ class Contact(Effect):
         """
         answer = contacts if answer is None else answer
         whole = self._bonds.unsoftened(contacts, self.record.book.points)
-        return self.laws.overload(contacts, answer, whole)
+        return overload(self.laws, contacts, answer, whole)
 
     @property
     def may_give_way(self) -> bool:

@@ -14,6 +14,8 @@ from nmm.contact.detection.narrow_phase import Contacts, follow
 from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.tolerances import FLUSH
 from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.failing_bonds import strength
+from nmm.contact.laws.found_contacts import sized
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.continued.reference_gap import counted, counted_on
 from nmm.contact.points.continued.tracking import (
@@ -78,7 +80,7 @@ class Candidates:
         loose = np.zeros(len(found), dtype=bool)
         new = searched_points(found, interface, self._laws.initial(interface, loose), surface)
         if self._laws.stiff:
-            new = self._laws.sized(new, surface)
+            new = sized(self._laws, new, surface)
         new = with_parts(new, gap=self._geometry.gaps(new, state))
         return found, self._followed(record, new, found)
 
@@ -93,7 +95,7 @@ class Candidates:
         _, contacts = self.sought(record, state, reach)
         contacts = contacts.take(contacts.bonded | (contacts.gap <= reach))
         through = self._geometry.rows(contacts, state)
-        return (through.normal, through.tangent), self._laws.strength(contacts)
+        return (through.normal, through.tangent), strength(self._laws, contacts)
 
     def overlooked(
         self, record: ContactRecord, contacts: ContactPoints, motion: Motion

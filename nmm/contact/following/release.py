@@ -8,6 +8,7 @@ from integration.arrays import Bools
 from nmm.contact.bonds.release import released
 from nmm.contact.bonds.turning import beside
 from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.failing_bonds import break_bonds
 from nmm.contact.laws.history_iteration import ENDED
 from nmm.contact.problem.step_problem import BROKEN
 from nmm.contact.solution.record import ContactRecord, ContactSolution
@@ -33,7 +34,7 @@ def let_go(
         ended = {name: getattr(solved.answer, name) for name in ENDED}
         before = replace(contacts, **ended)
         after, shed = released(before, freed, lost, solved.answer, springs, limits)
-    after = laws.break_bonds(after, lost)
+    after = break_bonds(laws, after, lost)
     points = record.book.points
     order = np.argsort(contacts.key)
     at = order[np.searchsorted(contacts.key[order], points.key)]

@@ -1,24 +1,19 @@
 """Which laws act at contact points: limits, springs, history, and bonds that break for good."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.detection.surface import Surface
 from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.contact.points.kept import KeptOfPairs
-from nmm.contact.problem.step_problem import BROKEN, Limits, StepAnswer
+from nmm.contact.problem.step_problem import Limits
 from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import KEPT, History, HistoryColumn
 from nmm.interfaces.response import InterfaceResponse
-
-# Loads on bonds of a symmetric structure agree to rounding only; those within this of the worst
-# break together, so that a symmetric mesh stays symmetric.
-TIE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -129,18 +124,6 @@ class ContactLaws:
         """(n,) which laws have a column."""
         return np.array([name in law.columns for law in self.laws], dtype=bool)
 
-    def strength(self, contacts: ContactPoints) -> Limits:
-        """Return the limits with the strength of intact bonds, which has none within a step."""
-        limits = self.response(contacts, self.springs(contacts)[0]).limits
-        tension, cohesion = limits.tension.copy(), limits.cohesion.copy()
-        for law, index, _ in self.by_law(contacts):
-            area = contacts.length[index] * self.thickness
-            tension[index] = np.minimum(tension[index], law.tensile_strength * area)
-            cohesion[index] = np.where(
-                np.isfinite(cohesion[index]), cohesion[index], law.cohesion * area
-            )
-        return Limits(tension, cohesion, limits.friction)
-
     def springs(self, contacts: ContactPoints) -> tuple[Floats, Floats, Bools]:
         """Return normal and shear stiffness (N/m) of whole bonds, and which are a law's own."""
         return self._springs.of(contacts)
@@ -153,7 +136,7 @@ class ContactLaws:
         own = contacts.is_joint.copy()
         normal = np.where(own, self.normal_bond, self.normal_penalty) * contacts.spring_factor
         shear = np.where(own, self.shear_bond, self.shear_penalty) * contacts.spring_factor
-        for law, index in self._stiff_laws(contacts):
+        for law, index in self.stiff_laws(contacts):
             assert law.normal_stiffness is not None
             ratio = (law.shear_stiffness or law.normal_stiffness) / law.normal_stiffness
             joint = index[contacts.is_joint[index]]
@@ -165,23 +148,6 @@ class ContactLaws:
     def normal_stiffness(self, contacts: ContactPoints) -> Floats:
         """Return the normal stiffness (m,) of whole bonds (N/m)."""
         return self.springs(contacts)[0]
-
-    def sized(self, contacts: ContactPoints, surface: Surface) -> ContactPoints:
-        """Return found contacts as stiff as their laws ask for.
-
-        A stretch of a face has its length; a mere vertex stands for half the edge that faces the
-        other body, or half the other's if that is shorter, so that the two corners of a face that
-        lies on a longer one carry all of it.
-        """
-        spring_factor = contacts.spring_factor.copy()
-        for law, index in self._stiff_laws(contacts):
-            assert law.normal_stiffness is not None
-            some = contacts.take(index)
-            mere = _half_edge(surface, some.edge_a, some.edge_b)
-            length = np.where(some.length > 0, some.length, mere)
-            spring = law.normal_stiffness * length * self.thickness
-            spring_factor[index] = spring / self.normal_penalty
-        return replace(contacts, spring_factor=spring_factor)
 
     @cached_property
     def stiff(self) -> bool:
@@ -232,44 +198,6 @@ class ContactLaws:
         """Return the share (m,) of critical damping of each contact."""
         return np.array([law.damping for law in self.laws])[contacts.interface]
 
-    def breaking(self, contacts: ContactPoints, answer: StepAnswer, worst_only: bool) -> Bools:
-        """Return which intact bonds (m,) cannot hold the forces of an answer.
-
-        With ``worst_only`` the most loaded ones alone, the others being judged again after the
-        forces have moved: the order of failure then does not depend on the load increment. Whole
-        bonds that begin to soften do so together, since no force jumps.
-        """
-        if not self.hold(contacts):
-            return np.zeros(len(contacts), dtype=bool)
-        load = self.overload(contacts, answer)
-        over, brittle = load > 1, self.brittle[contacts.interface]
-        if worst_only and (over & brittle).any():
-            over &= ~brittle | (load >= load[brittle].max() * (1 - TIE))
-        return over
-
-    def overload(
-        self,
-        contacts: ContactPoints,
-        answer: "StepAnswer | ContactPoints",
-        beginning: Bools | None = None,
-    ) -> Floats:
-        """Return load over strength (m,) of the bonds that break or begin to soften above one.
-
-        ``beginning`` (m,) are those that begin to soften beside the ones that are tied.
-        """
-        load = np.zeros(len(contacts))
-        bonds = np.flatnonzero(contacts.bonded)
-        area = contacts.length[bonds] * self.thickness
-        for number, law in enumerate(self.laws if len(bonds) else ()):
-            mine = contacts.interface[bonds] == number
-            index = bonds[mine]
-            forces = (answer.normal_force[index], answer.shear_force[index])
-            stress = [force / area[mine] for force in forces]
-            whole = contacts.tied[index]
-            whole = whole if beginning is None else whole | beginning[index]
-            load[index] = np.where(whole, law.onset(*stress), law.overload(*stress))
-        return load
-
     @cached_property
     def brittle(self) -> Bools:
         """(n,) whether bonds of each law break at once."""
@@ -279,22 +207,6 @@ class ContactLaws:
             found[number] = np.isinf(law.response(whole, np.ones(1)).limits.tension[0])
         return found
 
-    def break_bonds(self, contacts: ContactPoints, broken: Bools) -> ContactPoints:
-        """Return the contacts with some bonds broken for good, their forces gone."""
-        history = {name: column.copy() for name, column in contacts.history.items()}
-        for law, index, own in self.by_law(contacts):
-            gone, lost = broken[index], law.broken(own)
-            for name, column in lost.items():
-                history[name][index[gone]] = column[gone]
-        return replace(
-            contacts,
-            history=history,
-            state=np.where(broken, int(BROKEN), contacts.state),
-            normal_force=np.where(broken, 0.0, contacts.normal_force),
-            shear_force=np.where(broken, 0.0, contacts.shear_force),
-            slip=np.where(broken, 0.0, contacts.slip),
-        )
-
     @cached_property
     def _areas(self) -> KeptOfPairs[Floats]:
         """Areas (m,) in m2 of joints; zero of what is found by search."""
@@ -302,7 +214,8 @@ class ContactLaws:
             lambda points: np.where(points.is_joint, points.length * self.thickness, 0.0)
         )
 
-    def _stiff_laws(self, contacts: ContactPoints) -> list[tuple[InterfaceLaw, Ints]]:
+    def stiff_laws(self, contacts: ContactPoints) -> list[tuple[InterfaceLaw, Ints]]:
+        """Return the laws that have a stiffness of their own, each with its contacts."""
         return [
             (law, np.flatnonzero(contacts.interface == number))
             for number, law in enumerate(self.laws)
@@ -337,11 +250,3 @@ def _over(force: Floats, area: Floats) -> Floats:
 def _times(stress: Floats, area: Floats) -> Floats:
     """Stress, which may be without limit, times area (m,); zero where there is none."""
     return np.where(area > 0, stress * np.where(area > 0, area, 1.0), 0.0)
-
-
-def _half_edge(surface: Surface, vertex: Ints, edge: Ints) -> Floats:
-    """Half the length (m,) of the edge at a vertex that faces ``edge``, or of that if shorter."""
-    before, along = surface.previous[vertex], surface.direction[edge]
-    faces = [np.einsum("ij,ij->i", surface.direction[own], along) for own in (vertex, before)]
-    facing = np.where(faces[0] <= faces[1], vertex, before)
-    return np.asarray(np.minimum(surface.length[facing], surface.length[edge]) / 2)

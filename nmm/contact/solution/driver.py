@@ -19,6 +19,7 @@ from nmm.contact.enforcement.rebalanced import solve_rebalanced
 from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import Dashpots, RigidMass
+from nmm.contact.laws.failing_bonds import break_bonds, breaking
 from nmm.contact.laws.history_iteration import HistoryIteration, slid_under_load
 from nmm.contact.laws.late_cohesion import LateCohesion
 from nmm.contact.laws.time_weighting import RaisedFaces, TimeWeighting, end_shares
@@ -164,7 +165,7 @@ class ContactSolver:
             if not iteration.done:
                 start = answer.increment
                 continue
-            broken = self._laws.breaking(iteration.contacts, answer, request.breaking == "worst")
+            broken = breaking(self._laws, iteration.contacts, answer, request.breaking == "worst")
             brittle = broken & self._laws.brittle[contacts.interface]
             if not broken.any():
                 loss += iteration.loss(answer, sliding) + posed.loss(contacts, answer)
@@ -180,7 +181,7 @@ class ContactSolver:
                 limits, springs = iteration.response.limits, iteration.springs
                 contacts, stored = released(contacts, freed, brittle, answer, springs, limits)
                 loss += stored
-            contacts = self._laws.break_bonds(contacts, brittle)
+            contacts = break_bonds(self._laws, contacts, brittle)
             besides = more(contacts) if freed.any() else besides
             iteration, start = HistoryIteration(self._laws, contacts), None
 
