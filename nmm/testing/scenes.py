@@ -123,6 +123,66 @@ def roller_and_pin(height: float = 1.0) -> str:
     )
 
 
+def floor_and_pin(width: float = 1.0) -> str:
+    """Return tables that hold what stands on the x axis: its foot upright, its corner along it."""
+    return edge_support("base", (0, 0), (width, 0), ("y",)) + (
+        '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["x"]\n'
+    )
+
+
+def biaxial_test(dilation: float, more: str = "") -> str:
+    """Return a block of soil that a plate presses by 2 % under 100 kPa from its side.
+
+    Its law is Mohr-Coulomb's: cohesion 20 kPa, friction 30 degrees, ``dilation`` in degrees. It
+    yields at ``2 c cos / (1 - sin) + 100 (1 + sin) / (1 - sin)`` kPa. ``more`` are tables besides.
+    """
+    return text.scene(
+        'plane = "strain"',
+        [
+            '[materials.soil]\nlaw = "mohr_coulomb"\nyoung_modulus = "50 MPa"\n'
+            'poisson_ratio = 0.25\ncohesion = "20 kPa"\nfriction_angle = "30 deg"\n'
+            f'dilation_angle = "{dilation} deg"\n',
+            text.box("soil", (0, 0), (1, 1), "soil"),
+            edge_support("left", (0, 0), (0, 1), ("x",)),
+            edge_support("base", (0, 0), (1, 0), ("y",)),
+            edge_support("plate", (0, 1), (1, 1), ("y",)) + "displacement = [0, -0.02]\n",
+            '[[loads]]\nname = "side"\nkind = "edge"\nsegment = [[1, 0], [1, 1]]\n'
+            'traction = ["-100 kPa", 0]\n',
+            text.monitor("side", (1, 0.5), "soil"),
+            text.monitor("top", (0.5, 1), "soil"),
+            '[loading]\nscaled = ["plate"]\n',
+            more,
+        ],
+    )
+
+
+def column_on_ground(gravity: bool = True, reactions: bool = True, incoming: bool = True) -> str:
+    """Return a column of 2 m by 4 m in time, held by its foot, on a viscous boundary.
+
+    Parameters
+    ----------
+    gravity, incoming
+        Whether it has weight, and whether "wave" comes from below.
+    reactions
+        Whether the boundary takes on what a support exerts that a stage takes away.
+    """
+    wave = 'incoming = { x = "wave" }\n' if incoming else ""
+    return text.scene(
+        'title = "column on ground that goes on"\nplane = "strain"\n',
+        [
+            text.material("soil", 100e6, 0.25, 2000.0),
+            text.box("soil", (0, 0), (2, 4), "soil"),
+            "[gravity]\n" if gravity else "",
+            "[inertia]\n",
+            "[records.wave]\nvalues = [0, 0.1, 0.3, 0.1, 0, 0, 0, 0, 0]\nstep = 0.01\n"
+            'quantity = "velocity"\n',
+            edge_support("bottom", (0, 0), (2, 0)),
+            '[[viscous_boundaries]]\nname = "base"\nsegment = [[0, 0], [2, 0]]\n'
+            f"reactions = {str(reactions).lower()}\n{wave}",
+        ],
+    )
+
+
 def wet_pile(aperture: str = "0.2 mm") -> str:
     """Return tables of two blocks of 2 m by 1 m on a held one, with water in their joints.
 

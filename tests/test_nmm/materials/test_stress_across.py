@@ -4,59 +4,16 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.testing.scenes import biaxial_test
 
-# PL1: from 100 kPa all around, E = 50 MPa, nu = 0.25, c = 20 kPa, phi = 30, psi = 0.
-SCENE = """
-title = "biaxial test"
-plane = "strain"
-[materials.soil]
-law = "mohr_coulomb"
-young_modulus = 5e7
-poisson_ratio = 0.25
-cohesion = 2e4
-friction_angle = "30 deg"
-dilation_angle = "{psi} deg"
-[[blocks]]
-name = "soil"
-material = "soil"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[initial_stresses]]
-block = "all"
-stress = [-1e5, -1e5, 0]
-{across}
-[[supports]]
-name = "base"
-segment = [[0, 0], [1, 0]]
-fix = ["y"]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 1]]
-fix = ["x"]
-[[supports]]
-name = "top"
-segment = [[0, 1], [1, 1]]
-fix = ["y"]
-displacement = [0, -0.02]
-[[loads]]
-name = "cell"
-kind = "edge"
-segment = [[1, 0], [1, 1]]
-traction = [-1e5, 0]
-[[monitors]]
-name = "side"
-point = [1.0, 0.5]
-[loading]
-scaled = ["top"]
-[formulation.loading]
-increment = 0.05
-[formulation.rotation]
-update = "small"
-"""
+ACROSS = "across = -1e5"
+SMALL = '[formulation.loading]\nincrement = 0.05\n[formulation.rotation]\nupdate = "small"\n'
 
 
-def biaxial(psi=0, across="across = -1e5"):
-    """Run a biaxial test of one block."""
-    return nmm.run(nmm.parse_scene(SCENE.replace("{psi}", str(psi)).replace("{across}", across)))
+def biaxial(psi=0, across=ACROSS):
+    """Run a biaxial test of one block that is under its side pressure all around from the start."""
+    start = f'[[initial_stresses]]\nblock = "all"\nstress = [-1e5, -1e5, 0]\n{across}\n'
+    return nmm.run(nmm.parse_scene(biaxial_test(psi, start + SMALL)))
 
 
 @pytest.mark.parametrize(("psi", "widening"), [(0, 0.0166339746), (10, 0.02291751441)])

@@ -6,7 +6,7 @@ something from step to step.
 
 import re
 
-from nmm.testing.scenes import wet_pile
+from nmm.testing.scenes import column_on_ground, wet_pile
 
 HEAD = """
 title = "restart"
@@ -517,33 +517,9 @@ name = "finer"
 duration = 0.012
 cover = { degree = 2 }
 """
-LEFT_STANDING = """
-title = "column on ground that goes on"
-plane = "strain"
-[materials.soil]
-young_modulus = "100 MPa"
-poisson_ratio = 0.25
-density = 2000
-[[blocks]]
-name = "soil"
-material = "soil"
-vertices = [[0, 0], [2, 0], [2, 4], [0, 4]]
-[gravity]
-[inertia]
-[records.wave]
-values = [0, 0.1, 0.3, 0.1, 0, 0, 0, 0, 0]
-step = 0.01
-quantity = "velocity"
-[[supports]]
-name = "bottom"
-segment = [[0, 0], [2, 0]]
-fix = ["x", "y"]
-[[viscous_boundaries]]
-name = "base"
-segment = [[0, 0], [2, 0]]
-reactions = true
-incoming = { x = "wave" }
-[output]
+LEFT_STANDING = (
+    column_on_ground()
+    + """[output]
 every_steps = 3
 {checkpoint}
 [[stages]]
@@ -563,6 +539,7 @@ degree = 1
 type = "newmark"
 step = 0.004
 """
+)
 SEASONS = """
 title = "wall in winter and summer"
 plane = "strain"

@@ -5,8 +5,10 @@ import pytest
 
 import nmm
 from nmm.scene import parse_scene
+from nmm.testing.scenes import floor_and_pin
 
-SCENE = """
+SCENE = (
+    """
 plane = "strain"
 duration = "{duration}"
 [materials.salt]
@@ -18,15 +20,9 @@ viscosity = "4e14 Pa s"
 name = "block"
 material = "salt"
 vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[supports]]
-name = "base"
-segment = [[0, 0], [1, 0]]
-fix = ["y"]
-[[supports]]
-name = "pin"
-point = [0, 0]
-fix = ["x"]
-[[loads]]
+"""
+    + floor_and_pin()
+    + """[[loads]]
 name = "press"
 kind = "edge"
 segment = [[0, 1], [1, 1]]
@@ -42,6 +38,7 @@ checkpoint.every_steps = 3
 [formulation.integrator]
 step = {step}
 """
+)
 
 
 def ran(duration="2e4 s", step="1000", out=None):

@@ -9,7 +9,7 @@ from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
-from nmm.testing.scenes import roller_and_pin
+from nmm.testing.scenes import biaxial_test, floor_and_pin, roller_and_pin
 
 E, Y, H = 200e9, 250e6, 20e9
 
@@ -126,7 +126,8 @@ def test_half_the_increment_ends_near_where_the_whole_does():
     np.testing.assert_allclose(first, second, rtol=0, atol=1e-9 * np.abs(first).max())
 
 
-BLOCKS = """
+BLOCKS = (
+    """
 plane = "stress"
 [materials.steel]
 law = "von_mises"
@@ -145,15 +146,9 @@ vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
 name = "above"
 material = "steel"
 vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
-[[supports]]
-name = "base"
-segment = [[0, 0], [1, 0]]
-fix = ["y"]
-[[supports]]
-name = "pin"
-point = [0, 0]
-fix = ["x"]
-[[loads]]
+"""
+    + floor_and_pin()
+    + """[[loads]]
 name = "press"
 kind = "edge"
 segment = [[0, 2], [1, 2]]
@@ -165,6 +160,7 @@ point = [0.5, 2]
 block = "above"
 [contact]
 """
+)
 
 
 @pytest.mark.parametrize("cover", ["dda", "triangles degree 1"])
@@ -266,51 +262,10 @@ def test_stress_at_a_place_is_that_of_the_nearest_material_point():
     np.testing.assert_allclose(stress[:, 0], 300e6, rtol=1e-8)
 
 
-SOIL = """
-plane = "strain"
-[materials.soil]
-law = "mohr_coulomb"
-young_modulus = "50 MPa"
-poisson_ratio = 0.25
-cohesion = "20 kPa"
-friction_angle = "30 deg"
-dilation_angle = "{dilation} deg"
-[[blocks]]
-material = "soil"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[supports]]
-name = "left"
-segment = [[0, 0], [0, 1]]
-fix = ["x"]
-[[supports]]
-name = "base"
-segment = [[0, 0], [1, 0]]
-fix = ["y"]
-[[supports]]
-name = "plate"
-segment = [[0, 1], [1, 1]]
-fix = ["y"]
-displacement = [0, -0.02]
-[[loads]]
-name = "side"
-kind = "edge"
-segment = [[1, 0], [1, 1]]
-traction = ["-100 kPa", 0]
-[[monitors]]
-name = "side"
-point = [1, 0.5]
-[[monitors]]
-name = "top"
-point = [0.5, 1]
-[loading]
-scaled = ["plate"]
-"""
-
-
 @pytest.mark.parametrize("cover", ["dda", "triangles degree 1"])
 @pytest.mark.parametrize("dilation", [30, 10, 0])
 def test_a_biaxial_test_flows_by_its_dilation_angle(dilation, cover):
-    found = run(SOIL.format(dilation=dilation), cover, "[loading]\nincrement = 0.05\n")
+    found = run(biaxial_test(dilation), cover, "[loading]\nincrement = 0.05\n")
     assert found.summary.status == "converged", found.summary.sentence
     # 2 c cos / (1 - sin) + 100 (1 + sin) / (1 - sin), kPa.
     np.testing.assert_allclose(found.frames[-1].stress[:, 1], -369.282032e3, rtol=1e-5)

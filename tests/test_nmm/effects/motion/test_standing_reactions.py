@@ -5,33 +5,9 @@ import pytest
 
 import nmm
 from nmm.errors import SceneError
+from nmm.testing.scenes import column_on_ground
 
-COLUMN = """
-title = "column on ground that goes on"
-plane = "strain"
-[materials.soil]
-young_modulus = "100 MPa"
-poisson_ratio = 0.25
-density = 2000
-[[blocks]]
-name = "soil"
-material = "soil"
-vertices = [[0, 0], [2, 0], [2, 4], [0, 4]]
-{gravity}
-[inertia]
-[records.wave]
-values = [0, 0.1, 0.3, 0.1, 0, 0, 0, 0, 0]
-step = 0.01
-quantity = "velocity"
-[[supports]]
-name = "bottom"
-segment = [[0, 0], [2, 0]]
-fix = ["x", "y"]
-[[viscous_boundaries]]
-name = "base"
-segment = [[0, 0], [2, 0]]
-reactions = {reactions}
-{incoming}
+STAGES = """
 [[monitors]]
 name = "top"
 point = [1, 4]
@@ -55,14 +31,12 @@ method = "{method}"
 [formulation.rotation]
 update = "small"
 """
-WAVE = 'incoming = { x = "wave" }'
 
 
-def column(incoming="", cover="quads", method="nitsche", reactions="true", gravity="[gravity]"):
+def column(incoming=False, cover="quads", method="nitsche", reactions=True, gravity=True):
     cells = "" if cover == "block" else "size = 0.9\ndegree = 1"
-    fields = {"gravity": gravity, "cover": cover, "cells": cells}
-    text = COLUMN.format(incoming=incoming, method=method, reactions=reactions, **fields)
-    return nmm.parse_scene(text, "column.toml")
+    stages = STAGES.format(cover=cover, cells=cells, method=method)
+    return nmm.parse_scene(column_on_ground(gravity, reactions, incoming) + stages, "column.toml")
 
 
 def tops(run):
@@ -81,19 +55,19 @@ def test_a_column_under_its_weight_stays_where_it_is(cover, method):
 
 
 def test_without_them_it_drifts_with_its_weight_over_the_impedance_of_the_ground():
-    found = tops(nmm.run(column(reactions="false")))
+    found = tops(nmm.run(column(reactions=False)))
     assert found[3, -1] < -1e-3
 
 
 def test_a_wave_moves_it_as_if_it_had_no_weight():
-    heavy, light = (tops(nmm.run(column(WAVE, gravity=gravity))) for gravity in ("[gravity]", ""))
+    heavy, light = (tops(nmm.run(column(True, gravity=gravity))) for gravity in (True, False))
     moved = heavy[:, 1:] - heavy[:, :1]
     assert np.abs(light).max() > 1e-3
     assert np.abs(moved - light[:, 1:]).max() < 1e-8 * np.abs(light).max()
 
 
 def test_the_energies_of_a_shaken_column_add_up():
-    row = nmm.run(column(WAVE)).history
+    row = nmm.run(column(incoming=True)).history
     stored = sum(row[f"{one}_energy"][-1] for one in ("kinetic", "strain", "support"))
     lost = row["damping_loss:viscous boundaries"][-1] + row["integration_loss"][-1]
     came = row["external_work"][-1] + row["change_energy"][-1]
@@ -101,6 +75,5 @@ def test_the_energies_of_a_shaken_column_add_up():
 
 
 def test_reactions_without_stages_are_refused_by_line():
-    text = COLUMN[: COLUMN.index("[[stages]]")].format(gravity="", incoming="", reactions="true")
     with pytest.raises(SceneError, match=r"column\.toml:\d+.*supports that a stage takes away"):
-        nmm.parse_scene("duration = 1.0\n" + text, "column.toml")
+        nmm.parse_scene("duration = 1.0\n" + column_on_ground(), "column.toml")
