@@ -9,7 +9,7 @@ from nmm.scene import parse_scene
 from nmm.scene.units import COMMON
 from nmm.stepping.run import run
 from nmm.verification.hard.cases.units import factor, in_units, units_of
-from nmm.verification.hard.spoilt.sound_effects import SEEPING
+from nmm.verification.hard.spoilt.sound_fields import SEEPING
 from nmm.verification.hard.spoilt.sound_files import minimal
 
 LENGTH, FORCE = 1e3, 7.0
