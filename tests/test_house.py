@@ -13,6 +13,7 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from nmm.cli import lean
 from nmm.model import effects_table
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -379,6 +380,21 @@ def test_preparing_blocks_in_contact_imports_no_compiler_and_no_part_of_scipy_no
         "print()"
     )
     assert not all_modules_after(code) & {"numba", *(f"scipy.{name}" for name in SELDOM)}
+
+
+NOT_TO_CHECK = ("stepping.simulation", "stepping.step.stepper", "stepping.bounds", "plots", "study")
+
+
+def test_a_check_imports_no_step_loop_and_no_part_of_numpy_not_used():
+    code = (
+        "from typer.testing import CliRunner; from nmm.cli.app import app\n"
+        "asked = ['check', 'examples/incline/slide.toml']\n"
+        "assert CliRunner().invoke(app, asked).exit_code == 0"
+    )
+    found = all_modules_after(code)
+    assert not found & {"numba", *(f"scipy.{name}" for name in SELDOM)}
+    assert not found & {f"numpy.{name}" for name in lean.UNUSED}
+    assert not found & {f"nmm.{name}" for name in NOT_TO_CHECK}
 
 
 def test_the_public_face_is_lazy():

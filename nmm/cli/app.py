@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from nmm.cli import motion_verbs, scene_verbs, study_verbs, verification_verbs
+from nmm.cli import lean, motion_verbs, scene_verbs, study_verbs, verification_verbs
 from nmm.cli.scene_verbs import AllowCode, FormulationFile, allowed, read_formulation
 from nmm.cli.terminal import (
     console,
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from nmm.scene import Scene
     from nmm.stepping.run import Run
 
+lean.without_plugins()
 app = typer.Typer(
     help="Numerical manifold method in 2D: blocks, joints, contact and fracture.",
     no_args_is_help=True,
@@ -189,6 +190,7 @@ def _run(
     budget: float | None = None,
     pictures: bool = False,
 ) -> None:
+    lean.sparse_matrices()
     import nmm
 
     scene = nmm.read_scene(place)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
+from nmm.cli import lean
 from nmm.cli.terminal import console, faults_told, tell_faults, tell_next
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def check(
     scene: SceneFile, formulation: FormulationFile = None, allow_code: AllowCode = None
 ) -> None:
     """Name every fault of the files, and what a run would refuse; exit code 1 if there is one."""
-    with faults_told(), allowed(scene, allow_code):
+    with faults_told(), lean.without_searches(), allowed(scene, allow_code):
         faults = _faults(scene, formulation)
     tell_faults(faults)
     if faults:
@@ -50,6 +51,7 @@ def explain(
     allow_code: AllowCode = None,
 ) -> None:
     """Say what a scene simulates and what it does not, and how large it is."""
+    lean.sparse_matrices()
     from nmm.cli.explaining import told
 
     with faults_told(), allowed(scene, allow_code):
@@ -180,6 +182,7 @@ def _bound(place: Path, formulation: Path | None) -> None:
 
 def _faults(place: Path, formulation: Path | None) -> list[str]:
     """Lines about keys and values of both files, then about blocks and parts that they name."""
+    lean.sparse_matrices()
     import nmm
     from nmm.errors import NmmError
     from nmm.formulation import Formulation
@@ -205,12 +208,17 @@ def _faults(place: Path, formulation: Path | None) -> list[str]:
         tried(check_together, scene, whole)
         tried(check_parts, scene, whole)
         if not faults:
-            tried(_prepared, scene, whole)
+            tried(_posed, scene, whole)
     return faults
 
 
-def _prepared(scene: "Scene", formulation: "Formulation") -> None:
-    """Build all that a run needs: what it would refuse is refused here."""
-    from nmm.stepping.prepare import prepare
+def _posed(scene: "Scene", formulation: "Formulation") -> None:
+    """Build all that a run begins with: what it would refuse is refused here."""
+    if scene.loading is not None and scene.loading.control is not None:
+        from nmm.stepping.prepare import prepare  # a path is followed by what takes the steps
 
-    prepare(scene, formulation).identity()
+        prepare(scene, formulation)
+    else:
+        from nmm.stepping.posed import pose
+
+        pose(scene, formulation)

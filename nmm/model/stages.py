@@ -16,6 +16,7 @@ from nmm.scene.stages import KINDS
 from nmm.scene.tables.members import MEMBERS
 
 if TYPE_CHECKING:
+    from nmm.effects.base import Setup
     from nmm.formulation import Formulation
     from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
@@ -54,6 +55,18 @@ class Stage:
     def dynamic(self) -> bool:
         """Whether it is solved in time."""
         return self.duration is not None
+
+
+@dataclass(frozen=True)
+class Staged:
+    """A stage with what its effects are built from.
+
+    ``clock`` says whether its scene has a clock, which stands while a stage comes to rest.
+    """
+
+    stage: Stage
+    setup: "Setup"
+    clock: bool
 
 
 def stages_of(

@@ -31,7 +31,7 @@ from nmm.stepping.bounds.static_theorem import load_bound
 from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled import CompiledScene
 from nmm.stepping.drive.changes import topology
-from nmm.stepping.drive.stages import Staged, StagesSoFar, enter_again, run_stages
+from nmm.stepping.drive.stages import StagesSoFar, enter_again, run_stages
 from nmm.stepping.driving import Drive
 from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.monitors import Monitor
@@ -47,6 +47,7 @@ from nmm.stepping.run_state import RunState
 from nmm.stepping.summing_up import summed_up
 
 if TYPE_CHECKING:
+    from nmm.model.stages import Staged
     from nmm.scene.model import Scene
 
 
@@ -71,7 +72,7 @@ class Simulation(CompiledScene):
     monitors: list[Monitor]
     begun: float
     origin: Floats
-    stages: Sequence[Staged] = ()
+    stages: "Sequence[Staged]" = ()
     safety: Safety | None = None
 
     def folder(self, path: Path) -> RunFolder:

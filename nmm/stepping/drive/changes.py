@@ -13,7 +13,6 @@ import numpy as np
 
 from covers.change.parentage import same_elements
 from nmm.assembly.motion import State
-from nmm.errors import Fault, SceneError
 from nmm.frozen import with_parts
 from nmm.results.frame import Topology
 from nmm.stepping.reports.monitors import monitors
@@ -24,8 +23,6 @@ if TYPE_CHECKING:
     from nmm.effects.base import Setup
     from nmm.effects.change import Change
     from nmm.effects.event import Event
-    from nmm.model.planning.plan import Plan
-    from nmm.scene.model import Scene
 
 Asked = tuple[tuple[str, "Event"], ...]
 """Events by the names of the effects that ask for them."""
@@ -39,27 +36,6 @@ class Stands:
     contacts: "ContactPoints | None"
     what: str = ""
     changes: "tuple[Change, ...]" = ()
-
-
-def refuse_events(scene: "Scene", plan: "Plan") -> None:
-    """Refuse effects that may change a geometry which stages or a control know nothing of.
-
-    Raises
-    ------
-    SceneError
-        Naming the effects.
-    """
-    controlled = scene.loading is not None and scene.loading.control is not None
-    off_path = [name for name in plan.askers if not plan.effects[name].on_paths]
-    beside: dict[tuple[str, ...], list[str]] = {
-        ("stages",): list(plan.askers) if scene.stages else [],
-        ("loading", "control"): off_path if controlled else [],
-    }
-    for key, askers in beside.items():
-        if askers:
-            place, names = scene.source.place(*key), ", ".join(askers)
-            expected, word = "blocks and cracks that no event changes", ".".join(key)
-            raise SceneError(Fault(place, names, expected, f"remove it, or {word}"))
 
 
 def asked(recorder: Recorder, at: Stands) -> Asked:

@@ -20,10 +20,9 @@ from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:
-    from nmm.effects.base import Setup
     from nmm.effects.change import Change
     from nmm.integrators.base import Integrator
-    from nmm.model.stages import Stage
+    from nmm.model.stages import Stage, Staged
 
 At = TypeVar("At", InTime, UnderLoad)
 
@@ -36,18 +35,6 @@ class Keeps(Protocol):
 
     def keep(self, at: At) -> At:
         """Take the end of a step."""
-
-
-@dataclass(frozen=True)
-class Staged:
-    """A stage with what its effects are built from.
-
-    ``clock`` says whether its scene has a clock, which stands while a stage comes to rest.
-    """
-
-    stage: "Stage"
-    setup: "Setup"
-    clock: bool
 
 
 @dataclass(frozen=True)
@@ -88,7 +75,7 @@ def run_stages(
     stepper: Stepper,
     recorder: Recorder,
     so_far: StagesSoFar,
-    stages: Sequence[Staged],
+    stages: "Sequence[Staged]",
     integrator: "Integrator",
     progress: Progress,
     keeper: StageKeeper,
@@ -123,7 +110,7 @@ def run_stages(
 
 
 def enter(
-    stepper: Stepper, recorder: Recorder, state: State, staged: Staged, integrator: "Integrator"
+    stepper: Stepper, recorder: Recorder, state: State, staged: "Staged", integrator: "Integrator"
 ) -> tuple[State, str]:
     """Solve what the stage has from now on; return the state carried over, and what changed."""
     change = _entered(stepper, state, staged, integrator)
@@ -139,7 +126,7 @@ def enter_again(
     stepper: Stepper,
     recorder: Recorder,
     so_far: StagesSoFar,
-    stages: Sequence[Staged],
+    stages: "Sequence[Staged]",
     integrator: "Integrator",
 ) -> None:
     """Enter the stages of a run that was stopped, of which all is known that was recorded."""
@@ -149,7 +136,9 @@ def enter_again(
         recorder.monitors = monitors(changes[-1].setup, all_there=False)
 
 
-def _entered(stepper: Stepper, state: State, staged: Staged, integrator: "Integrator") -> "Change":
+def _entered(
+    stepper: Stepper, state: State, staged: "Staged", integrator: "Integrator"
+) -> "Change":
     """Let the stepper solve what the stage has; return the change."""
     stage, old = staged.stage, stepper.discretisation
     still = np.zeros_like(state.velocity)
@@ -166,7 +155,7 @@ def _solved(
     stepper: Stepper,
     recorder: Recorder,
     state: State,
-    staged: Staged,
+    staged: "Staged",
     progress: Progress,
     keeps: "Keeps",
     at: InTime | UnderLoad | None,
