@@ -76,9 +76,8 @@ class ConsistentBonds:
             return None
         points, number = joints.take(wanted), np.where(wanted, np.cumsum(wanted) - 1, -1)
         edges, area = model.manifold.boundary, points.length * model.thickness
-        both = (points.edge_a, points.parameter_a), (points.edge_b, points.parameter_b)
-        places = [edges.at(edge, share) for edge, share in both]
-        elements = [edges.element[edge] for edge, _ in both]
+        places = [edges.at(*side) for side in points.sides]
+        elements = [edges.element[edge] for edge, _ in points.sides]
         reach = [_reach(model, own, points, area) for own in elements]
         found = AverageTraction.of(model, elements, places, -points.normal, area, reach)
         penalty = SAFETY * found.least

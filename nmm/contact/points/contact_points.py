@@ -66,6 +66,12 @@ class ContactPoints:
     reference: Floats
     history: History
 
+    @classmethod
+    def unloaded(cls, **given: Any) -> "ContactPoints":
+        """Return points (m,) that no step has loaded: all but slip, forces and reference given."""
+        zeros = np.zeros(len(given["gap"]))
+        return cls(slip=zeros, normal_force=zeros, shear_force=zeros, reference=zeros, **given)
+
     def __len__(self) -> int:
         return len(self.gap)
 
@@ -76,6 +82,27 @@ class ContactPoints:
         history = {name: column[index] for name, column in self.history.items()}
         parts: dict[str, Any] = {name: getattr(self, name)[index] for name in PARTS}
         return ContactPoints(**parts, history=history)
+
+    @property
+    def sides(self) -> tuple[tuple[Ints, Floats], tuple[Ints, Floats]]:
+        """Edge and parameter (m,) of sides a and b."""
+        return (self.edge_a, self.parameter_a), (self.edge_b, self.parameter_b)
+
+    def inherited(self, old: "ContactPoints", parent: Ints) -> dict[str, Any]:
+        """Return what laws remember (m,) by name: that of old points under the same interface.
+
+        ``parent`` (m,) are their numbers, -1 of points that continue none.
+        """
+        if not len(old):
+            return dict(self.history)
+        source = np.maximum(parent, 0)
+        alike = (parent >= 0) & (old.interface[source] == self.interface)
+        return {
+            name: np.where(alike, old.history[name][source], first)
+            if name in old.history
+            else first
+            for name, first in self.history.items()
+        }
 
     @property
     def is_joint(self) -> Bools:

@@ -172,24 +172,19 @@ def follow_joints(
     points = joint_points(surface, joints, joint_rule)
     m = len(points)
     vertex, edge, joint = joint_ends(surface, joints)
-    zeros = np.zeros(m)
     held = bonded[interface[points.joint]]
-    found = ContactPoints(
+    found = ContactPoints.unloaded(
         edge_a=points.edge_a,
         parameter_a=points.parameter_a,
         edge_b=points.edge_b,
         parameter_b=points.parameter_b,
         normal=points.normal,
         gap=points.gap,
-        slip=zeros,
         length=points.length,
         spring_factor=points.length / distance[points.joint],
         interface=interface[points.joint],
         key=-1 - np.arange(m),
         state=np.where(held, int(BONDED), int(OPEN)),
-        normal_force=zeros,
-        shear_force=zeros,
-        reference=zeros,
         history=initial(interface[points.joint], held),
     )
     pairs = pair_key(surface, vertex, edge)

@@ -47,10 +47,7 @@ class JointSites:
             return None
         both = []
         bent = False
-        for edge, parameter in (
-            (points.edge_a, points.parameter_a),
-            (points.edge_b, points.parameter_b),
-        ):
+        for edge, parameter in points.sides:
             found = _material(sides, edge, parameter)
             chord = sides.at(edge, parameter).rows.values
             # Discs reach other points than ends of edges: their fields bend.
@@ -74,8 +71,7 @@ class JointSites:
     @classmethod
     def at(cls, sides: Sides, contacts: ContactPoints) -> Self:
         """Return the sites of all contacts of a step, joints or not."""
-        a = _material(sides, contacts.edge_a, contacts.parameter_a)
-        b = _material(sides, contacts.edge_b, contacts.parameter_b)
+        a, b = (_material(sides, *side) for side in contacts.sides)
         width = max(a.rows.unknowns.shape[1], b.rows.unknowns.shape[1])
         unknowns = [_padded(part.rows.unknowns, width) for part in (a, b)]
         values = np.concatenate([_padded(part.rows.values, width) for part in (a, b)])

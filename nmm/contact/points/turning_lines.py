@@ -57,8 +57,8 @@ def _apart(
     """Where sides a of joints are from their sides b (k, 2)."""
     place = state.frames, state.deformation
     if sites is None:
-        one = sides.at(joints.edge_a, joints.parameter_a).place(*place)
-        return np.asarray(one - sides.at(joints.edge_b, joints.parameter_b).place(*place))
+        one, other = (sides.at(*side).place(*place) for side in joints.sides)
+        return np.asarray(one - other)
     if sites.whole:
         return sites.apart(contacts, *place)[contacts.is_joint]
     return sites.apart(joints, *place)

@@ -67,19 +67,6 @@ class Heirs:
             return fallback
         return np.where(self.parent >= 0, values[np.maximum(self.parent, 0)], fallback)
 
-    def histories(self, old: ContactPoints, new: ContactPoints) -> dict[str, Any]:
-        """What laws remember (m,) by name: that of the parents under the same interface."""
-        if not len(old):
-            return dict(new.history)
-        parent = np.maximum(self.parent, 0)
-        alike = (self.parent >= 0) & (old.interface[parent] == new.interface)
-        return {
-            name: np.where(alike, old.history[name][parent], first)
-            if name in old.history
-            else first
-            for name, first in new.history.items()
-        }
-
 
 def heirs(kin: Parentage, new: ContactPoints, old: ContactPoints) -> Heirs:
     """Find the nearest points between the same bodies, or bodies that come from them."""
@@ -133,7 +120,7 @@ def continued(
         reference=reference,
         slip=slip,
         state=line.kept(old.state, new.state).astype(new.state.dtype),
-        history=line.histories(old, new),
+        history=new.inherited(old, line.parent),
         normal_force=normal,
         shear_force=shear,
     )
@@ -146,7 +133,7 @@ def continued_joints(new: JointBook, old: JointBook, line: Heirs) -> tuple[Joint
     stay given up.
     """
     was, p = known_joints(old), new.points
-    history = line.histories(was, p)
+    history = p.inherited(was, line.parent)
     # Bonds that consistent terms held and hold no longer keep the springs that followed.
     released = p.tied & ~replace(p, history=history).tied
     stiff = p.length * line.kept(was.spring_factor / was.length, p.spring_factor / p.length)
@@ -207,14 +194,8 @@ def _places(
     come from none are below zero, and make no pair.
     """
     edges = manifold.boundary
-    sides = []
-    for edge, parameter in (
-        (points.edge_a, points.parameter_a),
-        (points.edge_b, points.parameter_b),
-    ):
-        way = edges.end[edge] - edges.start[edge]
-        sides.append((named[edges.body[edge]], edges.start[edge] + parameter[:, None] * way))
-    (one, at_one), (two, at_two) = sides
+    one, two = (named[edges.body[edge]] for edge, _ in points.sides)
+    at_one, at_two = (edges.at(*side) for side in points.sides)
     swap = one > two
     place = np.where(swap[:, None], np.hstack([at_two, at_one]), np.hstack([at_one, at_two]))
     pair = np.minimum(one, two) * count + np.maximum(one, two)

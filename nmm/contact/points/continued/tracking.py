@@ -36,22 +36,18 @@ def searched_points(
         length, parameter_a = found.length, found.parameter_a
         grain = np.minimum(surface.grain[found.vertex], surface.grain[found.edge])
         factor = np.where(length > 0, length / grain, 1.0)
-    return ContactPoints(
+    return ContactPoints.unloaded(
         edge_a=found.vertex,
         parameter_a=parameter_a,
         edge_b=found.edge,
         parameter_b=found.parameter,
         normal=found.normal,
         gap=found.gap,
-        slip=zeros,
         length=length,
         spring_factor=factor,
         interface=interface,
         key=found.key,
         state=np.full(m, int(OPEN)),
-        normal_force=zeros,
-        shear_force=zeros,
-        reference=zeros,
         history=history,
     )
 
@@ -69,15 +65,10 @@ def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> Conta
         return new
     known = predecessor >= 0
     source = np.where(known, predecessor, 0)
-    alike = known & (old.interface[source] == new.interface)
-    history = {
-        name: np.where(alike, old.history[name][source], first)
-        for name, first in new.history.items()
-    }
     kept: dict[str, Any] = {
         name: np.where(known, getattr(old, name)[source], getattr(new, name)) for name in CARRIED
     }
-    return with_parts(new, history=history, **kept)
+    return with_parts(new, history=new.inherited(old, predecessor), **kept)
 
 
 def continues(old: Contacts | None, new: Contacts) -> bool:
@@ -111,9 +102,5 @@ def answered(points: ContactPoints, answer: StepAnswer, once_bonded: Bools) -> C
 
 def apart_on(surface: Surface, points: ContactPoints) -> Floats:
     """Where sides a of points are from sides b (m, 2), on the chords of the edges."""
-    side_a = _on(surface, points.edge_a, points.parameter_a)
-    return np.asarray(side_a - _on(surface, points.edge_b, points.parameter_b))
-
-
-def _on(surface: Surface, edge: Ints, parameter: Floats) -> Floats:
-    return surface.start[edge] + parameter[:, None] * (surface.end[edge] - surface.start[edge])
+    one, other = (surface.at(*side) for side in points.sides)
+    return np.asarray(one - other)
