@@ -19,6 +19,19 @@ def segment_rule(start: Floats, end: Floats, order: int) -> tuple[Floats, Floats
     return points, np.hypot(*along.T)[:, None] * weights
 
 
+def spread_rule(start: Floats, end: Floats, about: Floats, order: int) -> tuple[Floats, Floats]:
+    """Points (S, q, 2) and shares (S, q) of what is spread evenly over segments, or at points.
+
+    On rays from ``about`` (2,) the rule is that of `graded_rule`. The shares of each add up to one.
+    """
+    length = np.hypot(*(end - start).T)
+    radial = np.abs(np.hypot(*(end - about).T) - np.hypot(*(start - about).T)) > length / 2
+    points, weights = segment_rule(start, end, order)
+    points[radial], weights[radial] = graded_rule(start[radial], end[radial], about, order)
+    weights[length == 0] = 1.0
+    return points, weights / weights.sum(axis=1, keepdims=True)
+
+
 def graded_rule(start: Floats, end: Floats, about: Floats, order: int) -> tuple[Floats, Floats]:
     """Points (S, q, 2) and weights (S, q) for integrands smooth in the root of the distance.
 

@@ -33,6 +33,10 @@ class Place:
         (m, 2) outward normals of the boundary in the reference place; None at a point.
     piece
         (m,) the piece of boundary each lies on, counted from zero; None at a point.
+    edge
+        (m,) the edge of the boundary that holds it; None where it was not kept.
+    part
+        (m, 2, 2) start and end of the part of its edge that its weight stands for; None as above.
     """
 
     points: MaterialPoints
@@ -41,6 +45,8 @@ class Place:
     position: Floats
     normal: Floats | None = None
     piece: Ints | None = None
+    edge: Ints | None = None
+    part: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.weight)
@@ -134,7 +140,17 @@ def on_parts(manifold: Manifold, edge: Ints, start: Floats, end: Floats, order: 
         flat,
         np.repeat(normal, q, axis=0),
         np.repeat(np.arange(len(edge)), q),
+        np.repeat(edge, q),
+        _parts(start, end, weight),
     )
+
+
+def _parts(start: Floats, end: Floats, weight: Floats) -> Floats:
+    """Parts (k q, 2, 2) of segments (k, 2), in the ratios of the weights (k, q) of their points."""
+    last = np.cumsum(weight, axis=1)
+    share = np.stack([last - weight, last], axis=-1) / last[:, -1:, None]
+    parts = start[:, None, None] + share[..., None] * (end - start)[:, None, None]
+    return np.asarray(parts.reshape(-1, 2, 2))
 
 
 def _size(manifold: Manifold) -> float:

@@ -12,6 +12,7 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
+from nmm.assembly.pushes import Pushes, PushesIn
 from nmm.assembly.stress_points import StressAt
 from nmm.effects.given.setup import Acting as Acting
 from nmm.effects.given.setup import Setup as Setup
@@ -195,6 +196,17 @@ class Effect(ABC):
 
     def feel(self, stresses: Sequence[StressAt]) -> None:
         """Take the `stress_at` of the other effects: what holds edges by tractions needs them."""
+        raise NotImplementedError
+
+    def pushes(self, state: State) -> Pushes:
+        """Return the forces that it exerts within bodies and on faces of cracks, weight apart.
+
+        Stress intensities count them; the rest of the boundary they know by the stress there.
+        """
+        raise NotImplementedError
+
+    def feel_pushes(self, pushing: Sequence[PushesIn]) -> None:
+        """Take the `pushes` of the other effects."""
         raise NotImplementedError
 
     def felt_energy(self, state: State) -> float:

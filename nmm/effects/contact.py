@@ -13,6 +13,7 @@ from scipy.sparse import csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.assembly.pushes import Pushes
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.candidates.succession import succeeding
@@ -24,6 +25,7 @@ from nmm.contact.following.release import let_go
 from nmm.contact.laws.failing_bonds import overload
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import follow_joints
+from nmm.contact.points.on_faces import on_faces
 from nmm.contact.problem.step_problem import Limits, StepAnswer
 from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.driver import ContactSolver
@@ -259,6 +261,10 @@ class Contact(Effect):
         joints = self._candidates.joints(record.book, state)
         tied = self._bonds.tied(joints, state, self.geometry.rows(joints, state))
         return total if tied is None else total + tied.energy
+
+    def pushes(self, state: State) -> Pushes:
+        """See `Effect.pushes`: those on faces of cracks, as last committed."""
+        return on_faces(self.geometry.model, self.standing)
 
     def feel(self, stresses: Sequence[StressAt]) -> None:
         """See `Effect.feel`: the tractions of whole bonds are of the whole stress."""

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.acting_place import acting_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
@@ -54,23 +56,28 @@ class Loads(Effect):
 
     name = "loads"
 
-    def __init__(self, loads: list[Load], n_unknowns: int) -> None:
-        self.loads = loads
-        self._n = n_unknowns
+    def __init__(self, loads: list[Load], model: Model) -> None:
+        self.loads, self._model = loads, model
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[loads]]`` with forces at points and tractions along edges."""
         dead = [one for one in setup.scene.loads if one.force or one.traction]
         found = [_load(setup, load) for load in dead if load.kind != "moving"]
-        return cls(found, setup.model.manifold.n_unknowns)
+        return cls(found, setup.model)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the loads in the bodies' axes."""
-        total = np.zeros(self._n)
+        total = np.zeros(len(state.deformation))
         for load in self.loads:  # a handful of loads
             total += load.place.points.push(state, load.factor(end) * load.force)
         return total
+
+    def pushes(self, state: State) -> Pushes:
+        """See `Effect.pushes`."""
+        factors = (load.factor(Instant.of(state)) for load in self.loads)
+        pairs = zip(self.loads, factors, strict=True)
+        return joined(Pushes.on(self._model, one.place, f * one.force) for one, f in pairs)
 
     def work(self, before: State, after: State) -> float:
         """Mean of the loads at both ends of the step times the motion of their points."""

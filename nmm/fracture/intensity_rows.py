@@ -1,14 +1,20 @@
 """Stress intensities at a tip as linear functions of the displacement: found once for a model."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
+from nmm.assembly.motion import Frames
+from nmm.assembly.pushes import Pushes
+from nmm.assembly.stress_points import StressAt
 from nmm.fracture.auxiliary import Auxiliary
 from nmm.fracture.interaction import Field, Interaction, Pulled, Traction, Weighed
+
+# Part of the radius of a domain over which slopes of stress are taken, within one element's field.
+NEARBY = 1e-4
 
 
 @dataclass(frozen=True)
@@ -31,6 +37,10 @@ class IntensityRows:
         (2,) of loads that do not change.
     pulled
         Places of the domain, with the factors of forces on the volume.
+    weighed
+        The same with the factors of gradients and stresses.
+    about
+        The domain.
     """
 
     model: Model
@@ -40,6 +50,8 @@ class IntensityRows:
     pressures: Floats | None
     fixed: Floats
     pulled: tuple[Pulled, ...]
+    weighed: tuple[Weighed, ...]
+    about: Interaction
 
     @classmethod
     def of(
@@ -77,6 +89,8 @@ class IntensityRows:
             pressed,
             stiff / 2 * fixed,
             tuple(pulled for _, pulled in volume),
+            tuple(weighed),
+            about,
         )
 
     @property
@@ -104,6 +118,27 @@ class IntensityRows:
         """Part (2,) of forces on the volume, a function of points (N/m3)."""
         parts = [np.einsum("mni,mi->n", p.force, density(p.points)) for p in self.pulled]
         return np.asarray(self.stiff / 2 * np.sum(parts, axis=0))
+
+    def of_pushes(self, pushes: Pushes, frames: Frames) -> Floats:
+        """Part (2,) of forces at places."""
+        body = np.full(len(pushes), self.body)
+        turned = replace(pushes, force=frames.to_body(body, pushes.force))
+        return self.stiff / 2 * self.about.pushed(turned) / self.model.thickness
+
+    def of_stress(self, stress: StressAt, time: float) -> Floats:
+        """Part (2,) of a stress that is no strain's: of eigenstrain, or of water in the pores.
+
+        What a gradient of eigenstrain adds is taken along the direction ahead (Shih, Moran and
+        Nakamura 1986).
+        """
+        total, step = np.zeros(2), NEARBY * self.about.radius
+        way = step * self.about.fields.tip.direction
+        for part in self.weighed:
+            total += _contracted(part.stress, stress(part.owner, part.points, time))
+        for one in self.pulled:
+            before, after = (stress(one.owner, one.points + way * s, time) for s in (-1, 1))
+            total += _contracted(one.slope, (after - before) / (2 * step))
+        return np.asarray(self.stiff / 2 * total)
 
     def of_acceleration(self, acceleration: Floats) -> Floats:
         """Part (2,) of the inertia of the unknowns' acceleration (n,)."""
@@ -133,6 +168,12 @@ def _on_unknowns(model: Model, part: Weighed) -> Floats:
     m, n = part.gradient.shape[:2]
     values = part.gradient.reshape(m, n, 4) @ rows.reshape(m, 4, -1)
     return _summed(index, np.moveaxis(values, 1, 0), model)
+
+
+def _contracted(factors: Floats, stress: Floats) -> Floats:
+    """Sum (2,) of factors (m, 2 modes, 2, 2) times stresses (m, 3)."""
+    tensor = stress[:, [0, 2, 2, 1]].reshape(-1, 2, 2)
+    return np.asarray(np.einsum("mnij,mij->n", factors, tensor))
 
 
 def _summed(index: Ints, values: Floats, model: Model) -> Floats:

@@ -13,9 +13,10 @@ import numpy as np
 from covers.approximation.singular.branches import branches
 from integration.arrays import Floats, Ints
 from integration.rules import polygon_rule
-from integration.segments import graded_rule, segment_rule
+from integration.segments import graded_rule, segment_rule, spread_rule
 from integration.singular import tip_rule
 from nmm.assembly.model import Model
+from nmm.assembly.pushes import Pushes
 from nmm.fracture.auxiliary import Auxiliary, stresses_of
 from nmm.fracture.surroundings import off_line
 
@@ -40,23 +41,39 @@ class Weighed:
         (m,) elements and (m, 2) places in them.
     gradient
         (m, 2 modes, 2, 2) factors of the gradient of the displacement, stress of pressures apart.
-    pressure
-        (m, 2) factors of the pressure.
+    stress
+        (m, 2 modes, 2, 2) factors of the stress that comes on top of that of the displacement.
     """
 
     owner: Ints
     points: Floats
     gradient: Floats
-    pressure: Floats
+    stress: Floats
+
+    @property
+    def pressure(self) -> Floats:
+        """(m, 2) factors of the pressure."""
+        return np.asarray(np.trace(self.stress, axis1=2, axis2=3))
 
 
 @dataclass(frozen=True)
 class Pulled:
-    """By what forces on the volume count: factors (m, 2 modes, 2) at places in elements (m,)."""
+    """By what forces on the volume count, and the slope of stresses that are no strain's.
+
+    Attributes
+    ----------
+    owner, points
+        (m,) elements and (m, 2) places in them.
+    force
+        (m, 2 modes, 2) factors of the force.
+    slope
+        (m, 2 modes, 2, 2) factors of the slope of the stress along the direction ahead.
+    """
 
     owner: Ints
     points: Floats
     force: Floats
+    slope: Floats
 
 
 @dataclass(frozen=True)
@@ -119,7 +136,9 @@ class Interaction:
         q, dq = self.fields.cutoff(points, self.radius)
         ahead, both = self.fields.tip.direction, self._auxiliary(owner, points)
         on_force = np.stack([-q[:, None] * (v @ ahead) for v in both], axis=1)
-        pulled = Pulled(owner, points, weights[:, None, None] * on_force)
+        on_slope = np.stack([-q[:, None, None] * v for v in both], axis=1)
+        scale = weights[:, None, None]
+        pulled = Pulled(owner, points, scale * on_force, scale[..., None] * on_slope)
         # Near the tip, where the cut-off stays 1, forces alone count.
         falls = dq.any(axis=1)
         owner, points, weights, dq = owner[falls], points[falls], weights[falls], dq[falls]
@@ -153,6 +172,21 @@ class Interaction:
         for chosen, held in ((kinked, False), (rim, True)):
             if len(chosen):
                 yield self._along(chosen, *self._even(chosen), held)
+
+    def pushed(self, pushes: Pushes) -> Floats:
+        """Part (2,) of forces in the axes of the body, within it and on faces of cracks (N/m)."""
+        tip, owner = self.fields.tip.point, pushes.element
+        away = (np.hypot(*(end - tip).T) for end in (pushes.start, pushes.end))
+        reach = np.minimum(*away)
+        near = (reach < self.radius) & (self.model.manifold.element_body[owner] == self.body)
+        found = pushes.take(near)
+        points, weights = spread_rule(found.start, found.end, tip, ORDER)
+        q = weights.shape[1]
+        flat, owner = points.reshape(-1, 2), np.repeat(found.element, q)
+        pull, ahead = np.repeat(found.force, q, axis=0), self.fields.tip.direction
+        share = -weights.ravel() * self.fields.cutoff(flat, self.radius)[0]
+        along = [np.einsum("mi,mi->m", pull, v @ ahead) for v in self._auxiliary(owner, flat)]
+        return np.asarray([share @ mode for mode in along])
 
     def _graded(self, edges: Ints) -> tuple[Floats, Floats]:
         """Rule for edges behind the tip: in ``sqrt(r)`` the integrand is smooth."""
@@ -205,10 +239,9 @@ class Interaction:
             stresses_of(law, stress) + gradient
             for stress, gradient in zip(on_stress, on_gradient, strict=True)  # two modes
         ]
-        pressed = np.stack([np.trace(stress, axis1=1, axis2=2) for stress in on_stress], axis=1)
-        scale = weights[:, None]
+        scale = weights[:, None, None, None]
         return Weighed(
-            owner, points, scale[..., None, None] * np.stack(parts, axis=1), scale * pressed
+            owner, points, scale * np.stack(parts, axis=1), scale * np.stack(on_stress, axis=1)
         )
 
     def _auxiliary(self, owner: Ints, points: Floats) -> Floats:

@@ -87,7 +87,7 @@ class Problem:
             state = initial_state(self.model.manifold)
             effects.append(Supports(list(self.supports), n, state))
         if self.loads:
-            effects.append(Loads(list(self.loads), n))
+            effects.append(Loads(list(self.loads), self.model))
         return equilibrium(self.model, effects, solver)
 
 

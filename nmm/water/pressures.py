@@ -13,8 +13,10 @@ import numpy as np
 
 from covers.cutting.cut_boundary import CutBoundary
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, along_segment, on_parts
+from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
 from nmm.errors import Fault, SceneError
@@ -65,19 +67,26 @@ class WaterPressures(Effect):
 
     name = "water pressures"
 
-    def __init__(self, given: list[WaterOnEdges], n_unknowns: int) -> None:
-        self.given, self._n = given, n_unknowns
+    def __init__(self, given: list[WaterOnEdges], model: Model) -> None:
+        self.given, self._model = given, model
+        self._n = model.manifold.n_unknowns
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[water_pressures]]``."""
         found = [_water(setup, item) for item in setup.scene.water_pressures]
-        return cls(found, setup.model.manifold.n_unknowns)
+        return cls(found, setup.model)
 
     @property
     def steady(self) -> bool:
         """See `Effect.steady`."""
         return all(one.steady for one in self.given)
+
+    def pushes(self, state: State) -> Pushes:
+        """See `Effect.pushes`: those of water in cracks."""
+        now = Instant.of(state)
+        pairs = ((one.place, one.forces(state, now)) for one in self.given)
+        return joined(Pushes.on(self._model, place, force) for place, force in pairs)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the pressures in the bodies' axes."""

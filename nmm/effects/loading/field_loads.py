@@ -9,7 +9,9 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from integration.rules import polygon_rule
 from nmm.assembly.model import Model
-from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.motion import State, material_points
+from nmm.assembly.places import Place
+from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.load_factor import load_factor
@@ -28,16 +30,15 @@ class SpreadLoad:
 
     Attributes
     ----------
-    points, position, share
-        The m points, (m, 2) where they were drawn (m), and the (m,) area or volume of each.
+    place, share
+        The m points, and the (m,) area or volume of each.
     field, factor
         Force over that area or volume, and its factor.
     steady
         Whether neither depends on the time.
     """
 
-    points: MaterialPoints
-    position: Floats
+    place: Place
     share: Floats
     field: ValueField
     factor: Callable[[Instant], float]
@@ -45,7 +46,7 @@ class SpreadLoad:
 
     def forces(self, end: Instant) -> Floats:
         """Forces (m, 2) on the points at an instant (N)."""
-        values = self.field.values(self.position, end.time)
+        values = self.field.values(self.place.position, end.time)
         return np.asarray(self.factor(end) * self.share[:, None] * values)
 
     @classmethod
@@ -69,9 +70,8 @@ class SpreadLoad:
             inside = regions[manifold.element_region[rule.owner]]
         owner, position = rule.owner[inside], rule.points[inside]
         share = rule.weights[inside] * model.thickness
-        return cls(
-            material_points(manifold, owner, position), position, share, field, factor, steady
-        )
+        place = Place(material_points(manifold, owner, position), owner, share, position)
+        return cls(place, share, field, factor, steady)
 
 
 class FieldLoads(Effect):
@@ -79,14 +79,14 @@ class FieldLoads(Effect):
 
     name = "field loads"
 
-    def __init__(self, loads: list[SpreadLoad], n_unknowns: int) -> None:
-        self.loads, self._n = loads, n_unknowns
+    def __init__(self, loads: list[SpreadLoad], model: Model) -> None:
+        self.loads, self._model = loads, model
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[loads]]`` with a field."""
         found = [_load(setup, one) for one in setup.scene.loads if one.field is not None]
-        return cls(found, setup.model.manifold.n_unknowns)
+        return cls(found, setup.model)
 
     @property
     def steady(self) -> bool:
@@ -95,9 +95,9 @@ class FieldLoads(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the loads in the bodies' axes."""
-        total = np.zeros(self._n)
+        total = np.zeros(len(state.deformation))
         for load in self.loads:  # a handful of loads
-            total += load.points.push(state, load.forces(end))
+            total += load.place.points.push(state, load.forces(end))
         return total
 
     def work(self, before: State, after: State) -> float:
@@ -105,8 +105,13 @@ class FieldLoads(Effect):
         total = 0.0
         for load in self.loads:
             first, last = (load.forces(Instant.of(state)) for state in (before, after))
-            total += load.points.work(before, after, (first + last) / 2)
+            total += load.place.points.work(before, after, (first + last) / 2)
         return total
+
+    def pushes(self, state: State) -> Pushes:
+        """See `Effect.pushes`."""
+        now = Instant.of(state)
+        return joined(Pushes.on(self._model, one.place, one.forces(now)) for one in self.loads)
 
 
 def _load(setup: Setup, load: "LoadTable") -> SpreadLoad:
@@ -120,4 +125,4 @@ def _load(setup: Setup, load: "LoadTable") -> SpreadLoad:
         return SpreadLoad.over_volume(model, field, order, regions, factor, steady)
     place = edge_place(setup, "loads", load, order)
     share = place.weight * model.thickness
-    return SpreadLoad(place.points, place.position, share, field, factor, steady)
+    return SpreadLoad(place, share, field, factor, steady)

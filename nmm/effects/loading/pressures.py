@@ -8,8 +8,10 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.acting_place import edge_place
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.load_factor import load_factor
@@ -82,11 +84,10 @@ class SurfacePressures(Effect):
 
     name = "pressures"
 
-    def __init__(
-        self, pressures: list[SurfacePressure], n_unknowns: int, bends: bool = False
-    ) -> None:
-        self.pressures, self._n, self._bends = pressures, n_unknowns, bends
-        self._whole = [one.stiffness(n_unknowns) for one in pressures]
+    def __init__(self, pressures: list[SurfacePressure], model: Model, bends: bool = False) -> None:
+        self.pressures, self._model, self._bends = pressures, model, bends
+        self._n = model.manifold.n_unknowns
+        self._whole = [one.stiffness(self._n) for one in pressures]
         self._parts = [csr_array((whole + whole.T) / 2) for whole in self._whole]
         self._kept: tuple[tuple[float, ...], csc_array] | None = None
 
@@ -94,7 +95,7 @@ class SurfacePressures(Effect):
     def from_setup(cls, setup: Setup) -> Self:
         """Build from the ``[[loads]]`` of kind "pressure"."""
         found = [_pressure(setup, one) for one in setup.scene.loads if one.kind == "pressure"]
-        return cls(found, setup.model.manifold.n_unknowns, setup.kinematics.finite)
+        return cls(found, setup.model, setup.kinematics.finite)
 
     @property
     def steady(self) -> bool:
@@ -124,6 +125,12 @@ class SurfacePressures(Effect):
             return csc_array(sum((span.weight * p.factor(end) * k for p, k in pairs), start=none))
 
         return StepForce(force, stiffness)
+
+    def pushes(self, state: State) -> Pushes:
+        """See `Effect.pushes`: those on faces of cracks."""
+        now = Instant.of(state)
+        parts = ((one.place, one.forces(state, now)) for one in self.pressures)
+        return joined(Pushes.on(self._model, place, force) for place, force in parts)
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the pressures on the surfaces as they are, in the bodies' axes."""

@@ -10,6 +10,7 @@ import shapely
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import Frames, MaterialPoints, State, material_points
 from nmm.assembly.places import NEAR
+from nmm.assembly.pushes import Pushes
 from nmm.effects.base import Setup
 from nmm.errors import Fault, SceneError
 from nmm.scene.tables.members import GROUND
@@ -33,11 +34,14 @@ class Ends:
         (m,) 1 on a body, 0 on the ground.
     position
         (m, 2) where they are drawn.
+    element
+        (m,) that they lie in; -1 on the ground.
     """
 
     points: MaterialPoints
     held: Floats
     position: Floats
+    element: Ints
 
     @classmethod
     def at(cls, setup: Setup, position: Floats, elements: Ints) -> Self:
@@ -46,7 +50,7 @@ class Ends:
         # Covers need not reach the ground: what stands for its points is a point of a body.
         reached = np.where(held[:, None], position, manifold.elements.points[0])
         points = material_points(manifold, np.maximum(elements, 0), reached)
-        return cls(points, held.astype(float), position)
+        return cls(points, held.astype(float), position, elements)
 
     def __len__(self) -> int:
         return len(self.held)
@@ -54,6 +58,11 @@ class Ends:
     def way(self, state: State) -> Floats:
         """Return how far they have come from where they are drawn (m, 2)."""
         return self.held[:, None] * self.points.moved(state.frames, state.deformation)
+
+    def pushed(self, force: Floats) -> Pushes:
+        """Return forces (m, 2) on those that are on bodies (N)."""
+        kept = self.element >= 0
+        return Pushes.at(self.element[kept], self.position[kept], force[kept])
 
     def along(self, frames: Frames, directions: Floats) -> Floats:
         """Rows (m, L) of the motion along global directions (m, 2), in the bodies' axes."""

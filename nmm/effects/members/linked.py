@@ -10,6 +10,7 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.base import Effect, Instant, Span, StepForce
 from nmm.effects.members.chains import ChainAnswer
 from nmm.effects.members.member_set import AXIAL, BOND, SLIP, WIDTH, Members
@@ -55,6 +56,12 @@ class Linked(Effect):
     def _force(self, state: State) -> Floats:
         links = self.members.links
         return links.pull(state, links.lines(state), self._answers.of(state).axial.force)
+
+    def pushes(self, state: State) -> Pushes:
+        """See `Effect.pushes`."""
+        links = self.members.links
+        pull = self._answers.of(state).axial.force[:, None] * links.lines(state).along
+        return joined([links.first.pushed(pull), links.second.pushed(-pull)])
 
     def matrix(self, state: State) -> csc_array:
         """See `Effect.matrix`; the same object as long as it would hardly be another."""

@@ -8,6 +8,7 @@ from scipy.sparse import csc_array, diags_array
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
+from nmm.assembly.pushes import Pushes
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.members.ends import Ends, elements_at, nowhere
 from nmm.errors import FormulationError, SceneError
@@ -39,6 +40,10 @@ class PointMasses(Effect):
         total = np.zeros(len(state.deformation))
         np.add.at(total, rows.unknowns.ravel(), local.ravel())
         return total
+
+    def pushes(self, state: State) -> Pushes:
+        """See `Effect.pushes`; what they weigh alone."""
+        return self._ends.pushed(self._weight)
 
     def work(self, before: State, after: State) -> float:
         """Weights times the ways of their points."""

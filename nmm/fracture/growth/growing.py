@@ -1,7 +1,7 @@
 """Cracks that grow where their tips reach the toughness: what statics and motion have in common."""
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Self
@@ -10,6 +10,8 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.pushes import PushesIn
+from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.fracture.growth.advance import advanced
@@ -54,6 +56,8 @@ class GrowingCracks(Effect):
         self._sofar = GrownSoFar(np.zeros(len(self._fronts)), 0.0) if sofar is None else sofar
         self._tips = self._fronts.tips(setup.model.cut, cracks)
         self._known: tuple[Floats, Intensities] | None = None
+        self._pushing: Sequence[PushesIn] = ()
+        self._stresses: Sequence[StressAt] = ()
         self._beginnings = Beginnings(setup, self.rule.toughness)
 
     @classmethod
@@ -140,6 +144,10 @@ class GrowingCracks(Effect):
     def _at(self, rows: IntensityRows, state: State, pressure: Floats | None) -> Floats:
         """K_I and K_II (2,) of a tip in a state, weight included."""
         found = rows.intensities(state.deformation, pressure)
+        for pushes in self._pushing:  # effects that push
+            found = found + rows.of_pushes(pushes(state), state.frames)
+        for stress in self._stresses:  # of effects
+            found = found + rows.of_stress(stress, state.time)
         gravity = self._setup.scene.gravity
         if gravity is None:
             return found
@@ -152,6 +160,14 @@ class GrowingCracks(Effect):
         size = self._setup.formulation.cover.size
         assert size is not None  # of meshes
         return 4 * size if self._table.radius is None else self._table.radius
+
+    def feel(self, stresses: Sequence[StressAt]) -> None:
+        """See `Effect.feel`."""
+        self._stresses = stresses
+
+    def feel_pushes(self, pushing: Sequence[PushesIn]) -> None:
+        """See `Effect.feel_pushes`."""
+        self._pushing = pushing
 
     def free(self, found: Intensities) -> Bools:
         """Which fronts (k,) with a tip have not grown as far as they may."""

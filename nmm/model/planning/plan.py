@@ -75,8 +75,10 @@ class Plan:
         return Plan({**self.effects, effect.name: effect})
 
     def connected(self) -> "Plan":
-        """Tell the effects that ask which stresses others add; return the plan itself."""
+        """Tell the effects that ask what others add and push; return the plan itself."""
         self.hooks.clear()
+        for effect in self.having("feel_pushes"):
+            effect.feel_pushes([other.pushes for other in self.having("pushes")])
         if self.stresses:
             for effect in self.having("feel"):
                 effect.feel(self.stresses)

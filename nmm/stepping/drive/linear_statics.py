@@ -144,11 +144,11 @@ def traction(model: Model, place: Place, field: Callable[[Floats, Floats], Float
     assert place.normal is not None
     values = field(place.position, place.normal) * model.thickness
     load = Load("edge", place, place.weight[:, None] * values, lambda end: 1.0)
-    return Loads([load], model.manifold.n_unknowns)
+    return Loads([load], model)
 
 
 def body_force(model: Model, field: Field, order: int) -> FieldLoads:
     """Load the volume by a force density ``field(points)`` (m, 2) in N/m3."""
     density = ValueField(False, lambda points, time: field(points), np.zeros(2), "body force")
     load = SpreadLoad.over_volume(model, density, order)
-    return FieldLoads([load], model.manifold.n_unknowns)
+    return FieldLoads([load], model)

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Mapping
 from nmm.scene.lines import Path
 from nmm.scene.unread_rows import Finding, Tables
 
-# Tables whose stress the intensities do not know, and those in which growth is not defined yet.
-UNKNOWN = ("heat", "initial_stresses")
+# Tables whose stress the means along lines do not know where cracks begin.
+UNKNOWN = ("heat", "initial_stresses", "seepage")
 # What running tips alone have: cracks in equilibrium have no speed, and do not divide.
 IN_TIME = ("speed", "branching")
 # Tables beside which loads alone do not say where the next piece begins.
-NOT_SCALED = ("contact", "gravity", "inertia", "stages")
+NOT_SCALED = ("contact", "gravity", "heat", "inertia", "initial_stresses", "seepage", "stages")
 
 
 def fracture_contradictions(data: Tables) -> Iterator[Finding]:
@@ -28,10 +28,11 @@ def fracture_contradictions(data: Tables) -> Iterator[Finding]:
         if table.get(key):
             remedy = "add [inertia], or remove it"
             yield ("fracture", key), f'"{table[key]}"', "a scene with [inertia]", remedy
-    for key in UNKNOWN:
+    for key in UNKNOWN if begins else ():
         if data.get(key):
-            remedy = "stress intensities do not know it: remove one of the two"
-            yield ("fracture",), f"[{key}]", "loads, supports and weight alone", remedy
+            remedy = "the stress where cracks begin lacks it: remove one of the two"
+            path: Path = ("fracture", "nucleation")
+            yield path, f"[{key}]", "loads, supports, contact and weight alone", remedy
     if isinstance(table, Mapping) and table.get("control") == "toughness":
         yield from _control(data)
 

@@ -1,0 +1,39 @@
+"""Forces of contacts on faces of cracks, spread over the parts of edges that they stand for."""
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.pushes import Pushes
+from nmm.contact.points.boundary_points import tangents
+from nmm.contact.points.contact_points import ContactPoints
+
+
+def on_faces(model: Model, contacts: ContactPoints) -> Pushes:
+    """Return the forces that contacts left on either face of each crack."""
+    n, p = contacts.normal, contacts
+    force = p.normal_force[:, None] * n + p.shear_force[:, None] * tangents(n)
+    edge = np.concatenate([p.edge_a, p.edge_b])
+    parameter = np.concatenate([p.parameter_a, p.parameter_b])
+    force, length = np.concatenate([-force, force]), np.tile(p.length, 2)
+    kept = np.flatnonzero((model.cut.boundary.crack[edge] >= 0) & force.any(axis=1))
+    edge = edge[kept]
+    edges = model.cut.boundary
+    start, along = edges.start[edge], edges.end[edge] - edges.start[edge]
+    low, high = _shares(edge, parameter[kept], length[kept] / np.hypot(*along.T))
+    begin, end = (start + share[:, None] * along for share in (low, high))
+    return Pushes(edges.element[edge], begin, end, force[kept])
+
+
+def _shares(edge: Ints, parameter: Floats, length: Floats) -> tuple[Floats, Floats]:
+    """Begin and end (m,) of what points of edges stand for: half way to the next ones.
+
+    All in shares of the edge; no further than their own length to either side.
+    """
+    order = np.lexsort((parameter, edge))
+    at, s = edge[order], parameter[order]
+    middle, same = (s[1:] + s[:-1]) / 2, at[1:] == at[:-1]
+    low, high = np.empty_like(s), np.empty_like(s)
+    low[order] = np.append(0.0, np.where(same, middle, 0.0))[: len(s)]
+    high[order] = np.append(np.where(same, middle, 1.0), 1.0)[-len(s) :] if len(s) else 0.0
+    return np.maximum(low, parameter - length), np.minimum(high, parameter + length)
