@@ -210,6 +210,17 @@ def _staged(base: Callable[[int], Tables], *shares: float) -> Callable[[int], Ta
     return made
 
 
+def _without_stone(**more: float) -> Callable[[int], Tables]:
+    """Return what makes the bar in two stages, in the second of which the stone is gone."""
+
+    def made(steps: int) -> Tables:
+        found = _staged(begun_anew, 0.5, 0.5)(steps)
+        found["stages"][1] |= {"remove": ["stone"], **more}
+        return found
+
+    return made
+
+
 def _block(name: str, left: float, low: float, right: float, high: float) -> Tables:
     ring = [[left, low], [right, low], [right, high], [left, high]]
     return {"name": name, "material": "rock", "vertices": ring}
@@ -397,6 +408,9 @@ IDLE: dict[str, Idle] = {
     ),
     "a second stage that changes nothing": Idle(
         (), _staged(begun_anew, 1.0), _staged(begun_anew, 0.5, 0.5)
+    ),
+    "a release of what exerted nothing": Idle(
+        ("unreleased forces",), _without_stone(), _without_stone(release=0.5)
     ),
 }
 """By what is idle, as a row of the page says it."""

@@ -11,6 +11,7 @@ from nmm.cli.terminal import console, tell_next
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
     from nmm.scene import Scene
+    from nmm.scene.stages import StageTable
     from nmm.stepping.simulation import Simulation
 
 CALLED_BY = {
@@ -115,16 +116,18 @@ def _sizes(scene: "Scene", chosen: "Formulation", blocks: int, elements: int) ->
         bounds = f"factors {asked.lowest:g} to {asked.highest:g}, within {asked.tolerance:g}"
         yield f"strength reduction: {bounds}; a run each, some 10"
     if scene.stages:
-        spans = (
-            "to rest" if one.duration is None else f"{one.duration:g} s" for one in scene.stages
-        )
-        named = zip((one.name for one in scene.stages), spans, strict=True)
-        yield "stages: " + ", ".join(f"{name} ({span})" for name, span in named)
+        yield "stages: " + ", ".join(f"{one.name} ({_ends(one)})" for one in scene.stages)
     if scene.contact is not None:
         yield f"contact: {chosen.contact.enforcement}"
     yield f"cover: {chosen.cover.type}, {chosen.cover.functions}"
     yield f"blocks: {blocks:,}"
     yield f"elements: {elements:,}"
+
+
+def _ends(stage: "StageTable") -> str:
+    """How a stage ends, and how much of what left is then released."""
+    span = "to rest" if stage.duration is None else f"{stage.duration:g} s"
+    return span if stage.release is None else f"{span}, {100 * stage.release:g} % released"
 
 
 def _rule_among_contacts(chosen: "Formulation") -> Iterator[str]:

@@ -253,6 +253,10 @@ class Effect(ABC):
         """Take what supports exerted that the change takes away, ready to act on the new model."""
         raise NotImplementedError
 
+    def hold_back(self, change: "Change", force: Floats) -> None:
+        """Take what is out of balance as a change begins to act, a force (n,) on the new model."""
+        raise NotImplementedError
+
     def carried(self) -> Any:
         """What the effect carries from accepted step to accepted step besides the bodies' state.
 

@@ -225,6 +225,12 @@ class Contact(Effect):
         self.partners.forget()
         self._found = None
 
+    def push(self, state: State) -> Floats:
+        """Return the force (n,) of the contacts as they were left."""
+        points = self.standing
+        rows = self.geometry.rows(points, state)
+        return rows.push(points.normal_force, points.shear_force)
+
     @property
     def exact(self) -> bool:
         """Whether nothing penetrates, so that speeds jump at an impact."""

@@ -15,6 +15,7 @@ from nmm.geometry.blocks import Regions, joined
 from nmm.geometry.checks.amounts import refuse_many_blocks
 from nmm.geometry.checks.places import place_faults
 from nmm.geometry.checks.rings import outline_faults, overlap_faults
+from nmm.geometry.checks.together import Together
 from nmm.geometry.places import edge_distances, tolerance
 from nmm.geometry.tessellation.jointing import jointed
 from nmm.geometry.tessellation.seeds import seed_of
@@ -50,7 +51,8 @@ def regions(scene: Scene) -> Regions:
         place, value = scene.source.place("joint_sets"), " ".join(str(fault).split())
         remedy = "move or remove joints that almost coincide, or use another seed"
         raise GeometryError(Fault(place, value, "joints that cut blocks", remedy)) from fault
-    faults = overlap_faults(whole.polygons, whole.source, whole.name, partial(_place, scene))
+    at, meet = partial(_place, scene), Together.of(scene, whole).meet
+    faults = overlap_faults(whole.polygons, whole.source, whole.name, at, meet)
     _refuse([*faults, *place_faults(scene, whole)])
     return whole
 

@@ -55,6 +55,7 @@ EFFECTS: Registry[type[Effect]] = Registry(
         "fracture in time": "nmm.fracture.growth.in_time:GrowthInTime",
         "cohesive zones": "nmm.fracture.cohesive.zones:CohesiveZones",
         "splitting": "nmm.splitting.splitting:Splitting",
+        "unreleased forces": "nmm.effects.unreleased:UnreleasedForces",
         "artificial joints": "nmm.constraints.artificial_joints:ArtificialJoints",
     },
 )
@@ -100,6 +101,7 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
     "fracture in time": lambda s: s.fracture is not None and s.inertia is not None,
     "cohesive zones": lambda s: s.cohesive_zones is not None,
     "splitting": lambda s: bool(s.splitting),
+    "unreleased forces": lambda s: any(one.release is not None for one in s.stages),
 }
 """When a scene calls for a built-in effect, in the order in which they act."""
 

@@ -111,7 +111,8 @@ def _resolved(
             for key in PUSHING
         }
         whole = {
-            "stages": (),
+            # What names no effect of its own is resolved here.
+            "stages": () if table.release is None else (table,),
             **{key: (*items, *leaving.get(key, ())) for key, items in acting.items()},
             **_members(scene, members, dynamic=table.duration is not None),
             "monitors": tuple(one for one in scene.monitors if _acts(one, None, there)),
@@ -128,7 +129,11 @@ def _resolved(
             _of_present(formulation, there),
             present,
             table.duration,
-            Acting(names - before, frozenset(o.name for one in leaving.values() for o in one)),
+            Acting(
+                names - before,
+                frozenset(o.name for one in leaving.values() for o in one),
+                table.release,
+            ),
         )
         before = names
 

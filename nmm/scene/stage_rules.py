@@ -23,6 +23,7 @@ def stage_contradictions(data: Tables) -> Iterator[Finding]:
     known = {
         kind: [name for key in keys for name in _names(data, key)] for kind, keys in KINDS.items()
     }
+    leaves = False
     for number, stage in enumerate(stages):
         if not isinstance(stage, Mapping):
             continue
@@ -36,6 +37,15 @@ def stage_contradictions(data: Tables) -> Iterator[Finding]:
                 if name not in names:
                     expected = f"the name of one of {', '.join(KINDS[key])}"
                     yield (*path, key), f'"{name}"', expected, suggestion(name, names)
+        leaves = leaves or (number > 0 and ("remove" in stage or "blocks" in stage))
+        if "release" in stage and not leaves:
+            remedy = "remove it, or name the blocks that leave in the stage"
+            yield (
+                (*path, "release"),
+                "release",
+                "a stage in which blocks leave, or after it",
+                remedy,
+            )
         if "duration" in stage and "inertia" not in data:
             remedy = "remove it, so that the stage is solved to rest, or add [inertia]"
             yield (*path, "duration"), "no [inertia]", "a dynamic scene", remedy

@@ -62,6 +62,14 @@ class StageTable(Frozen):
         description="a duration in s, > 0; solved to rest when not given",
         examples=example("s"),
     )
+    release: float | None = Field(
+        default=None,
+        ge=0,
+        le=1,
+        description="share of what removed blocks exerted that is gone at the end of the stage, "
+        "of all that is held back; all of it at once when never given",
+        examples=[0.5],
+    )
     cover: Options | None = Field(
         default=None,
         description="keys of the formulation's [cover] that are other from this stage on",

@@ -120,6 +120,7 @@ CASES = Registry[type[Case]](
         "PA4": f"{_HOME}.past_the_peak.links:FibreBundle",
         "PA5": f"{_HOME}.past_the_peak.lever:Lever",
         "ST1": f"{_HOME}.staged.tunnel:Tunnel",
+        "ST1c": f"{_HOME}.staged.released_tunnel:ReleasedTunnel",
         "ST2": f"{_HOME}.staged.columns:Embankment",
         "ST3": f"{_HOME}.staged.columns:AddedColumn",
         "ST4 order": f"{_HOME}.staged.order:TwoHoles",

@@ -18,10 +18,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Acting:
-    """How loads act in a stage: by name, those that ``grows`` in it and those that ``leaves``."""
+    """How loads act in a stage: by name, those that ``grows`` in it and those that ``leaves``.
+
+    ``released`` is the share of what removed blocks exerted that is gone at its end; None leaves
+    as it is what earlier stages hold back.
+    """
 
     grows: frozenset[str] = frozenset()
     leaves: frozenset[str] = frozenset()
+    released: float | None = None
 
     def share(self, name: str, load_factor: float) -> float:
         """Return the share of a load at a load factor that grows from 0 to 1 in the stage."""

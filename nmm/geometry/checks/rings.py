@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.polygons import Polygons, diameters
 from nmm.errors import Fault
 
@@ -103,15 +103,22 @@ def _hole_faults(
 
 
 def overlap_faults(
-    polygons: Polygons, group: Ints, name: Sequence[str], place: Callable[[int], str]
+    polygons: Polygons,
+    group: Ints,
+    name: Sequence[str],
+    place: Callable[[int], str],
+    meet: Callable[[Ints, Ints], Bools],
 ) -> list[Fault]:
     """Blocks of different groups that cover the same ground; `place` names a group.
 
+    Only those count that ``meet``, that is, of pairs (k,), which are there at the same time.
     Blocks of one group share a region and cannot overlap. An overlap of less than `OVERLAP` of the
     smaller block's area is what rounded coordinates leave and passes.
     """
     shapes = polygons.to_shapely()
     first, second = _deep_boxes(shapes, polygons.areas, group)
+    there = meet(first, second)
+    first, second = first[there], second[there]
     common = shapely.area(shapely.intersection(shapes[first], shapes[second]))
     smaller = np.minimum(polygons.areas[first], polygons.areas[second])
     found = np.flatnonzero(common > OVERLAP * smaller)

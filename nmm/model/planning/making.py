@@ -12,6 +12,7 @@ from nmm.effects.base import Effect, Setup, defines
 from nmm.errors import Fault, FormulationError
 from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own, with_table
+from nmm.model.planning.out_of_balance import out_of_balance
 from nmm.model.planning.plan import Plan
 
 if TYPE_CHECKING:
@@ -69,6 +70,11 @@ def plan_after(plan: Plan, change: "Change") -> Plan:
         left = plan.supports.left(change, new.stresses)
         for effect in heirs:
             effect.take_over(left)
+    holders = new.having("hold_back")
+    if holders:
+        force = out_of_balance(new, change)
+        for effect in holders:
+            effect.hold_back(change, force)
     return new
 
 

@@ -447,6 +447,54 @@ degree = 1
 step = 1e-3
 """
 
+RELEASED = """
+title = "released"
+plane = "strain"
+[materials.rock]
+young_modulus = 1e9
+poisson_ratio = 0.2
+density = 2000
+[[blocks]]
+name = "ground"
+material = "rock"
+vertices = [[0, 0], [3, 0], [3, 2], [0, 2]]
+holes = [[[1, 0.5], [2, 0.5], [2, 1.5], [1, 1.5]]]
+[[blocks]]
+name = "core"
+material = "rock"
+vertices = [[1, 0.5], [2, 0.5], [2, 1.5], [1, 1.5]]
+[gravity]
+[interfaces.any]
+between = "any"
+friction_angle = 0.5
+bonded = true
+[[supports]]
+name = "floor"
+segment = [[0, 0], [3, 0]]
+fix = ["x", "y"]
+[[monitors]]
+name = "top"
+point = [1.5, 2]
+[output]
+every_steps = 3
+{checkpoint}
+[[stages]]
+name = "in place"
+[[stages]]
+name = "dug"
+remove = ["core"]
+release = 0.5
+[[stages]]
+name = "open"
+release = 1.0
+[formulation.cover]
+type = "quads"
+size = 0.8
+degree = 1
+[formulation.loading]
+increment = 0.25
+"""
+
 SHAKEN = """
 title = "shaken"
 plane = "strain"
@@ -813,6 +861,7 @@ SCENES = {
     "classical update": CLASSICAL,
     "glued": GLUED,
     "stages": STAGED,
+    "released": RELEASED,
     "shaken": SHAKEN.replace("{duration}", "0.03").replace("{stages}", ""),
     "stone by error": by_error(SHAKEN_ON_ROCK),
     "shaken stages": SHAKEN.replace("duration = {duration}", "").replace("{stages}", SHAKEN_STAGES),

@@ -1,0 +1,170 @@
+"""Forces of blocks that have left which still act on what stays: release by shares.
+
+A plane stands for ground some way behind the face of a tunnel by the share of the forces at its
+wall that has been released (the convergence-confinement method: Panet and Guenot 1982). What the
+blocks exerted is what is out of balance once they are gone; it is held by forces at the faces they
+shared with what stays, which fade from stage to stage.
+"""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.motion import State
+from nmm.assembly.places import on_edges
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.members.ends import elements_at
+from nmm.effects.motion.reactions import Reactions
+from nmm.errors import FormulationError
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+
+# Share of what is out of balance on the faces that forces there may miss.
+MISSED = 1e-3
+
+Carried = tuple[Reactions, Ints, Floats, Floats]
+
+
+class UnreleasedForces(Effect):
+    """Forces at the faces of blocks that left, held in shares that a stage changes.
+
+    Attributes
+    ----------
+    forces
+        What the blocks exerted, in full.
+    region
+        (k,) input region that each point is on.
+    first, last
+        (k,) share that is held at load factor 0 and 1 of the stage.
+    """
+
+    name = "unreleased forces"
+    stays = True
+
+    def __init__(self, setup: Setup) -> None:
+        self._setup = setup
+        none = np.zeros(0)
+        self._take(
+            Reactions.none(setup.model.manifold.n_unknowns), none.astype(np.int64), none, none
+        )
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Return no forces: none have been held back yet."""
+        return cls(setup)
+
+    def _take(self, forces: Reactions, region: Ints, begin: Floats, goal: Floats) -> None:
+        self.forces, self.region, self.first, self.last = forces, region, begin, goal
+        self._points = forces.points(self._setup.model)
+
+    def follow(self, change: "Change") -> "UnreleasedForces":
+        """Return the forces on the new model, on their way to the share of the new stage."""
+        new, known = UnreleasedForces(change.setup), self.forces
+        elements = np.full(len(known), -1)
+        for one in np.unique(self.region):  # blocks with faces that were laid bare
+            at = np.flatnonzero(self.region == one)
+            there = np.arange(len(change.setup.region_name)) == one
+            elements[at] = elements_at(change.setup, known.position[at], there)
+        stay = elements >= 0
+        moved = Reactions(
+            elements[stay], known.position[stay], known.force[stay], new.forces.beside
+        )
+        begin, released = self.last[stay], _released(change.setup)
+        goal = begin if released is None else np.full(len(begin), 1.0 - released)
+        new._take(moved, self.region[stay], begin, goal)
+        return new
+
+    def hold_back(self, change: "Change", force: Floats) -> None:
+        """See `Effect.hold_back`: hold it by forces on the faces that were laid bare."""
+        released = _released(change.setup)
+        if released is None:
+            return
+        old, new = change.old.manifold, change.new.manifold
+        left = np.setdiff1d(old.element_region, new.element_region)
+        bare = np.isin(old.element_region[old.boundary.element], left)
+        place = on_edges(old, bare, 2 * max(new.degree, 1))
+        elements = elements_at(change.setup, place.position)
+        on = elements >= 0
+        found = Reactions(
+            elements[on], place.position[on], np.zeros((int(on.sum()), 2)), self.forces.beside
+        )
+        if not len(found):
+            return
+        pushes = _held(change, found, place.weight[on], -force)
+        whole = Reactions.sum(
+            [self.forces, Reactions(found.elements, found.position, pushes, found.beside)],
+            new.n_unknowns,
+        )
+        more = np.ones(len(found))
+        self._take(
+            whole,
+            np.concatenate([self.region, new.element_region[found.elements]]),
+            np.concatenate([self.first, more]),
+            np.concatenate([self.last, (1.0 - released) * more]),
+        )
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the forces that are still held."""
+        return self._points.push(state, self._share(end.load_factor) * self.forces.force)
+
+    def work(self, before: State, after: State) -> float:
+        """Work of the mean of both ends of the step."""
+        mean = (self._share(before.load_factor) + self._share(after.load_factor)) / 2
+        return self._points.work(before, after, mean * self.forces.force)
+
+    def history(self, state: State) -> Mapping[str, float]:
+        """Return the largest share that is still held."""
+        share = self._share(state.load_factor)
+        return {"share": float(share.max(initial=0.0))}
+
+    def carried(self) -> Carried:
+        """See `Effect.carried`."""
+        return self.forces, self.region, self.first, self.last
+
+    def carry(self, carried: Carried) -> None:
+        """See `Effect.carry`."""
+        self._take(*carried)
+
+    def _share(self, load_factor: float) -> Floats:
+        share = self.first + (self.last - self.first) * load_factor
+        return np.asarray(share[:, None])
+
+
+def _released(setup: Setup) -> float | None:
+    return None if setup.acting is None else setup.acting.released
+
+
+def _held(change: "Change", at: Reactions, weight: Floats, force: Floats) -> Floats:
+    """Return the least forces (k, 2) in N at points that do on the unknowns what is out of balance.
+
+    ``force`` (n,); tractions are least over the faces, whose shares of length are ``weight`` (k,).
+
+    Raises
+    ------
+    FormulationError
+        Where no forces on the faces do.
+    """
+    # One stage in some: the rest of a run needs no decomposition of its own.
+    from scipy import linalg
+
+    points, frames = at.points(change.new), change.state.frames
+    root = np.repeat(np.sqrt(weight), 2)
+    turned = frames.to_body(np.repeat(points.body, 2), np.tile(np.eye(2), (len(at), 1)))
+    # Both directions at each point, in the axes of its body.
+    local = points.rows.matrix(len(force)).toarray().reshape(len(at), 2, -1)
+    every = np.einsum("mij,mjn->min", turned.reshape(-1, 2, 2), local).reshape(2 * len(at), -1)
+    touched: Bools = (every != 0).any(axis=0)
+    matrix = (root[:, None] * every[:, touched]).T
+    found = linalg.lstsq(matrix, force[touched], lapack_driver="gelsy", cond=1e-10)[0]
+    missed = np.linalg.norm(matrix @ found - force[touched])
+    if missed > MISSED * np.linalg.norm(force[touched]):
+        raise FormulationError(
+            "[[stages]] release: forces at the faces that blocks left miss "
+            f"{missed / np.linalg.norm(force[touched]):.1e} of what is out of balance: expected at "
+            f"most {MISSED:.0e}: name bonded interfaces or contact, and hold blocks at these "
+            "faces by nothing else"
+        )
+    return np.asarray((root * found).reshape(-1, 2))

@@ -1,0 +1,125 @@
+"""Forces of blocks that left, released in shares from stage to stage."""
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.errors import GeometryError, SceneError
+from nmm.formulation import Formulation
+from nmm.scene.read import parse_scene
+from nmm.verification.problems.staged.released_tunnel import ring_pressure
+
+WEIGHT = 2000 * 10.0 * 2.0  # of the upper block, 2 m high (Pa)
+COLUMN = """
+title = "column"
+plane = "stress"
+[materials.rock]
+young_modulus = 1e9
+poisson_ratio = 0.0
+density = 2000
+[[blocks]]
+name = "lower"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "upper"
+material = "rock"
+vertices = [[0, 1], [1, 1], [1, 3], [0, 3]]
+[gravity]
+acceleration = [0, -10]
+[interfaces.any]
+between = "any"
+friction_angle = 0.5
+{joined}
+[[supports]]
+name = "floor"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+[[monitors]]
+name = "top"
+point = [0.5, 1]
+block = "lower"
+[[stages]]
+name = "both"
+"""
+STEPS = """
+[[stages]]
+name = "some"
+remove = ["upper"]
+release = 0.25
+[[stages]]
+name = "waits"
+[[stages]]
+name = "more"
+release = 0.75
+[[stages]]
+name = "rest"
+release = 1.0
+"""
+GLUED, TOUCHING = "bonded = true", "[contact]"
+QUADS = {"type": "quads", "size": 0.5, "degree": 1}
+
+
+def run(text, cover=QUADS):
+    table = {"cover": cover, "loading": {"increment": 0.5}}
+    return nmm.run(parse_scene(text, "scene.toml"), Formulation.model_validate(table))
+
+
+def settled(history):
+    """Ways of the top of the lower block at the ends of stages (m)."""
+    time = history["time"]
+    ends = [int(np.flatnonzero(time <= at + 1e-9)[-1]) for at in range(1, int(time[-1]) + 1)]
+    return history["monitor:top:uy"][ends]
+
+
+@pytest.mark.parametrize("joined", [GLUED, TOUCHING])
+@pytest.mark.parametrize("cover", [QUADS, {"type": "quads", "size": 0.4, "degree": 2}])
+def test_a_column_rises_by_the_share_of_the_weight_that_is_released(joined, cover):
+    found = run(COLUMN.format(joined=joined) + STEPS, cover)
+    assert found.summary.status == "converged", found.summary.sentence
+    # A bar under its own weight and what is left on its top: rho g h^2 / 2 E + q h / E.
+    left = np.array([1.0, 0.75, 0.75, 0.25, 0.0])
+    exact = -(2000 * 10 / 2 + left * WEIGHT) / 1e9
+    np.testing.assert_allclose(settled(found.history), exact, rtol=1e-4)
+    assert abs(found.summary.energy_balance) < 1e-6
+
+
+def test_blocks_of_one_strain_rise_by_it_too():
+    found = run(COLUMN.format(joined=TOUCHING) + STEPS, {"type": "block"})
+    left = np.array([1.0, 0.75, 0.75, 0.25, 0.0])
+    rise = settled(found.history) - settled(found.history)[-1]
+    np.testing.assert_allclose(rise, -left * WEIGHT / 1e9, rtol=2e-2)  # springs of contact
+
+
+@pytest.mark.parametrize(
+    ("stages", "said"),
+    [
+        ('[[stages]]\nname = "next"\nrelease = 0.5\n', "blocks leave"),
+        ('[[stages]]\nname = "next"\nremove = ["upper"]\nrelease = 1.5\n', "1"),
+    ],
+)
+def test_shares_that_mean_nothing_are_refused_by_line(stages, said):
+    with pytest.raises(SceneError, match=rf"scene\.toml:\d+.*release.*{said}"):
+        parse_scene(COLUMN.format(joined=GLUED) + stages, "scene.toml")
+
+
+def test_blocks_that_are_never_there_together_may_be_drawn_at_one_place():
+    steel = COLUMN.replace("[gravity]", STEEL + "[gravity]").format(joined=GLUED)
+    steel = steel.replace('name = "both"', 'name = "both"\nblocks = ["lower", "upper"]')
+    swapped = '[[stages]]\nname = "swapped"\nremove = ["upper"]\nadd = ["other"]\n'
+    assert run(steel + swapped).summary.status == "converged"
+    with pytest.raises(GeometryError, match="overlap|inside"):
+        run(steel + swapped.replace('remove = ["upper"]\n', ""))
+
+
+STEEL = """
+[[blocks]]
+name = "other"
+material = "rock"
+vertices = [[0, 1], [1, 1], [1, 2], [0, 2]]
+"""
+
+
+def test_the_reference_of_the_lined_tunnel_is_that_of_its_displacements():
+    # From Lame's displacements of ring and ground, by another way: 1628213.58 Pa.
+    assert ring_pressure() == pytest.approx(1628213.58, rel=1e-8)
