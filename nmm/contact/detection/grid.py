@@ -6,6 +6,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
+from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import REENTRANT
 from nmm.solvers.kernels.ascending import extended
 
@@ -156,15 +157,7 @@ def spread(now: Floats, then: Floats) -> float:
     return math.hypot(high_x - low_x, high_y - low_y)
 
 
-def pairs_by_grid(
-    start: Floats,
-    end: Floats,
-    body: Ints,
-    following: Ints,
-    previous: Ints,
-    distance: Floats,
-    within_bodies: bool,
-) -> tuple[Ints, Ints]:
+def pairs_by_grid(surface: Surface, distance: Floats, within_bodies: bool) -> tuple[Ints, Ints]:
     """Return vertex and edge (m,) of all near pairs, sorted by vertex, then edge.
 
     A pair is near within the smaller ``distance`` (n,) of its two members. Edges are entered in
@@ -172,10 +165,10 @@ def pairs_by_grid(
     Cells share buckets where the grid is sparse; their size is the geometric mean of the edges, so
     that neither many short edges share a cell nor long ones fill too many.
     """
-    if not len(start):
+    if not len(surface):
         return np.empty(0, np.int64), np.empty(0, np.int64)
-    origin = start.min(axis=0)
-    start, end = np.ascontiguousarray(start - origin), np.ascontiguousarray(end - origin)
+    origin = surface.start.min(axis=0)
+    start, end = (np.ascontiguousarray(one - origin) for one in (surface.start, surface.end))
     length = np.hypot(*(end - start).T)
     long = length[length > 0.0]
     typical = float(np.exp(np.log(long).mean())) if len(long) else 1.0
@@ -192,7 +185,5 @@ def pairs_by_grid(
     offset = np.concatenate([[0], np.cumsum(count)])
     edges, keys = np.empty(offset[-1], np.int64), np.empty(offset[-1], np.int64)
     _entries(start, end, reaches, cell, rows, mask, offset[:-1].copy(), edges, keys)
-    return _search(
-        start, end, body, following, previous, reaches, within_bodies, cell, rows, offset,
-        edges, keys,
-    )  # fmt: skip
+    rings = start, end, surface.body, surface.next, surface.previous
+    return _search(*rings, reaches, within_bodies, cell, rows, offset, edges, keys)

@@ -123,19 +123,9 @@ def find_contacts(
     # Compiled code is loaded by the first search, not by whoever names this module.
     from nmm.contact.detection.narrow.selection import find
 
-    columns = find(
-        np.ascontiguousarray(surface.start),
-        np.ascontiguousarray(surface.end),
-        surface.body,
-        surface.next,
-        surface.previous,
-        vertex,
-        edge,
-        np.empty(0, np.int64) if last is None else last.key,
-        np.empty((0, 2)) if motion is None else np.ascontiguousarray(motion),
-        rules,
-    )
-    return Contacts(*columns)
+    known = np.empty(0, np.int64) if last is None else last.key
+    ahead = np.empty((0, 2)) if motion is None else np.ascontiguousarray(motion)
+    return Contacts(*find(surface, vertex, edge, known, ahead, rules))
 
 
 def with_pairs(surface: Surface, found: Contacts, vertex: Ints, edge: Ints) -> Contacts:

@@ -28,15 +28,8 @@ def near_pairs(
     # Compiled code is loaded by the first search, not by whoever names this module.
     from nmm.contact.detection.grid import pairs_by_grid
 
-    return pairs_by_grid(
-        surface.start,
-        surface.end,
-        surface.body,
-        surface.next,
-        surface.previous,
-        np.broadcast_to(np.asarray(distance, dtype=float), len(surface)).copy(),
-        within_bodies,
-    )
+    distances = np.broadcast_to(np.asarray(distance, dtype=float), len(surface)).copy()
+    return pairs_by_grid(surface, distances, within_bodies)
 
 
 class NeighbourList:

@@ -20,6 +20,7 @@ from nmm.contact.detection.narrow.tables import (
     offsets,
     shape_of,
 )
+from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import Rules
 
 
@@ -103,22 +104,14 @@ def _contacts(
 
 
 def find(
-    start: Floats,
-    end: Floats,
-    body: Ints,
-    following: Ints,
-    previous: Ints,
-    vertex: Ints,
-    edge: Ints,
-    last: Ints,
-    motion: Floats,
-    rules: Rules,
+    surface: Surface, vertex: Ints, edge: Ints, last: Ints, motion: Floats, rules: Rules
 ) -> Columns:
     """Columns of `narrow.Contacts`; candidates in any order, ``last`` keys in any order."""
-    surface = start, end, body, following, previous
-    rising, columns = _contacts(*surface, vertex, edge, last, motion, rules)
+    start, end = np.ascontiguousarray(surface.start), np.ascontiguousarray(surface.end)
+    rings = start, end, surface.body, surface.next, surface.previous
+    rising, columns = _contacts(*rings, vertex, edge, last, motion, rules)
     if not rising:
         key = np.unique(vertex * len(start) + edge)
         vertex, edge = key // len(start), key % len(start)
-        _, columns = _contacts(*surface, vertex, edge, np.sort(last), motion, rules)
+        _, columns = _contacts(*rings, vertex, edge, np.sort(last), motion, rules)
     return columns
