@@ -66,10 +66,4 @@ class AutoLU(Auto):
     """LU in compiled code where it is at hand or pays its import, else SuperLU."""
 
     def _chosen(self, unknowns: int) -> LinearSolver:
-        if unknowns < FEW:
-            return Dense(self.refinements, self.shift)
-        if not (self.compiled or unknowns >= MANY):
-            return SuperLU(self.refinements, self.shift).unsymmetric()
-        from nmm.solvers.frontal.lu import FrontalLU
-
-        return FrontalLU(self.refinements, self.shift)
+        return super()._chosen(unknowns).unsymmetric()

@@ -4,6 +4,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from nmm.solvers.scaling import ruiz_scale
 
 # Conditions are linked to stiff unknowns over at most so many free ones.
 LINKS = 20
@@ -34,6 +35,11 @@ def saddle_scale(matrix: csc_array) -> Floats:
         scale = np.where(found, 1 / np.where(found, reach, 1.0), scale)
         known |= found
     return np.asarray(np.where(known, scale, 1.0))
+
+
+def equilibrated_scale(matrix: csc_array) -> Floats:
+    """(n,) factors by the largest entries, or by what holds conditions where diagonals vanish."""
+    return ruiz_scale(matrix) if matrix.diagonal().all() else saddle_scale(matrix)
 
 
 def _links(matrix: csc_array) -> Floats:

@@ -18,11 +18,15 @@ def jacobi_scale(matrix: csc_array) -> Floats:
     return np.asarray(1.0 / np.sqrt(diagonal))
 
 
-def ruiz_scale(matrix: csc_array, sweeps: int = 3) -> Floats:
+SWEEPS = 3
+"""Of Ruiz's scaling."""
+
+
+def ruiz_scale(matrix: csc_array) -> Floats:
     """(n,) factors that bring the largest entry of every row and column near one (Ruiz 2001)."""
     size = csc_array((np.abs(matrix.data), matrix.indices, matrix.indptr), shape=matrix.shape)
     scale = np.ones(matrix.shape[0])
-    for _ in range(sweeps):
+    for _ in range(SWEEPS):
         now = scaled(size, scale, 0.0)
         rows = np.asarray(now.max(axis=1).todense()).ravel()
         columns = np.asarray(now.max(axis=0).todense()).ravel()

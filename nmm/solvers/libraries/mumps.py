@@ -10,8 +10,7 @@ from integration.arrays import Floats
 from nmm.solvers.factor import Decomposition, RankDeficientError
 from nmm.solvers.libraries.optional import MUMPS
 from nmm.solvers.linear import LinearSolver
-from nmm.solvers.saddle import saddle_scale
-from nmm.solvers.scaling import jacobi_scale, ruiz_scale
+from nmm.solvers.saddle import equilibrated_scale
 
 
 @dataclass(frozen=True)
@@ -58,9 +57,7 @@ class Mumps(LinearSolver):
 
     def scaling(self, matrix: csc_array) -> Floats:
         """By the diagonal, or by the largest entries where diagonals may vanish."""
-        if not self.equilibrate:
-            return jacobi_scale(matrix)
-        return ruiz_scale(matrix) if matrix.diagonal().all() else saddle_scale(matrix)
+        return equilibrated_scale(matrix) if self.equilibrate else super().scaling(matrix)
 
     def indefinite(self) -> "Mumps":
         """Equilibrated and refined twice."""

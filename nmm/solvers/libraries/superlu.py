@@ -9,8 +9,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats
 from nmm.solvers.factor import RankDeficientError
 from nmm.solvers.linear import LinearSolver
-from nmm.solvers.saddle import saddle_scale
-from nmm.solvers.scaling import jacobi_scale, ruiz_scale
+from nmm.solvers.saddle import equilibrated_scale
 
 if TYPE_CHECKING:
     from scipy.sparse.linalg import SuperLU as Decomposed
@@ -53,11 +52,7 @@ class SuperLU(LinearSolver):
 
     def scaling(self, matrix: csc_array) -> Floats:
         """By the diagonal, or by the largest entries where diagonals may vanish."""
-        if not self.equilibrate:
-            return jacobi_scale(matrix)
-        if matrix.diagonal().all():
-            return ruiz_scale(matrix)
-        return saddle_scale(matrix)
+        return equilibrated_scale(matrix) if self.equilibrate else super().scaling(matrix)
 
     def indefinite(self) -> "SuperLU":
         """Equilibrated, pivots within a factor 10 of the largest entry, refined twice."""
