@@ -15,7 +15,7 @@ from nmm.geometry.geometry import Geometry
 from nmm.materials.base import MATERIAL_LAWS, Law
 from nmm.model.covering import local_functions
 from nmm.model.enriching import with_growing_tips
-from nmm.model.from_polygons import covered
+from nmm.model.from_polygons import Sheet, covered
 
 if TYPE_CHECKING:
     from covers.cutting.cut import Cutting
@@ -100,20 +100,15 @@ def build_model(
     cover = formulation.cover
     if scene.fracture is not None:
         cover = with_growing_tips(cover)
-    return covered(
-        geometry.regions,
-        cover,
+    sheet = Sheet(
         [_finite(name, material_law(item), scene) for name, item in scene.materials.items()],
+        np.array([(item.density or 0.0) * has_mass for item in materials]),
         scene.plane,
-        cracks=list(geometry.cracks),
-        bonded=geometry.bonded,
-        density=np.array([(item.density or 0.0) * has_mass for item in materials]),
-        thickness=scene.thickness,
+        scene.thickness,
         lumped=formulation.integrator.mass == "lumped",
-        in_pieces=geometry.in_pieces,
         finite=kinematics_of(scene, formulation).finite,
-        before=before,
     )
+    return covered(geometry, cover, sheet, before)
 
 
 def _finite(name: str, law: Law, scene: "Scene") -> Law:

@@ -1,7 +1,7 @@
 """A model from Python: polygons, laws and a formulation's cover, without a scene."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +12,7 @@ from integration.polygons import Polygons
 from nmm.assembly.model import Model
 from nmm.formulation import CoverTable
 from nmm.geometry.blocks import Regions
+from nmm.geometry.geometry import Geometry
 from nmm.materials.base import Law
 from nmm.model.covering import Covering, cover_regions
 
@@ -58,69 +59,66 @@ def solid(
     names = tuple(f"#{number}" for number in range(n))
     regions = Regions(polygons, own, names, np.arange(n))
     weights = np.zeros(len(laws)) if density is None else np.array(density, dtype=float)
-    lines = [np.asarray(crack, dtype=float) for crack in cracks]
-    return covered(
-        regions,
-        cover,
-        laws,
-        plane,
-        cracks=lines,
-        density=weights,
-        thickness=thickness,
-        lumped=lumped,
-        finite=finite,
-    )
+    lines = tuple(np.asarray(crack, dtype=float) for crack in cracks)
+    sheet = Sheet(laws, weights, plane, thickness, lumped, finite)
+    return covered(Geometry(regions, lines), cover, sheet)
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """What blocks are made of.
+
+    Attributes
+    ----------
+    laws, density
+        Materials with their densities (kg/m3).
+    plane
+        "stress" or "strain".
+    thickness
+        m.
+    lumped
+        Whether the mass couples no cover with another.
+    finite
+        Whether strain is finite.
+    """
+
+    laws: Sequence[Law]
+    density: Floats
+    plane: str
+    thickness: float
+    lumped: bool
+    finite: bool
 
 
 def covered(
-    regions: Regions,
-    cover: CoverTable,
-    laws: Sequence[Law],
-    plane: str,
-    *,
-    cracks: list[Floats],
-    density: Floats,
-    thickness: float,
-    lumped: bool,
-    in_pieces: bool = False,
-    bonded: Sequence[int] = (),
-    finite: bool = False,
-    before: "Cutting | None" = None,
+    geometry: Geometry, cover: CoverTable, sheet: Sheet, before: "Cutting | None" = None
 ) -> Model:
-    """Cover regions and give the elements the numbers of their materials.
+    """Cover a geometry and give the elements the numbers of their materials.
 
-    Parameters
-    ----------
-    regions
-        N regions with their materials, numbers of the ``laws`` and of the densities (kg/m3).
-    in_pieces
-        Whether covers of blocks divide none of them further.
-    bonded
-        Numbers of the cracks whose faces begin bonded: their tips carry no functions.
-    finite
-        Whether strain is finite.
-    before
-        The last cut of the same regions.
+    Materials of its regions are numbers of those of the ``sheet``; ``before`` is the last cut of
+    the same regions.
     """
+    regions, laws, plane = geometry.regions, sheet.laws, sheet.plane
     own = np.asarray(regions.material)
     kappa = np.array([law.kolosov(plane) for law in laws])
-    covering = cover_regions(regions, cover, cracks, kappa[own], in_pieces, bonded, before)
+    lines, apart, bonded = list(geometry.cracks), geometry.in_pieces, geometry.bonded
+    covering = cover_regions(regions, cover, lines, kappa[own], apart, bonded, before)
     of_element = own[covering.manifold.element_region]
     covering = _numbered(covering, regions)
     return Model(
         manifold=covering.manifold,
         elasticity=np.array([law.stiffness(plane) for law in laws])[of_element],
-        density=density[of_element],
+        density=sheet.density[of_element],
         modulus=np.array([law.modulus for law in laws])[of_element],
-        thickness=thickness,
+        thickness=sheet.thickness,
         cut=covering.cut,
-        lumped=lumped,
+        lumped=sheet.lumped,
         projected=cover.volumetric == "projected",
         laws=tuple(laws),
         law=of_element,
         plane=plane,
-        finite=finite,
-        bonded=tuple(bonded),
+        finite=sheet.finite,
+        bonded=bonded,
         cutting=covering.cutting,
     )
 
