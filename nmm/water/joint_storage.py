@@ -37,6 +37,29 @@ class WaterStored:
     taken: Mapping[str, float] = field(default_factory=dict)
 
 
+@dataclass(frozen=True)
+class OpenJoints:
+    """Joints as wide as a state has them.
+
+    Attributes
+    ----------
+    state
+        The state.
+    aperture
+        (j, 2) at their ends (m).
+    volume, store
+        (n,) of the joints at their nodes (m3), and what a metre of head compresses of it (m2).
+    flow
+        (n, n) ``G`` of the network (m2/s).
+    """
+
+    state: State
+    aperture: Floats
+    volume: Floats
+    store: Floats
+    flow: Floats
+
+
 class JointStorage(JointWater):
     """Transient water in the joints of a scene."""
 
@@ -45,6 +68,8 @@ class JointStorage(JointWater):
     _end: WaterStored
     _bulk, _second = 2.2e9, 1.0
     _step, _time = 0.0, 0.0
+    _open: OpenJoints | None = None
+    _found: tuple[State, WaterStored, WaterStored] | None = None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -126,6 +151,15 @@ class JointStorage(JointWater):
         """See `Effect.carry`."""
         self._began, self._end = (WaterStored(*one) for one in carried)
 
+    def apertures(self, state: State) -> Floats:
+        """See `JointWater.apertures`."""
+        return self._opened(state).aperture
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        super().forget()
+        self._open = self._found = None
+
     def follow(self, change: Change) -> "JointStorage":
         """Return the water on the new model: of nodes that stay where they were."""
         from scipy.spatial import KDTree
@@ -141,6 +175,14 @@ class JointStorage(JointWater):
 
     def _at(self, state: State, time: float) -> WaterStored:
         """Return the water at a time with the apertures of a state."""
+        known = self._found
+        if known is None or known[0] is not state or known[1] is not self._began:
+            known = None
+        if known is None or known[2].time != time:
+            known = self._found = state, self._began, self._solved(state, time)
+        return known[2]
+
+    def _solved(self, state: State, time: float) -> WaterStored:
         began = self._began
         step = step_between(began.time, time)
         matrix, volume = self._matrix(state, step), self._volume(state)
@@ -166,34 +208,49 @@ class JointStorage(JointWater):
 
     def _matrix(self, state: State, step: float) -> Floats:
         """Return ``M + dt G`` (n, n), in m2."""
-        a, b = self.network.ends.T
-        flow = step * self.network.conductance(self.apertures(state)) * self._thickness
-        found = np.diag(self._store(state))
-        for one, other, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
-            np.add.at(found, (one, other), sign * flow)
-        return found
+        joints = self._opened(state)
+        return np.asarray(np.diag(joints.store) + step * joints.flow)
 
     def _store(self, state: State) -> Floats:
         """Volume (n,) that a metre of head compresses (m2); nodes of closed joints have a trace."""
-        volume = self._volume(state)
-        return np.asarray(self.weight / self._bulk * np.maximum(volume, 1e-9 * volume.max()))
+        return self._opened(state).store
 
     def _volume(self, state: State) -> Floats:
         """Volume (n,) of the joints at their nodes (m3), weighed as pressures are."""
-        one, other = self.apertures(state).T
+        return self._opened(state).volume
+
+    def _opened(self, state: State) -> OpenJoints:
+        """Return the joints of a state, made once for all that asks for it."""
+        if self._open is None or self._open.state is not state:
+            self._open = self._opening(state)
+        return self._open
+
+    def _opening(self, state: State) -> OpenJoints:
+        aperture, n = super().apertures(state), self.network.n
+        one, other = aperture.T
         length = self.network.length * self._thickness / 6
         shares = np.stack([length * (2 * one + other), length * (one + 2 * other)], axis=1)
-        ends = self.network.ends.ravel()
-        return np.bincount(ends, shares.ravel(), minlength=self.network.n).astype(float)
+        volume = np.bincount(self.network.ends.ravel(), shares.ravel(), n).astype(float)
+        store = self.weight / self._bulk * np.maximum(volume, 1e-9 * volume.max())
+        a, b = self.network.ends.T
+        flow, found = self.network.conductance(aperture) * self._thickness, np.zeros((n, n))
+        for row, column, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
+            np.add.at(found, (row, column), sign * flow)
+        return OpenJoints(state, aperture, volume, np.asarray(store), found)
 
     def _coupling(self, state: State, wet: Bools) -> Floats:
         """Force (n_unknowns, k) of a unit of pressure at each wet node (N)."""
-        found = []
-        for node in np.flatnonzero(wet):  # nodes of a network, each a vector of forces
-            pressure = (self.network.ends == node).astype(float)
-            forces = self.sites.forces(state, pressure)
-            found.append(self.sites.interface.spread(state, forces))
-        return np.stack(found, axis=1)
+        sites, n = self.sites, self.network.n
+        piece = sites.interface.first.piece
+        assert piece is not None
+        unknowns, jump = sites.interface.rows(state)
+        push = -sites.interface.area[:, None] * sites.interface.normal(state)
+        along = np.einsum("mcl,mc->ml", jump, push)
+        found = np.zeros((n, self.n_unknowns))
+        for end, share in enumerate((1 - sites.share, sites.share)):  # both ends of a joint
+            node = sites.nodes[piece, end]
+            np.add.at(found, (node[:, None], unknowns), share[:, None] * along)
+        return np.asarray(found[wet].T)
 
     @property
     def _thickness(self) -> float:
