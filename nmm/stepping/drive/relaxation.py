@@ -77,71 +77,119 @@ def relax(
     Where they are to rest ``near`` where they stand, those that go further than `COLLAPSE` fall,
     and so do those that, on their way, no contact forces hold with the bonds that are left.
     """
-    # Only scenes with loose blocks come here; the others do not import inertia.
-    from nmm.effects.inertia import Inertia
+    return _Search(stepper, state, end, names, near).run()
 
-    model = stepper.model
-    heavy = replace(model, density=np.where(model.density > 0, model.density, 1.0))
-    kinematics = stepper.kinematics.let_go
-    inertia = Inertia(heavy, kinematics.turns)
-    moving = Stepper(
-        stepper.discretisation.joined(inertia),
-        Shi(),
-        stepper.solver,
-        kinematics,
-    )
-    moving.budget = stepper.budget
-    size = stepper.size
-    pace = Pace(_first_length(heavy, stepper.plan.force(state, end), size))
-    proof = carried(stepper, state, end.load_factor)
-    farthest = COLLAPSE if near else 1.0
-    way, attempt, start, stands = 0.0, None, None, True
 
-    def fallen(first: Attempt | None) -> str:
-        assert proof is not None
-        return f"{proof.sentence}; {_who(moving, first, names)}"
+class _Search:
+    """A search for rest: where blocks are, and what their motion has told so far.
 
-    for steps in range(1, STEPS + 1):
-        length = pace.length
-        found = moving.attempt(state, end, length)
-        if not found.converged:
-            pace.cut()
-            if pace.ends:
-                said = f"a step failed: {found.sentence}"
-                return Relaxed(state, steps, False, said if stands else fallen(attempt), not stands)
-            continue
-        moving.accept(found)
-        goes = pace.speed(heavy, found.state.velocity)
-        rest = np.zeros_like(goes)
-        state, way = replace(found.state, velocity=goes, acceleration=rest), way + found.motion
-        if attempt is None and proof is not None and proof.fails:
-            stands = not _touched(model, found, largest_mover(model, state, found.increment)[0])
-        # What moves first tells what is free, not what it hits later.
-        attempt = found if attempt is None or way - found.motion < FREE_WAY * size else attempt
-        start = found.motion / length**2 if start is None else start
-        gathers = not pace.keeps_speed and found.motion > GATHERS * start * length**2
-        if gathers and way > GATHERED * size:
-            who = _who(moving, attempt, names)
-            return Relaxed(state, steps, False, f"it gathers speed: {who}", True)
-        if not stands and way > FALLEN * size:
-            return Relaxed(state, steps, False, fallen(attempt), True)
-        still = replace(state, velocity=rest)
+    Attributes
+    ----------
+    way
+        Sum of the largest motions of the steps (m).
+    first
+        The step whose motion tells what is free: what moves later may have hit something.
+    start
+        Largest motion of the first step over the square of its length (m/s2).
+    stands
+        Whether the structure may stand where it started, as the static theorem and its first motion
+        say.
+    """
+
+    def __init__(
+        self, stepper: Stepper, state: State, end: Instant, names: Sequence[str], near: bool
+    ) -> None:
+        # Only scenes with loose blocks come here; the others do not import inertia.
+        from nmm.effects.inertia import Inertia
+
+        self.stepper, self.state, self.end, self.names = stepper, state, end, names
+        model, kinematics, self.size = stepper.model, stepper.kinematics.let_go, stepper.size
+        self.heavy = replace(model, density=np.where(model.density > 0, model.density, 1.0))
+        joined = stepper.discretisation.joined(Inertia(self.heavy, kinematics.turns))
+        self.moving = Stepper(joined, Shi(), stepper.solver, kinematics)
+        self.moving.budget = stepper.budget
+        self.pace = Pace(_first_length(self.heavy, stepper.plan.force(state, end), self.size))
+        self.proof = carried(stepper, state, end.load_factor)
+        self.near, self.farthest = near, (COLLAPSE if near else 1.0) * self.size
+        self.way, self.steps, self.stands = 0.0, 0, True
+        self.first: Attempt | None = None
+        self.start: float | None = None
+
+    def run(self) -> Relaxed:
+        """Move the blocks until they rest, or it is known that they fall."""
+        for self.steps in range(1, STEPS + 1):
+            length = self.pace.length
+            found = self.moving.attempt(self.state, self.end, length)
+            ended = self._judged(found, length) if found.converged else self._cut(found)
+            if ended is not None:
+                return ended
+            if found.converged and found.motion < SLOW * self.size:
+                self.pace.lengthen()
+        return self._given_up()
+
+    def _judged(self, found: Attempt, length: float) -> Relaxed | None:
+        """Take a step, and say where the search ends by it; None where it goes on."""
+        self._take(found, length)
+        if self._gathers(found, length) and self.way > GATHERED * self.size:
+            return self._falls(f"it gathers speed: {self._who()}")
+        if not self.stands and self.way > FALLEN * self.size:
+            return self._falls(self._fallen())
+        still = replace(self.state, velocity=np.zeros_like(self.state.velocity))
         # A step cut short moves little, which is no rest.
-        slow = found.motion < STILL * size * min(1.0, (length / pace.first) ** 2)
-        if slow and pace.may_ask(steps) and _holds(stepper, still, end):
-            return Relaxed(still, steps, True, "", way=way)
-        if way > farthest * size:
-            break
-        if near and steps % LOOK == 0:
-            now = carried(moving, state, end.load_factor)
+        slow = found.motion < STILL * self.size * min(1.0, (length / self.pace.first) ** 2)
+        if slow and self.pace.may_ask(self.steps) and _holds(self.stepper, still, self.end):
+            return Relaxed(still, self.steps, True, "", way=self.way)
+        if self.way > self.farthest:
+            return self._given_up()
+        if self.near and self.steps % LOOK == 0:
+            now = carried(self.moving, self.state, self.end.load_factor)
             if now is not None and now.fails:
-                said = f"{now.sentence} after {way:.3g} m; {_who(moving, attempt, names)}"
-                return Relaxed(state, steps, False, said, True)
-        if found.motion < SLOW * size:
-            pace.lengthen()
-    if not stands:
-        return Relaxed(state, steps, False, fallen(attempt), True)
-    return Relaxed(state, steps, False, _who(moving, attempt, names), way > farthest * size)
+                return self._falls(f"{now.sentence} after {self.way:.3g} m; {self._who()}")
+        return None
+
+    def _take(self, found: Attempt, length: float) -> None:
+        """Go on from the end of a step."""
+        self.moving.accept(found)
+        goes = self.pace.speed(self.heavy, found.state.velocity)
+        self.state = replace(found.state, velocity=goes, acceleration=np.zeros_like(goes))
+        self.way += found.motion
+        if self.first is None and self.proof is not None and self.proof.fails:
+            model = self.stepper.model
+            body = largest_mover(model, self.state, found.increment)[0]
+            self.stands = not _touched(model, found, body)
+        if self.first is None or self.way - found.motion < FREE_WAY * self.size:
+            self.first = found
+        if self.start is None:
+            self.start = found.motion / length**2
+
+    def _gathers(self, found: Attempt, length: float) -> bool:
+        """Whether the structure has gathered speed since its first step."""
+        assert self.start is not None
+        return not self.pace.keeps_speed and found.motion > GATHERS * self.start * length**2
+
+    def _cut(self, found: Attempt) -> Relaxed | None:
+        """Shorten the step that failed; say where the search ends if it may be no shorter."""
+        self.pace.cut()
+        if not self.pace.ends:
+            return None
+        said = f"a step failed: {found.sentence}" if self.stands else self._fallen()
+        return Relaxed(self.state, self.steps, False, said, not self.stands)
+
+    def _given_up(self) -> Relaxed:
+        if not self.stands:
+            return self._falls(self._fallen())
+        falls = self.way > self.farthest
+        return Relaxed(self.state, self.steps, False, self._who(), falls)
+
+    def _falls(self, sentence: str) -> Relaxed:
+        return Relaxed(self.state, self.steps, False, sentence, True)
+
+    def _fallen(self) -> str:
+        assert self.proof is not None
+        return f"{self.proof.sentence}; {self._who()}"
+
+    def _who(self) -> str:
+        return _who(self.moving, self.first, self.names)
 
 
 def _holds(stepper: Stepper, state: State, end: Instant) -> bool:
