@@ -8,7 +8,6 @@ Signs: gap positive open, normal force positive in tension, shear force along th
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -17,7 +16,6 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.contact.problem.contact_state import ContactState
 from nmm.contact.problem.residual_kernel import weighted
 from nmm.contact.problem.row_products import Compressed, along
-from nmm.errors import SolveError
 from nmm.interfaces.limits import Limits as Limits
 from nmm.solvers.known import known_load
 
@@ -156,43 +154,10 @@ class StepProblem:
         SolveError
             Naming the first array at fault.
         """
-        if self._is_sound:
-            return
-        n, m = len(self.force), self.n_contacts
-        sizes: dict[str, tuple[Any, Any]] = {"matrix": (self.matrix.shape, (n, n))}
-        for name in ("normal_rows", "tangent_rows"):
-            sizes[name] = (getattr(self, name).shape, (m, n))
-        columns = {
-            name: getattr(self, name)
-            for name in ("slip", "normal_stiffness", "shear_stiffness", "normal_force")
-        }
-        columns |= {"state": self.state, "shear_force": self.shear_force} | vars(self.limits)
-        sizes |= {name: (np.shape(column), (m,)) for name, column in columns.items()}
-        for name, (found, expected) in sizes.items():
-            if found != expected:
-                raise SolveError(f"contact problem: {name} {found}: expected {expected}")
-        finite = {"matrix": self.matrix.data, "force": self.force, "gap": self.gap}
-        finite |= {"normal_rows": self.normal_rows.data, "tangent_rows": self.tangent_rows.data}
-        finite |= {"slip": self.slip, "friction": self.limits.friction}
-        finite |= {"normal_stiffness": self.normal_stiffness}
-        finite |= {"shear_stiffness": self.shear_stiffness}
-        for name, array in finite.items():
-            if not np.isfinite(array).all():
-                at = int(np.flatnonzero(~np.isfinite(array))[0])
-                raise SolveError(
-                    f"contact problem: {name}[{at}] = {array[at]}: expected finite numbers: "
-                    "check loads and stiffnesses, or shorten the step"
-                )
-        positive = {"normal_stiffness": self.normal_stiffness > 0}
-        positive |= {"shear_stiffness": self.shear_stiffness > 0}
-        positive |= {name: column >= 0 for name, column in vars(self.limits).items()}
-        for name, good in positive.items():
-            if not good.all():
-                at = int(np.flatnonzero(~good)[0])
-                raise SolveError(
-                    f"contact problem: {name} of contact {at}: {columns[name][at]}: "
-                    "expected a positive number (limits may be 0)"
-                )
+        if not self._is_sound:
+            from nmm.contact.problem.refusal import refuse
+
+            refuse(self)
 
 
 @dataclass(frozen=True)
