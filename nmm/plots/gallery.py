@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -56,46 +56,60 @@ def draw_all(
         Called with a sentence for each picture that a damaged run folder does not let us draw; the
         others are drawn. Without it the first such fault is raised.
     """
-    target = Path(folder)
-    drawn: list[Path] = []
-    shown = _readable(run, tell)
-
-    def draw(name: str, picture: Callable[..., object], *what: object, **how: object) -> None:
-        try:
-            made = picture(*what, **how, path=target / name)
-        except (DamageError, SceneError, FormulationError) as fault:
-            if tell is None:
-                raise
-            tell(f"{name} is not drawn: {fault}")
-        else:
-            drawn.extend([target / name] if made is not False else [])
-
+    album, shown = _Album(Path(folder), tell), _readable(run, tell)
     if shown.frames:
         calm = _last_before_failure(shown) if frame is None else frame
         if frame is not None:
-            draw("deformed.png", deformed, shown, frame=frame, magnification=magnification)
+            place = {"frame": frame, "magnification": magnification}
+            album.draw("deformed.png", deformed, shown, **place)
         else:
             name = "failure_mode.png" if shown.frames[-1].stage == "failure" else "deformed.png"
-            draw(name, failure_mode, shown, scene=scene, magnification=magnification)
-        draw(f"stress_{component}.png", stress, shown, component, frame=calm)
-        for name, quantity in shown.frames[calm].fields.items():  # a handful, of effects
-            apart = quantity.on in ("contacts", *APART)
-            if ":" in name and not apart and quantity.values.ndim == 1:
-                file = name.replace(":", "_").replace(" ", "_")
-                draw(f"{file}.png", stress, shown, name, frame=calm)
-        if grown_paths(shown):
-            draw("crack_paths.png", crack_paths, shown)
-        if len(shown.frames[calm].contact_gap):
-            draw("contact_forces.png", contact_forces, shown, frame=calm)
-        if shown.frames[calm].on("members"):
-            draw("members.png", members, shown, frame=calm)
+            album.draw(name, failure_mode, shown, scene=scene, magnification=magnification)
+        album.draw(f"stress_{component}.png", stress, shown, component, frame=calm)
+        _of_frame(album, shown, calm)
         if _has_covers(run, scene):
-            draw("covers.png", _covers, run, scene)
+            album.draw("covers.png", _covers, run, scene)
     if _steps(run) > 1:  # one step is no curve
         if _moved(run) and not (shown.frames and shown.frames[-1].stage == "dynamic"):
-            draw("load_displacement.png", load_displacement, run)
-        draw("history.png", overview, run)
-    return drawn
+            album.draw("load_displacement.png", load_displacement, run)
+        album.draw("history.png", overview, run)
+    return album.drawn
+
+
+@dataclass
+class _Album:
+    """Pictures of a folder, ``drawn`` so far; ``tell`` as for `draw_all`."""
+
+    folder: Path
+    tell: Callable[[str], None] | None
+    drawn: list[Path] = field(default_factory=list)
+
+    def draw(self, name: str, picture: Callable[..., object], *what: object, **how: object) -> None:
+        """Draw one, unless it says by False that there is nothing to draw."""
+        try:
+            made = picture(*what, **how, path=self.folder / name)
+        except (DamageError, SceneError, FormulationError) as fault:
+            if self.tell is None:
+                raise
+            self.tell(f"{name} is not drawn: {fault}")
+        else:
+            self.drawn.extend([self.folder / name] if made is not False else [])
+
+
+def _of_frame(album: _Album, shown: RunData, number: int) -> None:
+    """Draw what a frame has besides stress: quantities of effects, cracks, forces."""
+    frame = shown.frames[number]
+    for name, quantity in frame.fields.items():  # a handful, of effects
+        apart = quantity.on in ("contacts", *APART)
+        if ":" in name and not apart and quantity.values.ndim == 1:
+            file = name.replace(":", "_").replace(" ", "_")
+            album.draw(f"{file}.png", stress, shown, name, frame=number)
+    if grown_paths(shown):
+        album.draw("crack_paths.png", crack_paths, shown)
+    if len(frame.contact_gap):
+        album.draw("contact_forces.png", contact_forces, shown, frame=number)
+    if frame.on("members"):
+        album.draw("members.png", members, shown, frame=number)
 
 
 @dataclass(frozen=True)
