@@ -5,8 +5,13 @@ from scipy.optimize import brentq
 
 from covers.local_functions.singular_functions import SingularFunctions
 
+# Exponents this near to one belong to rotations, which polynomials hold.
+ROTATION = 0.02
 
-def corner_functions(angle: float, kappa: float, length: float) -> SingularFunctions:
+
+def corner_functions(
+    angle: float, kappa: float, length: float, both: bool = False
+) -> SingularFunctions:
     """Return the singular modes of a corner of material of the given angle (Williams 1952).
 
     Parameters
@@ -16,6 +21,8 @@ def corner_functions(angle: float, kappa: float, length: float) -> SingularFunct
         above.
     kappa, length
         as in `SingularFunctions`.
+    both
+        Whether the first antisymmetric mode is wanted where its stress is bounded, too.
 
     Raises
     ------
@@ -31,6 +38,8 @@ def corner_functions(angle: float, kappa: float, length: float) -> SingularFunct
     first, second = _exponent(half, 1.0), _exponent(half, -1.0)
     assert first is not None  # there is one at every re-entrant corner
     ratio = -(first - 1) / (first + 1) * _sines(first, half)
+    if second is None and both:
+        second = _exponent(half, -1.0, 1 + ROTATION, 2.0) or 1 + ROTATION
     if second is None:
         return SingularFunctions((first,), (ratio,), (True,), kappa, length)
     return SingularFunctions(
@@ -42,13 +51,13 @@ def _sines(power: float, half: float) -> float:
     return float(np.sin((power - 1) * half) / np.sin((power + 1) * half))
 
 
-def _exponent(half: float, sign: float) -> float | None:
-    """Root below one of ``sin(2 l a) + sign l sin(2 a) = 0``; None without one."""
+def _exponent(half: float, sign: float, least: float = 0.4, most: float = 1 - 1e-9) -> float | None:
+    """Least root of ``sin(2 l a) + sign l sin(2 a) = 0`` within bounds; None without one."""
 
     def equation(power: float) -> float:
         return float(np.sin(2 * power * half) + sign * power * np.sin(2 * half))
 
-    grid = np.linspace(0.4, 1 - 1e-9, 241)
+    grid = np.linspace(least, most, 241)
     values = np.array([equation(power) for power in grid])
     change = np.flatnonzero(values[:-1] * values[1:] <= 0)
     if not len(change):

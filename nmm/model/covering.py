@@ -142,7 +142,7 @@ def _mesh(
         raise FormulationError(f"[cover] {fault}") from fault
     laid, pieces = net.cover, net.cells
     try:
-        extra = enrichments(pieces, cover, kappa, bonded)
+        extra = enrichments(pieces, cover, kappa, bonded, lines)
     except ValueError as fault:
         raise FormulationError(f"[cover.enrichment] {fault}") from fault
     kinds = functions if not cover.regions else kinds_by_region(regions, pieces, cover)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from covers.cutting.cut_cells import CutCells
     from nmm.formulation import CoverTable
+    from nmm.fracture.corners import Corner
 
 
 # Cells about a tip that may grow, up to which covers carry its functions. Where eight cells are
@@ -35,12 +36,17 @@ def with_growing_tips(cover: "CoverTable") -> "CoverTable":
 
 
 def enrichments(
-    cut: "CutCells", cover: "CoverTable", kappa: Floats | None, bonded: "Sequence[int]" = ()
+    cut: "CutCells",
+    cover: "CoverTable",
+    kappa: Floats | None,
+    bonded: "Sequence[int]" = (),
+    lines: "Sequence[Floats]" = (),
 ) -> list[Enrichment]:
     """Return crack-tip functions and the corner functions that ``[cover.enrichment]`` names.
 
-    The covers about a tip carry its functions, with the table those within its radius too; tips of
-    the cracks with the numbers ``bonded`` have none.
+    The covers about a tip carry its functions, with the table those within its radius too; those
+    that touch a sharp kink of one of the ``lines`` functions of its corner. Cracks with the numbers
+    ``bonded`` have none.
 
     Raises
     ------
@@ -52,28 +58,41 @@ def enrichments(
     from nmm.fracture.corners import corner_at
 
     table = cover.enrichment
-    assert cover.size is not None
+    size, tips = cover.size, _tips(cut, cover, bonded)
+    assert size is not None
     constant = np.full(int(cut.element_region.max()) + 1, 2.0) if kappa is None else kappa
     radius = 0.0 if table is None else table.radius
     found = []
-    for number in _tips(cut, cover, bonded):  # a handful of tips
+    for number in tips:  # a handful of tips
         element = cut.tips.element[number]
-        functions = crack_tip_functions(float(constant[cut.element_region[element]]), cover.size)
+        functions = crack_tip_functions(float(constant[cut.element_region[element]]), size)
         point, ahead = cut.tips.point[number], cut.tips.direction[number]
         found.append(Enrichment(functions, point, ahead, radius, int(cut.element_body[element])))
-    for place in () if table is None else table.corners:
-        point = np.array(place)
-        corner = corner_at(cut.boundary, point)
+
+    def about(corner: "Corner", reach: float, both: bool = False) -> Enrichment:
         modulus = float(constant[cut.element_region[corner.element]])
-        functions = corner_functions(corner.angle, modulus, cover.size)
+        functions = corner_functions(corner.angle, modulus, size, both)
         body = int(cut.element_body[corner.element])
-        found.append(Enrichment(functions, point, corner.direction, radius, body))
+        return Enrichment(functions, corner.point, corner.direction, reach, body)
+
+    # Tips have two modes, and so must what stands beside them.
+    found += [about(corner, 0.0, both=True) for corner in _kinks(cut, lines, tips)]
+    corners = () if table is None else table.corners
+    found += [about(corner_at(cut.boundary, np.array(place)), radius) for place in corners]
     if len({item.functions.number for item in found}) > 1:
         raise FormulationError(
             "[cover.enrichment]: points with different numbers of singular modes: expected one "
             "number: enrich crack tips, or corners of one angle"
         )
     return found
+
+
+def _kinks(cut: "CutCells", lines: "Sequence[Floats]", tips: Ints) -> "list[Corner]":
+    """Corners at the sharp kinks of cracks that have one of the ``tips``."""
+    from nmm.fracture.corners import kinks
+
+    cracks = np.unique(cut.tips.crack[tips])
+    return [corner for crack in cracks for corner in kinks(cut.boundary, lines[crack])]
 
 
 def _tips(cut: "CutCells", cover: "CoverTable", bonded: "Sequence[int]") -> Ints:

@@ -165,7 +165,8 @@ class ContactLaws:
         if self.evolving:
             away = bonded & (contacts.gap > 0)
             normal = normal * np.where(away, self.response(contacts, normal).open_share, 1.0)
-        acts = (contacts.normal_force != 0) | (contacts.shear_force != 0)
+        # Bonds carry what their stretch says, also where they were laid just now.
+        acts = bonded | (contacts.normal_force != 0) | (contacts.shear_force != 0)
         acts &= (own | (not own_only)) & ~contacts.tied
         stretch = np.where(bonded, contacts.gap, np.minimum(contacts.gap, 0.0))
         elastic = normal * stretch**2 + shear * contacts.slip**2

@@ -55,30 +55,42 @@ class GrowthPath:
         there the logarithm of that is what the cubics run over. Pieces about which the factor
         changes its sign count as their chords.
         """
-        length, factor, stored = self.stations.T
-        compliance = stored / factor**2
-        if len(length) < 2:
+        if len(self.stations) < 2:
             return self._beyond_jump
-        nearly = np.exp(-2 * self._between(_place(length, end), np.log(np.abs(factor)), end))
-        freed = np.diff(compliance) / (nearly @ WEIGHTS / 2)
-        chord = np.diff(compliance) * factor[1:] * factor[:-1]
-        return float((freed - chord)[self._one_sign].sum()) + self._beyond_jump
+        beyond = self._freed(end) - self._chords
+        return float(beyond[self._one_sign].sum()) + self._beyond_jump
 
-    def to_the_end(self, end: float) -> float:
+    def to_the_end(self, end: float, short: float = 0.0) -> float:
         """Energy (J) freed from the last station until bodies part at the length ``end``.
 
-        With what is left of a ligament, c, the factor falls as c^p, and g rises as c^(-2 p): as
-        much as (2 p - 1) times what is stored is freed until nothing is, by p of the last piece.
-        Nothing is said where the factor does not fall so. What is known now of the end corrects
-        the way before it.
+        L^2 g is constant there too: each length frees what it did in the piece before. Stations
+        with less than ``short`` (m) left do not count. What is known now of the end corrects the
+        way before it. Nothing is said where the factor does not fall with the root of what is left
+        at least.
         """
-        if len(self.stations) < 2:
+        length, factor, _ = self.stations.T
+        left = end - length
+        if len(left) < 2:
             return 0.0
+        if not np.log(factor[-1] / factor[-2]) < np.log(left[-1] / left[-2]) / 2:
+            return 0.0
+        known = replace(self, stations=self.stations[: max(2, int((left >= short).sum()))])
+        last = known.stations[-2:, 0]
+        rest = known._freed(end)[-1] * (end - last[1]) / (last[1] - last[0])
+        found = known._chords.sum() + known.beyond_chord(end) + rest
+        return float(found - self._chords.sum() - self.beyond_chord())
+
+    def _freed(self, end: float | None) -> Floats:
+        """Energy (n - 1,) that pieces freed at the toughness (J)."""
         length, factor, stored = self.stations.T
-        left = np.log(end - length[-2:])
-        power = np.diff(np.log(np.abs(factor[-2:])))[0] / np.diff(left)[0]
-        more = self.beyond_chord(end) - self.beyond_chord()
-        return float(max(2 * power - 1, 0.0) * stored[-1] + more)
+        nearly = np.exp(-2 * self._between(_place(length, end), np.log(np.abs(factor)), end))
+        return np.asarray(np.diff(stored / factor**2) / (nearly @ WEIGHTS / 2))
+
+    @property
+    def _chords(self) -> Floats:
+        """Energy (n - 1,) that pieces freed along chords (J)."""
+        _, factor, stored = self.stations.T
+        return np.asarray(np.diff(stored / factor**2) * factor[1:] * factor[:-1])
 
     @property
     def _beyond_jump(self) -> float:

@@ -56,6 +56,20 @@ def test_a_ligament_of_a_bent_beam_frees_its_share_until_nothing_is_left():
     assert found == pytest.approx(0.93, rel=1e-7)
 
 
+def test_a_station_at_a_short_ligament_does_not_count():
+    """The factor is 30 % too large where 0.03 is left; the rest is that of the bent beam above."""
+    length = 0.1 * np.arange(10)
+    left = 0.93 - length
+    factor = left**1.5 * np.where(left < 0.05, 1.3, 1.0)
+    path = passed(length, factor, left / 2 * (factor / left**1.5) ** 2)
+    wrong, right = (
+        over_chords(path) + path.beyond_chord() + path.to_the_end(0.93, short)
+        for short in (0.0, 0.05)
+    )
+    assert right == pytest.approx(0.93, rel=1e-7)
+    assert abs(wrong - 0.93) > 0.01
+
+
 def test_the_first_factor_and_one_that_turns_round_have_no_way_between():
     assert GrowthPath().on(0.5, 2.0, 1.0).beyond_chord() == 0.0
     turned = passed([0.5, 0.6], [2.0, -1.0], [1.0, 1.0])
