@@ -68,9 +68,7 @@ class Contact(Effect):
             sides.surface(start.frames, start.deformation),
             model,
             self.partners.interfaces,
-            self.laws.makes_joints,
-            self.laws.bonded,
-            self.laws.initial,
+            self.laws,
             parts.joint_rule,
             parts.cracks,
         )

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -131,13 +132,26 @@ class JointBook:
         return int((~self.points.bonded).sum()) + len(self.lost)
 
 
+class JointLaws(Protocol):
+    """What joints ask of the laws of a scene's n interfaces."""
+
+    @property
+    def makes_joints(self) -> Bools:
+        """(n,) whether shared edges are followed as joints."""
+
+    @property
+    def bonded(self) -> Bools:
+        """(n,) whether they hold together at the start."""
+
+    def initial(self, interface: Ints, bonded: Bools) -> History:
+        """Return what the laws of points (m,) remember at first, of bonds that hold or not."""
+
+
 def follow_joints(
     surface: Surface,
     model: Model,
     interface_of: Callable[[Ints, Ints], Ints],
-    makes_joints: Bools,
-    bonded: Bools,
-    initial: Callable[[Ints, Bools], History],
+    laws: JointLaws,
     joint_rule: str,
     cracks: BondedCracks,
 ) -> JointBook:
@@ -149,30 +163,18 @@ def follow_joints(
         Where the edges are at the start, and the materials behind them.
     interface_of
         From two edges to the index of their interface, negative without.
-    makes_joints, bonded
-        (n,) which interfaces make joints, and hold them together.
-    initial
-        From interfaces (m,) and bonds that hold to what their laws remember at first.
+    laws
+        Of the interfaces.
     joint_rule
         "corners" or "gauss": where joints act along their edge.
     cracks
         Those within bodies whose faces hold together.
     """
-    joints = find_joints(surface, within_bodies=bool(cracks))
-    middle = (joints.start + joints.end) / 2
-    seam, apart = cracks.hold(middle), surface.body[joints.edge_a] != surface.body[joints.edge_b]
-    kept = seam | (apart & ~cracks.part(middle))
-    joints, seam = joints.take(kept), seam[kept]
-    interface = interface_of(joints.edge_a, joints.edge_b)
-    firm = (interface >= 0) & bonded[np.maximum(interface, 0)]
-    refuse_loose(joints.start[seam & ~firm])
-    wanted = (interface >= 0) & makes_joints[np.maximum(interface, 0)]
-    joints, interface = joints.take(wanted), interface[wanted]
+    joints, interface = _followed(surface, interface_of, laws, cracks)
     distance = _distance(model, joints)
     points = joint_points(surface, joints, joint_rule)
-    m = len(points)
     vertex, edge, joint = joint_ends(surface, joints)
-    held = bonded[interface[points.joint]]
+    held = laws.bonded[interface[points.joint]]
     found = ContactPoints.unloaded(
         edge_a=points.edge_a,
         parameter_a=points.parameter_a,
@@ -183,13 +185,32 @@ def follow_joints(
         length=points.length,
         spring_factor=points.length / distance[points.joint],
         interface=interface[points.joint],
-        key=-1 - np.arange(m),
+        key=-1 - np.arange(len(points)),
         state=np.where(held, int(BONDED), int(OPEN)),
-        history=initial(interface[points.joint], held),
+        history=laws.initial(interface[points.joint], held),
     )
     pairs = pair_key(surface, vertex, edge)
     none = found.take(np.zeros(0, dtype=np.int64))
     return JointBook(found, points.joint, pairs, joint, lost=none, left=none)
+
+
+def _followed(
+    surface: Surface,
+    interface_of: Callable[[Ints, Ints], Ints],
+    laws: JointLaws,
+    cracks: BondedCracks,
+) -> tuple[Joints, Ints]:
+    """Return the stretches that are followed, and the interface (j,) of each."""
+    joints = find_joints(surface, within_bodies=bool(cracks))
+    middle = (joints.start + joints.end) / 2
+    seam, apart = cracks.hold(middle), surface.body[joints.edge_a] != surface.body[joints.edge_b]
+    kept = seam | (apart & ~cracks.part(middle))
+    joints, seam = joints.take(kept), seam[kept]
+    interface = interface_of(joints.edge_a, joints.edge_b)
+    firm = (interface >= 0) & laws.bonded[np.maximum(interface, 0)]
+    refuse_loose(joints.start[seam & ~firm])
+    wanted = (interface >= 0) & laws.makes_joints[np.maximum(interface, 0)]
+    return joints.take(wanted), interface[wanted]
 
 
 def given_up(points: ContactPoints) -> ContactPoints:
