@@ -20,7 +20,7 @@ from nmm.constraints.springs import Springs
 from nmm.constraints.supports import Supports
 from nmm.formulation import Formulation
 from nmm.verification.base import Case
-from nmm.verification.formulations import chosen
+from nmm.verification.formulations import chosen, with_cover
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -124,8 +124,7 @@ def on_mesh(name: str, size: float, position: int = 0) -> Formulation:
     """Return the formulation called ``name`` with covers of a size, turned and moved."""
     angle, shift = (0.0, (0.0, 0.0)) if position == FITTED else POSITIONS[position]
     found = chosen(name)
-    cover = found.cover.model_copy(update={"size": size, "angle": angle, "shift": shift})
-    return found.model_copy(update={"cover": cover})
+    return with_cover(found, size=size, angle=angle, shift=shift)
 
 
 def degree(formulation: Formulation) -> int:

@@ -58,3 +58,9 @@ def chosen(name: str, base: Formulation | None = None) -> Formulation:
     for table, values in CHOICES[name].items():
         content[table] |= values
     return Formulation.model_validate(content)
+
+
+def with_cover(formulation: Formulation, **keys: Any) -> Formulation:
+    """Return a formulation with other values of its ``[cover]``."""
+    cover = formulation.cover.model_copy(update=keys)
+    return formulation.model_copy(update={"cover": cover})

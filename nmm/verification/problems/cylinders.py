@@ -23,6 +23,7 @@ from nmm.verification.continuum import (
     rollers,
     stress_at,
 )
+from nmm.verification.formulations import with_cover
 from nmm.verification.reading import last_way
 
 if TYPE_CHECKING:
@@ -181,9 +182,7 @@ class Core(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> Formulation:
         """Return covers fine enough for the core."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": self.size, "angle": 0.3})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=self.size, angle=0.3)
 
     def scene(self) -> str:
         """Return a quarter of core and ring."""

@@ -11,6 +11,7 @@ from integration.rules import PointRule
 from nmm.assembly.errors import stresses
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.formulations import with_cover
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
@@ -64,8 +65,7 @@ class BrazilianDisc(SceneCase):
         """
         found = super().formulation(scene, name)
         size = 0.05 if found.cover.degree == 0 else 0.1
-        cover = found.cover.model_copy(update={"size": size, "angle": 0.3, "shift": (0.2, 0.3)})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(found, size=size, angle=0.3, shift=(0.2, 0.3))
 
     def measure(self, run: "Run") -> Checks:
         """Compare the stress at points of the axis."""

@@ -20,9 +20,9 @@ from nmm.scene.cover_tables import EnrichmentTable
 from nmm.verification import text
 from nmm.verification.base import Case, Check, Checks, SceneCase, order
 from nmm.verification.continuum import polygon
-from nmm.verification.formulations import chosen
+from nmm.verification.formulations import chosen, with_cover
 from nmm.verification.problems.heat_flow import edge
-from nmm.verification.problems.heat_strain import finer, warm
+from nmm.verification.problems.heat_strain import warm
 from nmm.verification.series import Series
 
 if TYPE_CHECKING:
@@ -129,9 +129,7 @@ class HeatAroundSlit(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return the formulation with ten cells over the width."""
-        found = finer(super().formulation(scene, name), 0.05)
-        cover = found.cover.model_copy(update={"angle": self.angle})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=0.05, angle=self.angle)
 
     def measure(self, run: "Run") -> Checks:
         """Compare the flow."""

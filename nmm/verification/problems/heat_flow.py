@@ -20,9 +20,9 @@ from nmm.study.samples import elements_at, fields
 from nmm.verification import text
 from nmm.verification.base import Case, Check, Checks, SceneCase, limit, order
 from nmm.verification.continuum import polygon, quarter
-from nmm.verification.formulations import chosen
+from nmm.verification.formulations import chosen, with_cover
 from nmm.verification.problems.cylinders import polar
-from nmm.verification.problems.heat_strain import finer, pinned, rollers, warm
+from nmm.verification.problems.heat_strain import pinned, rollers, warm
 from nmm.verification.reading import last_way
 from nmm.verification.series import Series
 
@@ -77,7 +77,9 @@ class HeatedCylinder(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return the formulation with eight cells across the wall, four of degree 2."""
-        return finer(super().formulation(scene, name), 0.125 if name == "manifold" else 0.25)
+        return with_cover(
+            super().formulation(scene, name), size=0.125 if name == "manifold" else 0.25
+        )
 
     def measure(self, run: "Run") -> Checks:
         """Compare temperature, widening and stresses."""

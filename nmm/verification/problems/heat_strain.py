@@ -10,6 +10,7 @@ from nmm.study.samples import fields
 from nmm.verification import text
 from nmm.verification.base import MESHES, Check, Checks, SceneCase, limit
 from nmm.verification.continuum import quarter
+from nmm.verification.formulations import with_cover
 from nmm.verification.reading import last_way, mean_stress
 
 if TYPE_CHECKING:
@@ -53,12 +54,6 @@ def pinned(point: Sequence[float], axes: str, name: str) -> str:
     return f'[[supports]]\nname = "{name}"\npoint = {list(point)}\nfix = {list(axes)}\n'.replace(
         "'", '"'
     )
-
-
-def finer(formulation: "Formulation", size: float) -> "Formulation":
-    """Return a formulation with cells of another size (m)."""
-    cover = formulation.cover.model_copy(update={"size": size})
-    return formulation.model_copy(update={"cover": cover})
 
 
 @dataclass(frozen=True)
@@ -228,7 +223,7 @@ class HotCore(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return the formulation with cells of half the core."""
-        return finer(super().formulation(scene, name), 0.25)
+        return with_cover(super().formulation(scene, name), size=0.25)
 
     def measure(self, run: "Run") -> Checks:
         """Compare stresses of core and ring, and the widening."""

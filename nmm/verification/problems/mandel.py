@@ -10,6 +10,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds, limit
+from nmm.verification.formulations import with_cover
 from nmm.verification.problems.seepage import pressure
 
 if TYPE_CHECKING:
@@ -163,8 +164,7 @@ class SqueezedSoil(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of a tenth of the half width."""
-        found = super().formulation(scene, name)
-        return found.model_copy(update={"cover": found.cover.model_copy(update={"size": 0.1})})
+        return with_cover(super().formulation(scene, name), size=0.1)
 
     def measure(self, run: "Run") -> Checks:
         """Compare pressures, the force of the plate, and how far the edge moves out."""

@@ -6,6 +6,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.formulations import with_cover
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:
@@ -60,9 +61,7 @@ class MovingForce(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of an eighth of the beam."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": self.length / 8})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=self.length / 8)
 
     def measure(self, run: "Run") -> Checks:
         """Compare the deflection over the crossing."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
+from nmm.verification.formulations import with_cover
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
@@ -76,9 +77,7 @@ class NotchedBeam(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return squares of 12.5 mm, sixteen over the height."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": self.size})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=self.size)
 
     def measure(self, run: "Run") -> Checks:
         """Compare the largest load on the way, and see that the beam softens after it."""

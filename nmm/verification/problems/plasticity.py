@@ -11,6 +11,7 @@ from nmm.formulation import Formulation
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.continuum import quarter
+from nmm.verification.formulations import with_cover
 from nmm.verification.reading import converged, way
 
 if TYPE_CHECKING:
@@ -119,9 +120,7 @@ class PlasticBeam(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> Formulation:
         """Return cells of a quarter of the depth, of half of it for functions of degree 2."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": 0.25 if "2" not in name else 0.5})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=0.25 if "2" not in name else 0.5)
 
     def scene(self) -> str:
         """Return half the beam, 9 long and 1 deep: a load of 1 J / 6 m is the first yield."""

@@ -12,8 +12,9 @@ from nmm.study.samples import elements_at, fields
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
 from nmm.verification.continuum import quarter
+from nmm.verification.formulations import with_cover
 from nmm.verification.problems.cylinders import polar
-from nmm.verification.problems.heat_strain import finer, pinned, rollers
+from nmm.verification.problems.heat_strain import pinned, rollers
 from nmm.verification.problems.water import water
 from nmm.verification.reading import last_way
 
@@ -138,7 +139,9 @@ class PorousCylinder(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return the formulation with eight cells across the wall, four of degree 2."""
-        return finer(super().formulation(scene, name), 0.125 if name == "manifold" else 0.25)
+        return with_cover(
+            super().formulation(scene, name), size=0.125 if name == "manifold" else 0.25
+        )
 
     def measure(self, run: "Run") -> Checks:
         """Compare pressure, flow, total stresses and the widening."""
@@ -184,7 +187,7 @@ class SeepingDam(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return the formulation with cells of a metre."""
-        return finer(super().formulation(scene, name), 1.0)
+        return with_cover(super().formulation(scene, name), size=1.0)
 
     def measure(self, run: "Run") -> Checks:
         """Compare discharge, balance, and a pressure near the base."""

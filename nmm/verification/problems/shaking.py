@@ -9,6 +9,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
+from nmm.verification.formulations import with_cover
 from nmm.verification.problems.incline import on_slope
 from nmm.verification.reading import way
 
@@ -276,7 +277,7 @@ class LayerOnRock(SceneCase):
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return twenty cells a wave, or thirty where functions are linear or constant."""
         degree = super().formulation(scene, name).cover.highest_degree
-        return _of_size(super().formulation(scene, name), 3.0 if degree else 1.5)
+        return with_cover(super().formulation(scene, name), size=3.0 if degree else 1.5)
 
     def measure(self, run: "Run") -> Checks:
         """Compare the velocity of the surface with the first two peaks."""
@@ -304,7 +305,7 @@ class LevelGround(LayerOnRock):
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of 2.5 m, or of 6 m with functions of degree 1."""
         degree = super().formulation(scene, name).cover.highest_degree
-        return _of_size(super().formulation(scene, name), 6.0 if degree else 2.5)
+        return with_cover(super().formulation(scene, name), size=6.0 if degree else 2.5)
 
     def measure(self, run: "Run") -> Checks:
         """Compare the side and the middle, and how little the ground rises."""
@@ -326,15 +327,9 @@ def surface(run: "Run", monitor: str) -> tuple[Floats, Floats]:
     return np.diff(moved) / np.diff(time), (time[1:] + time[:-1]) / 2
 
 
-def _of_size(formulation: "Formulation", size: float) -> "Formulation":
-    """Return a formulation with cells of a size (m)."""
-    cover = formulation.cover.model_copy(update={"size": size})
-    return formulation.model_copy(update={"cover": cover})
-
-
 def _one_cell(formulation: "Formulation") -> "Formulation":
     """Return a formulation of one cell over the square, its edges held by multipliers."""
     if formulation.cover.size is None:
         return formulation
     supports = formulation.supports.model_copy(update={"method": "lagrange"})
-    return _of_size(formulation, 1.0).model_copy(update={"supports": supports})
+    return with_cover(formulation, size=1.0).model_copy(update={"supports": supports})

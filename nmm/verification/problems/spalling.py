@@ -7,6 +7,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.formulations import with_cover
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
@@ -53,9 +54,7 @@ class SpalledBar(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of a twentieth of the spall."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": 0.025})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=0.025)
 
     def measure(self, run: "Run") -> Checks:
         """Compare when and where the bar breaks, how fast the spall is, and its impulse.

@@ -8,6 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
+from nmm.verification.formulations import with_cover
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -100,8 +101,7 @@ class CrushedColumn(SceneCase):
         found = super().formulation(scene, name)
         if found.cover.size is None:
             return found
-        cover = found.cover.model_copy(update={"size": self.width / 3})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(found, size=self.width / 3)
 
     def measure(self, run: "Run") -> Checks:
         """Compare the load of the first split and its planes."""
@@ -212,9 +212,7 @@ class CutBar(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of a twentieth of a half."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": 0.05})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=0.05)
 
     def measure(self, run: "Run") -> Checks:
         """Compare the gap in time, its largest value and when it closes."""
@@ -286,9 +284,7 @@ class SplitDisc(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of a fortieth of the diameter, laid so that the middle lies within one."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": self.size / 40, "shift": (0.2, 0.3)})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=self.size / 40, shift=(0.2, 0.3))
 
     def measure(self, run: "Run") -> Checks:
         """Compare the load in kN, and the plane."""

@@ -7,6 +7,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.formulations import with_cover
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:
@@ -55,9 +56,7 @@ class BarWave(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return meshes turned against the bar, 50 cells along it."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": 0.2, "angle": 0.3})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=0.2, angle=0.3)
 
     def measure(self, run: "Run") -> Checks:
         """Compare the arrival at the middle and the largest displacement of the end."""

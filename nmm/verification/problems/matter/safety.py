@@ -8,6 +8,7 @@ import numpy as np
 from nmm.formulation import Formulation
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
+from nmm.verification.formulations import with_cover
 from nmm.verification.text import G
 
 if TYPE_CHECKING:
@@ -41,8 +42,7 @@ class SoilSlope(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> Formulation:
         """Return cells of an eighth of the height."""
-        found = super().formulation(scene, name)
-        return found.model_copy(update={"cover": found.cover.model_copy(update={"size": 1.25})})
+        return with_cover(super().formulation(scene, name), size=1.25)
 
     def scene(self) -> str:
         """Return the slope, 10 m high, its crest 22 m wide."""

@@ -10,6 +10,7 @@ import numpy as np
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, holds
 from nmm.verification.continuum import quarter
+from nmm.verification.formulations import with_cover
 from nmm.verification.problems.plasticity import pull, roller
 from nmm.verification.reading import converged, way
 
@@ -51,9 +52,7 @@ class FlowingTunnel(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of a quarter of the radius."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": 0.25})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=0.25)
 
     def scene(self) -> str:
         """Return a quarter in MPa, a = 1 m, under the same stress from all three sides."""

@@ -7,6 +7,7 @@ import numpy as np
 
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.formulations import with_cover
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:
@@ -131,9 +132,7 @@ class Embankment(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of a lift."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": self.height})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=self.height)
 
     def measure(self, run: "Run") -> Checks:
         """Compare how far each top comes down by later lifts, and with its own placing."""

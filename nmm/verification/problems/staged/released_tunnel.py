@@ -9,6 +9,7 @@ from integration.arrays import Floats
 from integration.polygons import centroids
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.formulations import with_cover
 from nmm.verification.problems.staged.columns import ends
 from nmm.verification.reading import way
 
@@ -96,9 +97,7 @@ class ReleasedTunnel(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of a sixth of the radius."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": 0.5})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=0.5)
 
     def measure(self, run: "Run") -> Checks:
         """Compare the ways of the wall, and the mean hoop stress of the ring."""

@@ -8,6 +8,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase
+from nmm.verification.formulations import with_cover
 from nmm.verification.reading import way
 
 if TYPE_CHECKING:
@@ -93,9 +94,7 @@ class Tunnel(SceneCase):
 
     def formulation(self, scene: "Scene", name: str) -> "Formulation":
         """Return cells of a fifth of the radius."""
-        found = super().formulation(scene, name)
-        cover = found.cover.model_copy(update={"size": 0.4})
-        return found.model_copy(update={"cover": cover})
+        return with_cover(super().formulation(scene, name), size=0.4)
 
     def measure(self, run: "Run") -> Checks:
         """Compare ways along and across the radius, over the largest."""
