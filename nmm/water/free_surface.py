@@ -18,6 +18,7 @@ In the head ``h = y + p / w`` the equation is that of saturated ground with a lo
     K h = f + int k (1 - s) dphi / dy.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -88,20 +89,35 @@ class Filling:
 
     def load(self, head: Floats, wider: float = 1.0) -> Floats:
         """Return the load (n,) of what is not filled."""
-        return np.asarray(self.fall @ (1 - self.filled(self._depth(head), self.owner, wider)))
+        return np.asarray(self.fall @ (1 - self.filled(self.depth(head), self.owner, wider)))
 
     def slope(self, head: Floats, wider: float) -> csc_array:
         """Derivative (n, n) of the load by the head, with the sign changed."""
-        depth, width = self._depth(head), wider * self.width[self.owner]
-        steep = np.where((depth > 0) & (depth < width), 1 / width, 0.0)
-        return csc_array(self.fall @ (diags_array(steep) @ self.rows))
+        return csc_array(self.fall @ (diags_array(self.steepness(head, wider)) @ self.rows))
+
+    def steepness(self, head: Floats, wider: float) -> Floats:
+        """Derivative (Q,) of the share of filled pores by the head (1/m)."""
+        depth, width = self.depth(head), wider * self.width[self.owner]
+        return np.where((depth > 0) & (depth < width), 1 / width, 0.0)
+
+    def at_rest(self, level: float, points: Floats) -> Floats:
+        """Head (m,) at points (m, 2) of water that stands at a level (m) and does not flow.
+
+        ``p' = -w s`` upwards: pores that are filled in part hang on to ``l exp(-y / l)``, as much
+        as what is missing below the level.
+        """
+        width = float(np.median(self.width))
+        below = level - points[:, 1]
+        hangs = width * np.exp(np.minimum(below / width, 1.0) - 1)
+        return points[:, 1] + np.where(below > width, below, hangs)
 
     def means(self, head: Floats) -> Floats:
         """Mean share (E,) of filled pores of the elements."""
-        filled = self.filled(self._depth(head), self.owner)
+        filled = self.filled(self.depth(head), self.owner)
         return np.asarray(np.bincount(self.owner, self.share * filled, len(self.width)), float)
 
-    def _depth(self, head: Floats) -> Floats:
+    def depth(self, head: Floats) -> Floats:
+        """Pressure head (Q,) at the points (m)."""
         return np.asarray(self.rows @ head - self.height)
 
 
@@ -138,28 +154,45 @@ class FreeSurface(DiffusionProblem):
 
     def _newton(self, head: Floats, time: float, wider: float) -> Floats:
         """Return the head (n,) with widths so much wider, from one nearby."""
-        free, load, solver = self.free, self.load(time), self.solver.unsymmetric()
+        load = self.load(time)
 
         def missing(one: Floats) -> Floats:
-            return np.asarray(load + self.filling.load(one, wider) - self.matrix @ one)[free]
+            return np.asarray(load + self.filling.load(one, wider) - self.matrix @ one)
+
+        def tangent(one: Floats) -> csc_array:
+            return csc_array(self.matrix + self.filling.slope(one, wider))
 
         size = float(np.linalg.norm(load + self.filling.load(head, wider)))
-        left = missing(head)
+        return self._balanced(head, Unbalanced(missing, tangent, size))
+
+    def _balanced(self, head: Floats, unbalanced: "Unbalanced") -> Floats:
+        """Return the head (n,) from one nearby whose free part misses nothing."""
+        free, solver, size = self.free, self.solver.unsymmetric(), unbalanced.size
+        left = unbalanced.missing(head)[free]
         for _ in range(MOST):
             if np.linalg.norm(left) <= BALANCED * size:
                 return head
-            tangent = csc_array(self.matrix + self.filling.slope(head, wider))[free][:, free]
+            tangent = unbalanced.tangent(head)[free][:, free]
             way = np.zeros_like(head)
             way[free] = solver.factorise(csc_array(tangent)).refined(left)
             share = 1.0
             while True:
                 trial, least = head + share * way, (1 - share / 4) * np.linalg.norm(left)
-                after = missing(trial)
+                after = unbalanced.missing(trial)[free]
                 if np.linalg.norm(after) <= least or share <= SHORTEST:
                     break
                 share /= 2
             head, left = trial, after
         raise SolveError(
             f"the free surface of seepage is {np.linalg.norm(left) / size:.1e} of all flows out of "
-            f"balance after {MOST} solutions: take smaller cells"
+            f"balance after {MOST} solutions: take smaller cells, or shorter steps where it moves"
         )
+
+
+@dataclass(frozen=True)
+class Unbalanced:
+    """What a head (n,) misses (n,), its derivative (n, n) with the sign changed, and its size."""
+
+    missing: Callable[[Floats], Floats]
+    tangent: Callable[[Floats], csc_array]
+    size: float

@@ -29,12 +29,12 @@ from nmm.diffusion.from_scene import (
 )
 from nmm.diffusion.problem import DiffusionProblem
 from nmm.effects.base import Instant, Setup
-from nmm.errors import Fault, SceneError
+from nmm.errors import Fault, FormulationError, SceneError
 from nmm.quantity import Quantity
 
 if TYPE_CHECKING:
     from nmm.scene.tables.seepage import HeadTable
-    from nmm.water.free_surface import Filling
+    from nmm.water.free_surface import Filling, FreeSurface
 
 LOOSE = ("seepage", "head", "add [[heads]], or transient = true")
 
@@ -63,10 +63,13 @@ class PoreWater(FieldEffect):
         space = ScalarSpace.of(setup.model.manifold)
         filling = _filling(setup, space) if table.free_surface else None
         problem, initial = _problem(setup, space, filling), None
+        everything: Bools = np.ones(space.n, dtype=bool)
         second = 1.0 if table.duration is None else table.duration
         if table.initial is not None:
-            initial = (table.initial - setup.origin[1]) * space.one
-        everything: Bools = np.ones(space.n, dtype=bool)
+            level = table.initial - setup.origin[1]
+            initial = level * space.one
+            if filling is not None:
+                initial = fitted(setup, space, everything, partial(filling.at_rest, level))
         ground = fitted(setup, space, everything, lambda points: points[:, 1])
         biot = of_elements(setup, "biot", missing=1.0)
         stress = FieldStress(space, setup.model, biot[:, None] * EVEN)
@@ -175,4 +178,24 @@ def _problem(
         return found
     from nmm.water.free_surface import FreeSurface
 
-    return FreeSurface.of(found, filling)
+    surface = FreeSurface.of(found, filling)
+    return surface if stored is None else _moving(setup, surface)
+
+
+def _moving(setup: Setup, surface: "FreeSurface") -> DiffusionProblem:
+    """Return a surface that rises and falls.
+
+    Raises
+    ------
+    FormulationError
+        Steps that take flows at their start: pores that are empty there say nothing of them.
+    """
+    from nmm.water.moving_surface import MovingSurface
+
+    asked = setup.formulation.diffusion
+    if asked is not None and asked.theta != 1:
+        raise FormulationError(
+            f"[diffusion] theta: {asked.theta:g} with a free_surface that is transient: expected 1"
+        )
+    volume = setup.model.thickness * surface.space.manifold.elements.areas
+    return MovingSurface.draining(surface, volume * of_elements(setup, "drainable_porosity"))

@@ -159,6 +159,13 @@ class Material(Frozen):
         description="a volume of water stored in a volume for each metre of head in 1/m, > 0",
         examples=["1e-5 1/m"],
     )
+    drainable_porosity: Number | None = Field(
+        default=None,
+        gt=0,
+        le=1,
+        description="share of the volume that water leaves as its free surface falls, in (0, 1]",
+        examples=[0.2],
+    )
     biot: Number | None = Field(
         default=None,
         ge=0,

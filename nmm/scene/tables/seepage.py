@@ -26,13 +26,13 @@ Seeping = Annotated[float, quantity("m/s")]
 class SeepageTable(Frozen):
     """Water that seeps through the blocks by Darcy's law; its pressure acts in effective stress.
 
-    Water fills all pores, above the water table under suction; with a `free_surface`, which is
-    steady, pores above it are empty, and edges with a head are open to the air above the water: it
-    leaves there, and none comes in. Head is the height to which water
-    would rise, in the scene's y. It is steady at every instant of `history` unless it is transient;
-    then it has a `duration` of its own in a scene without inertia, of which the load factor is the
-    share that has passed. Faces without a condition, cracks and joints are tight unless their
-    `leakage` is given. Strain squeezes water out where it is `coupled`.
+    Water fills all pores, above the water table under suction; with a `free_surface` pores above it
+    are empty, and edges with a head are open to the air above the water: it leaves there, and none
+    comes in; transient, it fills and drains the `drainable_porosity` of materials. Head is the
+    height to which water would rise, in the scene's y. It is steady at every instant of `history`
+    unless it is transient; then it has a `duration` of its own in a scene without inertia, of which
+    the load factor is the share that has passed. Faces without a condition, cracks and joints are
+    tight unless their `leakage` is given. Strain squeezes water out where it is `coupled`.
     """
 
     unit_weight: ForceDensity = Field(
@@ -66,9 +66,9 @@ class SeepageTable(Frozen):
                 raise fault(f"{key} of steady seepage", expected, f"add it, or remove {key}")
         if self.coupled and not self.transient:
             raise fault("coupled steady seepage", "transient = true", "add it, or remove coupled")
-        if self.transient and self.free_surface:
-            expected = "steady seepage"
-            raise fault("a free_surface that is transient", expected, "remove one of them")
+        if self.coupled and self.free_surface:
+            expected = "water that fills all pores"
+            raise fault("coupled seepage with a free_surface", expected, "remove one of them")
         if self.transient and self.initial is None:
             raise fault("no initial head", "a head in m at the start", "give initial")
         return self

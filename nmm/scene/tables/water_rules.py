@@ -51,5 +51,7 @@ def seepage_contradictions(data: Tables) -> Iterator[Finding]:
     transient = table.get("transient") is True
     yield from durations(data, "seepage")
     needs = ["hydraulic_conductivity", *(["specific_storage"] if transient else [])]
+    if transient and table.get("free_surface") is True:
+        needs.append("drainable_porosity")
     expected = "one, as [seepage] is named and [[heads]] does not give its blocks"
     yield from lacking(data, "heads", needs, expected)

@@ -194,8 +194,11 @@ def test_rain_falls_through_empty_pores_to_the_water():
     ("change", "line"),
     [
         (
-            ("free_surface = true", "free_surface = true\ntransient = true\ninitial = 3"),
-            "transient",
+            (
+                "free_surface = true",
+                "free_surface = true\ntransient = true\ninitial = 3\ncoupled = true",
+            ),
+            "coupled",
         ),
         (("head = 2.0", "head = 2.0\nhistory = [[0, 1], [1, 0.5]]"), "history"),
     ],
