@@ -18,7 +18,7 @@ help:
 	@echo "make docs     the manual as HTML in docs/_build"
 	@echo "make clean    remove everything that can be made again"
 
-demo: .venv/.runtime
+demo: .venv/.kernels
 	.venv/bin/nmm demo
 
 test: .venv/.dev
@@ -61,6 +61,11 @@ clean:
 
 .venv/.runtime: .venv/.made pyproject.toml
 	$(PY) -m pip install --quiet --disable-pip-version-check --editable .
+	@touch $@
+
+# Kernels of contact, once; those that change later are compiled by the run that needs them.
+.venv/.kernels: .venv/.runtime
+	.venv/bin/nmm compile
 	@touch $@
 
 .venv/.dev: .venv/.made pyproject.toml

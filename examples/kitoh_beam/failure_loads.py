@@ -31,14 +31,13 @@ class Beam:
     crack: tuple[float, float]
 
 
-# In place of a growing load and the motion after it: bond by bond, down to a tenth of the peak.
+# In place of a growing load: bond by bond, down to a tenth of the peak.
 EVENTS = '\n[loading.control]\ntype = "events"\nfall = 0.1\n\n[[reference]]'
 
 
 def beam(blocks: int, seed: int, events: bool = True, **formulation: Any) -> Beam:
     """Run one tessellation to failure, bond by bond or by a growing load."""
     text = (HERE / f"kitoh_{blocks}.toml").read_text().replace("seed = 1\n", f"seed = {seed}\n")
-    text = text.replace("motion_after_failure", "# motion_after_failure")
     if events:
         text = text.replace("maximum_factor", "# maximum_factor")
         text = text.replace("\n[[reference]]", EVENTS)

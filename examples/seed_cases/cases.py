@@ -47,7 +47,7 @@ class Row:
 
 def beam(height: float = 100.0, blocks: int = 130, energy: float | None = None) -> str:
     """Return the plain beam (mm), scaled from 100 mm, event by event or softening (J/m2)."""
-    text = re.sub(r"motion_after_failure.*\n", "", BEAM).replace("130", str(blocks))
+    text = BEAM.replace("130", str(blocks))
     scale = height / 100.0
     text = re.sub(r'"(\d+) mm"', lambda found: f'"{scale * float(found[1]):g} mm"', text)
     text = text.replace(f'thickness = "{height:g} mm"', 'thickness = "100 mm"')

@@ -120,6 +120,16 @@ def demo(out: Out = None, quiet: Quiet = False) -> None:
         _run(example(DEMO), None, out or RUNS / "demo", quiet, pictures=True)
 
 
+@app.command("compile")
+def compile_ahead() -> None:
+    """Compile what runs of blocks need, once, so that the first of them does not wait for it."""
+    from nmm.cli.compiling import compile_kernels
+
+    with faults_told():
+        lean.sparse_matrices()
+        compile_kernels()
+
+
 @app.command()
 def plot(
     run: Annotated[Path, typer.Argument(help="Folder of a run.", metavar="RUN")],

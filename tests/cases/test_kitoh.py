@@ -46,7 +46,6 @@ def test_130_blocks_fail_in_the_stated_range_whatever_the_increment(beams: Modul
 def test_tractions_hardly_hang_on_the_penalty(beams: ModuleType, seed: int, monkeypatch) -> None:
     text = (SCRIPT.parent / "kitoh_130.toml").read_text().replace("seed = 1\n", f"seed = {seed}\n")
     text = text.replace('until = "failure"', "until = 1").replace("maximum_factor", "# ")
-    text = text.replace("motion_after_failure", "# ")
     first = []
     for safety in (1.1, 2.0):
         monkeypatch.setattr(consistent_bonds, "SAFETY", safety)

@@ -55,7 +55,14 @@ def _end(process: "subprocess.Popen[bytes]") -> None:
 def _second_core() -> bool:
     """Whether a core is left beside this process, so that nobody waits for the other one."""
     busy = os.getloadavg()[0] if hasattr(os, "getloadavg") else 0.0
-    return (os.cpu_count() or 1) - max(busy, 1.0) >= 0.5
+    return _cores() - max(busy, 1.0) >= 0.5
+
+
+def _cores() -> int:
+    """How many cores this process may use, which may be fewer than the machine has."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def column_of_blocks() -> StepProblem:

@@ -20,10 +20,9 @@ RANGES = {130: (8.6e3, 11e3), 455: (8.4e3, 10.2e3)}
 MIDDLE = "the third with the largest moment, and half a block"
 
 
-def _without_motion(name: str) -> str:
-    """Scene of an example; what follows failure is left out."""
-    written = example(f"kitoh_beam/kitoh_{name}.toml").read_text(encoding="utf-8")
-    return written.replace("motion_after_failure", "# motion_after_failure")
+def _text(name: str) -> str:
+    """Scene of an example."""
+    return example(f"kitoh_beam/kitoh_{name}.toml").read_text(encoding="utf-8")
 
 
 def _failure(run: "Run") -> float:
@@ -61,7 +60,7 @@ class PlainBeam(SceneCase):
 
     def scene(self) -> str:
         """Return the scene of the example with a tessellation of its own."""
-        written = _without_motion(str(self.blocks))
+        written = _text(str(self.blocks))
         return written.replace("seed = 1\n", f"seed = {self.seed}\n")
 
     def measure(self, run: "Run") -> Checks:
@@ -100,7 +99,7 @@ class ReinforcedBeam(SceneCase):
 
     def scene(self) -> str:
         """Return the scene of the example under a growing load: it ends at the first crack."""
-        followed = _without_motion("reinforced")
+        followed = _text("reinforced")
         return followed[: followed.index("[loading.control]")] + GROWING
 
     def measure(self, run: "Run") -> Checks:

@@ -56,7 +56,6 @@ def test_a_varied_scene_is_refused_as_its_answer_varies_too(bar_text):
 def test_a_scene_divided_ever_finer_is_measured_against_an_extrapolated_value():
     text = (Path(__file__).parents[3] / "examples/kitoh_beam/kitoh_130.toml").read_text()
     text = text.replace('until = "failure"', "until = 1.0").replace("maximum_factor = 40\n", "")
-    text = text.replace('motion_after_failure = "5 ms"\n', "")
     text = text.replace('quantity = "failure_factor"', 'quantity = "external_work"')
     scene = nmm.parse_scene(text)
     study = cost_study(scene, DDA, {"tessellations.0.blocks": [4, 8]}, repeats=1, memory=False)

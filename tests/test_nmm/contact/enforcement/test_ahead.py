@@ -32,7 +32,7 @@ def test_no_process_is_started_where_the_loops_are_compiled_or_no_core_is_idle(m
     monkeypatch.setattr(ahead, "kept", lambda loop: True)
     ahead.begin.__wrapped__()
     monkeypatch.setattr(ahead, "kept", lambda loop: False)
-    monkeypatch.setattr(ahead.os, "cpu_count", lambda: 1)
+    monkeypatch.setattr(ahead, "_cores", lambda: 1)
     ahead.begin.__wrapped__()
 
 
