@@ -1,0 +1,81 @@
+"""Water that seeps under a sheet pile."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from nmm.verification import text
+from nmm.verification.base import Check, Checks, SceneCase, limit
+
+if TYPE_CHECKING:
+    from nmm.formulation import Formulation
+    from nmm.scene import Scene
+    from nmm.stepping.run import Run
+
+CONDUCTIVITY, DIFFERENCE = 1e-4, 3.0
+DEPTH, LENGTH = 4.0, 24.0
+
+
+@dataclass(frozen=True)
+class SheetPile(SceneCase):
+    """A tight wall reaches part of the way down into a layer on tight ground; water goes round.
+
+    The wall is a crack without leakage, whose tip takes the root of the distance. The layer is six
+    times as long as deep, which changes the flow by less than 1e-6.
+    """
+
+    name: ClassVar[str] = "WA16"
+    title: ClassVar[str] = "Seepage under a sheet pile"
+    source: ClassVar[str] = "conformal map: q = k h K'(m) / 2 K(m), m = sin(pi s / 2 T)"
+    formulations: ClassVar[tuple[str, ...]] = ("quads", "manifold")
+    reach: float = 2.0
+
+    @classmethod
+    def variants(cls) -> "tuple[SheetPile, ...]":
+        """Walls through a quarter, a half and three quarters of the layer."""
+        return (cls(1.0), cls(2.0), cls(3.0))
+
+    @property
+    def variant(self) -> str:
+        """How far down the wall reaches."""
+        return f"{self.reach:g} m deep"
+
+    def scene(self) -> str:
+        """Return the layer, which is held, with water on both sides of the wall."""
+        middle, top = LENGTH / 2, DEPTH
+        return text.scene(
+            'title = "Sheet pile"\nplane = "strain"\n',
+            [
+                "[materials.sand]\nyoung_modulus = 1e8\npoisson_ratio = 0.3\n"
+                f"hydraulic_conductivity = {CONDUCTIVITY}\n",
+                text.block("layer", "sand", text.rectangle((0, 0), (LENGTH, DEPTH))),
+                '[[cracks]]\nname = "wall"\n'
+                f"points = [[{middle}, {top}], [{middle}, {top - self.reach}]]\n",
+                text.held("layer"),
+                "[seepage]\n",
+                f'[[heads]]\nname = "up"\nsegment = [[0, {top}], [{middle}, {top}]]\n'
+                f"head = {top + DIFFERENCE}\n",
+                f'[[heads]]\nname = "down"\nsegment = [[{middle}, {top}], [{LENGTH}, {top}]]\n'
+                f"head = {top}\n",
+            ],
+        )
+
+    def formulation(self, scene: "Scene", name: str) -> "Formulation":
+        """Return cells of an eighth of the depth that the wall cuts."""
+        found = super().formulation(scene, name)
+        cover = found.cover.model_copy(update={"size": 0.53})
+        return found.model_copy(update={"cover": cover})
+
+    def measure(self, run: "Run") -> Checks:
+        """Compare what comes in, and whether all of it leaves."""
+        from scipy.special import ellipk
+
+        m = float(np.sin(np.pi * self.reach / (2 * DEPTH)) ** 2)
+        exact = CONDUCTIVITY * DIFFERENCE * float(ellipk(1 - m) / (2 * ellipk(m)))
+        come, gone = (float(run.history[f"seepage:taken:{side}"][-1]) for side in ("up", "down"))
+        cells = "cells of an eighth of the depth"
+        return {
+            "flow (m2/s)": Check(come, exact, 1e-3, cells),
+            "lost of it": limit(abs(come + gone) / exact, 1e-9, "balance of volume"),
+        }
