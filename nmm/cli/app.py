@@ -46,8 +46,9 @@ Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print the verdict on
 
 DEMO = "kitoh_beam/kitoh_130.toml"
 # Objects made between two searches for circles of them. Libraries make 160 000 that stay when they
-# are imported; to look through these again and again is a tenth of a small run.
-MADE_BETWEEN_SEARCHES = 100_000
+# are imported; to look through these again and again is a tenth of a small run, 50 ms even once
+# for each 100 000.
+MADE_BETWEEN_SEARCHES = 300_000
 RUNS = Path("runs")
 
 

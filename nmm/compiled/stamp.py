@@ -87,4 +87,7 @@ def _told(value: Any) -> object:
     if callable(value):
         code = getattr(unwrap(value), "__code__", None)
         return _words(code) if code else getattr(value, "__name__", "")
-    return pickle.dumps(value)
+    try:
+        return pickle.dumps(value)
+    except (pickle.PicklingError, TypeError, AttributeError):  # nothing that numba takes in
+        return type(value).__name__

@@ -83,6 +83,12 @@ def test_lines_and_comments_compile_nothing_again(package):
     assert stamp(_total()) == before
 
 
+def test_values_that_numba_cannot_take_in_do_no_harm(package):
+    attribute = INNER.replace("return FACTOR * x", "return FACTOR * x.real")
+    (package / "part_inner.py").write_text("import threading\nreal = threading.Lock()" + attribute)
+    assert _total()(TWO) == 6.0
+
+
 def test_what_an_earlier_version_left_goes(package):
     _total()(TWO)
     count = len(list((package / "kept").iterdir()))
