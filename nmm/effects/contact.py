@@ -6,6 +6,7 @@ their forces; here both are handed what the last accepted step left.
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Self
 
 from scipy.sparse import csr_array
@@ -27,13 +28,13 @@ from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import follow_joints
 from nmm.contact.points.on_faces import on_faces
 from nmm.contact.problem.step_problem import Limits, StepAnswer
-from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.driver import ContactSolver
 from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.momentum import Momentum
 from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
 from nmm.contact.solution.request import StepRequest
 from nmm.contact.solution.step_bonds import StepBonds
+from nmm.contact.solution.steps import ContactSteps
 from nmm.effects.base import Effect, Setup
 from nmm.effects.contact_parts import ContactParts, contact_parts
 
@@ -81,6 +82,9 @@ class Contact(Effect):
         self.momentum = Momentum(model, sides, parts.held, self.geometry.curved)
         compliance = self.momentum.compliance
         self.solver = ContactSolver.of(model, self.laws, parts.enforcement, compliance)
+        self._steps = ContactSteps(
+            self.laws, self.geometry, self._bonds, self.solver, self.partners.surface
+        )
         self._candidates = Candidates(self.partners, self.laws, self.geometry)
         self._found: Contacts | None = None
 
@@ -123,30 +127,8 @@ class Contact(Effect):
         midpoint: State | None = None,
         end: State | None = None,
     ) -> ContactSolution:
-        """Solve one step; forces act at ``midpoint``, at the start of the step when None.
-
-        ``end`` is where the step is foreseen to end, of bodies that bend by any angle.
-        """
-        apart = self.solver.apart(contacts, request)
-        if apart is not None:
-            return apart
-        if end is None:
-            rows = self.geometry.rows(contacts, state, midpoint)
-        else:
-            rows = self.geometry.conserving(contacts, state, end)
-        surface = self.partners.surface(state)
-        mixed = self._bonds.mixed(contacts, state, request.time)
-        posed = contacts, rows, request
-        posed = posed if mixed is None else mixed.posed(*posed)
-
-        def besides(present: ContactPoints) -> list[Transform]:
-            tied = self._bonds.tied(present, state, rows, request.weight, request.time)
-            free = present if tied is None else present.take(~present.tied)
-            means = self.geometry.face_means(free, surface)
-            return [part for part in (tied, means, request.null_space) if part is not None]
-
-        solved = self.solver.solve(*posed, besides)
-        return solved if mixed is None else mixed.told(solved, contacts)
+        """Solve one step; see `ContactSteps.solve`."""
+        return self._steps.solve(contacts, state, request, midpoint, end)
 
     def solve_path(
         self, contacts: ContactPoints, state: State, request: StepRequest, path: PathEquation
@@ -250,21 +232,10 @@ class Contact(Effect):
         return self._candidates.near(self.record, state, reach)
 
     def energy(self, state: State) -> float:
-        """Energy of contacts as last committed (J): of springs, and of an enforcement's own."""
+        """Energy of contacts as last committed (J); see `ContactSteps.energy`."""
         record = self.record
-        known = [] if record.known is None else [record.known]
-        points = concatenate([record.book.points, *known])
-        total, mixed = record.stored, self._bonds.mixed(points, state)
-        if mixed is not None:
-            points, total = mixed.stretched(points), total - mixed.energy
-        points = concatenate([points, record.book.left])
-        if len(points):
-            total += self.laws.energy(points, own_only=self._exact)
-        if self._bonds.terms is None:
-            return total
-        joints = self._candidates.joints(record.book, state)
-        tied = self._bonds.tied(joints, state, self.geometry.rows(joints, state))
-        return total if tied is None else total + tied.energy
+        joints = partial(self._candidates.joints, record.book, state)
+        return self._steps.energy(record, state, joints, self._exact)
 
     def pushes(self, state: State) -> Pushes:
         """See `Effect.pushes`: those on faces of cracks, as last committed."""

@@ -8,13 +8,13 @@ traction too: what the penalty counts of its jump is from then on all of it.
 """
 
 from dataclasses import replace
-from typing import Protocol
 
 import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.contact.bonds.turning import beside, counted
 from nmm.contact.points.contact_points import TIED, ContactPoints
+from nmm.contact.problem.step_problem import StepAnswer
 from nmm.interfaces.limits import Limits
 
 # Stiffness of the springs that go on, in penalties of the terms: of broken bonds, which press at
@@ -24,26 +24,8 @@ FIRM, RIGID = 100.0, 1e4
 
 # Normal and shear stiffness (m,) in N/m, and which are a law's own.
 Springs = tuple[Floats, Floats, Bools]
-
-
-class LoadedContacts(Protocol):
-    """Forces and jumps (m,) of contacts at an instant."""
-
-    @property
-    def normal_force(self) -> Floats:
-        """Pull (N)."""
-
-    @property
-    def shear_force(self) -> Floats:
-        """Shear (N)."""
-
-    @property
-    def gap(self) -> Floats:
-        """Gap (m)."""
-
-    @property
-    def slip(self) -> Floats:
-        """Slip (m)."""
+# Contacts with forces and jumps (m,) at an instant: as they stand, or as an answer leaves them.
+LoadedContacts = ContactPoints | StepAnswer
 
 
 def released(

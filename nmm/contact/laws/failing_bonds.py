@@ -35,7 +35,7 @@ def breaking(
 def overload(
     laws: ContactLaws,
     contacts: ContactPoints,
-    answer: "StepAnswer | ContactPoints",
+    answer: StepAnswer | ContactPoints,
     beginning: Bools | None = None,
 ) -> Floats:
     """Return load over strength (m,) of the bonds that break or begin to soften above one.

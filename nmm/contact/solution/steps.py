@@ -1,0 +1,88 @@
+"""Steps of a run with contact: rows, bonds and means of their points put together, and solved."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from nmm.assembly.motion import State
+from nmm.contact.detection.surface import Surface
+from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.problem.transform import Transform
+from nmm.contact.solution.driver import ContactSolver
+from nmm.contact.solution.geometry import ContactGeometry
+from nmm.contact.solution.record import ContactRecord, ContactSolution
+from nmm.contact.solution.request import StepRequest
+from nmm.contact.solution.step_bonds import StepBonds
+
+
+@dataclass(frozen=True)
+class ContactSteps:
+    """What the steps of a model are put together from.
+
+    Attributes
+    ----------
+    laws, geometry, bonds, solver
+        Interface laws, rows of points, bonds that consistent terms hold, and what solves.
+    surface
+        From a state to the edges where they are.
+    """
+
+    laws: ContactLaws
+    geometry: ContactGeometry
+    bonds: StepBonds
+    solver: ContactSolver
+    surface: Callable[[State], Surface]
+
+    def solve(
+        self,
+        contacts: ContactPoints,
+        state: State,
+        request: StepRequest,
+        midpoint: State | None = None,
+        end: State | None = None,
+    ) -> ContactSolution:
+        """Solve one step; forces act at ``midpoint``, at the start of the step when None.
+
+        ``end`` is where the step is foreseen to end, of bodies that bend by any angle.
+        """
+        apart = self.solver.apart(contacts, request)
+        if apart is not None:
+            return apart
+        if end is None:
+            rows = self.geometry.rows(contacts, state, midpoint)
+        else:
+            rows = self.geometry.conserving(contacts, state, end)
+        surface = self.surface(state)
+        mixed = self.bonds.mixed(contacts, state, request.time)
+        posed = contacts, rows, request
+        posed = posed if mixed is None else mixed.posed(*posed)
+
+        def besides(present: ContactPoints) -> list[Transform]:
+            tied = self.bonds.tied(present, state, rows, request.weight, request.time)
+            free = present if tied is None else present.take(~present.tied)
+            means = self.geometry.face_means(free, surface)
+            return [part for part in (tied, means, request.null_space) if part is not None]
+
+        solved = self.solver.solve(*posed, besides)
+        return solved if mixed is None else mixed.told(solved, contacts)
+
+    def energy(
+        self, record: ContactRecord, state: State, joints: Callable[[], ContactPoints], exact: bool
+    ) -> float:
+        """Energy of contacts as last committed (J): of springs, and of an enforcement's own.
+
+        ``joints`` are those of the record as they stand; ``exact`` contacts are no springs.
+        """
+        known = [] if record.known is None else [record.known]
+        points = concatenate([record.book.points, *known])
+        total, mixed = record.stored, self.bonds.mixed(points, state)
+        if mixed is not None:
+            points, total = mixed.stretched(points), total - mixed.energy
+        points = concatenate([points, record.book.left])
+        if len(points):
+            total += self.laws.energy(points, own_only=exact)
+        if self.bonds.terms is None:
+            return total
+        now = joints()
+        tied = self.bonds.tied(now, state, self.geometry.rows(now, state))
+        return total if tied is None else total + tied.energy
