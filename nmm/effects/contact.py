@@ -63,7 +63,7 @@ class Contact(Effect):
 
     def __init__(self, model: Model, parts: ContactParts, start: State) -> None:
         self.laws, self.partners, self._exact = parts.laws, parts.partners, parts.enforcement.exact
-        self._cracks = parts.cracks
+        self._cracks, self._caution = parts.cracks, parts.caution
         sides = self.partners.sides
         book = follow_joints(
             sides.surface(start.frames, start.deformation),
@@ -204,6 +204,11 @@ class Contact(Effect):
         self.solver.forget()
         self.partners.forget()
         self._found = None
+
+    @property
+    def caution(self) -> str:
+        """See `Effect.caution`."""
+        return self._caution
 
     def push(self, state: State) -> Floats:
         """Return the force (n,) of the contacts as they were left."""

@@ -24,6 +24,12 @@ from nmm.interfaces.from_scene import interface_law
 MOVED = 4.0
 
 
+FACES = (
+    "springs over faces have no potential: what slides on them makes or loses energy, which the "
+    'integrator keeps; use points = "vertices" in [contact] of the formulation'
+)
+
+
 @dataclass(frozen=True)
 class ContactParts:
     """Parts of contact.
@@ -45,6 +51,8 @@ class ContactParts:
         Whether faces bend between their ends: contacts then act at points of the material.
     means
         Whether exact conditions on faces are held in the mean.
+    caution
+        See `Effect.caution`.
     """
 
     laws: ContactLaws
@@ -56,6 +64,7 @@ class ContactParts:
     held: Bools
     bends: bool
     means: bool
+    caution: str = ""
 
 
 def contact_parts(setup: Setup) -> ContactParts:
@@ -78,7 +87,10 @@ def contact_parts(setup: Setup) -> ContactParts:
     joint_rule, cracks = _joint_rule(method, laws, manifold.degree), _cracks(setup)
     held, bends = _held(setup), points > 2
     mixed = setup.scene.inertia is None and not enforcement.exact
-    return ContactParts(laws, partners, enforcement, joint_rule, cracks, mixed, held, bends, means)
+    caution = FACES if springs and points else ""
+    return ContactParts(
+        laws, partners, enforcement, joint_rule, cracks, mixed, held, bends, means, caution
+    )
 
 
 def _conserves(setup: Setup) -> bool:

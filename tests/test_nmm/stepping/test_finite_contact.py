@@ -136,3 +136,15 @@ def test_thousands_of_steps_of_impacts_keep_energy_and_angular_momentum():
     assert pressed > 100
     assert np.ptp(energies) < 1e-8 * energies[0]
     assert np.ptp(spins) < 1e-10 * abs(spins[0])
+
+
+@pytest.mark.parametrize(("points", "told"), [("auto", ""), ("vertices", ""), ("faces", "energy")])
+def test_springs_over_faces_under_a_rule_that_keeps_energy_are_warned_of(points, told):
+    scene = parse_scene(COLLISION.format(modulus=1e3, angle=0.0).replace("1.0\n[in", "0.002\n[in"))
+    formulation = parse_formulation(
+        f'[contact]\npoints = "{points}"\n[cover]\ntype = "quads"\nsize = 0.6\ndegree = 0\n'
+        '[rotation]\nupdate = "finite"\n[integrator]\ntype = "energy_momentum"\nstep = 0.002\n'
+    )
+    caution = prepare(scene, formulation).stepper.plan.contact.caution
+    assert told in caution
+    assert bool(caution) == bool(told)
