@@ -16,6 +16,7 @@ from nmm.contact.mortar.segments import faced
 from nmm.contact.points.boundary_points import sides
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.joint_book import JointBook
+from nmm.contact.points.welded import Welded
 from nmm.errors import SceneError, SolveError
 
 
@@ -54,6 +55,7 @@ class Partners:
         whole_faces: bool = False,
     ) -> None:
         self.sides = sides(model.manifold)
+        self._welded = Welded.of(model.cut.boundary, self.sides) if within_bodies else None
         self._pairs = pairs
         self._within_bodies, self._face_points = within_bodies, face_points
         self._origin, self._whole_faces = origin, whole_faces
@@ -118,7 +120,10 @@ class Partners:
         if self._face_points:
             joints = book.carried(surface, self.sides.length)
             found = faced(surface, found, self._face_points, joints, self._whole_faces)
-        return found
+        if self._welded is None:
+            return found
+        apart = self._welded.apart(found)
+        return found if apart.all() else found.take(apart)
 
     def meeting(
         self, surface: Surface, found: Contacts, book: JointBook, first: bool

@@ -85,12 +85,13 @@ def intensities(
     friction: float = 0.0,
     radius: float = 0.08,
     size: float = 0.05,
+    more: str = "",
 ) -> list[tuple[float, float]]:
     """K_I and K_II at both tips of a crack ``inclined`` from the direction of the load (deg)."""
     turn = math.radians(inclined)
     x, y = A * math.sin(turn), A * math.cos(turn)
     text = PLATE.format(-x, -y, x, y, friction=friction, radius=radius) + acting
-    run = nmm.run(parse_scene(text), parse_formulation(NET.format(size=size)))
+    run = nmm.run(parse_scene(text), parse_formulation(NET.format(size=size) + more))
     assert run.summary.status == "converged"
     return [
         (run.history[f"fracture:c:{end}:K_I"][-1], run.history[f"fracture:c:{end}:K_II"][-1])
@@ -125,6 +126,25 @@ def test_a_closed_crack_that_slides_has_the_shear_that_friction_leaves(
     for opening, sliding in found:
         assert -sliding == pytest.approx(expected, rel=0.03)
         assert abs(opening) < 0.04 * K
+
+
+@pytest.mark.parametrize(
+    ("enforcement", "off"),
+    [
+        ("lagrange", 0.02),
+        ("augmented", 0.02),
+        pytest.param("cone", 0.02, marks=pytest.mark.slow),
+        pytest.param("barrier", 0.06, marks=pytest.mark.slow),  # keeps faces a width apart
+    ],
+)
+def test_exact_enforcements_close_a_crack_up_to_its_tips(enforcement: str, off: float) -> None:
+    # Where faces join nothing moves them apart: a condition there made the system singular, and
+    # the plate was said to collapse. A crack along the load's diagonal has rounding in such rows.
+    more = f'[contact]\nenforcement = "{enforcement}"\n'
+    found = intensities("[contact]\n" + pulled(-LOAD), 45, math.atan(0.3), more=more)
+    for opening, sliding in found:
+        assert -sliding == pytest.approx(0.35 * LOAD * math.sqrt(math.pi * A), rel=off)
+        assert abs(opening) < 0.02 * K
 
 
 def test_a_closed_crack_that_sticks_has_no_intensity() -> None:
