@@ -72,7 +72,7 @@ class GrowthPath:
         left = end - length
         if len(left) < 2:
             return 0.0
-        if not np.log(factor[-1] / factor[-2]) < np.log(left[-1] / left[-2]) / 2:
+        if not 0 < factor[-1] / factor[-2] < np.sqrt(left[-1] / left[-2]):
             return 0.0
         known = replace(self, stations=self.stations[: max(2, int((left >= short).sum()))])
         last = known.stations[-2:, 0]

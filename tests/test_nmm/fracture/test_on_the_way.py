@@ -77,8 +77,9 @@ def test_the_first_factor_and_one_that_turns_round_have_no_way_between():
 
 
 def test_where_the_factor_does_not_fall_nothing_is_said_of_the_end():
-    path = passed([0.0, 0.1], [1.0, 1.0], [1.0, 1.1])
-    assert path.to_the_end(0.15) == 0.0
+    for last in (1.0, -0.1):
+        path = passed([0.0, 0.1], [1.0, last], [1.0, 1.1])
+        assert path.to_the_end(0.15) == 0.0
 
 
 def test_a_crack_that_begins_frees_under_the_load_before():
