@@ -29,7 +29,8 @@ class KeptCode:
 
     def __init__(self, kernel: Compilable) -> None:
         python = kernel.python
-        self._name = f"{python.__module__}.{python.__qualname__}".translate({60: None, 62: None})
+        name = f"{python.__module__}.{python.__qualname__}"
+        self._name = name.replace("<", "").replace(">", "")  # no signs of files everywhere
         self._stamp = stamp(kernel)
         self.cache_path = str(folders()[0])  # told by numba's `stats`
 
@@ -42,10 +43,10 @@ class KeptCode:
         """Return what is kept for these types of arguments, or nothing."""
         from numba.core.compiler import CompileResult
 
+        target.refresh()
         name = self._file(types, target.codegen())
         for folder in folders():
             with suppress(OSError, EOFError, pickle.UnpicklingError):
-                target.refresh()
                 parts = pickle.loads((folder / name).read_bytes())
                 return CompileResult._rebuild(target, *parts)  # type: ignore[no-untyped-call]
         return None
