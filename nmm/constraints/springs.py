@@ -67,7 +67,7 @@ class Springs(Imposition):
 
     def energy(self, state: State, jump: Floats) -> float:
         """See `Imposition.energy`."""
-        return -0.5 * float(np.sum(jump * self.point_forces(state, jump)))
+        return -0.5 * float((jump * self.point_forces(state, jump)).sum())
 
     @property
     def turns(self) -> bool:

@@ -79,10 +79,13 @@ class TiedInterfaces(Effect):
 
     def matrix(self, state: State) -> csc_array:
         """Return the stiffness of all ties, the same object as long as no tied body turns."""
+        kept = self._kept
+        if kept is not None and not len(self._turning):
+            return kept[1]
         angle = state.frames.angle[self._turning]
-        if self._kept is None or not np.array_equal(self._kept[0], angle):
-            self._kept = angle, self._stiffness(state)
-        return self._kept[1]
+        if kept is None or not np.array_equal(kept[0], angle):
+            kept = self._kept = angle, self._stiffness(state)
+        return kept[1]
 
     def _stiffness(self, state: State) -> csc_array:
         row, column, value = joined([_NOTHING, *(tie.matrix(state) for tie in self.ties)])

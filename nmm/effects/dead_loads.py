@@ -37,7 +37,7 @@ class DeadLoad:
     def work(self, before: State, after: State, pushed: tuple[Floats, Floats]) -> float:
         """Return the work (J) between two states; ``pushed`` (n,) are its load vectors in both."""
         way = after.frames.centre - before.frames.centre
-        found = float(np.sum(self._force * way))
+        found = float((self._force * way).sum())
         if self._lever is not None:
             found += float(np.sum(self._lever * (_turned(after) - _turned(before))))
         return found + float(pushed[1] @ after.deformation - pushed[0] @ before.deformation)

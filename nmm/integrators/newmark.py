@@ -1,6 +1,7 @@
 """Newmark's family of integrators."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from integration.arrays import Floats
 from nmm.errors import FormulationError
@@ -32,7 +33,7 @@ class Newmark(Integrator):
         """2 with ``gamma = 1/2``, which damps nothing; else 1."""
         return 2 if self.gamma == 0.5 else 1
 
-    @property
+    @cached_property
     def carries(self) -> bool:
         """See `Integrator.carries`."""
         return abs(self.gamma - 2 * self.beta) > 1e-12 or self.gamma > 1

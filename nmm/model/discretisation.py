@@ -93,7 +93,7 @@ class Current:
     @property
     def model(self) -> "Model":
         """Its model."""
-        return self.discretisation.model
+        return self.discretisation.setup.model
 
     @property
     def plan(self) -> Plan:

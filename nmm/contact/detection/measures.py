@@ -8,13 +8,15 @@ from integration.arrays import Floats, Ints
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import ANGLE, DEPTH, EDGE_END, FLUSH, RANKED, Rules
 
+SHIFTED = float(8.0 * np.finfo(float).eps)
+"""Rounding of coordinates that have been turned and shifted once, as a share of the largest."""
+SINE = float(np.sin(ANGLE))
+
 
 def rules_of(surface: Surface, reach: float) -> Rules:
     """Rules for the coordinates of a surface."""
-    # Of coordinates that have been turned and shifted once.
-    rounding = float(8.0 * np.finfo(float).eps * np.abs(surface.start).max(initial=0.0))
-    sine = float(np.sin(ANGLE))
-    return Rules(reach, RANKED * reach + rounding, rounding, DEPTH, FLUSH, sine, EDGE_END)
+    rounding = float(SHIFTED * np.abs(surface.start).max(initial=0.0))
+    return Rules(reach, RANKED * reach + rounding, rounding, DEPTH, FLUSH, SINE, EDGE_END)
 
 
 def measure(surface: Surface, v: Ints, e: Ints) -> tuple[Floats, Floats]:

@@ -6,6 +6,7 @@ Which of them goes first follows from what both cost in the last steps (`ways`).
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -154,7 +155,7 @@ class _WaysToForces:
 
     def polished(self, increment: Floats) -> IterationResult:
         """End of Newton's method on the springs that act."""
-        pattern = self.memory.pattern_of(self.springs.problem)
+        pattern = partial(self.memory.pattern_of, self.springs.problem)
         linear = self.linear.unsymmetric()
         return polish(self.springs, pattern, linear, increment, self.options.springs.fine)
 

@@ -150,7 +150,8 @@ class InteriorPoint:
 
     def _polished(self, found: IterationResult, goal: Goal) -> IterationResult:
         """Newton's method on springs from a point that may be near enough for it."""
-        end = polish(found.springs, self.pattern, self.linear, found.increment, goal.balance)
+        given = found.springs, lambda: self.pattern, self.linear
+        end = polish(*given, found.increment, goal.balance)
         self.factorisations += end.factorisations
         self.solves += end.solves
         return end if end.size < found.size else found

@@ -101,6 +101,12 @@ class Memory:
     _load: Floats | None = None
     _islands: tuple[SpringPattern, Islands] | None = None
 
+    def recalled(self, problem: StepProblem) -> tuple[StepAnswer | None, StepProblem]:
+        """What is `known` of a problem, and the problem as `started`."""
+        if self.answered is None or not _alike(self.answered[0], problem, STEP):
+            return None, problem
+        return self.known(problem), self.started(problem)
+
     def known(self, problem: StepProblem) -> StepAnswer | None:
         """Answer of the last solution if it was of the same problem; it took no passes."""
         if self.answered is None or not _same(self.answered[0], problem):
@@ -169,8 +175,8 @@ class Memory:
         if self.answered is None:
             return None
         last, answer = self.answered
-        same = all(_equal(getattr(last, name), getattr(problem, name)) for name in STEP)
-        return self.answered if same and answer.verdict.converged else None
+        same = answer.verdict.converged and _alike(last, problem, STEP)
+        return self.answered if same else None
 
     def started(self, problem: StepProblem) -> StepProblem:
         """The problem with the forces of its last solution, where only its rows have turned."""
@@ -182,9 +188,11 @@ class Memory:
 
 
 def _same(a: StepProblem, b: StepProblem) -> bool:
-    return a.n_contacts == b.n_contacts and all(
-        _equal(getattr(a, name), getattr(b, name)) for name in PROBLEM
-    )
+    return a.n_contacts == b.n_contacts and _alike(a, b, PROBLEM)
+
+
+def _alike(a: StepProblem, b: StepProblem, names: tuple[str, ...]) -> bool:
+    return all(_equal(getattr(a, name), getattr(b, name)) for name in names)
 
 
 def _equal(a: Any, b: Any) -> bool:

@@ -1,5 +1,7 @@
 """Semismooth Newton on Coulomb's law: fast near a solution, not safe far from it."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from integration.arrays import Floats
@@ -11,7 +13,7 @@ from nmm.solvers.linear import LinearSolver
 
 def polish(
     springs: CutSprings,
-    pattern: SpringPattern,
+    pattern: Callable[[], SpringPattern],
     linear: LinearSolver,
     increment: Floats,
     tolerance: float,
@@ -24,7 +26,7 @@ def polish(
     The tangent of a sliding contact follows the bound: its shear force changes with the normal
     force by the friction coefficient (Alart, Curnier 1991), so the matrix is unsymmetric and
     ``linear`` must be a solver for such. Where it would factorise full matrices all of it is one
-    compiled function.
+    compiled function, which asks for no ``pattern``.
     """
     problem = springs.problem
     if linear.in_full(len(increment)):
@@ -34,7 +36,7 @@ def polish(
     residual = springs.residual(increment)
     taken, at, rest, risen = 0, increment, residual, False
     while taken < budget and residual.size > tolerance:
-        matrix = pattern.matrix(problem, *springs.tangent(at))
+        matrix = pattern().matrix(problem, *springs.tangent(at))
         at = at - linear.factorise(matrix).refined(rest.force)
         taken, rest = taken + 1, springs.residual(at)
         halved = rest.size < 0.5 * residual.size

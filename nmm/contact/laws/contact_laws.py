@@ -98,6 +98,8 @@ class ContactLaws:
                 if not np.array_equal(column, history[name]):
                     after[name] = after[name].copy()
                     after[name][index] = column
+        if TIED not in contacts.history:
+            return after
         tied = contacts.tied
         for name, column in contacts.history.items() if tied.any() else ():
             after[name] = np.where(tied, column, after[name])

@@ -6,6 +6,7 @@ iteration: they vanish as long as the structure is stable, and acceleration make
 """
 
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
@@ -60,7 +61,7 @@ class HistoryIteration:
             for name, column in laws.evolving.items()
         }
 
-    @property
+    @cached_property
     def softening(self) -> Bools:
         """Which contacts are bonds that lose their strength in the course of solutions."""
         if not self._laws.hold(self.start):

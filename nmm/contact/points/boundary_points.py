@@ -72,7 +72,7 @@ class Sides:
         same = np.array_equal(elements.points, edges.start)
         return same and np.array_equal(elements.polygon_of_point, edges.element)
 
-    @property
+    @cached_property
     def repeats(self) -> bool:
         """Whether one row may name an unknown twice: padded rows, or both sides in one body."""
         return len(self.manifold.groups) > 1 or len(self.manifold.elements) > self.manifold.n_bodies

@@ -132,7 +132,7 @@ PARTS = tuple(part.name for part in fields(ContactPoints) if part.name != "histo
 
 def concatenate(parts: list[ContactPoints]) -> ContactPoints:
     """Join contact points."""
-    some = [part for part in parts if len(part)] or parts[:1]
+    some = [part for part in parts if len(part.key)] or parts[:1]
     if len(some) == 1:
         return some[0]
     joined: dict[str, Any] = {

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -126,7 +127,7 @@ class JointBook:
             left=left,
         )
 
-    @property
+    @cached_property
     def broken(self) -> int:
         """Number of points whose bond is broken, lost ones included."""
         return int((~self.points.bonded).sum()) + len(self.lost)

@@ -24,7 +24,7 @@ def line_turns(
 
     ``width`` L is that of rows of either side, of a before b.
     """
-    at = np.flatnonzero(contacts.is_joint)
+    (at,) = contacts.is_joint.nonzero()
     if not len(at):
         return None
     joints, place = contacts.take(at), (state.frames, state.deformation)

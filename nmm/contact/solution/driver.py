@@ -269,12 +269,11 @@ class ContactSolver:
     ) -> StepAnswer:
         """Return the answer to a problem after all transforms."""
         # A step that looks further and finds no other contacts asks the same again.
-        answer = self.memory.known(problem)
+        answer, started = self.memory.recalled(problem)
         if answer is None:
             body = self._unknown_body
             for transform in transforms:
                 body = transform.of_unknowns(body)
-            started = self.memory.started(problem)
             answer = solve_rebalanced(self._enforcement, started, solver, self.memory, body)
         self.memory.answered = self.last = problem, answer
         return answer

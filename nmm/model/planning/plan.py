@@ -168,12 +168,12 @@ class Plan:
 
     def border(self, state: State, end: Instant) -> tuple[csr_array, Floats] | None:
         """Return conditions on the step's unknowns that multipliers hold, None without any."""
-        from scipy.sparse import vstack
-
         found = [effect.border(state, end) for effect in self.having("border")]
         parts = [part for part in found if part is not None]
         if not parts:
             return None
+        from scipy.sparse import vstack
+
         rows = csr_array(vstack([part[0] for part in parts]))
         return rows, np.concatenate([part[1] for part in parts])
 

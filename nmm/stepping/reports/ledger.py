@@ -206,27 +206,27 @@ class Ledger:
         Steps of statics are not ``audited``: what they make is no motion, and rises count from
         their end.
         """
-        total = self.in_store
-        largest = max(
-            self.throughput, abs(self.work), abs(total), abs(self.stored_first), self.dissipated
-        )
-        now = self._made, self.given
+        total, lost, made = self.in_store, self.dissipated, self._made
+        largest = max(self.throughput, abs(self.work), abs(total), abs(self.stored_first), lost)
+        now = made, self.given
         if not audited:
             return with_parts(self, throughput=largest, last=now, lowest=now)
         return with_parts(
             self,
             throughput=largest,
-            in_step=self._largest(self.in_step, self.last, time),
-            in_run=self._largest(self.in_run, self.lowest, time),
+            in_step=self._largest(self.in_step, now, self.last, time),
+            in_run=self._largest(self.in_run, now, self.lowest, time),
             last=now,
             lowest=min(self.lowest, now),
         )
 
-    def _largest(self, known: Rise, since: tuple[float, float], time: float) -> Rise:
-        """Return the larger of a rise and the one ``since`` energy and gift were so much."""
-        risen = self._made - since[0]
+    def _largest(
+        self, known: Rise, now: tuple[float, float], since: tuple[float, float], time: float
+    ) -> Rise:
+        """Return the larger of a rise and the one to ``now`` ``since`` energy and gift were so."""
+        risen = now[0] - since[0]
         if risen > known.energy:
-            return Rise(risen, self.steps, time, self.given - since[1])
+            return Rise(risen, self.steps, time, now[1] - since[1])
         return known
 
 

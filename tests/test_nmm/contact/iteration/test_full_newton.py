@@ -20,7 +20,7 @@ def test_both_take_the_same_steps_to_the_same_unknowns(seed: int) -> None:
     start = np.random.default_rng(seed).normal(size=len(springs.problem.force)) * 1e-3
     pattern = Memory().pattern_of(springs.problem)
     # A named solver is taken as it is: its matrices are sparse.
-    sparse = polish(springs, pattern, make_solver("superlu").unsymmetric(), start, 1e-13)
+    sparse = polish(springs, lambda: pattern, make_solver("superlu").unsymmetric(), start, 1e-13)
     full = newton_in_full(springs, start, 1e-13, 8)
     assert full is not None
     found, size, taken = full
