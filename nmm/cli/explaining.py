@@ -21,6 +21,7 @@ CALLED_BY = {
     "pressures": '[[loads]] of kind "pressure"',
     "moving loads": '[[loads]] of kind "moving"',
     "supports": "[[supports]]",
+    "unreleased forces": "[[stages]] with release",
     "bonded interfaces": "bonded interface without contact",
     "initial velocity": "[[initial_velocities]]",
     "initial stress": "[[initial_stresses]]",
