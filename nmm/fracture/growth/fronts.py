@@ -93,6 +93,21 @@ class CrackFronts:
         """Length (n,) by which each front has gone on from one set of polylines to another (m)."""
         return np.asarray(np.hypot(*(self.points(after) - self.former(before, after)).T))
 
+    def swing(self, cracks: Sequence[Floats], grown: Floats) -> float:
+        """Largest of the smaller of two turns (rad) in a row, one way and back, of new pieces."""
+        largest = 0.0
+        for crack, last, length in zip(self.crack, self.last, grown, strict=True):  # a handful
+            line = cracks[crack][::-1] if last else cracks[crack]
+            way = np.diff(line, axis=0)
+            pieces = np.cumsum(np.hypot(*way.T)) <= length * (1 + ROUNDING)
+            angle = np.arctan2(*way[pieces].T[::-1])
+            turn = np.diff(angle)
+            turn = np.arctan2(np.sin(turn), np.cos(turn))
+            back = turn[1:] * turn[:-1] < 0
+            smaller = np.minimum(np.abs(turn[1:]), np.abs(turn[:-1]))
+            largest = max(largest, float(smaller[back].max(initial=0.0)))
+        return largest
+
     def history(self, cracks: Sequence[Floats], origin: Floats, grown: Floats) -> dict[str, float]:
         """Place in the scene's axes and growth (n,) of every front (m), by its name."""
         row: dict[str, float] = {}

@@ -20,6 +20,7 @@ from nmm.fracture.growth.faces import CrackFaces
 from nmm.fracture.growth.fronts import CrackFronts, nucleus_name
 from nmm.fracture.growth.grown import GrownSoFar
 from nmm.fracture.growth.intensities import Intensities, tip_moduli
+from nmm.fracture.growth.parallel_stress import at_end_of_piece, parallel_stress
 from nmm.fracture.growth.refusals import refuse
 from nmm.fracture.growth.rule import GrowthRule
 from nmm.fracture.intensity_rows import IntensityRows
@@ -89,6 +90,12 @@ class GrowingCracks(Effect):
     def energy_taken(self) -> float:
         """Energy (J) that the growth so far took by the toughness of the material."""
         return self._sofar.energy
+
+    @property
+    def swing(self) -> float:
+        """Angle (rad) by which pieces have turned one way and the next ones back, the largest."""
+        cracks = self._setup.geometry.cracks
+        return self._fronts.swing(cracks, self._sofar.length)
 
     def arrived(self, factor: float, stored: float) -> float:
         """Note a balance at the toughness; return the energy (J) to book beside that of chords.
@@ -184,8 +191,19 @@ class GrowingCracks(Effect):
         geometry = self._setup.geometry
         if not len(rows):
             return self._beginnings.event(view.state, self.held)
-        cracks, what = self._laid(found.take(rows))
+        cracks, what = self._laid(self._led(found.take(rows), view.state))
         return Event(replace(geometry, cracks=cracks), what, held=self.held)
+
+    def _led(self, found: Intensities, state: State) -> Intensities:
+        """Return fronts with the kinks that the parallel stress leaves, where the scene asks."""
+        if not self._table.parallel_stress:
+            return found
+        behind, kink = self.rule.increment / 2, found.kink
+        stress = parallel_stress(self._setup.model, state, found.tip, found.stiff, behind)
+        angle = at_end_of_piece(
+            kink.angle, found.opening, found.sliding, stress, self.rule.increment
+        )
+        return replace(found, kink=replace(kink, angle=angle))
 
     def _laid(self, found: Intensities) -> tuple[tuple[Floats, ...], str]:
         """Polylines with new pieces at all fronts ``found``, and what happens, in words."""

@@ -1,12 +1,23 @@
-"""What growing cracks free, beside what their toughness takes."""
+"""What growing cracks free, beside what their toughness takes; and whether their paths swing."""
+
+import math
 
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 
 
 def growth(run: Ended) -> Findings:
-    """Audit the energy of cracks whose load keeps them at their toughness."""
+    """Audit paths of cracks, and the energy of those whose load keeps them at their toughness."""
     cracks, ledger = run.stepper.plan.fracture, run.recorder.ledger
-    if cracks is None or not cracks.at_toughness or not ledger.throughput:
+    if cracks is None:
+        return
+    swing = cracks.swing
+    yield AuditFinding(
+        "growth_swing",
+        swing,
+        f"the path of a crack swings: pieces turn to and fro by {math.degrees(swing):.0f} degrees",
+        "add parallel_stress = true to [fracture], or take shorter pieces",
+    )
+    if not cracks.at_toughness or not ledger.throughput:
         return
     missed = (run.recorder.freed_by(cracks) - cracks.energy_taken) / ledger.throughput
     word = "more" if missed > 0 else "less"

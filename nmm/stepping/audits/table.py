@@ -128,6 +128,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         '`[fracture]` with `control = "toughness"`',
     ),
+    "growth_swing": Threshold(
+        "angle (rad) by which pieces of a crack turn one way and at once back",
+        0.2,
+        None,
+        "`[fracture]`",
+    ),
     "increments": Threshold(
         "ten over the number of increments in which friction slid or bonds broke",
         1.0,

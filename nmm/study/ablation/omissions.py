@@ -55,8 +55,9 @@ class Omission:
 def omissions(scene: Tables, formulation: Tables) -> Iterator[Omission]:
     """Yield the tables without each effect that a scene names, each load, and what is no table.
 
-    The latter are the dowels of its bars, the friction of its interfaces, what the integrator takes
-    of velocities, and rotations that are finite. Tables hold what was given alone, no defaults.
+    The latter are the dowels of its bars, forces that stages hold back, the friction of its
+    interfaces, what the integrator takes of velocities, and rotations that are finite. Tables hold
+    what was given alone, no defaults.
     """
     for name, keys in TABLES.items():
         if keys[0] in scene:
@@ -65,6 +66,7 @@ def omissions(scene: Tables, formulation: Tables) -> Iterator[Omission]:
         yield from _one_by_one(scene, formulation, kind)
     for name, change in (
         ("dowels", _without_dowels),
+        ("unreleased forces", _released),
         ("friction", _frictionless),
         ("kinetic damping", _undamped),
         ("finite rotation", _small),
@@ -99,6 +101,13 @@ def _without_dowels(scene: Tables, formulation: Tables) -> Changed:
     """With bars that joints cross as if they were cables."""
     dowels = [bar.pop("dowel", None) for bar in scene.get("bars", ())]
     return (scene, formulation) if any(dowels) else None
+
+
+def _released(scene: Tables, formulation: Tables) -> Changed:
+    """With all that removed blocks exerted released at once."""
+    shares = [stage.pop("release", None) for stage in scene.get("stages", ())]
+    held = any(share is not None for share in shares)
+    return (scene, formulation) if held else None
 
 
 def _frictionless(scene: Tables, formulation: Tables) -> Changed:

@@ -75,8 +75,15 @@ def test_every_effect_can_be_left_out_or_is_known_to_be_left_out_by_its_loads_or
     by_load = {"loads", "body loads", "field loads", "pressures", "moving loads"}
     as_damping = {"viscous damping", "damping against the ground", "local damping"}
     kept = {"supports", "bonded interfaces"}  # without them nothing is left of a structure
-    of_bars = {"dowels"}
-    assert set(NAMED) - set(TABLES) == by_load | as_damping | kept | of_bars
+    within_tables = {"dowels", "unreleased forces"}
+    assert set(NAMED) - set(TABLES) == by_load | as_damping | kept | within_tables
+
+
+def test_forces_that_a_stage_holds_back_are_released_and_the_stages_stay():
+    stages = [{"name": "dig", "release": 0.5}, {"name": "line"}]
+    found = {one.name: one.scene for one in omissions({"stages": stages}, {})}
+    assert found["unreleased forces"]["stages"] == [{"name": "dig"}, {"name": "line"}]
+    assert "release" in stages[0]
 
 
 def test_dowels_are_left_out_and_their_bars_stay():

@@ -34,6 +34,12 @@ class FractureTable(Frozen):
     increment: Length = Field(
         gt=0, description="the length of a new piece in m, > 0", examples=["10 mm"]
     )
+    parallel_stress: bool = Field(
+        default=False,
+        description="true or false: whether the stress along an open crack, where it presses, "
+        "counts in the direction of a piece, which then ends without shear",
+        examples=[True],
+    )
     max_growth: Length | None = Field(
         default=None,
         gt=0,
