@@ -144,6 +144,7 @@ CASES = Registry[type[Case]](
         "GR13": f"{_HOME}.nucleation:CrackAtHole",
         "GR14": f"{_HOME}.nucleation:CrackInPlate",
         "GR15": f"{_HOME}.branched_cracks:BranchedCrack",
+        "GR16": f"{_HOME}.pushed_cracks:PushedCrack",
         "CO1": f"{_HOME}.cohesive.double_cantilever:BentByMoments",
         "CO3": f"{_HOME}.cohesive.notched_beam:CohesiveBeam",
         "CO4": f"{_HOME}.cohesive.double_cantilever:ClosedAgain",

@@ -3,7 +3,8 @@
 A run is a row of points between two faces. Of the two the one gives the nodes that follows a
 pressure more easily (`nmm.contact.mortar.trace_space`). Inside, the functions are hats along it,
 the first and the last going on to the ends; the end points have functions of their own, so that a
-body that tilts turns about its corner. At every point the functions sum to one.
+body that tilts turns about its corner, but for those at the tips of cracks. At every point the
+functions sum to one.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ def functions_along(contacts: ContactPoints, surface: Surface, space: TraceSpace
     if not len(points):  # bodies apart, or at corners alone
         return Entries(points, points, np.zeros(0))
     some = contacts.take(points)
-    at, face, other = _sides(some, surface, space)
+    at, face, other, joined = _sides(some, surface, space)
     order = np.lexsort((at, some.interface, other, face))
     at, who = at[order], np.stack([face, other, some.interface])[:, order]
     step = np.diff(space.node)
@@ -54,12 +55,17 @@ def functions_along(contacts: ContactPoints, surface: Surface, space: TraceSpace
     new = np.ones(len(at), dtype=bool)
     new[1:] = (who[:, 1:] != who[:, :-1]).any(axis=0)
     new[1:] |= np.diff(at) > RUN_APART * np.maximum(interval[1:], interval[:-1])
-    found = _hats(at, new, space.node)
+    found = _hats(at, new, space.node, ~joined[order])
     return Entries(points[order][found.point], found.function, found.value)
 
 
-def _sides(some: ContactPoints, surface: Surface, space: TraceSpace) -> tuple[Floats, Ints, Ints]:
-    """Where (m,) points are on the face that gives the nodes, that face, and the other."""
+def _sides(
+    some: ContactPoints, surface: Surface, space: TraceSpace
+) -> tuple[Floats, Ints, Ints, Bools]:
+    """Where (m,) points are on the face that gives the nodes, that face, and the other.
+
+    And which are beside a place where both faces of a crack are one.
+    """
     a, b, before = some.edge_a, some.edge_b, space.previous[some.edge_a]
     # A corner belongs to the face that looks at the other body.
     looks = dot(surface.normal[a], some.normal) <= dot(surface.normal[before], some.normal)
@@ -72,7 +78,8 @@ def _sides(some: ContactPoints, surface: Surface, space: TraceSpace) -> tuple[Fl
     soft = np.stack([space.softness[edge_a], space.softness[b]])
     giver = np.where(_first_follows(at, face, soft, space), 0, 1)
     m = np.arange(len(giver))
-    return at[giver, m], face[giver, m], face[1 - giver, m]
+    joined = space.welded[edge_a] & space.welded[b]
+    return at[giver, m], face[giver, m], face[1 - giver, m], joined
 
 
 def _first_follows(at: Floats, face: Ints, soft: Floats, space: TraceSpace) -> Bools:
@@ -99,10 +106,11 @@ def _first_follows(at: Floats, face: Ints, soft: Floats, space: TraceSpace) -> B
     return np.asarray((compliance[0] >= (1 - SAME_COMPLIANCE) * compliance[1])[pair] != turned)
 
 
-def _hats(at: Floats, new: Bools, node: Floats) -> Entries:
+def _hats(at: Floats, new: Bools, node: Floats, free: Bools) -> Entries:
     """Functions at points that lie one after another on runs.
 
-    ``new`` marks the first point of each run.
+    ``new`` marks the first point of each run. Its ends have functions of their own where they are
+    ``free`` (m,) to part: near the tip of a crack a force hardly moves its faces.
     """
     first = np.flatnonzero(new)
     last = np.append(first[1:], len(at)) - 1
@@ -110,8 +118,9 @@ def _hats(at: Floats, new: Bools, node: Floats) -> Entries:
     count = high - low + 3
     offset = np.cumsum(count) - count
 
+    own_first, own_last = free[first], free[last] & (last > first)
     inside = np.ones(len(at), dtype=bool)
-    inside[first] = inside[last] = False
+    inside[first[own_first]] = inside[last[own_last]] = False
     point, run = np.flatnonzero(inside), (np.cumsum(new) - 1)[inside]
     x = np.clip(at[inside], node[low[run]], node[high[run]])
     left = np.searchsorted(node, x, side="right") - 1
@@ -122,10 +131,9 @@ def _hats(at: Floats, new: Bools, node: Floats) -> Entries:
     hat = offset[run] + 1 + left - low[run]
 
     one = np.ones(len(first))
-    ends = last > first
     parts = [
-        (first, offset, one),
-        (last[ends], (offset + count - 1)[ends], one[ends]),
+        (first[own_first], offset[own_first], one[own_first]),
+        (last[own_last], (offset + count - 1)[own_last], one[own_last]),
         (point, hat, 1 - share),
         (point, hat + 1, share),
     ]

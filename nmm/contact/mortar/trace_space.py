@@ -13,9 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from covers.cutting.cut_boundary import CutBoundary
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.tolerances import ALIKE_COSINE, KINK
 from nmm.contact.points.boundary_points import Sides
+from nmm.contact.points.welded import Welded
 
 # What covers weigh at a corner, as a vector of length one.
 Weights = dict[int, float]
@@ -37,6 +39,8 @@ class TraceSpace:
         (n,) one over Young's modulus at each edge (1/Pa).
     previous
         (n,) the edge before each in its ring.
+    welded
+        (n,) which edges begin or end where both faces of a crack are one.
     """
 
     start: Floats
@@ -45,11 +49,12 @@ class TraceSpace:
     node: Floats
     softness: Floats
     previous: Ints
+    welded: Bools
 
     @classmethod
-    def of(cls, sides: Sides, modulus: Floats) -> TraceSpace:
+    def of(cls, sides: Sides, edges: CutBoundary, modulus: Floats) -> TraceSpace:
         """Return the nodes on the boundary of a manifold; ``modulus`` (E,) is of its elements."""
-        edges = sides.manifold.boundary
+        welded = Welded.of(edges, sides)
         along = edges.end - edges.start
         length = np.hypot(*along.T)
         order, first = _faces(along, edges.next, edges.previous)
@@ -66,7 +71,15 @@ class TraceSpace:
             chosen = _unlike([weights[corner] for corner in corners])
             on_line = np.append(start[edge], end[edge[-1]])
             nodes.extend(on_line[chosen].tolist())
-        return cls(start, end, face, np.array(nodes), 1 / modulus[edges.element], edges.previous)
+        return cls(
+            start,
+            end,
+            face,
+            np.array(nodes),
+            1 / modulus[edges.element],
+            edges.previous,
+            np.zeros(len(edges), dtype=bool) if welded is None else welded.beside,
+        )
 
     def on(self, edge: Ints, parameter: Floats) -> Floats:
         """Places (m,) of fractions of edges on the line."""

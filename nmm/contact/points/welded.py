@@ -29,10 +29,13 @@ class Welded:
         (n,) number of the place that the start of each edge is.
     next
         (n,) the edge behind each.
+    tips
+        (n,) which edges begin at the tip of a crack: where both its faces meet.
     """
 
     place: Ints
     next: Ints
+    tips: Bools
 
     @classmethod
     def of(cls, boundary: CutBoundary, sides: Sides) -> Self | None:
@@ -52,7 +55,16 @@ class Welded:
         alike = largest.toarray().reshape(-1, 2).max(axis=1) <= size
         pairs = (np.ones(int(alike.sum())), (face[alike], across[alike]))
         _, place = connected_components(csr_array(pairs, shape=(n, n)), directed=False)
-        return cls(place.astype(np.int64), boundary.next)
+        before = boundary.previous
+        tips = (boundary.crack >= 0) & (boundary.opposite == before)
+        return cls(place.astype(np.int64), boundary.next, tips)
+
+    @property
+    def beside(self) -> Bools:
+        """Which edges (n,) begin or end at a place that several share: at a tip, and before one."""
+        shared = np.bincount(self.place)[self.place] > 1
+        shared |= self.tips
+        return np.asarray(shared | shared[self.next])
 
     def apart(self, contacts: Contacts) -> Bools:
         """Return which contacts (m,) are of two places."""

@@ -38,7 +38,9 @@ class ContactGeometry:
         self, model: Model, sides: Sides, joints: ContactPoints, bends: bool, means: bool
     ) -> None:
         self.model, self.sides, self.bends = model, sides, bends
-        self.trace_space = TraceSpace.of(sides, model.modulus) if means else None
+        self.trace_space = (
+            TraceSpace.of(sides, model.cut.boundary, model.modulus) if means else None
+        )
         self._sites = JointSites.of(sides, joints)
 
     @property
