@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+from nmm.stepping.audits.balance import balance
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings
 from nmm.stepping.audits.bodies import bodies
 from nmm.stepping.audits.energy import energy
@@ -15,6 +16,7 @@ from nmm.stepping.drive.verdict import CONVERGED, FAILURE, UNBALANCED, RunVerdic
 AUDITS: tuple[Callable[[Ended], Findings], ...] = (
     energy,
     equations,
+    balance,
     fields,
     bodies,
     growth,

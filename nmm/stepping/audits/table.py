@@ -49,6 +49,12 @@ THRESHOLDS: dict[str, Threshold] = {
     "residual": Threshold(
         "largest out-of-balance force of an accepted step, over the load", 1e-6, 1e-3, "all"
     ),
+    "force_balance": Threshold(
+        "sum of loads and reactions where a path ends, over the largest of them",
+        1e-5,
+        1e-2,
+        "`[loading.control]`, without supports by multipliers",
+    ),
     "field_imbalance": Threshold(
         "heat or water that was taken up and is not stored, over all that came and went",
         1e-8,
