@@ -182,11 +182,8 @@ class Interaction:
         found = pushes.take(near)
         points, weights = spread_rule(found.start, found.end, tip, ORDER)
         q = weights.shape[1]
-        flat, owner = points.reshape(-1, 2), np.repeat(found.element, q)
-        pull, ahead = np.repeat(found.force, q, axis=0), self.fields.tip.direction
-        share = -weights.ravel() * self.fields.cutoff(flat, self.radius)[0]
-        along = [np.einsum("mi,mi->m", pull, v @ ahead) for v in self._auxiliary(owner, flat)]
-        return np.asarray([share @ mode for mode in along])
+        force = weights.reshape(-1, 1) * np.repeat(found.force, q, axis=0)
+        return self._of_forces(np.repeat(found.element, q), points.reshape(-1, 2), force)
 
     def _graded(self, edges: Ints) -> tuple[Floats, Floats]:
         """Rule for edges behind the tip: in ``sqrt(r)`` the integrand is smooth."""
@@ -200,10 +197,14 @@ class Interaction:
     def _pushed(self, edges: Ints, points: Floats, weights: Floats, traction: Traction) -> Floats:
         """Part (2,) of a traction on edges."""
         owner, flat, out = self._flat(edges, points)
-        pull, ahead = traction(flat, out), self.fields.tip.direction
-        share = -weights.ravel() * self.fields.cutoff(flat, self.radius)[0]
-        along = [np.einsum("mi,mi->m", pull, v @ ahead) for v in self._auxiliary(owner, flat)]
-        return np.asarray([share @ mode for mode in along])
+        return self._of_forces(owner, flat, weights.reshape(-1, 1) * traction(flat, out))
+
+    def _of_forces(self, owner: Ints, points: Floats, force: Floats) -> Floats:
+        """Part (2,) of forces (m, 2) at points (m, 2) of elements (m,) (N/m)."""
+        ahead = self.fields.tip.direction
+        pull = -self.fields.cutoff(points, self.radius)[0][:, None] * force
+        modes = self._auxiliary(owner, points)
+        return np.array([np.sum(pull * (v @ ahead)) for v in modes])
 
     def _along(self, edges: Ints, points: Floats, weights: Floats, held: bool) -> Weighed:
         """What counts on any edges; with the traction of the stress where they are ``held``."""
