@@ -78,7 +78,7 @@ class Contact(Effect):
         book = replace(book, points=points)
         self.laws.refuse_soft(book.points.take(~book.points.tied))
         self.record, self._unbonded = ContactRecord(book), book.broken
-        self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.means)
+        self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.trace_space)
         self.momentum = Momentum(model, sides, parts.held, self.geometry.curved)
         compliance = self.momentum.compliance
         self.solver = ContactSolver.of(model, self.laws, parts.enforcement, compliance)

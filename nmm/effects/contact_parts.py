@@ -12,6 +12,7 @@ from nmm.contact.candidates.partners import Partners
 from nmm.contact.enforcement.base import Enforcement, make_enforcement
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.mortar.segments import face_points
+from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.points.bonded_cracks import BondedCracks
 from nmm.effects.base import Setup
 from nmm.errors import SceneError
@@ -49,8 +50,8 @@ class ContactParts:
         (B,) bodies that a support holds as a whole, in both directions.
     bends
         Whether faces bend between their ends: contacts then act at points of the material.
-    means
-        Whether exact conditions on faces are held in the mean.
+    trace_space
+        Where exact conditions on faces are held in the mean, None where none are.
     caution
         See `Effect.caution`.
     """
@@ -63,7 +64,7 @@ class ContactParts:
     mixed: bool
     held: Bools
     bends: bool
-    means: bool
+    trace_space: TraceSpace | None
     caution: str = ""
 
 
@@ -84,12 +85,14 @@ def contact_parts(setup: Setup) -> ContactParts:
         origin=setup.origin,
         whole_faces=means,
     )
+    edges, modulus = setup.model.cut.boundary, setup.model.modulus
+    nodes = TraceSpace.of(partners.sides, edges, modulus, partners.welded) if means else None
     joint_rule, cracks = _joint_rule(method, laws, manifold.degree), _cracks(setup)
     held, bends = _held(setup), points > 2
     mixed = setup.scene.inertia is None and not enforcement.exact
     caution = FACES if springs and points else ""
     return ContactParts(
-        laws, partners, enforcement, joint_rule, cracks, mixed, held, bends, means, caution
+        laws, partners, enforcement, joint_rule, cracks, mixed, held, bends, nodes, caution
     )
 
 

@@ -179,6 +179,8 @@ class Interaction:
         away = (np.hypot(*(end - tip).T) for end in (pushes.start, pushes.end))
         reach = np.minimum(*away)
         near = (reach < self.radius) & (self.model.manifold.element_body[owner] == self.body)
+        if not near.any():
+            return np.zeros(2)
         found = pushes.take(near)
         points, weights = spread_rule(found.start, found.end, tip, ORDER)
         q = weights.shape[1]

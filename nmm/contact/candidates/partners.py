@@ -27,6 +27,8 @@ class Partners:
     ----------
     sides
         The boundary edges as they move with the unknowns.
+    welded
+        Where both faces of a crack are one; None where faces of one body never meet.
 
     Parameters
     ----------
@@ -55,7 +57,7 @@ class Partners:
         whole_faces: bool = False,
     ) -> None:
         self.sides = sides(model.manifold)
-        self._welded = Welded.of(model.cut.boundary, self.sides) if within_bodies else None
+        self.welded = Welded.of(model.cut.boundary, self.sides) if within_bodies else None
         self._pairs = pairs
         self._within_bodies, self._face_points = within_bodies, face_points
         self._origin, self._whole_faces = origin, whole_faces
@@ -120,9 +122,9 @@ class Partners:
         if self._face_points:
             joints = book.carried(surface, self.sides.length)
             found = faced(surface, found, self._face_points, joints, self._whole_faces)
-        if self._welded is None:
+        if self.welded is None:
             return found
-        apart = self._welded.apart(found)
+        apart = self.welded.apart(found)
         return found if apart.all() else found.take(apart)
 
     def meeting(

@@ -52,9 +52,10 @@ class TraceSpace:
     welded: Bools
 
     @classmethod
-    def of(cls, sides: Sides, edges: CutBoundary, modulus: Floats) -> TraceSpace:
+    def of(
+        cls, sides: Sides, edges: CutBoundary, modulus: Floats, welded: Welded | None
+    ) -> TraceSpace:
         """Return the nodes on the boundary of a manifold; ``modulus`` (E,) is of its elements."""
-        welded = Welded.of(edges, sides)
         along = edges.end - edges.start
         length = np.hypot(*along.T)
         order, first = _faces(along, edges.next, edges.previous)

@@ -13,8 +13,7 @@ def on_faces(model: Model, contacts: ContactPoints) -> Pushes:
     """Return the forces that contacts left on either face of each crack."""
     n, p = contacts.normal, contacts
     force = p.normal_force[:, None] * n + p.shear_force[:, None] * tangents(n)
-    edge = np.concatenate([p.edge_a, p.edge_b])
-    parameter = np.concatenate([p.parameter_a, p.parameter_b])
+    edge, parameter = (np.concatenate(both) for both in zip(*p.sides, strict=True))
     force, length = np.concatenate([-force, force]), np.tile(p.length, 2)
     kept = np.flatnonzero((model.cut.boundary.crack[edge] >= 0) & force.any(axis=1))
     edge = edge[kept]
@@ -33,7 +32,6 @@ def _shares(edge: Ints, parameter: Floats, length: Floats) -> tuple[Floats, Floa
     order = np.lexsort((parameter, edge))
     at, s = edge[order], parameter[order]
     middle, same = (s[1:] + s[:-1]) / 2, at[1:] == at[:-1]
-    low, high = np.empty_like(s), np.empty_like(s)
-    low[order] = np.append(0.0, np.where(same, middle, 0.0))[: len(s)]
-    high[order] = np.append(np.where(same, middle, 1.0), 1.0)[-len(s) :] if len(s) else 0.0
+    low, high = np.zeros_like(s), np.ones_like(s)
+    low[order[1:][same]] = high[order[:-1][same]] = middle[same]
     return np.maximum(low, parameter - length), np.minimum(high, parameter + length)

@@ -30,17 +30,20 @@ class ContactGeometry:
         Contact points of joints at the start.
     bends
         Whether faces bend between their ends: contacts then act at points of the material.
-    means
-        Whether exact conditions on faces are held in the mean.
+    trace_space
+        Where exact conditions on faces are held in the mean, None where none are.
     """
 
     def __init__(
-        self, model: Model, sides: Sides, joints: ContactPoints, bends: bool, means: bool
+        self,
+        model: Model,
+        sides: Sides,
+        joints: ContactPoints,
+        bends: bool,
+        trace_space: TraceSpace | None,
     ) -> None:
         self.model, self.sides, self.bends = model, sides, bends
-        self.trace_space = (
-            TraceSpace.of(sides, model.cut.boundary, model.modulus) if means else None
-        )
+        self.trace_space = trace_space
         self._sites = JointSites.of(sides, joints)
 
     @property

@@ -10,7 +10,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import MaterialPoints, State, material_points
-from nmm.assembly.pushes import PushesIn
+from nmm.assembly.pushes import Pushes, PushesIn, joined
 from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
@@ -131,8 +131,9 @@ class GrowingCracks(Effect):
         tip = self._tips[front]
         kappa, stiff = tip_moduli(model, model.cut.tips.element[tip])
         pressure = model.pressure(state.deformation)
-        found = np.array([self._at(rows, state, pressure) for rows in self._rows]).reshape(-1, 2)
-        opening, sliding = found.T
+        pushes = joined(push(state) for push in self._pushing)
+        at_tips = [self._at(rows, state, pressure, pushes) for rows in self._rows]
+        opening, sliding = np.reshape(at_tips, (-1, 2)).T
         kink = self.rule.criterion.kink(opening, sliding, kappa)
         return Intensities(front, tip, opening, sliding, stiff, kink, self.rule.shares(kink, stiff))
 
@@ -148,11 +149,11 @@ class GrowingCracks(Effect):
             found.append(IntensityRows.of(model, int(one), radius, float(k)))
         return found
 
-    def _at(self, rows: IntensityRows, state: State, pressure: Floats | None) -> Floats:
+    def _at(
+        self, rows: IntensityRows, state: State, pressure: Floats | None, pushes: Pushes
+    ) -> Floats:
         """K_I and K_II (2,) of a tip in a state, weight included."""
-        found = rows.intensities(state.deformation, pressure)
-        for pushes in self._pushing:  # effects that push
-            found = found + rows.of_pushes(pushes(state), state.frames)
+        found = rows.intensities(state.deformation, pressure) + rows.of_pushes(pushes, state.frames)
         for stress in self._stresses:  # of effects
             found = found + rows.of_stress(stress, state.time)
         gravity = self._setup.scene.gravity

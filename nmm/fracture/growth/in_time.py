@@ -13,6 +13,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
+from nmm.assembly.pushes import Pushes
 from nmm.effects.base import Instant, Setup
 from nmm.fracture.growth.branching import Branching
 from nmm.fracture.growth.growing import GrowingCracks
@@ -123,8 +124,10 @@ class GrowthInTime(GrowingCracks):
         half = self.rule.increment / 2
         return self.free(found) & (self._running.way[found.front] >= half)
 
-    def _at(self, rows: IntensityRows, state: State, pressure: Floats | None) -> Floats:
+    def _at(
+        self, rows: IntensityRows, state: State, pressure: Floats | None, pushes: Pushes
+    ) -> Floats:
         """See `GrowingCracks._at`; with the inertia of the material about the tip."""
-        found = super()._at(rows, state, pressure)
+        found = super()._at(rows, state, pressure, pushes)
         moves = state.acceleration.any()
         return found + rows.of_acceleration(state.acceleration) if moves else found
