@@ -1,4 +1,4 @@
-"""How high water stands: a level or a phreatic line, and the pressure below it."""
+"""Pressure of water: below a level or a phreatic line, linear along a segment, or even."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -66,7 +66,22 @@ class LinearPressure:
         return np.array([0.0, 1.0])
 
 
-Pressure = WaterTable | LinearPressure
+@dataclass(frozen=True)
+class EvenPressure:
+    """One pressure everywhere (Pa)."""
+
+    value: float
+
+    def pressure(self, points: Floats) -> Floats:
+        """Pressure (m,) at points (m, 2), Pa."""
+        return np.full(len(points), self.value)
+
+    def crossings(self, start: Floats, end: Floats) -> Floats:
+        """Return the ends: it has no kink."""
+        return np.array([0.0, 1.0])
+
+
+Pressure = WaterTable | LinearPressure | EvenPressure
 
 
 def pressure_of(item: "WaterPressureTable", origin: Floats) -> Pressure:
@@ -74,6 +89,8 @@ def pressure_of(item: "WaterPressureTable", origin: Floats) -> Pressure:
 
     Points are in these axes already, levels are those of the scene.
     """
+    if item.pressure is not None:
+        return EvenPressure(item.pressure)
     if item.pressures is not None:
         return LinearPressure(np.array(item.segment), np.array(item.pressures))
     if item.level is not None:

@@ -97,6 +97,11 @@ class GrowingCracks(Effect):
         cracks = self._setup.geometry.cracks
         return self._fronts.swing(cracks, self._sofar.length)
 
+    @property
+    def shut(self) -> float:
+        """Largest of -K_I over |K| at which a crack has grown."""
+        return self._sofar.shut
+
     def arrived(self, factor: float, stored: float) -> float:
         """Note a balance at the toughness; return the energy (J) to book beside that of chords.
 
@@ -192,7 +197,9 @@ class GrowingCracks(Effect):
         geometry = self._setup.geometry
         if not len(rows):
             return self._beginnings.event(view.state, self.held)
-        cracks, what = self._laid(self._led(found.take(rows), view.state))
+        grown = found.take(rows)
+        self._sofar = self._sofar.seen(grown.shut)
+        cracks, what = self._laid(self._led(grown, view.state))
         return Event(replace(geometry, cracks=cracks), what, held=self.held)
 
     def _led(self, found: Intensities, state: State) -> Intensities:
@@ -268,8 +275,8 @@ class GrowingCracks(Effect):
         return {key: float(value) for key, value in row.items()}
 
     def carried(self) -> tuple[Any, ...]:
-        """How far each front has grown (m), and what that took (J)."""
-        return self._sofar.length, self._sofar.energy
+        """How far each front has grown (m), what that took (J), and how far tips were shut."""
+        return self._sofar.length, self._sofar.energy, self._sofar.shut
 
     def carry(self, carried: tuple[Any, ...]) -> None:
         """See `Effect.carry`."""

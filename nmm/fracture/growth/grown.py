@@ -1,7 +1,7 @@
 """How far fronts have grown, and what that took."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
@@ -15,10 +15,25 @@ from nmm.fracture.toughness import Toughness
 
 @dataclass(frozen=True)
 class GrownSoFar:
-    """How far each front has grown (n,) (m), and the energy that all of them took (J)."""
+    """What growth has been.
+
+    Attributes
+    ----------
+    length
+        (n,) how far each front has grown (m).
+    energy
+        That all of them took (J).
+    shut
+        Largest of -K_I over |K| at which any has grown.
+    """
 
     length: Floats
     energy: float
+    shut: float = 0.0
+
+    def seen(self, shut: float) -> "GrownSoFar":
+        """Return it with tips that grow where they are so far pressed shut."""
+        return replace(self, shut=max(self.shut, shut))
 
     def after(
         self, model: Model, fronts: CrackFronts, lines: Sequence[Sequence[Floats]], rule: Toughness
@@ -39,7 +54,7 @@ class GrownSoFar:
         stiff = tip_moduli(model, nearest_elements(model, fronts.former(*lines)[grown]))[1]
         energy = model.thickness * gained[grown] @ rule.energies(stiff)
         length = np.pad(self.length, (0, len(gained) - len(self.length)))
-        return GrownSoFar(length + gained, self.energy + float(energy))
+        return GrownSoFar(length + gained, self.energy + float(energy), self.shut)
 
 
 def nearest_elements(model: Model, points: Floats) -> Ints:

@@ -114,8 +114,8 @@ class GrowthInTime(GrowingCracks):
 
     def carry(self, carried: tuple[Any, ...]) -> None:
         """See `Effect.carry`."""
-        length, energy, running, held = carried
-        super().carry((length, energy))
+        *sofar, running, held = carried
+        super().carry(tuple(sofar))
         self._running = Running(*running)
         self._held = HeldFaces.of_arrays(self._setup.model, held)
 

@@ -45,6 +45,12 @@ class Intensities:
         """Energy release rate (k,) straight ahead, (K_I^2 + K_II^2) / E' (J/m2)."""
         return np.asarray((self.opening**2 + self.sliding**2) / self.stiff)
 
+    @property
+    def shut(self) -> float:
+        """Largest of -K_I over |K| of any: tips that are pressed shut."""
+        size = np.hypot(self.opening, self.sliding)
+        return float(np.max(-self.opening / np.where(size > 0, size, 1.0), initial=0.0))
+
 
 def tip_moduli(model: Model, element: Ints) -> tuple[Floats, Floats]:
     """Kolosov's constant and E' (Pa) of the material of elements (n,)."""

@@ -25,7 +25,8 @@ class WaterPressureTable(Placed):
 
     It acts on all edges of blocks along a segment, on both faces of a joint there, on one alone
     where a block is named; on both faces of a crack; or all around a block. Its pressure hangs from
-    a level or a phreatic line, zero above it, or is linear along the segment.
+    a level or a phreatic line, zero above it, is linear along the segment, or is one pressure
+    everywhere, as of what is pumped into a crack.
     """
 
     crack: Name | None = Field(default=None, description="the name of a crack", examples=["notch"])
@@ -36,6 +37,9 @@ class WaterPressureTable(Placed):
         default=None,
         description="two or more points [x, y] in m of the water table, x increasing",
         examples=[[[0, 10], [20, 4]]],
+    )
+    pressure: Stress | None = Field(
+        default=None, description="one pressure in Pa everywhere", examples=["2 MPa"]
     )
     pressures: tuple[Stress, Stress] | None = Field(
         default=None,
@@ -70,4 +74,4 @@ class WaterPressureTable(Placed):
         return self
 
 
-SOURCES = ("level", "phreatic_line", "pressures")
+SOURCES = ("level", "phreatic_line", "pressure", "pressures")

@@ -6,6 +6,7 @@ from dataclasses import replace
 from nmm.stepping.audits.balance import balance
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings
 from nmm.stepping.audits.bodies import bodies
+from nmm.stepping.audits.closed_cracks import closed_cracks
 from nmm.stepping.audits.energy import energy
 from nmm.stepping.audits.equations import equations
 from nmm.stepping.audits.fields import fields
@@ -20,6 +21,7 @@ AUDITS: tuple[Callable[[Ended], Findings], ...] = (
     fields,
     bodies,
     growth,
+    closed_cracks,
     steps,
 )
 

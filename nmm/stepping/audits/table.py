@@ -140,6 +140,13 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "`[fracture]`",
     ),
+    "faces_overlap": Threshold(
+        "overlap of the faces of a crack, over the largest distance between faces; or -K_I, over K "
+        "of both modes, of a tip that grew",
+        0.05,
+        None,
+        "cracks without `[contact]`",
+    ),
     "increments": Threshold(
         "ten over the number of increments in which friction slid or bonds broke",
         1.0,

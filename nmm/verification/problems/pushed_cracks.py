@@ -85,7 +85,7 @@ class PushedCrack(SceneCase):
             return f'[[temperatures]]\nname = "{name}"\nsegment = {edge}\ntemperature = {size}\n'
 
         t = SLOPE * HALF
-        water = f'name = "w"\ncrack = "c"\nunit_weight = 1\nlevel = {LOAD}\n'
+        water = f'name = "w"\ncrack = "c"\npressure = {LOAD}\n'
         stress = f'block = "all"\nstress = [0, {LOAD}, 0]\n'
         exact = '[contact]\n[formulation.contact]\nenforcement = "lagrange"\n'
         acting: Mapping[str, str] = {

@@ -75,6 +75,15 @@ def test_a_level_on_the_way_up_an_edge_is_met_exactly():
     assert resultant(text) == pytest.approx(-size * normal, rel=1e-12)
 
 
+def test_an_even_pressure_around_a_block_presses_it_evenly_and_does_not_move_it():
+    held = '[[supports]]\nname = "foot"\nblock = "b"\nfix = ["x", "y"]\n'
+    free = BLOCK.replace(held, "[[supports]]\nname='p'\npoint=[0.3, 0.1]\nfix=['x', 'y']\n")
+    run = nmm.run(nmm.parse_scene(water('block = "b"\npressure = "2 MPa"', block=free)))
+    assert run.history["water pressures:w:x"][-1] == pytest.approx(0.0, abs=1e-9 * 2e6)
+    # The same in all directions of the plane, whatever the material; the rest is rounding.
+    assert run.stress == pytest.approx(np.array([[-2e6, -2e6, 0.0]]), abs=1e-9 * 2e6)
+
+
 def test_a_phreatic_line_with_a_bend_is_integrated_exactly():
     flat = BLOCK.replace(
         "[[0.3, 0.1], [2.1, 0.4], [1.7, 1.9], [0.5, 1.6]]", "[[0, 0], [4, 0], [4, 1], [0, 1]]"
@@ -116,7 +125,7 @@ def test_water_keeps_what_every_effect_promises(cover):
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        ('block = "b"', "no pressure.*level, phreatic_line, pressures"),
+        ('block = "b"', "no pressure.*level, phreatic_line, pressure, pressures"),
         ("level = 1.0", "no place"),
         ('block = "b"\nlevel = 1.0\npressures = [1.0, 2.0]', "level, pressures"),
         ('block = "b"\npressures = [1.0, 2.0]', "pressures without segment"),

@@ -165,6 +165,10 @@ name = "u"
 segment = [[0, 0], [1, 0]]
 phreatic_line = [[-1, 1], [2, 0.5]]
 unit_weight = 9810
+[[water_pressures]]
+name = "v"
+segment = [[0, 1], [1, 1]]
+pressure = "10 kPa"
 [formulation.cover]
 type = "triangles"
 size = 0.4
