@@ -10,6 +10,7 @@ from nmm.verification.hard.cases.base import Document, HardCase, HardClass
 from nmm.verification.hard.generators.scenes import acting, bodies, matter
 from nmm.verification.hard.generators.scenes.approximated import formulated
 from nmm.verification.hard.generators.scenes.site import DENSITY, Site, merged
+from nmm.verification.hard.generators.scenes.staged import staged
 from nmm.verification.hard.oracles.whole import sound, ways
 
 KINDS = {
@@ -80,6 +81,8 @@ def _standing(random: np.random.Generator, kind: str) -> tuple[Document, dict[st
     scene = _acted_on(scene, site, meshed)
     for add in _KINDS.get(kind, ()):
         scene = merged(scene, add(site))
+    if site.kind == "stages":
+        scene = merged(scene, staged(scene, site))
     return formulated(scene, site, meshed or "heat" in scene or "seepage" in scene)
 
 
@@ -153,17 +156,6 @@ def _safe(site: Site) -> Document:
     return {"strength_reduction": {"lowest": 0.8, "highest": 2.0, "tolerance": 0.1}}
 
 
-def _staged(site: Site) -> Document:
-    last = site.blocks[-1]
-    stages: list[dict[str, Any]] = [{"name": "one", "loads": []}, {"name": "two"}]
-    if len(site.blocks) > 1:
-        stages[0]["blocks"] = list(site.blocks[:-1])
-        stages[1]["add"] = [last]
-        if site.seldom(0.5):
-            stages.append({"name": "three", "remove": [last]})
-    return {"stages": stages}
-
-
 _KINDS: dict[str, tuple[Callable[[Site], Document], ...]] = {
-    **{"creep": (_creeping,), "failure": (_failing,), "safety": (_safe,), "stages": (_staged,)},
+    **{"creep": (_creeping,), "failure": (_failing,), "safety": (_safe,)},
 }
