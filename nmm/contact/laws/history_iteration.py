@@ -14,6 +14,7 @@ from integration.arrays import Bools, Floats
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.tension_compression import AsymmetricSprings
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
 from nmm.frozen import with_parts
 from nmm.interfaces.history import History
@@ -26,6 +27,8 @@ UNCHANGED, BY_ROUNDING = 1e-9, 1e-7
 shrinks no more, for functions depend on one another and rounding is large."""
 LASTING, SHRUNK = 50, 0.5
 """Changes shrink no more where so many solutions leave more than this share of the least before."""
+AT_LIMIT = 1e-6
+"""Shear forces within this share of their limit are at it: rounding of a solution."""
 ENDED = ("gap", "slip", "normal_force", "shear_force")
 """What contacts have at the end of a solution."""
 
@@ -133,9 +136,16 @@ class HistoryIteration:
         self.contacts = replace(self.contacts, history=history)
         self.response = self._laws.response(self.contacts, self.springs[0])
 
-    def loss(self, answer: StepAnswer, sliding: Floats) -> float:
-        """Energy (J) that friction and softening took in the step."""
+    def loss(self, answer: StepAnswer, sliding: Floats, static: bool) -> float:
+        """Energy (J) that friction and softening took in the step.
+
+        The force of a step in time acts all through it. Loads of statics grow in theirs: what slid
+        from its start is rubbed by the mean of the limits at both ends, what slid later by that at
+        the end.
+        """
         rubbed = np.abs(answer.shear_force * sliding)
+        if static:
+            rubbed *= self._mean_share(answer)
         soft = self.softening
         if not soft.any():
             return float(rubbed.sum())
@@ -148,6 +158,14 @@ class HistoryIteration:
         work = normal @ (after.gap - before.gap) + shear @ slipped
         stored = self._laws.energy(after) - self._laws.energy(before)
         return float(rubbed[~soft].sum() + work - stored)
+
+    def _mean_share(self, answer: StepAnswer) -> Floats:
+        """Mean shear force (m,) of a step of statics over that at its end, where contacts slide."""
+        start, end = self.start, np.abs(answer.shear_force)
+        bound = shear_bound(start.normal_force, start.normal_force != 0, self.before.limits)
+        from_start = np.abs(start.shear_force) >= (1 - AT_LIMIT) * bound
+        mean = (bound + end) / 2
+        return np.divide(mean, end, out=np.ones_like(end), where=from_start & (end > 0))
 
 
 def slid_under_load(problem: StepProblem, answer: StepAnswer) -> Floats:

@@ -168,7 +168,8 @@ class ContactSolver:
             broken = breaking(self._laws, iteration.contacts, answer, request.breaking == "worst")
             brittle = broken & self._laws.brittle[contacts.interface]
             if not broken.any():
-                loss += iteration.loss(answer, sliding) + posed.loss(contacts, answer)
+                rubbed = iteration.loss(answer, sliding, static=request.step is None)
+                loss += rubbed + posed.loss(contacts, answer)
                 missed = posed.missed(answer)
                 return with_parts(found, loss=loss, sliding=sliding, rows=rows, missed=missed)
             if request.near is not None and not request.near(answer.increment):

@@ -136,7 +136,7 @@ class GrowingCracks(Effect):
         tip = self._tips[front]
         kappa, stiff = tip_moduli(model, model.cut.tips.element[tip])
         pressure = model.pressure(state.deformation)
-        pushes = joined(push(state) for push in self._pushing)
+        pushes = self._pushes(state)
         at_tips = [self._at(rows, state, pressure, pushes) for rows in self._rows]
         opening, sliding = np.reshape(at_tips, (-1, 2)).T
         kink = self.rule.criterion.kink(opening, sliding, kappa)
@@ -167,6 +167,10 @@ class GrowingCracks(Effect):
         body, density = rows.body, rows.density
         down = state.frames.to_body(np.array([body]), np.array([gravity.acceleration]))[0]
         return found + rows.of_weight(density * down)
+
+    def _pushes(self, state: State) -> Pushes:
+        """Forces of effects on faces and within bodies."""
+        return joined(push(state) for push in self._pushing)
 
     def _radius(self) -> float:
         """Radius of domains (m): that of the scene, or four cells."""
@@ -207,7 +211,10 @@ class GrowingCracks(Effect):
         if not self._table.parallel_stress:
             return found
         behind, kink = self.rule.increment / 2, found.kink
-        stress = parallel_stress(self._setup.model, state, found.tip, found.stiff, behind)
+        pushes = self._pushes(state)
+        stress = parallel_stress(
+            self._setup.model, state, found.tip, behind, pushes, self._stresses
+        )
         angle = at_end_of_piece(
             kink.angle, found.opening, found.sliding, stress, self.rule.increment
         )

@@ -8,39 +8,66 @@ to first order (Cotterell and Rice 1980; Amestoy and Leblond 1992 for the term o
 stress T). Where T presses, a deviation is driven back, by the more the longer the piece: an angle
 from K_I and K_II alone then overshoots, and the path goes to and fro however short pieces are. The
 angle at whose end no shear is left does not.
+
+T is the stress along the crack less that across it, which is what presses on the faces: a pressure
+that is even in all directions turns nothing.
 """
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
-from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.motion import State, material_points
+from nmm.assembly.pushes import Pushes
+from nmm.assembly.stress_points import StressAt
+from nmm.fracture.growth.intensities import tip_moduli
 
 # Halvings that find an angle to rounding.
 HALVINGS = 60
+# Forces that lie off the line behind a tip by less than this part of the length act on the faces.
+ON_LINE = 1e-6
 
 
-def parallel_stress(model: Model, state: State, tips: Ints, stiff: Floats, behind: float) -> Floats:
-    """Return the stress T (k,) along cracks at their tips (Pa): E' times the mean strain of faces.
+def parallel_stress(
+    model: Model,
+    state: State,
+    tips: Ints,
+    behind: float,
+    pushes: Pushes,
+    stresses: Sequence[StressAt] = (),
+) -> Floats:
+    """Return the stress T (k,) along cracks at their tips, less that across them (Pa).
 
-    On the faces K_I strains nothing along the crack, and K_II both the other way, so that their
-    mean is that of T; faces are taken as free.
+    On the faces K_I strains nothing along the crack, and K_II both the other way, so that the mean
+    strain there is that of T and of the pressure p on the faces; with stresses s that are no
+    strain's, T = E' strain + (1 - nu') p + s_along - nu' s_across.
 
     Parameters
     ----------
     tips
         (k,) numbers among ``model.cut.tips``.
-    stiff
-        (k,) E' about each (Pa).
     behind
         Length over which the strain is taken (m); the crack is straight there.
+    pushes
+        Forces on faces, in global axes.
+    stresses
+        Those that are no strain's.
     """
+    at = model.cut.tips
+    kappa, stiff = tip_moduli(model, at.element[tips])
+    contraction = (3 - kappa) / (1 + kappa)
     found = np.zeros(len(tips))
     for number, tip in enumerate(tips):  # a handful of tips
-        points = _faces_behind(model, int(tip), behind)
-        way = model.cut.tips.direction[tip]
+        element, place = _faces_behind(model, int(tip), behind)
+        points, way = material_points(model.manifold, element, place), at.direction[tip]
         along = points.rows.apply(state.deformation) @ way
         found[number] = stiff[number] * (along[0] - along[1:].mean()) / behind
+        pressure = _pressure_behind(model, state, int(tip), behind, pushes)
+        rest = [stress(element[1:], place[1:], state.time) for stress in stresses]
+        of_rest = _of_stresses(rest, way, contraction[number])
+        found[number] += (1 - contraction[number]) * pressure + of_rest
     return found
 
 
@@ -68,8 +95,35 @@ def at_end_of_piece(
     return np.where(driven, high, angle)
 
 
-def _faces_behind(model: Model, tip: int, behind: float) -> MaterialPoints:
-    """Return the tip and the places on both faces that lie ``behind`` it (m)."""
+def _pressure_behind(model: Model, state: State, tip: int, behind: float, pushes: Pushes) -> float:
+    """Mean pressure (Pa) on both faces within a length behind a tip."""
+    tips, manifold = model.cut.tips, model.manifold
+    end, way = tips.point[tip], tips.direction[tip]
+    to_left = np.array([-way[1], way[0]])
+    start, last = ((end - place) @ way for place in (pushes.start, pushes.end))
+    off = np.abs((pushes.start + pushes.end) / 2 @ to_left - end @ to_left)
+    low, high = np.minimum(start, last), np.maximum(start, last)
+    within = np.clip(high, 0, behind) - np.clip(low, 0, behind)
+    body = int(manifold.element_body[tips.element[tip]])
+    of_body = manifold.element_body[pushes.element] == body
+    near = np.flatnonzero((within > 0) & (off < ON_LINE * behind) & of_body)
+    one = pushes.take(near)
+    force = state.frames.to_body(np.full(len(near), body), one.force) @ to_left
+    side = np.sign((manifold.elements.centroids[one.element] - end) @ to_left)
+    share = within[near] / (high - low)[near]
+    return float((side * force * share).sum() / (2 * behind * model.thickness))
+
+
+def _of_stresses(stresses: Sequence[Floats], way: Floats, contraction: float) -> float:
+    """Part (Pa) of stresses (2, 3) on both faces that are no strain's."""
+    along = np.array([way[0] ** 2, way[1] ** 2, 2 * way[0] * way[1]])
+    across = np.array([way[1] ** 2, way[0] ** 2, -2 * way[0] * way[1]])
+    weights = along - contraction * across
+    return float(sum((one @ weights).mean() for one in stresses))
+
+
+def _faces_behind(model: Model, tip: int, behind: float) -> tuple[Ints, Floats]:
+    """Return elements (3,) and places (3, 2) of the tip, and on both faces ``behind`` it (m)."""
     tips, edges = model.cut.tips, model.cut.boundary
     end = tips.point[tip]
     place = end - behind * tips.direction[tip]
@@ -80,4 +134,4 @@ def _faces_behind(model: Model, tip: int, behind: float) -> MaterialPoints:
     side = way @ tips.direction[tip] > 0
     both = [face[np.flatnonzero(on)[np.argmin(off[on])]] for on in (side, ~side)]
     element = np.array([tips.element[tip], *edges.element[both]])
-    return material_points(model.manifold, element, np.array([end, place, place]))
+    return element, np.array([end, place, place])
