@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 SMALLEST, LOST = 2.0**-12, 20
 # Iterations of a step up to which the next is longer.
 EASY = 8
+# A step from this share of the largest load to below none, by more than that share, is a jump.
+TURNS, LEAST = 0.5, 1e-6
 
 
 def run_path(
@@ -55,6 +57,18 @@ def run_path(
 
     at = OnPath(start, None, control.increment, np.zeros_like(start.deformation))
     return until_verdict(at, step, recorder)
+
+
+def _ahead(at: OnPath, found: Tried) -> Tried:
+    """Return a trial, not converged where it jumps over the unloaded state to loads the other way.
+
+    A control that is not the motion itself may have a second answer there, however short the step.
+    """
+    before, after = at.state.load_factor, found.attempt.state.load_factor
+    if not found.attempt.converged or before < TURNS * at.peak or after >= -LEAST * at.peak:
+        return found
+    sentence = f"the load would turn round in one step, from {before:.6g} to {after:.6g}"
+    return replace(found, attempt=replace(found.attempt, converged=False, sentence=sentence))
 
 
 @dataclass(frozen=True)
@@ -97,15 +111,17 @@ class _Following:
         if self._by_load(at, standing):
             return self._to_event(at)
         step = min(at.advance, self.control.end - at.gone)
-        found = self.trials.along(standing, self.control.path(standing, step))
+        found = _ahead(at, self.trials.along(standing, self.control.path(standing, step)))
         if not found.attempt.converged:
             return self._shorter(at, step, found.attempt)
         if found.load > 1 + ABOVE:
             event = self._event_within(standing, found)
             if event is None:
                 return self._shorter(at, step, found.attempt)
-            return self._happened(at, event)
+            return self._happened(at, event, step)
         after = self._accepted(at, found.attempt, found.way)
+        if isinstance(after, Attempt):
+            return self._shorter(at, step, after)
         easy, whole = found.attempt.passes <= EASY, self.control.increment
         lost = 0 if at.advance == whole else at.lost
         return replace(after, advance=min(whole, (2 if easy else 1) * at.advance), lost=lost)
@@ -137,12 +153,18 @@ class _Following:
         if isinstance(found, RunVerdict):
             return found
         if not found.event:
-            return self._accepted(at, found.tried.attempt, 0.0)
-        return self._happened(at, found.tried)
+            after = self._accepted(at, found.tried.attempt, 0.0)
+            return no_balance(at, after) if isinstance(after, Attempt) else after
+        return self._happened(at, found.tried, 0.0)
 
-    def _happened(self, at: OnPath, event: Tried) -> OnPath | RunVerdict:
-        """Accept a step to an event, let bonds give way, and find the balance after it."""
+    def _happened(self, at: OnPath, event: Tried, step: float) -> OnPath | RunVerdict:
+        """Accept a step to an event, let bonds give way, and find the balance after it.
+
+        ``step`` is how far the step was to go; the load alone, without one, has no shorter.
+        """
         attempt, state, contacts = self._settled(at, event.attempt)
+        if not attempt.converged:
+            return self._shorter(at, step, attempt)
         after = self._told(at, attempt, state, contacts, event.way)
         brittle, shed = self.trials.give_way(attempt)
         after = replace(after, softened=not brittle, events=at.events + 1, shed=shed)
@@ -159,13 +181,19 @@ class _Following:
             if not found.attempt.converged:
                 return no_balance(at, found.attempt)
             if found.load <= 1 + ABOVE:
-                return self._accepted(at, found.attempt, 0.0, jump=True)
+                after = self._accepted(at, found.attempt, 0.0, jump=True)
+                return no_balance(at, after) if isinstance(after, Attempt) else after
             brittle, _ = trials.give_way(found.attempt)
             at = replace(at, softened=not brittle, events=at.events + 1)
 
-    def _accepted(self, at: OnPath, attempt: Attempt, way: float, jump: bool = False) -> OnPath:
-        """Accept a step and tell it."""
-        return self._told(at, *self._settled(at, attempt), way, jump)
+    def _accepted(
+        self, at: OnPath, attempt: Attempt, way: float, jump: bool = False
+    ) -> OnPath | Attempt:
+        """Accept a step and tell it; where its end is in no balance return why."""
+        attempt, state, contacts = self._settled(at, attempt)
+        if not attempt.converged:
+            return attempt
+        return self._told(at, attempt, state, contacts, way, jump)
 
     def _settled(
         self, at: OnPath, attempt: Attempt

@@ -20,25 +20,35 @@ Correction = Callable[[Attempt], Attempt]
 """From where a step has ended to a step from there that advances by nothing."""
 
 
+# A correction of this share of the step's motion leaves its square behind: a step is in balance so
+# far though the next one fails. So is one of so many times what is rounded.
+NEARLY, SEVERAL = 1e-5, 1e3
+
+
 def settled(
     stepper: Stepper, attempt: Attempt, correction: Correction
 ) -> tuple[Attempt, "State", "ContactPoints | None"]:
     """Accept a step and correct it until nothing moves.
 
     Return both as one, the state as blocks are laid now, and the contacts. Where corrections find
-    no balance, at a limit point, the last one that did stands.
+    no balance near the step has not converged, and nothing is accepted.
     """
+    before = stepper.carried
     state, contacts = stepper.accept(attempt)
     if stepper.small or state is not attempt.state:  # blocks that are laid anew turn in steps
         return attempt, state, contacts
-    total, least = attempt, rounding(stepper)
+    total, least, left = attempt, rounding(stepper), float("inf")
     for _ in range(CORRECTIONS):
         then = correction(total)
         if not then.converged or then.motion > total.motion:
             break
         state, contacts = stepper.accept(then)
-        way = total.increment + then.increment
+        left, way = then.motion, total.increment + then.increment
         total = replace(joined(total, then), increment=way)
-        if then.motion <= SETTLED * total.motion + least:
+        if left <= SETTLED * total.motion + least:
             break
+    if left > NEARLY * total.motion + SEVERAL * least:
+        stepper.return_to(before)
+        sentence = f"the moved place is not in equilibrium: {then.sentence}"
+        return replace(total, converged=False, sentence=sentence), state, contacts
     return total, state, contacts
