@@ -46,10 +46,13 @@ class Trials:
         return self.along(at, PathEquation(at.load, 0 * at.way, 1.0, change))
 
     def loads(self) -> Floats:
-        """Return load over strength of the points of joints where the path stands."""
+        """Return load over strength of the points of joints where the path stands.
+
+        Of those that are followed still: joints that came apart are in no step.
+        """
         contact = self.stepper.plan.contact
         assert contact is not None
-        points = contact.standing
+        points = contact.record.book.points
         return _in_order(points, contact.overload(points))
 
     def may_give_way(self) -> bool:

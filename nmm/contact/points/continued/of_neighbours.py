@@ -37,7 +37,7 @@ def in_place_of(
         for one, pair in ((old, pair_old), (new, pair_new))
     )
     wanted = np.maximum(asked, np.finfo(float).tiny)
-    share = np.sqrt(np.minimum(held / wanted, 1.0))[pair_new]
+    share = np.sqrt(np.minimum(held, wanted) / wanted)[pair_new]
     return new.gap * (1 - share), share * _mean_slip(new, left, body)
 
 

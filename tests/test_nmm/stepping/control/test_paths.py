@@ -44,6 +44,16 @@ def test_links_of_nearly_one_strength_break_as_their_strengths_tend_to_each_othe
     assert pull(run, 2)[0] == pytest.approx(2.0, rel=1e-6)
 
 
+def test_a_path_finds_the_next_event_after_a_joint_came_apart():
+    """The first link is wide open when the second is at its limit: 1 and 8 mm on the way."""
+    control = 'type = "displacement"\nmonitors = ["top"]\ndirection = [0, 1]\n'
+    run = nmm.run(
+        parse_scene(bundle((1e3, 8e3), control + 'increment = "1.5 mm"\nend = "9 mm"\n'))
+    )
+    breaks = np.flatnonzero(np.diff(run.history["broken"]) > 0)
+    assert run.history["load_factor"][breaks] == pytest.approx([1e3, 8e3], rel=1e-2)
+
+
 def test_a_brittle_bar_is_followed_back_to_nothing_under_no_control_of_its_own():
     control = 'type = "displacement"\nmonitors = ["end"]\nincrement = "50 um"\nend = "0.2 mm"\n'
     run = nmm.run(parse_scene(softening_bar(1.0, None, control)))
