@@ -228,8 +228,9 @@ class Inner:
             known = now.pull, then.pull, HARDLY * applied
             size = max(_size(scale * one) for one in known)
             left = _size(scale * missed)
-            gross = ROUNDING * _size(scale * self._gross(then.increment))
-            if left > gross + PLACES * _size(scale * then.rounding):
+            rounded = ROUNDING * self._gross(then.increment), PLACES * then.rounding
+            least = sum(_size(scale * one) for one in rounded)
+            if left > least and left > least + PLACES * _size(scale * self._of_places):
                 shares.append(left / size if size else np.inf)
         return max(shares)
 
@@ -239,6 +240,17 @@ class Inner:
         for _, matrix in self._lines.values():
             total = total + abs(matrix) @ np.abs(increment)
         return total
+
+    @cached_property
+    def _of_places(self) -> Floats:
+        """(n,) what stiffnesses of effects make of a motion by the rounding of coordinates.
+
+        Where nothing acts such motions are all there is, and there is no force to measure them by.
+        """
+        manifold = self._model.manifold
+        farthest = float(np.abs(manifold.elements.points).max())
+        along = manifold.rigid_modes @ np.tile([1.0, 1.0, 0.0], manifold.rigid_modes.shape[1] // 3)
+        return self._gross(float(np.finfo(float).eps) * farthest * along)
 
     def _of_matter(
         self, increment: Floats, before: Iterate | None

@@ -47,9 +47,7 @@ def test_links_of_nearly_one_strength_break_as_their_strengths_tend_to_each_othe
 def test_a_path_finds_the_next_event_after_a_joint_came_apart():
     """The first link is wide open when the second is at its limit: 1 and 8 mm on the way."""
     control = 'type = "displacement"\nmonitors = ["top"]\ndirection = [0, 1]\n'
-    run = nmm.run(
-        parse_scene(bundle((1e3, 8e3), control + 'increment = "1.5 mm"\nend = "9 mm"\n'))
-    )
+    run = nmm.run(parse_scene(bundle((1e3, 8e3), control + 'increment = "1.5 mm"\nend = "9 mm"\n')))
     breaks = np.flatnonzero(np.diff(run.history["broken"]) > 0)
     assert run.history["load_factor"][breaks] == pytest.approx([1e3, 8e3], rel=1e-2)
 
