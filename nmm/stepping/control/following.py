@@ -13,6 +13,7 @@ import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.contact.controls.base import Control, Standing
+from nmm.contact.controls.events import NextEvent
 from nmm.progress import Progress
 from nmm.stepping.control.events import Reached, next_event
 from nmm.stepping.control.locating import ABOVE, Tried, located
@@ -21,6 +22,7 @@ from nmm.stepping.control.settling import settled
 from nmm.stepping.control.trials import Trials
 from nmm.stepping.control.verdicts import arrived, no_balance
 from nmm.stepping.drive.changes import Stands, asked, with_events
+from nmm.stepping.drive.settling import rounding
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import RunVerdict
 from nmm.stepping.reports.ledger import stored
@@ -52,6 +54,8 @@ def run_path(
     following = _Following(stepper, recorder, control, end, progress)
 
     def step(at: OnPath) -> OnPath | RunVerdict:
+        if at.state is start and (begun := following.begun(at)) is not at:
+            return begun
         ended = None if at.changed else arrived(at, control.end, end)
         return ended or following.next(at)
 
@@ -65,7 +69,8 @@ def _ahead(at: OnPath, found: Tried) -> Tried:
     A control that is not the motion itself may have a second answer there, however short the step.
     """
     before, after = at.state.load_factor, found.attempt.state.load_factor
-    if not found.attempt.converged or before < TURNS * at.peak or after >= -LEAST * at.peak:
+    jumps = before > TURNS * at.peak and after < -LEAST * at.peak
+    if not found.attempt.converged or not jumps:
         return found
     sentence = f"the load would turn round in one step, from {before:.6g} to {after:.6g}"
     return replace(found, attempt=replace(found.attempt, converged=False, sentence=sentence))
@@ -86,6 +91,20 @@ class _Following:
         """Steps as they are tried on the present model."""
         monitors = {one.name: one.points for one in self.recorder.monitors}
         return Trials(self.stepper, monitors)
+
+    def begun(self, at: OnPath) -> OnPath | RunVerdict:
+        """Return where what acts without the load, as weight, is in balance at the start.
+
+        Else its motion counts as that of the control, and the load that holds it back as one that
+        was reached. Where the load leads, weight acts within the first step.
+        """
+        standing = self.trials.standing(at)
+        if self._by_load(at, standing):
+            return at
+        still = self.trials.of_load(standing, 0.0).attempt
+        if still.converged and still.motion <= rounding(self.stepper):
+            return at
+        return replace(self, control=NextEvent(1.0))._balanced(at)
 
     def next(self, at: OnPath) -> OnPath | RunVerdict:
         """Go on to the end of a step, or to the next event; then to what the state calls for."""

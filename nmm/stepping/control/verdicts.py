@@ -55,8 +55,8 @@ def no_event(at: OnPath) -> RunVerdict:
 
 
 def fell(at: OnPath) -> bool:
-    """Whether the load has fallen from its largest."""
-    return at.state.load_factor < at.peak * (1 - NOTHING)
+    """Whether the load has fallen from its largest; one that only pulls back has none."""
+    return at.peak > 0 and at.state.load_factor < at.peak * (1 - NOTHING)
 
 
 def _failure(at: OnPath, shown: str, why: str) -> RunVerdict:

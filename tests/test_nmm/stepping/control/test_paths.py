@@ -168,3 +168,79 @@ def test_a_path_is_followed_once_from_each_state(monkeypatch):
         assert seek(state, factor) is None
     # A shorter part of a path without a limit point has none either.
     assert asked == [2.0, 3.0, 1.5]
+
+
+@pytest.mark.parametrize(("way", "sign"), [([0, 1], 1.0), ([0, -1], -1.0)])
+def test_a_path_counts_from_where_weight_has_been_borne(way, sign):
+    """A bar of E A / L = 1e6 N/m sinks by rho g L^2 / 2 E = 0.25 mm and is led on from there."""
+    run = nmm.run(
+        parse_scene(
+            f"""
+plane = "stress"
+
+[materials.rock]
+young_modulus = 1e7
+poisson_ratio = 0.0
+density = 500
+
+[interfaces.joint]
+friction_angle = 0.0
+bonded = true
+cohesion = 1e9
+tensile_strength = 1e9
+
+[[blocks]]
+name = "bar"
+material = "rock"
+vertices = [[0, 0], [0.1, 0], [0.1, 1], [0, 1]]
+
+[[blocks]]
+name = "foot"
+material = "rock"
+vertices = [[0, -0.01], [0.1, -0.01], [0.1, 0], [0, 0]]
+
+[[supports]]
+name = "held"
+block = "foot"
+fix = ["x", "y"]
+
+[[monitors]]
+name = "top"
+block = "bar"
+point = [0.05, 1.0]
+
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[0, 1], [0.1, 1]]
+traction = [0, 1e3]
+
+[gravity]
+acceleration = [0, -10]
+
+[contact]
+
+[formulation.cover]
+type = "quads"
+size = 0.1
+
+[loading]
+until = "failure"
+
+[loading.control]
+type = "displacement"
+monitors = ["top"]
+direction = {way}
+increment = "0.1 mm"
+end = "0.4 mm"
+"""
+        )
+    )
+    sunk = run.history["monitor:top:uy"][0]
+    assert sunk == pytest.approx(-2.5e-4, rel=0.02)
+    # From there by 0.1 mm a step: 1e6 N/m over a load of 100 N.
+    assert run.history["monitor:top:uy"] - sunk == pytest.approx(
+        sign * np.linspace(0, 4e-4, 5), abs=1e-8
+    )
+    assert run.history["load_factor"] == pytest.approx(sign * np.arange(5.0), rel=0.02, abs=1e-9)
+    assert run.summary.status == "converged"
