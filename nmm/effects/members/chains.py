@@ -89,6 +89,11 @@ class Chains:
         return csr_array(parts, shape=(len(self.left), len(self.bond)))
 
     @property
+    def elastic(self) -> bool:
+        """Whether nothing has a yield value: ways leave nothing to remember."""
+        return bool(self.axial.elastic.all() and self.bond.elastic.all())
+
+    @property
     def linear(self) -> bool:
         """Whether axial forces are lines in the stretches."""
         return self.axial.linear and self.bond.linear

@@ -16,6 +16,7 @@ from nmm.errors import SceneError
 from nmm.materials.uniaxial import Uniaxial
 
 if TYPE_CHECKING:
+    from nmm.effects.change import Change
     from nmm.scene.tables.members import FoundationTable
 
 # Least degree that pressures along an edge are integrated to; and where they may end on the way
@@ -52,6 +53,29 @@ class Foundations(Linked):
         names = tuple(one.name for one, _ in parts)
         axial = Fibres.of(laws, np.ones(len(area)), area)
         return cls(setup.model, Members.without_slip(names, places, links, axial))
+
+    def _offset_on(self, members: Members, change: "Change") -> Floats:
+        """See `Linked`: that of the nearest point of the edge; points of new material have none."""
+        from scipy.spatial import cKDTree
+
+        old, new = self.members.links.second, members.links.second
+        offset, before = np.full(len(new), np.nan), _sides_of(self.members)
+        for side, here in _sides_of(members).items():  # a handful of foundations
+            if (there := before.get(side)) is not None:
+                _, nearest = cKDTree(old.position[there]).query(new.position[here])
+                offset[here] = self._offset[there][nearest]
+        known = np.isin(new.element, change.parentage.elements.child)
+        return np.where(known, offset, np.nan)
+
+
+def _sides_of(members: Members) -> dict[tuple[str, str], slice]:
+    """Return where the links of each foundation lie, across its edge and along it."""
+    ends = np.cumsum(members.places)
+    return {
+        (name, side): slice(end - count // 2 * left, end - count // 2 * (left - 1))
+        for name, count, end in zip(members.names, members.places, ends, strict=True)
+        for left, side in ((2, "across"), (1, "along"))
+    }
 
 
 def _place(setup: Setup, table: "FoundationTable") -> Place:

@@ -170,10 +170,14 @@ class Linked(Effect):
     def follow(self, change: "Change") -> Self:
         """Return the members on the new model; those that are new are put in as all stands."""
         new = type(self).from_setup(change.setup)
-        now, places = new.members.links.stretch(change.state), new.members.of_link
-        known = new.members.memory(self._offsets(), np.nan)[:, 0]
-        new._offset = np.where(np.isnan(known[places]), now, known[places])
+        known = self._offset_on(new.members, change)
+        now = new.members.links.stretch(change.state)
+        new._offset = np.where(np.isnan(known), now, known)
         return new
+
+    def _offset_on(self, members: Members, change: "Change") -> Floats:
+        """Stretch (m,) at which members on the new model were put in; nan of those that are new."""
+        return np.asarray(members.memory(self._offsets(), np.nan)[members.of_link, 0])
 
     def _offsets(self) -> dict[str, Floats]:
         """Return the offset at each place of memory by member; new members have none."""
@@ -190,7 +194,7 @@ class Linked(Effect):
 
     def _remembered(self, before: State, end: ChainAnswer) -> dict[str, Floats]:
         members = self.members
-        if members.chains.linear and not len(end.slip):
+        if members.chains.elastic and not len(end.slip):
             return {}
         whole = members.memory(before.memory)
         whole[members.of_link, AXIAL] = end.axial.memory
