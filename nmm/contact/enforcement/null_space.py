@@ -12,6 +12,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats, Ints
+from nmm.contact.problem.row_products import pushed
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
 
@@ -91,8 +92,12 @@ class NullSpace(Transform):
         )
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
-        """Return the answer in all unknowns."""
-        return replace(answer, increment=self.basis @ answer.increment + self.start)
+        """Return the answer in all unknowns, with the multipliers."""
+        increment = self.basis @ answer.increment + self.start
+        rows = problem.normal_rows, problem.tangent_rows
+        push = pushed(*rows, answer.normal_force, answer.shear_force)
+        rest = problem.force - problem.matrix @ increment - push
+        return replace(answer, increment=increment, multipliers=self._multipliers(rest))
 
     def of_unknowns(self, values: Any) -> Any:
         """Return those (n - r,) of the unknowns that are not given."""
@@ -104,7 +109,7 @@ class NullSpace(Transform):
         sizes = csc_array((np.abs(basis.data), basis.indices, basis.indptr), shape=basis.shape)
         return np.asarray(sizes.T @ among)
 
-    def multipliers(self, rest: Floats) -> Floats:
+    def _multipliers(self, rest: Floats) -> Floats:
         """Multipliers (k,) with ``rows.T @ m = rest`` (n,), what is left of the balance."""
         from scipy.linalg import solve_triangular
 

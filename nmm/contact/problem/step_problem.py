@@ -216,6 +216,8 @@ class StepAnswer:
         Name of the linear solver.
     stored
         Energy (J) at the end in the enforcement's own potential, besides springs of contacts.
+    multipliers
+        (k,) of the conditions that were eliminated; None without any.
     """
 
     increment: Floats
@@ -230,3 +232,4 @@ class StepAnswer:
     factorisations: int = 0
     solver: str = ""
     stored: float = 0.0
+    multipliers: Floats | None = None

@@ -273,20 +273,12 @@ class Touching:
         """Return the bodies moved, and what contact takes of the forces (n,)."""
         increment = solved.answer.increment
         rest = equations.force - product(equations.matrix, increment)
-        if held is not None and solved.rows is not None:
-            rest = rest - self._holding(held, solved, rest)
+        multipliers = solved.answer.multipliers
+        if held is not None and multipliers is not None and solved.rows is not None:
+            self._current.plan.keep(multipliers)
+            rest = rest - held.rows.T @ multipliers
         push = -rest if self._carries and equations.step else None
         return self._mover.after(equations, increment, push), rest
-
-    def _holding(self, held: "NullSpace", solved: "ContactSolution", rest: Floats) -> Floats:
-        """Return the forces (n,) of the multipliers, which the supports are told."""
-        assert solved.rows is not None
-        answer = solved.answer
-        multipliers = held.multipliers(
-            rest - solved.rows.push(answer.normal_force, answer.shear_force)
-        )
-        self._current.plan.keep(multipliers)
-        return np.asarray(held.rows.T @ multipliers)
 
     def _kept(
         self, equations: Equations, solved: "ContactSolution", result: Attempt, rest: Floats
