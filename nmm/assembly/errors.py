@@ -7,7 +7,8 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.rules import PointRule, polygon_rule
-from nmm.assembly.model import VOLUME, Model
+from nmm.assembly.held_volumes.excess import VOLUME
+from nmm.assembly.model import Model
 
 Field = Callable[[Floats], Floats]
 

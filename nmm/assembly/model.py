@@ -15,12 +15,12 @@ from integration.arrays import Floats, Ints
 from integration.contraction import contract
 from integration.polygons import areas
 from nmm.assembly import element_matrices
-from nmm.assembly.blocks import Part, assemble
+from nmm.assembly.element_sums import ElementMatrices, summed_matrix, summed_vector
+from nmm.assembly.held_volumes.excess import VOLUME, excess, held_pressures
+from nmm.assembly.held_volumes.pressures import Pressures
 from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.lumping import check_positive
 from nmm.assembly.matter import Matter
-from nmm.assembly.patches import pressures
-from nmm.assembly.pressures import Pressures
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Law
 from nmm.solvers.unchecked import product
@@ -29,12 +29,6 @@ if TYPE_CHECKING:
     from covers.cutting.cut import Cutting
     from nmm.assembly.finite_strain.finite_matter import FiniteMatter
     from nmm.assembly.motion import State
-
-# Volume is resisted in every point up to this many shear moduli, by pressures beyond: a Poisson
-# ratio of 1/3 in plane strain. No material in plane stress goes beyond.
-DRAINED = 2.0
-# Volume from strain, and a pressure's stress.
-VOLUME = np.array([1.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True)
@@ -56,7 +50,7 @@ class Model:
     lumped
         Whether the mass couples no cover with another.
     projected
-        Whether pressures on patches resist changes of volume (`nmm.assembly.pressures`).
+        Whether pressures on patches resist changes of volume (`held_volumes`).
     cut
         How the cut left the mathematical cover; every block is a whole cell.
     laws, law, plane
@@ -200,15 +194,7 @@ class Model:
         FormulationError
             Projected volumes with weights that are negative somewhere.
         """
-        excess = self._excess
-        found = pressures(self.manifold, excess, int(self.projected)) if excess.any() else None
-        if found is None and self.projected and excess.any():
-            raise FormulationError(
-                '[cover] volumetric: "projected": the weights of this cover are negative '
-                "somewhere, so that patches have no measure: expected weights >= 0: use type = "
-                '"triangles", "quads" or "bspline", or volumetric = "full"'
-            )
-        return found
+        return held_pressures(self.manifold, self._excess, self.projected)
 
     @cached_property
     def bulk(self) -> Floats:
@@ -223,8 +209,7 @@ class Model:
 
     @cached_property
     def _excess(self) -> Floats:
-        d = self.elasticity
-        return np.asarray(np.maximum(d[:, 0, 1] - DRAINED * d[:, 2, 2], 0.0))
+        return excess(self.elasticity)
 
     def pressure(self, deformation: Floats, gap: Floats | None = None) -> Floats | None:
         """Pressures (k,) of the unknowns; None where volumes are not projected.
@@ -320,31 +305,8 @@ class Model:
     def _strain_rows(self) -> list[Floats]:
         return [element_matrices.mean_strain_rows(group) for group in self.manifold.groups]
 
-    def _matrix(
-        self, element: Callable[[ElementGroup, Ints, Floats], Floats], material: Floats
-    ) -> csc_array:
-        """Sum element matrices; congruent elements of equal ``material`` (E, ...) share one."""
-        parts = []
-        for group in self.manifold.groups:  # a handful of groups
-            shape, first, kind = _kinds(group.shape, material[group.elements])
-            matrices = element(group, shape, material[group.elements[first]])
-            parts.append(Part(group.unknowns, matrices, kind))
-        return assemble(parts, self.manifold.n_unknowns, self.manifold.cover_offset)
+    def _matrix(self, element: ElementMatrices, material: Floats) -> csc_array:
+        return summed_matrix(self.manifold, element, material)
 
     def _vector(self, element: Callable[[ElementGroup], Floats]) -> Floats:
-        total = np.zeros(self.manifold.n_unknowns)
-        for group in self.manifold.groups:  # a handful of groups
-            total += np.bincount(
-                group.unknowns.ravel(), element(group).ravel(), minlength=len(total)
-            )
-        return total
-
-
-def _kinds(shape: Ints, material: Floats) -> tuple[Ints, Ints, Ints]:
-    """Shape (m,) and first element (m,) of each kind of element, and the kind (n,) of each."""
-    _, first = np.unique(shape, return_index=True)
-    if np.array_equal(material[first][shape], material):
-        return np.arange(len(first)), first, shape
-    rows = np.column_stack([shape, material.reshape(len(shape), -1)])
-    _, first, kind = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    return shape[first], first, kind.ravel()
+        return summed_vector(self.manifold, element)

@@ -7,7 +7,7 @@ import numpy as np
 from covers.approximation.singular.enrichment import Enrichment
 from integration.arrays import Floats, Ints
 from nmm.errors import FormulationError
-from nmm.scene.cover_tables import EnrichmentTable
+from nmm.scene.methods.cover_tables import EnrichmentTable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

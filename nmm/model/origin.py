@@ -18,8 +18,8 @@ from nmm.geometry.tessellation.cover_types import COVER_TYPES
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import Sink
 from nmm.results.tee import Tee
-from nmm.scene.cover_tables import CoverTable
 from nmm.scene.fields import Coordinates
+from nmm.scene.methods.cover_tables import CoverTable
 
 if TYPE_CHECKING:
     from pydantic import BaseModel

@@ -11,7 +11,7 @@ from integration.arrays import Bools, Floats
 from nmm.effects.base import Acting
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.model.origin import shifted
-from nmm.scene.cover_tables import CoverTable
+from nmm.scene.methods.cover_tables import CoverTable
 from nmm.scene.stages import KINDS
 from nmm.scene.tables.members import MEMBERS
 

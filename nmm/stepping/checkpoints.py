@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypeVar, cast
 from nmm.results.storage.values import Arrays
 from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.stages import StagesSoFar
-from nmm.stepping.drive.statics import UnderLoad
+from nmm.stepping.drive.under_load import UnderLoad
 from nmm.stepping.reports.monitors import monitors
 from nmm.stepping.reports.output import Choice
 from nmm.stepping.reports.recorder import Recorder

@@ -12,7 +12,8 @@ from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled import CompiledScene
 from nmm.stepping.drive.dynamics import run_in_time
 from nmm.stepping.drive.in_time import InTime, Schedule
-from nmm.stepping.drive.statics import Beyond, LoadSchedule, UnderLoad, run_load, unseen
+from nmm.stepping.drive.statics import run_load
+from nmm.stepping.drive.under_load import Beyond, LoadSchedule, UnderLoad, unseen
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.run_state import RunState

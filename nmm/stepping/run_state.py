@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from nmm.results.storage.values import Arrays, Kinds, decoded, encoded
 from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.stages import StagesSoFar
-from nmm.stepping.drive.statics import UnderLoad
+from nmm.stepping.drive.under_load import UnderLoad
 from nmm.stepping.reports.totals import Totals
 from nmm.stepping.step.carried import CarriedOver
 
@@ -104,7 +104,7 @@ _PLACES = {
     "nmm.stepping.adaptive.control": ("Chosen",),
     "nmm.stepping.drive.in_time": ("InTime",),
     "nmm.stepping.drive.stages": ("StagesSoFar",),
-    "nmm.stepping.drive.statics": ("UnderLoad", "Rest"),
+    "nmm.stepping.drive.under_load": ("UnderLoad", "Rest"),
     "nmm.stepping.reports.ledger": ("Ledger", "Rise"),
     "nmm.stepping.reports.lengths": ("StepLengths",),
     "nmm.stepping.reports.output": ("Watch",),

@@ -3,12 +3,11 @@
 Hooks that no effect has are never called.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from math import isfinite
-from time import perf_counter
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -16,15 +15,10 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
-from nmm.effects.base import (
-    Effect,
-    Instant,
-    Span,
-    StepForce,
-    defines,
-)
+from nmm.effects.base import Effect, Instant, Span, StepForce, defines
 from nmm.errors import SolveError
 from nmm.model.effects_table import OWN
+from nmm.model.planning.hooks import Hooks
 from nmm.quantity import MemberSegments
 
 if TYPE_CHECKING:
@@ -37,9 +31,6 @@ if TYPE_CHECKING:
     from nmm.effects.view import View
     from nmm.fracture.growth.growing import GrowingCracks
 
-
-T = TypeVar("T")
-
 SHARED = frozenset(
     (
         *("inertia", "initial stress", "heat", "contact"),
@@ -50,25 +41,16 @@ SHARED = frozenset(
 
 
 @dataclass(frozen=True)
-class Plan:
-    """Effects by name, and the seconds each has cost.
+class Plan(Hooks):
+    """The effects of a scene; what they do is summed over those that have a hook.
 
     Attributes
     ----------
-    effects
-        In the order of the table.
-    seconds
-        Wall-clock seconds by effect.
     sums
         The last sum of matrices with its parts: parts that stay need not be added again.
-    hooks
-        The effects that have each hook that was asked for, by name.
     """
 
-    effects: dict[str, Effect]
-    seconds: dict[str, float] = field(default_factory=dict)
     sums: dict[str, tuple[list[csc_array], csc_array]] = field(default_factory=dict)
-    hooks: dict[str, list[tuple[str, Effect]]] = field(default_factory=dict)
 
     def joined(self, effect: Effect) -> "Plan":
         """Return the plan with one effect more."""
@@ -105,7 +87,7 @@ class Plan:
     def forces(self, state: State, end: Instant) -> Iterator[Floats]:
         """Yield the force (n,) of each effect."""
         shape = state.deformation.shape
-        for name, effect in self._named("force"):
+        for name, effect in self.named("force"):
             part = self.timed(name, partial(effect.force, state, end))
             if part.shape != shape:
                 raise SolveError(
@@ -134,8 +116,7 @@ class Plan:
     def matrix(self, state: State, base: csc_array) -> csc_array:
         """Return ``base`` with all effects' matrices added; the same sum of the same parts."""
         added = (
-            self.timed(name, partial(effect.matrix, state))
-            for name, effect in self._named("matrix")
+            self.timed(name, partial(effect.matrix, state)) for name, effect in self.named("matrix")
         )
         parts = [base, *added]
         kept = self.sums.get("matrix")
@@ -147,14 +128,14 @@ class Plan:
         """Return the damping matrix of each effect that has one, by name."""
         return {
             name: self.timed(name, partial(effect.damping, state))
-            for name, effect in self._named("damping")
+            for name, effect in self.named("damping")
         }
 
     def added_mass(self, state: State) -> dict[str, csc_array]:
         """Return what joins the mass in the step that starts at ``state``, by effect."""
         return {
             name: self.timed(name, partial(effect.added_mass, state))
-            for name, effect in self._named("added_mass")
+            for name, effect in self.named("added_mass")
         }
 
     def felt_energy(self, state: State) -> float:
@@ -213,7 +194,7 @@ class Plan:
     @cached_property
     def bent(self) -> dict[str, Effect]:
         """Effects, by name, whose force is no line in the unknowns of a step."""
-        return {name: one for name, one in self._named("through") if one.bends}
+        return {name: one for name, one in self.named("through") if one.bends}
 
     def through(self, name: str, before: State, after: State, span: Span) -> StepForce:
         """Return what a bent effect does through a step."""
@@ -226,7 +207,7 @@ class Plan:
 
     def losses(self, before: State, after: State) -> dict[str, float]:
         """Return what each effect took for good in an accepted step (J)."""
-        return {name: one.loss(before, after) for name, one in self._named("loss")}
+        return {name: one.loss(before, after) for name, one in self.named("loss")}
 
     def first_work(self, before: State, after: State) -> float:
         """Return the work (J) that `work` lacks in the first step of statics."""
@@ -247,17 +228,17 @@ class Plan:
     @cached_property
     def _own_stores(self) -> list[tuple[str, Effect]]:
         """Effects that store energy and have a column of it to themselves."""
-        return [(name, one) for name, one in self._named("energy") if name not in SHARED]
+        return [(name, one) for name, one in self.named("energy") if name not in SHARED]
 
     @cached_property
     def tellers(self) -> list[tuple[str, Effect]]:
         """Effects with numbers for the history, by name."""
-        return self._named("history")
+        return self.named("history")
 
     @cached_property
     def askers(self) -> tuple[str, ...]:
         """Names of the effects that may ask for another geometry."""
-        return tuple(name for name, _ in self._named("event"))
+        return tuple(name for name, _ in self.named("event"))
 
     def accepted(self, state: State) -> None:
         """Tell the effects that ask where an accepted step has ended."""
@@ -266,7 +247,7 @@ class Plan:
 
     @cached_property
     def _followers(self) -> list[tuple[str, Effect]]:
-        return self._named("accepted")
+        return self.named("accepted")
 
     def event(self, name: str, view: "View") -> "Event | None":
         """Return the event that a state calls for by one of the `askers`."""
@@ -305,28 +286,6 @@ class Plan:
     def initial_stress(self) -> "InitialStress | None":
         """The initial stress."""
         return cast("InitialStress | None", self.effects.get("initial stress"))
-
-    def spend(self, name: str, seconds: float) -> None:
-        """Count seconds for an effect."""
-        self.seconds[name] = self.seconds.get(name, 0.0) + seconds
-
-    def having(self, hook: str) -> list[Effect]:
-        """Return the effects that define a hook."""
-        return [effect for _, effect in self._named(hook)]
-
-    def _named(self, hook: str) -> list[tuple[str, Effect]]:
-        known = self.hooks.get(hook)
-        if known is None:
-            known = [(name, one) for name, one in self.effects.items() if defines(one, hook)]
-            self.hooks[hook] = known
-        return known
-
-    def timed(self, name: str, call: Callable[[], T]) -> T:
-        """Return what a call returns, its seconds counted for an effect."""
-        start = perf_counter()
-        result = call()
-        self.spend(name, perf_counter() - start)
-        return result
 
 
 def _are(some: list[csc_array], others: list[csc_array]) -> bool:

@@ -13,7 +13,7 @@ from nmm.assembly.motion import State
 from nmm.errors import SolveError
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import Stands, asked, with_events
-from nmm.stepping.drive.statics import LoadSchedule, UnderLoad
+from nmm.stepping.drive.under_load import LoadSchedule, UnderLoad
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, RunVerdict
 from nmm.stepping.reports.recorder import Recorder

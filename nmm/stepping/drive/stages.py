@@ -12,7 +12,8 @@ from nmm.progress import Progress
 from nmm.stepping.drive.changes import difference, follow
 from nmm.stepping.drive.dynamics import run_in_time
 from nmm.stepping.drive.in_time import InTime, Schedule
-from nmm.stepping.drive.statics import LoadSchedule, UnderLoad, run_load
+from nmm.stepping.drive.statics import run_load
+from nmm.stepping.drive.under_load import LoadSchedule, UnderLoad
 from nmm.stepping.drive.verdict import CONVERGED, RunVerdict
 from nmm.stepping.reports.monitors import monitors
 from nmm.stepping.reports.output import choice_in_time, choice_under_loads

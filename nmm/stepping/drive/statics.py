@@ -10,19 +10,18 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
-from nmm.effects.base import Instant
 from nmm.progress import Progress
-from nmm.stepping.drive.changes import Asked, Stands, asked, with_events
+from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.evidence import evidence
 from nmm.stepping.drive.relaxation import Relaxed, relax
 from nmm.stepping.drive.settling import Settled, anchored, may_be_loose, settle
+from nmm.stepping.drive.under_load import Beyond, LoadSchedule, Rest, Trial, UnderLoad, unseen
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import (
     COLLAPSED,
     CONVERGED,
     FAILED,
     FAILURE,
-    LimitPoint,
     RunVerdict,
 )
 from nmm.stepping.reports.recorder import Recorder
@@ -31,127 +30,10 @@ from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
-    from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import Breaking
 
 # A load increment that was cut to this share of the largest is not cut further.
 SMALLEST = 2.0**-30
-
-
-# From a state and a load factor to the limit point between, if one is seen.
-Beyond = Callable[[State, float], LimitPoint | None]
-
-
-def unseen(state: State, factor: float) -> LimitPoint | None:
-    """Return no limit point: where paths cannot be followed."""
-    return None
-
-
-@dataclass(frozen=True)
-class LoadSchedule:
-    """How far and how finely the loads grow.
-
-    Attributes
-    ----------
-    target
-        Load factor at which to stop.
-    until_failure
-        Whether failing before the target is the result sought.
-    increment
-        Largest increment of the load factor.
-    tolerance
-        Relative width of the bracket of the failure load.
-    at_once
-        Whether what acts does so in full from the start: smaller increments are not tried, and
-        blocks that do not come to rest near where they stand have failed.
-    begin, stops
-        Time at load factor 0, and whether time stops there: in statics of a scene that has no
-        clock, time is the load factor, counted over stages.
-    """
-
-    target: float
-    until_failure: bool
-    increment: float
-    tolerance: float
-    begin: float = 0.0
-    stops: bool = False
-    at_once: bool = False
-
-    def instant(self, factor: float) -> Instant:
-        """Return the end of a step to a load factor."""
-        return Instant(self.begin if self.stops else self.begin + factor, factor)
-
-
-@dataclass(frozen=True)
-class Rest:
-    """How loose blocks were brought to rest: steps of relaxation, and the way they took (m)."""
-
-    steps: int
-    way: float
-
-
-@dataclass(frozen=True)
-class UnderLoad:
-    """Where growing loads stand.
-
-    Attributes
-    ----------
-    state, contacts
-        The last state in equilibrium, and its contacts as left.
-    increment
-        Of the load factor, which is tried next.
-    rest
-        How loose blocks were brought to rest; None when they were not.
-    changed
-        What has changed in this state, which is not in equilibrium again yet, in words.
-    """
-
-    state: State
-    contacts: "ContactPoints | None"
-    increment: float
-    rest: Rest | None = None
-    changed: str = ""
-
-    @property
-    def rise(self) -> float:
-        """Of the load factor, to the state that is sought next."""
-        return 0.0 if self.changed else self.increment
-
-    @classmethod
-    def at_start(cls, state: State, schedule: LoadSchedule) -> "UnderLoad":
-        """Return the start of a run from ``state``."""
-        return cls(state, None, min(schedule.increment, schedule.target))
-
-
-@dataclass(frozen=True)
-class Trial:
-    """An increment that was tried.
-
-    Attributes
-    ----------
-    factor
-        Load factor at its end.
-    fine
-        Whether it is within the tolerance of the load.
-    last
-        Whether no smaller one would be tried before loose blocks are held or brought to rest.
-    found, broke
-        What came of it, and whether bonds broke in it.
-    events
-        Changes of what is solved that what was found calls for.
-    """
-
-    factor: float
-    fine: bool
-    last: bool
-    found: Settled
-    broke: bool
-    events: Asked
-
-    @property
-    def located(self) -> bool:
-        """Whether the load is sought at which an event happens."""
-        return any(event.exact for _, event in self.events)
 
 
 def run_load(

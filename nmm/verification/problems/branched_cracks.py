@@ -10,7 +10,7 @@ from integration.arrays import Floats
 from integration.polygons import Polygons
 from nmm.assembly.places import on_edges
 from nmm.materials.elastic import Elastic
-from nmm.scene.cover_tables import CoverTable
+from nmm.scene.methods.cover_tables import CoverTable
 from nmm.verification.base import Case, Check, Checks
 
 NU = 0.3

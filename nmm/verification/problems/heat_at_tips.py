@@ -16,7 +16,7 @@ from nmm.diffusion.matrices import slopes
 from nmm.diffusion.problem import DiffusionProblem, field_solver
 from nmm.formulation import Solver
 from nmm.materials.elastic import Elastic
-from nmm.scene.cover_tables import EnrichmentTable
+from nmm.scene.methods.cover_tables import EnrichmentTable
 from nmm.verification import text
 from nmm.verification.base import Case, Check, Checks, SceneCase, order
 from nmm.verification.continuum import polygon

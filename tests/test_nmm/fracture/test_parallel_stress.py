@@ -14,7 +14,7 @@ from nmm.formulation import parse_formulation
 from nmm.fracture.growth.parallel_stress import at_end_of_piece, parallel_stress
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
-from nmm.scene.cover_tables import CoverTable
+from nmm.scene.methods.cover_tables import CoverTable
 from nmm.scene.read import parse_scene
 from nmm.stepping.drive.linear_statics import equilibrium, traction
 

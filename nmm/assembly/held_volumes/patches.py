@@ -10,8 +10,8 @@ from covers.approximation.element_groups import ElementGroup
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
 from integration.monomials import count
-from nmm.assembly.patch_inverse import inverse_roots
-from nmm.assembly.pressures import Pressures
+from nmm.assembly.held_volumes.patch_inverse import inverse_roots
+from nmm.assembly.held_volumes.pressures import Pressures
 
 # Share of its largest neighbour below which a patch has no constant pressure of its own.
 SLIVER = 0.1

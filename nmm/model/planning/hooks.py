@@ -1,0 +1,52 @@
+"""Which effects of a scene have which hook, and the seconds each effect has cost."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from time import perf_counter
+from typing import TypeVar
+
+from nmm.effects.base import Effect, defines
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Hooks:
+    """Effects by name, asked by their hooks; a hook that no effect has is never called.
+
+    Attributes
+    ----------
+    effects
+        In the order of the table.
+    seconds
+        Wall-clock seconds by effect.
+    hooks
+        The effects that have each hook that was asked for, by name.
+    """
+
+    effects: dict[str, Effect]
+    seconds: dict[str, float] = field(default_factory=dict)
+    hooks: dict[str, list[tuple[str, Effect]]] = field(default_factory=dict)
+
+    def spend(self, name: str, seconds: float) -> None:
+        """Count seconds for an effect."""
+        self.seconds[name] = self.seconds.get(name, 0.0) + seconds
+
+    def having(self, hook: str) -> list[Effect]:
+        """Return the effects that define a hook."""
+        return [effect for _, effect in self.named(hook)]
+
+    def named(self, hook: str) -> list[tuple[str, Effect]]:
+        """Return the effects that define a hook, with their names."""
+        known = self.hooks.get(hook)
+        if known is None:
+            known = [(name, one) for name, one in self.effects.items() if defines(one, hook)]
+            self.hooks[hook] = known
+        return known
+
+    def timed(self, name: str, call: Callable[[], T]) -> T:
+        """Return what a call returns, its seconds counted for an effect."""
+        start = perf_counter()
+        result = call()
+        self.spend(name, perf_counter() - start)
+        return result
