@@ -29,7 +29,6 @@ from nmm.contact.points.joint_book import JointBook
 from nmm.contact.problem.step_problem import Limits
 from nmm.contact.solution.geometry import ContactGeometry
 from nmm.contact.solution.record import ContactRecord, ContactSolution
-from nmm.frozen import with_parts
 
 
 class Candidates:
@@ -64,7 +63,7 @@ class Candidates:
         found = self.partners.search(state, 2 * reach, step, record.book, record.found, crossed)
         if record.known is not None and not self._laws.stiff and continues(record.found, found):
             points = continued(record.known, found)
-            points = counted_on(with_parts(points, gap=self._geometry.gaps(points, state)))
+            points = counted_on(self._geometry.measured(points, state))
         else:
             found, points = self._anew(record, state, found)
         return found, concatenate([joints, points])
@@ -81,7 +80,7 @@ class Candidates:
         new = searched_points(found, interface, self._laws.initial(interface, loose), surface)
         if self._laws.stiff:
             new = sized(self._laws, new, surface)
-        new = with_parts(new, gap=self._geometry.gaps(new, state))
+        new = self._geometry.measured(new, state)
         return found, self._followed(record, new, found)
 
     def joints(self, book: JointBook, state: State) -> ContactPoints:

@@ -10,6 +10,7 @@ from nmm.assembly.motion import State
 from nmm.contact.detection.surface import Surface
 from nmm.contact.mortar.face_means import FaceMeans
 from nmm.contact.mortar.trace_space import TraceSpace
+from nmm.contact.points.bent_faces import bent_normals
 from nmm.contact.points.between_faces import JointFaces
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints, rows
@@ -17,6 +18,7 @@ from nmm.contact.points.continued.tracking import apart_on
 from nmm.contact.points.joint_points import JointSites
 from nmm.contact.points.midpoint import ContactRows, body_projection, midpoint_rows
 from nmm.contact.points.turning_lines import line_turns
+from nmm.frozen import with_parts
 
 
 class ContactGeometry:
@@ -89,12 +91,13 @@ class ContactGeometry:
         apart = partial(self._sites.apart, frames=frames, deformation=bent)
         return JointFaces(surface, self.sides.length, apart)
 
-    def gaps(self, points: ContactPoints, state: State) -> Floats:
-        """Return the gaps (m,) of points that the search found, in m."""
-        if not self.bends:
-            return points.gap
+    def measured(self, points: ContactPoints, state: State) -> ContactPoints:
+        """Return points that the search found with gaps and normals of faces as they bend."""
+        if not self.bends or not len(points):
+            return points
+        normal = bent_normals(self.sides, points, state)
         apart = JointSites.at(self.sides, points).apart(points, state.frames, state.deformation)
-        return np.asarray(np.einsum("ij,ij->i", apart, points.normal))
+        return with_parts(points, normal=normal, gap=np.einsum("ij,ij->i", apart, normal))
 
     def face_means(self, contacts: ContactPoints, surface: Surface) -> FaceMeans | None:
         """Return how exact conditions on faces of meshes are held in the mean; None elsewhere."""
