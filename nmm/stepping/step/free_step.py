@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from integration.arrays import Floats
 from nmm.errors import SolveError
 from nmm.model.discretisation import Current
@@ -70,7 +72,19 @@ class Alone:
             self._mover.after(equations, solution.increment), residual=solution.residual
         )
         if solution.apart is None:
+            self._refuse_adrift(result.motion)
             return result
         end, moved = equations.end, solution.moved(self._current.model, equations.state)
         moved = replace(moved, time=end.time, load_factor=end.load_factor)
         return replace(result, state=moved)
+
+    def _refuse_adrift(self, motion: float) -> None:
+        """Refuse a static step that moves a loose part out of the domain."""
+        size = float(np.hypot(*np.ptp(self._current.model.manifold.elements.points, axis=0)))
+        if motion > size and self._system.adrift():
+            raise SolveError(
+                f"points move by {motion:.3g} m: expected a supported system: the matrix is nearly "
+                "singular and the load moves a part that nothing holds; add supports, contacts or "
+                "inertia",
+                singular=True,
+            )

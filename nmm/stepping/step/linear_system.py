@@ -79,6 +79,18 @@ class LinearSystem:
         n = self._solved.model.manifold.n_unknowns
         return [change[:n] for change in rounding_changes(self.factor, *self._last)]
 
+    def adrift(self) -> bool:
+        """Whether the unknown that moved most in the last static step does not bear its own load.
+
+        Beside far larger loads on others that is no residual to speak of.
+        """
+        if self.factor is None or self._last is None:
+            return False
+        increment, force = self._last
+        most = self.factor.weakest_unknown(increment)
+        rest = force[most] - (self.factor.matrix @ increment)[most]
+        return bool(abs(rest) > abs(force[most]) / 2 > 0)
+
     def solve(self, equations: Equations) -> LinearSolution:
         """Solve a step; supports keep their multipliers.
 
