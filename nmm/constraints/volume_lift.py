@@ -103,7 +103,7 @@ def lift(model: Model, sides: Sequence[tuple[Ints, Floats, Floats]]) -> Lift | N
             for elements, points, length in sides
         )
     )
-    wanted = np.unique(rows.indices).astype(np.int64)
+    wanted = _of_patches(csr_array(known.root), np.unique(rows.indices))
     if not len(wanted):
         return None
     weights = csr_array(csr_array(rows[:, wanted]).T)
@@ -111,6 +111,18 @@ def lift(model: Model, sides: Sequence[tuple[Ints, Floats, Floats]]) -> Lift | N
     root = csr_array(root[np.diff(root.indptr) > 0])
     share = np.full(len(wanted), SHARE)
     return Lift(wanted, csr_array(known.divergence[wanted]), root, weights, share)
+
+
+def _of_patches(root: csr_array, seen: Ints) -> Ints:
+    """Return all pressures of the patches that have those that are ``seen``.
+
+    The stiffness couples all of a patch: one that no gap moves, or by rounding alone, as it is odd
+    along the edge, has a volume that does.
+    """
+    from scipy.sparse.csgraph import connected_components
+
+    _, patch = connected_components(csr_array(root.T @ root), directed=False)
+    return np.flatnonzero(np.isin(patch, patch[seen]))
 
 
 def sharing(lifts: Sequence[Lift | None]) -> list[Lift | None]:
