@@ -32,6 +32,7 @@ def energy(run: Ended) -> Findings:
         return
     if run.dynamic:
         yield from _made(run)
+        yield _driven(run)
         yield from _lost(run)
     elif run.stepper.small and run.stepper.plan.contact is None:
         lacking = abs(ledger.balance) * ledger.throughput
@@ -72,6 +73,20 @@ def _made(run: Ended) -> Findings:
             mild=rise.energy - rise.given <= bound * ledger.throughput,
             told=said and _told(run),
         )
+
+
+def _driven(run: Ended) -> AuditFinding:
+    """Energy that dampers gave in all: forces that hang on the sign of a velocity lag behind it."""
+    ledger = run.recorder.ledger
+    given = {name: -loss for name, loss in ledger.damping_loss.items() if loss < 0}
+    most = sum(given.values())
+    share = most / ledger.throughput
+    return AuditFinding(
+        "energy_made_by_damping",
+        share,
+        f"{most:.3g} J, {percent(share)} of the turnover, came from {' and '.join(given)}",
+        "take smaller steps: damping that turns with the velocity comes a step late",
+    )
 
 
 def _told(run: Ended) -> bool:

@@ -33,6 +33,9 @@ THRESHOLDS: dict[str, Threshold] = {
         "dynamics",
     ),
     "energy_made_in_run": Threshold("the same over any stretch of the run", 1e-4, 1e-2, "dynamics"),
+    "energy_made_by_damping": Threshold(
+        "energy that dampers gave in all, over the turnover", 1e-6, 1e-2, "dynamics with damping"
+    ),
     "energy_lost": Threshold(
         "energy that neither friction nor dampers took, over the turnover",
         0.1,
