@@ -1,4 +1,4 @@
-"""Normals of faces that bend, where contacts act on the material: across the face, not the chord.
+"""Lines along faces that bend, where contacts act on the material: along the face, not its chord.
 
 What slides along a face rides up and down with it. A force across the chord between the ends of
 an edge would do work there that no spring stores, in proportion to the way and however short steps
@@ -7,28 +7,35 @@ are.
 
 import numpy as np
 
+from covers.approximation.rows import Rows
 from integration.arrays import Floats
 from integration.contraction import contract
-from nmm.assembly.motion import State
+from nmm.assembly.motion import MaterialPoints, State
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
+
+Line = tuple[MaterialPoints, MaterialPoints]
+"""Head and tail of vectors that move with the material."""
+
+
+def face_lines(sides: Sides, points: ContactPoints) -> Line:
+    """Return the lines (m,) along side b at the points; as long as their edges where drawn."""
+    boundary, edge = sides.manifold.boundary, points.edge_b
+    place, body = boundary.at(edge, points.parameter_b), sides.start.body[edge]
+    along = boundary.end[edge] - boundary.start[edge]
+    unknowns, slopes = sides.manifold.gradient_rows(boundary.element[edge], place)
+    values = contract("mcjl,mj->mcl", slopes, along)
+    head = MaterialPoints(body, along, Rows(unknowns, values))
+    tail = MaterialPoints(body, np.zeros_like(along), Rows(unknowns, np.zeros_like(values)))
+    return head, tail
 
 
 def bent_normals(sides: Sides, points: ContactPoints, state: State) -> Floats:
     """Return the normals (m, 2) of points, turned by as much as side b is bent from its chord."""
-    boundary, edge = sides.manifold.boundary, points.edge_b
-    place = boundary.at(edge, points.parameter_b)
-    index, rows = sides.manifold.gradient_rows(boundary.element[edge], place)
-    along = boundary.end[edge] - boundary.start[edge]
-    stretch = contract("mcjl,mj,ml->mc", rows, along, state.deformation[index])
-    tilt, body = state.frames.tilt, sides.start.body[edge]
-    chord = sides.turns(edge)
-    unknowns = sides.start.rows.unknowns[edge]
-    mean = contract("mcl,ml->mc", chord, state.deformation[unknowns])
-    if tilt is not None:
-        across = tilt[body, None] * np.stack([-along[:, 1], along[:, 0]], axis=1)
-        stretch, mean = stretch + across, mean + across
-    return turned(points.normal, along + mean, along + stretch)
+    edge, place = points.edge_b, (state.frames, state.deformation)
+    lines = (sides.end.take(edge), sides.start.take(edge)), face_lines(sides, points)
+    chord, line = (head.place(*place) - tail.place(*place) for head, tail in lines)
+    return turned(points.normal, chord, line)
 
 
 def turned(vectors: Floats, start: Floats, end: Floats) -> Floats:

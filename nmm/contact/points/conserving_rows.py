@@ -19,12 +19,14 @@ from collections.abc import Callable
 import numpy as np
 from scipy.sparse import csr_array
 
+from covers.approximation.rows import Rows
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import MaterialPoints, State
+from nmm.contact.points.bent_faces import Line, face_lines
 from nmm.contact.points.between_faces import EdgeShares, across
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.joint_points import JointSites
+from nmm.contact.points.joint_points import JointSites, padded
 from nmm.contact.points.midpoint import ContactRows
 
 Pair = tuple[Floats, Floats]
@@ -39,14 +41,15 @@ def conserving_rows(
 ) -> ContactRows:
     """Return the rows of contacts between two states of bodies whose axes do not turn.
 
-    Contacts act on chords, or at all their ``sites``.
+    Contacts act on chords, or at all their ``sites``: there ``t`` is along the face as it bends.
     """
     joint, edges = contacts.is_joint, (contacts.edge_a, contacts.edge_b)
     point = sides.at(contacts.edge_a, contacts.parameter_a)
     foot = sides.at(contacts.edge_b, np.where(joint, contacts.parameter_b, 0.0))
+    vectors = [(sides.end.take(edge), sides.start.take(edge)) for edge in edges]
     if sites is not None:
         point, foot = sites.a, sites.b
-    vectors = [(sides.end.take(edge), sides.start.take(edge)) for edge in edges]
+        vectors[1] = _but_for(joint, vectors[1], face_lines(sides, contacts))
     shares = EdgeShares.of(contacts, sides.length)
     along_a, along_b = (_between(*vector, states) for vector in vectors)
     along = _each(lambda a, b: shares.a * a + shares.b * b, along_a, along_b)
@@ -56,6 +59,30 @@ def conserving_rows(
         slopes = shares.a * by_along, shares.b * by_along, by_apart
         found.append(_rows(slopes, (*vectors, (point, foot)), count))
     return ContactRows(found[0], found[1], across(_mean(along)))
+
+
+def _but_for(chosen: Bools, chord: Line, bent: Line) -> Line:
+    """Return the lines of faces that bend, and the chords of those that are chosen (m,)."""
+    if not chosen.any():
+        return bent
+    if chosen.all():
+        return chord
+    one, other = (_of_both(chosen, *pair) for pair in zip(chord, bent, strict=True))
+    return one, other
+
+
+def _of_both(chosen: Bools, one: MaterialPoints, other: MaterialPoints) -> MaterialPoints:
+    """Return points of ``one`` where they are chosen (m,), else of the other."""
+    width = max(part.rows.unknowns.shape[1] for part in (one, other))
+    rows = [
+        (padded(part.rows.unknowns, width), padded(part.rows.values, width))
+        for part in (one, other)
+    ]
+    unknowns, values = (
+        np.where(chosen.reshape(-1, *[1] * (a.ndim - 1)), a, b) for a, b in zip(*rows, strict=True)
+    )
+    arm = np.where(chosen[:, None], one.arm, other.arm)
+    return MaterialPoints(one.body, arm, Rows(unknowns, values))
 
 
 def _slopes(along: Pair, apart: Pair, joint: Bools) -> tuple[Pair, Pair]:

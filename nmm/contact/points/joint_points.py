@@ -58,13 +58,13 @@ class JointSites:
         a, b = both
         rows = [sides.start.rows, a.rows, b.rows]
         width = max(part.unknowns.shape[1] for part in (*rows, sides.end.rows))
-        values = [_padded(part.values, width) for part in rows]
+        values = [padded(part.values, width) for part in rows]
         return cls(
             a,
             b,
-            unknowns=np.concatenate([_padded(part.unknowns, width) for part in rows]),
+            unknowns=np.concatenate([padded(part.unknowns, width) for part in rows]),
             start=np.concatenate(values),
-            end=np.concatenate([_padded(sides.end.rows.values, width), *values[1:]]),
+            end=np.concatenate([padded(sides.end.rows.values, width), *values[1:]]),
             body=np.concatenate([sides.start.body, a.body, b.body]),
         )
 
@@ -73,8 +73,8 @@ class JointSites:
         """Return the sites of all contacts of a step, joints or not."""
         a, b = (_material(sides, *side) for side in contacts.sides)
         width = max(a.rows.unknowns.shape[1], b.rows.unknowns.shape[1])
-        unknowns = [_padded(part.rows.unknowns, width) for part in (a, b)]
-        values = np.concatenate([_padded(part.rows.values, width) for part in (a, b)])
+        unknowns = [padded(part.rows.unknowns, width) for part in (a, b)]
+        values = np.concatenate([padded(part.rows.values, width) for part in (a, b)])
         body = np.concatenate([a.body, b.body])
         return cls(a, b, np.concatenate(unknowns), values, values, body, whole=True)
 
@@ -109,7 +109,7 @@ def _differ(values: Floats, others: Floats) -> bool:
     return bool(off > SAME_ROWS * np.abs(others).max(initial=0.0))
 
 
-def _padded(values: Any, width: int) -> Any:
+def padded(values: Any, width: int) -> Any:
     """Rows of elements with fewer functions, filled up with zeros."""
     more = width - values.shape[-1]
     return np.pad(values, [(0, 0)] * (values.ndim - 1) + [(0, more)]) if more else values
