@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from nmm.stepping.step.stepper import Stepper
 
 
+ELASTIC = 'use law = "elastic" and small strain, or let the load grow without [loading.control]'
+
+
 def control_of(table: "ControlTable", stepper: "Stepper", formulation: "Formulation") -> Control:
     """Return the control that a scene names.
 
@@ -41,9 +44,10 @@ def hindrances(stepper: "Stepper", formulation: "Formulation") -> list[tuple[str
     if plan.contact is None:
         faults.append(("a scene without contact", "expected [contact]"))
     if stepper.model.matter is not None:
-        faults.append((stepper.model.bent, "expected elastic materials of small strain"))
+        faults.append((stepper.model.bent, ELASTIC))
     if plan.bent:
-        faults.append(("effects whose forces are not linear", "expected linear ones"))
+        which = f"forces of {', '.join(plan.bent)} that are not linear"
+        faults.append((which, "leave them out, or let the load grow without [loading.control]"))
     if make_enforcement(formulation.contact.enforcement, dict(formulation.contact.options)).exact:
         what = f'[contact] enforcement: "{formulation.contact.enforcement}"'
         faults.append((what, 'expected springs: use enforcement = "penalty"'))
