@@ -35,7 +35,8 @@ class JointBook:
     joint
         (m,) joint of each point.
     pairs
-        (k,) keys of the vertex-edge pairs at the joints' ends, which the search reports too.
+        (k,) keys of the vertex-edge pairs at the ends of whole joints, which the search reports
+        too. Where a part has come apart the rest lets bodies turn about it, until corners meet.
     pair_joint
         (k,) joint of each such pair.
     lost
@@ -58,10 +59,7 @@ class JointBook:
 
     def hides(self, found: Contacts) -> Bools:
         """Which found contacts a followed joint carries already."""
-        if not len(self.joint):
-            return np.zeros(len(found), dtype=bool)
-        alive = np.isin(self.pair_joint, self.joint)
-        return np.isin(found.key, self.pairs[alive])
+        return np.isin(found.key, self.pairs)
 
     def edges(self, n: int) -> Ints:
         """Pairs of edges that followed joints carry, ``a * n + b`` with ``a < b``, sorted."""
@@ -87,7 +85,8 @@ class JointBook:
         n = len(surface)
         ends = vertex, surface.previous[vertex]
         beside = np.stack([unordered_key(own, edge, n) for own in ends])
-        return np.asarray(np.isin(beside, self.edges(n)).any(axis=0))
+        whole = self.only(np.isin(self.joint, self.pair_joint))
+        return np.asarray(np.isin(beside, whole.edges(n)).any(axis=0))
 
     def now(self, faces: JointFaces) -> ContactPoints:
         """Return the points with gap, slip and normal of moved faces."""
@@ -114,15 +113,19 @@ class JointBook:
         opened = np.maximum(contract("ij,ij->i", apart, normal), 0.0)
         far = np.hypot(opened, contract("ij,ij->i", apart, tangents(normal)))
         lost = (far > JOINT_LEFT * points.length) & ~points.bonded
-        gone = np.isin(self.joint, self.joint[lost]) & ~points.bonded
+        parted = self.joint[lost]
+        gone = np.isin(self.joint, parted) & ~points.bonded
         before = _turned(self.lost, faces)
         left = points.take(gone) if gone.any() or len(self.left) else self.left
         if not gone.any():
             return replace(self, points=points, lost=before, left=left)
+        whole = ~np.isin(self.pair_joint, parted)
         return replace(
             self,
             points=points.take(~gone),
             joint=self.joint[~gone],
+            pairs=self.pairs[whole],
+            pair_joint=self.pair_joint[whole],
             lost=concatenate([before, given_up(left)]),
             left=left,
         )

@@ -21,9 +21,10 @@ def tallied(
 
     contact, deepest = stepper.plan.contact, totals.deepest
     assert contact is not None
-    overlap = -float(contacts.gap.min(initial=0.0))
+    gap = contacts.gap + contacts.reference
+    overlap = -float(gap.min(initial=0.0))
     if overlap > totals.penetration:
-        deepest = _pair(stepper, contacts, int(contacts.gap.argmin()), time)
+        deepest = _pair(stepper, contacts, int(gap.argmin()), time)
     tally = np.bincount(contacts.state, minlength=len(NAMES)).tolist()
     counts = dict(zip(NAMES, tally, strict=True)) | {"broken": contact.broken_bonds}
     totals = with_parts(
