@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 class Contact(Effect):
     """All contacts of a scene.
 
-    The step loop asks for `candidates` once a step, solves them by `solve` as often as it needs,
+    The step loop asks for `candidates` once a step, solves them by `steps` as often as it needs,
     and hands the accepted ones back to `commit`.
 
     Attributes
@@ -55,7 +55,9 @@ class Contact(Effect):
     laws, partners
         Which laws act, and which points may meet.
     geometry, momentum, solver
-        Rows of contact points, what keeps momentum, and the solver of a step.
+        Rows of contact points, what keeps momentum, and the solver of a problem.
+    steps
+        What puts the problem of a step together and solves it.
     """
 
     name = "contact"
@@ -82,7 +84,7 @@ class Contact(Effect):
         self.momentum = Momentum(model, sides, parts.held, self.geometry.curved)
         compliance = self.momentum.compliance
         self.solver = ContactSolver.of(model, self.laws, parts.enforcement, compliance)
-        self._steps = ContactSteps(
+        self.steps = ContactSteps(
             self.laws, self.geometry, self._bonds, self.solver, self.partners.surface
         )
         self._candidates = Candidates(self.partners, self.laws, self.geometry)
@@ -118,17 +120,6 @@ class Contact(Effect):
         """Return the contact points of a step; see `Candidates.sought`."""
         self._found, points = self._candidates.sought(self.record, state, reach, step, crossed)
         return points
-
-    def solve(
-        self,
-        contacts: ContactPoints,
-        state: State,
-        request: StepRequest,
-        midpoint: State | None = None,
-        end: State | None = None,
-    ) -> ContactSolution:
-        """Solve one step; see `ContactSteps.solve`."""
-        return self._steps.solve(contacts, state, request, midpoint, end)
 
     def solve_path(
         self, contacts: ContactPoints, state: State, request: StepRequest, path: PathEquation
@@ -240,7 +231,7 @@ class Contact(Effect):
         """Energy of contacts as last committed (J); see `ContactSteps.energy`."""
         record = self.record
         joints = partial(self._candidates.joints, record.book, state)
-        return self._steps.energy(record, state, joints, self._exact)
+        return self.steps.energy(record, state, joints, self._exact)
 
     def pushes(self, state: State) -> Pushes:
         """See `Effect.pushes`: those on faces of cracks, as last committed."""

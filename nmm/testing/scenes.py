@@ -4,6 +4,37 @@ from collections.abc import Sequence
 
 from nmm.verification import text
 
+# A block of 1 m by 1 m on a floor, and one of 1 m by 2 m on it; loads and stages follow.
+STACKED = """
+title = "column"
+plane = "stress"
+[materials.rock]
+young_modulus = 1e9
+poisson_ratio = 0.0
+density = 2000
+[[blocks]]
+name = "lower"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "upper"
+material = "rock"
+vertices = [[0, 1], [1, 1], [1, 3], [0, 3]]
+[gravity]
+acceleration = [0, -10]
+[contact]
+[interfaces.any]
+between = "any"
+friction_angle = 0.5
+[[supports]]
+name = "floor"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+[[monitors]]
+name = "top"
+point = [0.5, 1]
+block = "lower"
+"""
 # The load of `notched_plate`: 1 Pa along its upper edge.
 PULLED = """
 [[loads]]

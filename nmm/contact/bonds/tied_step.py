@@ -25,19 +25,8 @@ from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.bonds.turning import counting
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.midpoint import ContactRows
-from nmm.contact.problem.step_problem import BONDED, Limits, StepAnswer, StepProblem
+from nmm.contact.problem.step_problem import BONDED, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
-
-# What a problem has of each contact beside its rows and limits.
-COLUMNS = (
-    "gap",
-    "slip",
-    "normal_stiffness",
-    "shear_stiffness",
-    "state",
-    "normal_force",
-    "shear_force",
-)
 
 
 @dataclass(frozen=True)
@@ -171,9 +160,7 @@ class TiedBonds(Transform):
             among=None if problem.among is None else problem.among + np.abs(self.push),
             normal_rows=csr_array(problem.normal_rows[others]),
             tangent_rows=csr_array(problem.tangent_rows[others]),
-            limits=Limits(*(column[others] for column in vars(problem.limits).values())),
-            compliant=problem.own_stiffness[others],
-            **{name: getattr(problem, name)[others] for name in COLUMNS},
+            **problem.columns_of(others),
         )
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:

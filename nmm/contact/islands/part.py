@@ -11,7 +11,6 @@ from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.row_products import Compressed, pushed
-from nmm.contact.problem.step_problem import Limits
 from nmm.solvers.unchecked import made_of
 
 
@@ -30,22 +29,16 @@ def part_of(springs: CutSprings, unknowns: Ints, contacts: Ints, increment: Floa
     forces = np.stack(springs.forces(increment))
     forces[:, contacts] = 0.0
     pushes = pushed(p.normal_rows, p.tangent_rows, *forces)
-    shape = len(contacts), n
+    columns, shape = p.columns_of(contacts), (len(contacts), n)
+    columns["gap"] += opened
+    columns["slip"] += slid
     problem = replace(
         p,
         matrix=_matrix(csc_array, matrix, (n, n)),
         force=p.force[unknowns] - pulled - pushes[unknowns],
         normal_rows=_matrix(csr_array, normal_rows, shape),
         tangent_rows=_matrix(csr_array, tangent_rows, shape),
-        gap=p.gap[contacts] + opened,
-        slip=p.slip[contacts] + slid,
-        normal_stiffness=p.normal_stiffness[contacts],
-        shear_stiffness=p.shear_stiffness[contacts],
-        limits=Limits(**{name: bound[contacts] for name, bound in vars(p.limits).items()}),
-        state=p.state[contacts],
-        normal_force=p.normal_force[contacts],
-        shear_force=p.shear_force[contacts],
-        compliant=None if p.compliant is None else p.compliant[contacts],
+        **columns,
         start=None,
         among=None if p.among is None else (p.among + np.abs(pushes))[unknowns] + np.abs(pulled),
     )

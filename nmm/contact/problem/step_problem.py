@@ -8,6 +8,7 @@ Signs: gap positive open, normal force positive in tension, shear force along th
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -20,6 +21,10 @@ from nmm.interfaces.limits import Limits as Limits
 from nmm.solvers.known import known_load
 
 OPEN, STICK, SLIDE, BONDED, BROKEN = ContactState
+
+# What a problem has of each contact beside its rows, limits and whose stiffness it is.
+STIFFNESSES, FORCES = ("normal_stiffness", "shear_stiffness"), ("normal_force", "shear_force")
+COLUMNS = ("gap", "slip", *STIFFNESSES, "state", *FORCES)
 
 
 @dataclass(frozen=True)
@@ -90,6 +95,12 @@ class StepProblem:
         if self.compliant is None:
             return np.zeros(self.n_contacts, dtype=bool)
         return self.compliant
+
+    def columns_of(self, contacts: Ints | Bools) -> dict[str, Any]:
+        """Return all that a problem has of some contacts but their rows, by name."""
+        found: dict[str, Any] = {name: getattr(self, name)[contacts] for name in COLUMNS}
+        found["limits"] = Limits(*(bound[contacts] for bound in vars(self.limits).values()))
+        return found | {"compliant": None if self.compliant is None else self.compliant[contacts]}
 
     @property
     def compressed_rows(self) -> tuple[Compressed, Compressed]:

@@ -249,7 +249,7 @@ class Touching:
         )
         end = None if foreseen is None else foreseen.state
         with self._clock.phase("solve"):
-            return self.contact.solve(contacts, equations.state, request, midpoint, end)
+            return self.contact.steps.solve(contacts, equations.state, request, midpoint, end)
 
     def _near(self, equations: Equations, foreseen: Attempt | None) -> Attempt | None:
         """Return what is foreseen of a step in time of bodies that bend by any angle; else None."""

@@ -7,41 +7,10 @@ import nmm
 from nmm.errors import GeometryError, SceneError
 from nmm.formulation import Formulation
 from nmm.scene.read import parse_scene
+from nmm.testing.scenes import STACKED
 from nmm.verification.problems.staged.released_tunnel import ring_pressure
 
 WEIGHT = 2000 * 10.0 * 2.0  # of the upper block, 2 m high (Pa)
-COLUMN = """
-title = "column"
-plane = "stress"
-[materials.rock]
-young_modulus = 1e9
-poisson_ratio = 0.0
-density = 2000
-[[blocks]]
-name = "lower"
-material = "rock"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[blocks]]
-name = "upper"
-material = "rock"
-vertices = [[0, 1], [1, 1], [1, 3], [0, 3]]
-[gravity]
-acceleration = [0, -10]
-[interfaces.any]
-between = "any"
-friction_angle = 0.5
-{joined}
-[[supports]]
-name = "floor"
-segment = [[0, 0], [1, 0]]
-fix = ["x", "y"]
-[[monitors]]
-name = "top"
-point = [0.5, 1]
-block = "lower"
-[[stages]]
-name = "both"
-"""
 STEPS = """
 [[stages]]
 name = "some"
@@ -56,7 +25,8 @@ release = 0.75
 name = "rest"
 release = 1.0
 """
-GLUED, TOUCHING = "bonded = true", "[contact]"
+TOUCHING = STACKED + '[[stages]]\nname = "both"\n'
+GLUED = TOUCHING.replace("[contact]\n", "").replace("angle = 0.5", "angle = 0.5\nbonded = true")
 QUADS = {"type": "quads", "size": 0.5, "degree": 1}
 
 
@@ -72,10 +42,10 @@ def settled(history):
     return history["monitor:top:uy"][ends]
 
 
-@pytest.mark.parametrize("joined", [GLUED, TOUCHING])
+@pytest.mark.parametrize("column", [GLUED, TOUCHING], ids=["glued", "touching"])
 @pytest.mark.parametrize("cover", [QUADS, {"type": "quads", "size": 0.4, "degree": 2}])
-def test_a_column_rises_by_the_share_of_the_weight_that_is_released(joined, cover):
-    found = run(COLUMN.format(joined=joined) + STEPS, cover)
+def test_a_column_rises_by_the_share_of_the_weight_that_is_released(column, cover):
+    found = run(column + STEPS, cover)
     assert found.summary.status == "converged", found.summary.sentence
     # A bar under its own weight and what is left on its top: rho g h^2 / 2 E + q h / E.
     left = np.array([1.0, 0.75, 0.75, 0.25, 0.0])
@@ -85,7 +55,7 @@ def test_a_column_rises_by_the_share_of_the_weight_that_is_released(joined, cove
 
 
 def test_blocks_of_one_strain_rise_by_it_too():
-    found = run(COLUMN.format(joined=TOUCHING) + STEPS, {"type": "block"})
+    found = run(TOUCHING + STEPS, {"type": "block"})
     left = np.array([1.0, 0.75, 0.75, 0.25, 0.0])
     rise = settled(found.history) - settled(found.history)[-1]
     np.testing.assert_allclose(rise, -left * WEIGHT / 1e9, rtol=2e-2)  # springs of contact
@@ -100,11 +70,11 @@ def test_blocks_of_one_strain_rise_by_it_too():
 )
 def test_shares_that_mean_nothing_are_refused_by_line(stages, said):
     with pytest.raises(SceneError, match=rf"scene\.toml:\d+.*release.*{said}"):
-        parse_scene(COLUMN.format(joined=GLUED) + stages, "scene.toml")
+        parse_scene(GLUED + stages, "scene.toml")
 
 
 def test_blocks_that_are_never_there_together_may_be_drawn_at_one_place():
-    steel = COLUMN.replace("[gravity]", STEEL + "[gravity]").format(joined=GLUED)
+    steel = GLUED.replace("[gravity]", STEEL + "[gravity]")
     steel = steel.replace('name = "both"', 'name = "both"\nblocks = ["lower", "upper"]')
     swapped = '[[stages]]\nname = "swapped"\nremove = ["upper"]\nadd = ["other"]\n'
     assert run(steel + swapped).summary.status == "converged"

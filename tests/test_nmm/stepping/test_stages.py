@@ -8,39 +8,10 @@ from nmm.errors import FormulationError, NmmError, SceneError
 from nmm.model.origin import shifted
 from nmm.results.storage.stored_run import read_run
 from nmm.scene.read import parse_scene
+from nmm.testing.scenes import STACKED
 
 E, RHO, G = 1e9, 2000.0, 10.0
 LOWER, UPPER = RHO * G * 1.0, RHO * G * 2.0
-COLUMN = """
-title = "column"
-plane = "stress"
-[materials.rock]
-young_modulus = 1e9
-poisson_ratio = 0.0
-density = 2000
-[[blocks]]
-name = "lower"
-material = "rock"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[blocks]]
-name = "upper"
-material = "rock"
-vertices = [[0, 1], [1, 1], [1, 3], [0, 3]]
-[gravity]
-acceleration = [0, -10]
-[contact]
-[interfaces.any]
-between = "any"
-friction_angle = 0.5
-[[supports]]
-name = "floor"
-segment = [[0, 0], [1, 0]]
-fix = ["x", "y"]
-[[monitors]]
-name = "top"
-point = [0.5, 1]
-block = "lower"
-"""
 STAGES = """
 [[stages]]
 name = "both"
@@ -68,7 +39,7 @@ def run(scene, cover, **more):
 
 @pytest.mark.parametrize("cover", ["triangles", "quads", "graded"])
 def test_a_column_carries_the_weight_that_is_on_it_in_each_stage(cover):
-    found = run(COLUMN + STAGES, MESHES[cover])
+    found = run(STACKED + STAGES, MESHES[cover])
     assert found.summary.status == "converged", found.summary.sentence
     weight = [LOWER + UPPER, LOWER, LOWER + UPPER]
     np.testing.assert_allclose(found.history["reaction:floor:y"], weight, rtol=1e-9)
@@ -81,7 +52,7 @@ def test_a_column_carries_the_weight_that_is_on_it_in_each_stage(cover):
 
 
 def test_stress_before_and_after_is_that_of_the_weight_above():
-    found = run(COLUMN + STAGES, MESHES["quads"])
+    found = run(STACKED + STAGES, MESHES["quads"])
     for frame in found.frames[1:]:
         there = found.topologies[frame.topology]
         height = 3.0 if len(set(there.element_region)) == 2 else 1.0
@@ -90,7 +61,7 @@ def test_stress_before_and_after_is_that_of_the_weight_above():
 
 
 def test_what_leaves_takes_its_energy_and_the_rest_sheds_what_a_slow_removal_would_take():
-    found = run(COLUMN + STAGES, MESHES["triangles"])
+    found = run(STACKED + STAGES, MESHES["triangles"])
     # Strain of the upper block, the springs of its contact, and F^2 h / 2 E of the lower one.
     taken = 8 / 15 + found.history["contact_energy"][0] + UPPER**2 / (2 * E)
     assert found.history["change_energy"][1] == pytest.approx(-taken, rel=1e-6)
@@ -103,7 +74,7 @@ def test_a_block_that_arrives_on_a_loaded_one_carries_its_own_weight_alone():
     push += 'block = "lower"\ntraction = [0, -4e4]\n'
     stages = '[[stages]]\nname = "one"\nblocks = ["lower"]\n'
     stages += '[[stages]]\nname = "two"\nadd = ["upper"]\n'
-    found = run(COLUMN + push + stages, MESHES["quads"])
+    found = run(STACKED + push + stages, MESHES["quads"])
     assert found.summary.status == "converged", found.summary.sentence
     there = found.topologies[-1]
     upper, above = there.element_region == 1, 3 - there.elements.centroids[:, 1]
@@ -121,7 +92,7 @@ def test_contact_goes_on_carrying_the_weight_over_a_change_of_the_cover(first, c
     other = {"size": 0.3} if change == "size" else {"degree": cover["degree"] + 1}
     keys = ", ".join(f"{key} = {value}" for key, value in other.items())
     stages = '[[stages]]\nname = "one"\n[[stages]]\nname = "two"\ncover = { ' + keys + " }\n"
-    found = run(COLUMN + stages, cover)
+    found = run(STACKED + stages, cover)
     assert found.summary.status == "converged", found.summary.sentence
     weight = LOWER + UPPER
     np.testing.assert_allclose(found.history["reaction:floor:y"], weight, rtol=1e-6)
@@ -132,10 +103,10 @@ def test_contact_goes_on_carrying_the_weight_over_a_change_of_the_cover(first, c
 def test_a_higher_degree_changes_no_energy_and_a_lower_one_costs_what_is_told():
     table = MESHES["triangles"]
     up = '[[stages]]\nname = "one"\n[[stages]]\nname = "two"\ncover = { degree = 2 }\n'
-    raised = run(COLUMN + up, table)
+    raised = run(STACKED + up, table)
     assert abs(raised.history["change_energy"][-1]) < 1e-9 * raised.history["strain_energy"][-1]
     down = up.replace("degree = 2", "degree = 0")
-    lowered = run(COLUMN + down, table)
+    lowered = run(STACKED + down, table)
     # Constant strains of triangles hold less than the linear ones of a bar under its weight.
     assert lowered.history["strain_energy"][-1] < 0.995 * raised.history["strain_energy"][-1]
     assert abs(lowered.summary.energy_balance) < 1e-6
@@ -247,7 +218,7 @@ def test_a_spinning_body_flies_on_over_a_change_of_degree():
 
 
 def test_a_dynamic_stage_follows_one_at_rest_and_the_clock_stands_while_it_comes_to_rest():
-    scene = COLUMN + "[inertia]\n"
+    scene = STACKED + "[inertia]\n"
     scene += '[[stages]]\nname = "rest"\n[[stages]]\nname = "still"\nduration = 0.01\n'
     found = run(scene, MESHES["quads"], integrator={"step": 1e-3})
     assert found.summary.status == "converged", found.summary.sentence
@@ -313,7 +284,7 @@ def test_bonds_that_broke_stay_broken_and_those_that_held_hold(cover):
 
 def test_a_stored_run_has_the_topologies_of_its_stages(tmp_path):
     table = nmm.Formulation.model_validate({"cover": MESHES["quads"]})
-    found = nmm.run(parse_scene(COLUMN + STAGES), table, out=tmp_path / "run")
+    found = nmm.run(parse_scene(STACKED + STAGES), table, out=tmp_path / "run")
     stored = read_run(tmp_path / "run")
     assert [len(one.elements) for one in stored.topologies] == [12, 4, 12]
     assert [one.topology for one in stored.frames] == [0, 0, 1, 2]
@@ -335,13 +306,13 @@ def test_a_stored_run_has_the_topologies_of_its_stages(tmp_path):
 )
 def test_wrong_stages_are_told_by_their_place(stages, told):
     with pytest.raises(SceneError, match="stages.0") as fault:
-        run(COLUMN + f'[[stages]]\nname = "one"\n{stages}\n', MESHES["quads"])
+        run(STACKED + f'[[stages]]\nname = "one"\n{stages}\n', MESHES["quads"])
     assert told in str(fault.value)
 
 
 def test_keys_that_no_cover_has_are_told():
     with pytest.raises((FormulationError, SceneError), match="sise"):
-        run(COLUMN + '[[stages]]\nname = "one"\ncover = { sise = 1 }\n', MESHES["quads"])
+        run(STACKED + '[[stages]]\nname = "one"\ncover = { sise = 1 }\n', MESHES["quads"])
 
 
 FLOWING = BAR.replace(
@@ -373,7 +344,7 @@ def test_matter_remembers_how_it_has_flowed_over_a_change_of_the_cover(other):
 @pytest.mark.parametrize("enforcement", ["cone", "barrier", "augmented", "lagrange"])
 def test_exact_enforcements_carry_the_weight_over_stages_too(enforcement):
     stages = STAGES + '[[stages]]\nname = "finer"\ncover = { size = 0.4 }\n'
-    found = run(COLUMN + stages, MESHES["quads"], contact={"enforcement": enforcement})
+    found = run(STACKED + stages, MESHES["quads"], contact={"enforcement": enforcement})
     assert found.summary.status == "converged", found.summary.sentence
     weight = [LOWER + UPPER, LOWER, LOWER + UPPER, LOWER + UPPER]
     np.testing.assert_allclose(found.history["reaction:floor:y"], weight, rtol=1e-5)
@@ -482,7 +453,7 @@ def test_a_scene_far_away_goes_through_its_stages_as_one_at_the_origin():
     )
     runs = []
     for x, y in ((0, 0), (2**21, -(2**20))):
-        scene = parse_scene((COLUMN + stages).replace("OPTIONS", f"{{ focus = [[{x}, {y}]] }}"))
+        scene = parse_scene((STACKED + stages).replace("OPTIONS", f"{{ focus = [[{x}, {y}]] }}"))
         moved = shifted(scene, np.array([x, y], dtype=float))
         runs.append(nmm.run(moved, nmm.Formulation.model_validate({"cover": MESHES["triangles"]})))
     near, far = runs
@@ -496,7 +467,7 @@ def test_a_scene_far_away_goes_through_its_stages_as_one_at_the_origin():
 def test_cells_that_no_memory_holds_are_refused_before_they_are_laid():
     stages = '[[stages]]\nname = "one"\n[[stages]]\nname = "fine"\ncover = { size = 1e-6 }\n'
     with pytest.raises(NmmError, match="cells"):
-        run(COLUMN + stages, MESHES["quads"])
+        run(STACKED + stages, MESHES["quads"])
 
 
 @pytest.mark.parametrize("order", ["as drawn", "upper first"])
@@ -505,7 +476,7 @@ def test_cells_that_no_memory_holds_are_refused_before_they_are_laid():
 def test_a_lift_bonds_to_a_settled_one_in_a_scene_with_contact_as_glue_does(cover, soft, order):
     """The lower one has left the place where the upper is drawn, by up to a millimetre."""
     bond = "friction_angle = 0.5\ncohesion = 1e9\ntensile_strength = 1e9\nbonded = true"
-    text = COLUMN.replace("friction_angle = 0.5", bond)
+    text = STACKED.replace("friction_angle = 0.5", bond)
     text = text.replace("young_modulus = 1e9", f"young_modulus = {soft * E}")
     if order == "upper first":
         head, lower, upper, tail = *text.split("[[blocks]]"), ""
@@ -527,7 +498,7 @@ def test_a_lift_bonds_to_a_settled_one_in_a_scene_with_contact_as_glue_does(cove
 
 @pytest.mark.parametrize("glue", ["spring", "nitsche", "lagrange"])
 def test_a_lift_that_is_glued_on_a_settled_one_settles_under_later_loads_alone(glue):
-    text = COLUMN.replace("[contact]\n", "").replace("friction_angle = 0.5", BOND)
+    text = STACKED.replace("[contact]\n", "").replace("friction_angle = 0.5", BOND)
     stages = (
         '[[stages]]\nname = "one"\nblocks = ["lower"]\n[[stages]]\nname = "two"\nadd = ["upper"]\n'
     )

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nmm.effects.contact import Contact
+from nmm.contact.solution.steps import ContactSteps
 from nmm.formulation import Formulation
 from nmm.results.sink import MemorySink
 from nmm.scene.model import Scene
@@ -45,13 +45,13 @@ def _rolled() -> float:
 
 
 def test_a_wheel_that_rolls_is_solved_once_a_step(monkeypatch: pytest.MonkeyPatch) -> None:
-    solutions, solve = [], Contact.solve
+    solutions, solve = [], ContactSteps.solve
 
     def counted(contact, *given):
         solutions.append(1)
         return solve(contact, *given)
 
-    monkeypatch.setattr(Contact, "solve", counted)
+    monkeypatch.setattr(ContactSteps, "solve", counted)
     angle, once = _rolled(), len(solutions)
     monkeypatch.setattr(Touching, "_ahead", lambda *given: None)
     twice = _rolled()
