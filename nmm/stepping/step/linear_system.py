@@ -86,10 +86,12 @@ class LinearSystem:
         """
         if self.factor is None or self._last is None:
             return False
-        increment, force = self._last
+        (increment, force), matrix = self._last, self.factor.matrix
         most = self.factor.weakest_unknown(increment)
-        rest = force[most] - (self.factor.matrix @ increment)[most]
-        return bool(abs(rest) > abs(force[most]) / 2 > 0)
+        rest = abs(force[most] - (matrix @ increment)[most])
+        sizes = csc_array((np.abs(matrix.data), matrix.indices, matrix.indptr), matrix.shape)
+        rounded = ROUNDED * (sizes @ np.abs(increment))[most]
+        return bool(rest > max(abs(force[most]) / 2, rounded) and force[most])
 
     def solve(self, equations: Equations) -> LinearSolution:
         """Solve a step; supports keep their multipliers.
