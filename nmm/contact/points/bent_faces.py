@@ -31,7 +31,11 @@ def face_lines(sides: Sides, points: ContactPoints) -> Line:
 
 
 def bent_normals(sides: Sides, points: ContactPoints, state: State) -> Floats:
-    """Return the normals (m, 2) of points, turned by as much as side b is bent from its chord."""
+    """Return the normals (m, 2) of points, turned by as much as side b is bent from its chord.
+
+    At the tip of a crack strain has no bound and no direction: where it would turn them by more
+    than 45 degrees they stay across the chord.
+    """
     edge, place = points.edge_b, (state.frames, state.deformation)
     lines = (sides.end.take(edge), sides.start.take(edge)), face_lines(sides, points)
     chord, line = (head.place(*place) - tail.place(*place) for head, tail in lines)
@@ -39,9 +43,11 @@ def bent_normals(sides: Sides, points: ContactPoints, state: State) -> Floats:
 
 
 def turned(vectors: Floats, start: Floats, end: Floats) -> Floats:
-    """Turn vectors (m, 2) by the angles from ``start`` to ``end`` (m, 2)."""
+    """Turn vectors (m, 2) by the angles from ``start`` to ``end`` (m, 2), up to 45 degrees."""
     cos = (start * end).sum(axis=1)
     sin = start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0]
+    known = np.abs(sin) < cos
+    cos, sin = np.where(known, cos, 1.0), np.where(known, sin, 0.0)
     c, s = np.stack([cos, sin]) / np.hypot(cos, sin)
     x, y = vectors.T
     return np.stack([c * x - s * y, s * x + c * y], axis=1)

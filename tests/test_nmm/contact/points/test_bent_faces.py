@@ -5,7 +5,7 @@ import pytest
 
 import nmm
 from nmm.assembly.motion import material_points
-from nmm.contact.points.bent_faces import bent_normals
+from nmm.contact.points.bent_faces import bent_normals, turned
 from nmm.formulation import parse_formulation
 from nmm.frozen import with_parts
 from nmm.scene.read import parse_scene
@@ -83,6 +83,14 @@ def test_normals_are_across_the_material_where_it_is(degree: int, update: str) -
     assert len(points) == 2
     np.testing.assert_allclose(across, 0.0, atol=1e-8)
     np.testing.assert_allclose(np.hypot(*found.T), 1.0, rtol=1e-14)
+
+
+def test_strain_without_bound_at_the_tip_of_a_crack_turns_no_normal() -> None:
+    up, along = np.array([[0.0, 1.0]] * 3), np.array([[1.0, 0.0]] * 3)
+    lines = np.array([[-6e9, 5e9], [1.0, 0.1], [0.0, 0.0]])
+    found = turned(up, along, lines)
+    slope = np.hypot(1.0, 0.1)
+    np.testing.assert_allclose(found, [[0, 1], [-0.1 / slope, 1 / slope], [0, 1]], atol=1e-15)
 
 
 @pytest.mark.parametrize(("degree", "edge"), [(1, 0.4), (1, 0.41), (2, 0.4)])
