@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from covers.approximation.manifold import Manifold
 from integration.arrays import Bools
 from nmm.contact.bonds.consistent_bonds import consistent
 from nmm.contact.candidates.pairs import MISSING, Pairs
@@ -40,7 +41,7 @@ class ContactParts:
     laws, partners, enforcement
         Which laws act, which points may meet, and how the laws are made to hold.
     joint_rule
-        "corners" or "gauss": where joints act along their edge.
+        "corners" or "gauss", where joints act along their edge, and at how many Gauss points.
     cracks
         Cracks within bodies whose faces hold together.
     mixed
@@ -59,7 +60,7 @@ class ContactParts:
     laws: ContactLaws
     partners: Partners
     enforcement: Enforcement
-    joint_rule: str
+    joint_rule: tuple[str, int]
     cracks: BondedCracks
     mixed: bool
     held: Bools
@@ -87,7 +88,7 @@ def contact_parts(setup: Setup) -> ContactParts:
     )
     edges, modulus = setup.model.cut.boundary, setup.model.modulus
     nodes = TraceSpace.of(partners.sides, edges, modulus, partners.welded) if means else None
-    joint_rule, cracks = _joint_rule(method, laws, manifold.degree), _cracks(setup)
+    joint_rule, cracks = _joint_rule(method, laws, manifold), _cracks(setup)
     held, bends = _held(setup), points > 2
     mixed = setup.scene.inertia is None and not enforcement.exact
     caution = FACES if springs and points else ""
@@ -109,14 +110,17 @@ def _cracks(setup: Setup) -> BondedCracks:
     return BondedCracks(geometry.held, others, MOVED * setup.model.cut.crack_tolerance)
 
 
-def _joint_rule(method: ContactMethod, laws: ContactLaws, degree: int) -> str:
-    """Return where joints act along their edge.
+def _joint_rule(method: ContactMethod, laws: ContactLaws, manifold: Manifold) -> tuple[str, int]:
+    """Return where joints act along their edge, and at how many Gauss points.
 
     Fields that bend along an edge give way about forces at its corners: by 0.6 of a cell's own
     strain with covers of degree 1, by that of a cell with degree 2; at Gauss points they do not.
+    Blocks of their own bend apart between fewer points than their degree asks; cells hold those
+    beside them.
     """
-    auto = "gauss" if laws.consistent or degree > 1 else "corners"
-    return auto if method.joint_points == "auto" else method.joint_points
+    auto = "gauss" if laws.consistent or manifold.degree > 1 else "corners"
+    count = 2 if manifold.shared_covers else max(2, manifold.degree + 1)
+    return auto if method.joint_points == "auto" else method.joint_points, count
 
 
 def _laws(setup: Setup) -> ContactLaws:

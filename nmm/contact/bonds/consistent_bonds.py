@@ -83,7 +83,7 @@ class ConsistentBonds:
         penalty = SAFETY * found.least
         bending = float(model.modulus.max()) * points.spring_factor / points.length
         rows = [(one.unknowns, one.values) for one in found.fluxes]
-        share = turning_share(rows, penalty, bending)
+        share = turning_share(points, rows, penalty, bending)
         mixed = seamless[wanted] & ~laws.brittle[points.interface] & (penalty > 0)
         return cls(number, found.fluxes, penalty, share, area, mixed, model.manifold.n_unknowns)
 

@@ -43,24 +43,33 @@ def beside(contacts: ContactPoints, gone: Bools) -> Bools:
     return np.asarray(stays & np.isin(_joint(contacts), _joint(contacts)[contacts.tied & gone]))
 
 
-def turning_share(tractions: list[tuple[Ints, Floats]], penalty: Floats, bending: Floats) -> Floats:
-    """Return the share (k,) of the penalty that holds what turns, for the two points of joints.
+def turning_share(
+    joints: ContactPoints,
+    tractions: list[tuple[Ints, Floats]],
+    penalty: Floats,
+    bending: Floats,
+) -> Floats:
+    """Return the share (k,) of the penalty that holds what turns, for all points of joints.
 
     Parameters
     ----------
+    joints
+        The points, those of one joint after those of another.
     tractions
         Unknowns (k, L) and rows (k, 2, L) of either side.
     penalty, bending
         (k,) of the mean jump, and ``E / h`` (Pa/m).
     """
-    even = np.ones(len(penalty) // 2, dtype=bool)
+    number = np.unique(_joint(joints), return_inverse=True)[1]
+    first = np.unique(number, return_index=True)[1][number]
+    even = np.ones(len(penalty), dtype=bool)
     for unknowns, values in tractions:
-        one, other = values[0::2], values[1::2]
-        off = np.abs(one - other).max(axis=(1, 2), initial=0.0)
+        one = values[first]
+        off = np.abs(values - one).max(axis=(1, 2), initial=0.0)
         even &= off <= SAME * np.abs(one).max(axis=(1, 2), initial=0.0)
-        even &= (unknowns[0::2] == unknowns[1::2]).all(axis=1)
-    share = bending / np.where(penalty > 0, penalty, 1.0)
-    return np.where(np.repeat(even, 2), share, 1.0)
+        even &= (unknowns == unknowns[first]).all(axis=1)
+    uneven = np.bincount(number, ~even)[number] > 0
+    return np.where(uneven, 1.0, bending / np.where(penalty > 0, penalty, 1.0))
 
 
 # Tractions that differ by less along a joint are the same, relative.
@@ -68,5 +77,6 @@ SAME = 1e-9
 
 
 def _joint(contacts: ContactPoints) -> Ints:
-    """Number (m,) of the joint of each point: keys -1 and -2 are of the first."""
-    return np.asarray((-1 - contacts.key) // 2)
+    """Number (m,) of the joint of each point: that of its two edges, which share one stretch."""
+    a, b = contacts.edge_a, contacts.edge_b
+    return np.asarray(a * (int(b.max(initial=0)) + 1) + b)

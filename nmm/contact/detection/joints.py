@@ -7,15 +7,16 @@ from typing import Literal
 
 import numpy as np
 import shapely
+from numpy.polynomial.legendre import leggauss
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import JOINT
 from nmm.errors import FormulationError
 
-# Where the two points of a joint stand, as fractions of its length, and why: at the corners the
-# bond opens where an open-close iteration looks; at the Gauss points a linear stress is exact.
-_RULES = {"corners": (0.0, 1.0), "gauss": (0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0))}
+# Where the points of a joint stand, and why: at the corners the bond opens where an open-close
+# iteration looks; at two Gauss points a linear stress is exact.
+_RULES = ("corners", "gauss")
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +58,7 @@ class Joints:
 
 @dataclass(frozen=True, eq=False)
 class JointPoints:
-    """Two points for each joint, points ``2 k`` and ``2 k + 1`` for joint ``k``.
+    """Points of joints, those of one after those of another.
 
     Attributes
     ----------
@@ -70,7 +71,7 @@ class JointPoints:
     gap
         (p,) distance of side a from side b along the normal (m): rounding, for joints that fit.
     length
-        (p,) tributary length (m): half of the joint.
+        (p,) tributary length (m); together that of the joint.
     """
 
     joint: Ints
@@ -122,9 +123,12 @@ def find_joints(surface: Surface, within_bodies: bool = False) -> Joints:
 
 
 def joint_points(
-    surface: Surface, joints: Joints, joint_rule: Literal["corners", "gauss"] | str = "corners"
+    surface: Surface,
+    joints: Joints,
+    joint_rule: Literal["corners", "gauss"] | str = "corners",
+    count: int = 2,
 ) -> JointPoints:
-    """Two points for each joint, at its corners or its Gauss points, on the surface as it is now.
+    """Points of each joint, at its two corners or ``count`` Gauss points, on the surface as it is.
 
     Raises
     ------
@@ -136,8 +140,10 @@ def joint_points(
             f"contact.joint_points: {joint_rule!r}: expected one of {', '.join(_RULES)}: "
             "correct the name"
         )
-    at = np.array(_RULES[joint_rule])
-    joint = np.repeat(np.arange(len(joints)), 2)
+    at, weight = np.array([0.0, 1.0]), np.array([0.5, 0.5])
+    if joint_rule == "gauss":
+        at, weight = ((one + shift) / 2 for one, shift in zip(leggauss(count), (1, 0), strict=True))
+    joint = np.repeat(np.arange(len(joints)), len(at))
     a, b = joints.edge_a[joint], joints.edge_b[joint]
     s, t = (
         (p[:, :1] * (1.0 - at) + p[:, 1:] * at).ravel()
@@ -154,7 +160,7 @@ def joint_points(
         position=0.5 * (side_a + side_b),
         normal=normal,
         gap=np.einsum("ij,ij->i", side_a - side_b, normal),
-        length=0.5 * joints.length[joint],
+        length=np.outer(joints.length, weight).ravel(),
     )
 
 

@@ -156,7 +156,7 @@ def follow_joints(
     model: Model,
     interface_of: Callable[[Ints, Ints], Ints],
     laws: JointLaws,
-    joint_rule: str,
+    joint_rule: tuple[str, int],
     cracks: BondedCracks,
 ) -> JointBook:
     """Follow the stretches of edges that two bodies share, or two faces of a bonded crack.
@@ -170,13 +170,13 @@ def follow_joints(
     laws
         Of the interfaces.
     joint_rule
-        "corners" or "gauss": where joints act along their edge.
+        "corners" or "gauss", where joints act along their edge, and at how many Gauss points.
     cracks
         Those within bodies whose faces hold together.
     """
     joints, interface = _followed(surface, interface_of, laws, cracks)
     distance = _distance(model, joints)
-    points = joint_points(surface, joints, joint_rule)
+    points = joint_points(surface, joints, *joint_rule)
     vertex, edge, joint = joint_ends(surface, joints)
     held = laws.bonded[interface[points.joint]]
     found = ContactPoints.unloaded(

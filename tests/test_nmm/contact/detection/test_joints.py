@@ -110,6 +110,16 @@ def test_gauss_points_integrate_a_linear_stress_exactly_and_corners_carry_half_e
     np.testing.assert_allclose(moment, 2.0 / 3.0, rtol=1e-15)  # int x^2 over (-1, 1)
 
 
+def test_more_gauss_points_integrate_products_of_higher_degree():
+    surface = scene(rectangle(0, 0, 2, 1), rectangle(0, 1, 2, 1))
+    points = joint_points(surface, find_joints(surface), "gauss", 3)
+    assert len(points) == 3
+    # int x^2 and x^4 over (-1, 1): of linear and of quadratic jumps
+    for power, expected in ((2, 2 / 3), (4, 2 / 5)):
+        total = (points.length * (points.position[:, 0] - 1.0) ** power).sum()
+        np.testing.assert_allclose(total, expected, rtol=1e-14)
+
+
 def test_joint_points_follow_the_surface_and_measure_its_opening():
     surface = scene(rectangle(0, 0, 1, 1), rectangle(0, 1, 1, 1))
     joints = find_joints(surface)
