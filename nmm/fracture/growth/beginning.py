@@ -1,15 +1,18 @@
 """Cracks that begin: the rule of a scene on a model, the place that is next, the geometry then."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State
+from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Setup
 from nmm.effects.event import Event
+from nmm.fracture.acting_stress import acting_stress
 from nmm.fracture.growth.intensities import tip_moduli
 from nmm.fracture.growth.refusals import refuse_nucleation, short_nuclei
 from nmm.fracture.growth.rule import ROUNDING
@@ -27,6 +30,7 @@ class Beginnings:
         self._setup = setup
         self._rule, self._nuclei = _places(setup, toughness)
         self._known: tuple[Floats, Nucleus | None] | None = None
+        self._stresses: Sequence[StressAt] = ()
 
     def refuse(self) -> None:
         """Refuse what `refuse_nucleation` does."""
@@ -48,12 +52,17 @@ class Beginnings:
         """What spoils cracks that begin so short, in words."""
         return "" if self._rule is None else short_nuclei(self._setup, self._rule)
 
+    def feel(self, stresses: Sequence[StressAt]) -> None:
+        """Take the stresses that effects add to that of the strain."""
+        self._stresses = stresses
+
     def next(self, state: State) -> "Nucleus | None":
         """Return the place that is nearest to where a crack begins; kept for the last state."""
         if self._nuclei is None:
             return None
         if self._known is None or self._known[0] is not state.deformation:
-            self._known = state.deformation, self._nuclei.nearest(state.deformation)
+            acting = partial(acting_stress, self._setup.model, state, self._stresses)
+            self._known = state.deformation, self._nuclei.nearest(acting)
         return self._known[1]
 
     def event(self, state: State, held: bool) -> Event | None:

@@ -181,6 +181,7 @@ class GrowingCracks(Effect):
     def feel(self, stresses: Sequence[StressAt]) -> None:
         """See `Effect.feel`."""
         self._stresses = stresses
+        self._beginnings.feel(stresses)
 
     def feel_pushes(self, pushing: Sequence[PushesIn]) -> None:
         """See `Effect.feel_pushes`."""

@@ -6,6 +6,7 @@ opening faces do against it is what growth takes. Forces come in pairs and keep 
 space, so that momentum stays to rounding, where a piece comes free as well.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -17,9 +18,10 @@ from covers.change.relation import Relation
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import PointRule
 from integration.segments import graded_rule
-from nmm.assembly.errors import stresses
 from nmm.assembly.model import Model
 from nmm.assembly.motion import MaterialPoints, State, material_points
+from nmm.assembly.stress_points import StressAt
+from nmm.fracture.acting_stress import acting_stress
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -112,7 +114,7 @@ class HeldFaces:
         return material_points(manifold, manifold.boundary.element[self.edge], self.position)
 
 
-def newly_held(change: "Change", tip: Floats, span: Floats) -> HeldFaces:
+def newly_held(change: "Change", tip: Floats, span: Floats, added: Sequence[StressAt]) -> HeldFaces:
     """Return the new faces of cracks with what held them before.
 
     Parameters
@@ -121,6 +123,8 @@ def newly_held(change: "Change", tip: Floats, span: Floats) -> HeldFaces:
         (k, 2) where tips were that have grown (m).
     span
         (k,) how long each takes through its piece (s).
+    added
+        Stresses of the old model that are no strain's.
     """
     edges, model = change.new.cut.boundary, change.new
     fresh = (edges.crack >= 0) & (change.parentage.edges.main < 0)
@@ -134,7 +138,7 @@ def newly_held(change: "Change", tip: Floats, span: Floats) -> HeldFaces:
     q = weights.shape[1]
     flat, along = points.reshape(-1, 2), (end - start) / np.hypot(*(end - start).T)[:, None]
     out = np.repeat(np.stack([along[:, 1], -along[:, 0]], axis=1), q, axis=0)
-    pull = _tractions(change, np.repeat(edges.element[one], q), flat, out)
+    pull = _tractions(change, np.repeat(edges.element[one], q), flat, out, added)
     force = model.thickness * weights.ravel()[:, None] * pull
     # The same points on the edges across, so that forces are pairs to the last digit.
     both = np.repeat(np.concatenate([one, edges.opposite[one]]), q)
@@ -149,7 +153,9 @@ def newly_held(change: "Change", tip: Floats, span: Floats) -> HeldFaces:
     )
 
 
-def _tractions(change: "Change", child: Ints, points: Floats, out: Floats) -> Floats:
+def _tractions(
+    change: "Change", child: Ints, points: Floats, out: Floats, added: Sequence[StressAt]
+) -> Floats:
     """Tractions (m, 2) in global axes that the old field had on places of new elements (m,)."""
     old, kin = change.old, change.parentage.elements
     near = np.unique(kin.parent[np.isin(kin.child, child)])
@@ -161,7 +167,7 @@ def _tractions(change: "Change", child: Ints, points: Floats, out: Floats) -> Fl
     _, first = np.unique(row, return_index=True)
     element = near[found[first]]
     rule = PointRule(points, np.ones(len(points)), element)
-    xx, yy, xy = stresses(old, change.former.deformation, rule).T
+    xx, yy, xy = acting_stress(old, change.former, added, rule).T
     local = np.stack([xx * out[:, 0] + xy * out[:, 1], xy * out[:, 0] + yy * out[:, 1]], axis=1)
     return change.former.frames.to_global(old.manifold.element_body[element], local)
 

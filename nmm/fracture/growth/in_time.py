@@ -81,7 +81,7 @@ class GrowthInTime(GrowingCracks):
         grown = np.flatnonzero(length > 0)
         running = self._joined(change, was[len(self._fronts) :])
         new._running, span = running.cut(grown, length[grown])
-        held = newly_held(change, was[grown], span)
+        held = newly_held(change, was[grown], span, self._stresses)
         new._held = self._held.followed(change).joined(held)
         return new
 

@@ -9,8 +9,8 @@ from numpy.polynomial.legendre import leggauss
 
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import PointRule
-from nmm.assembly.errors import stresses
 from nmm.assembly.model import Model
+from nmm.fracture.acting_stress import StressOn
 
 # Gauss points along a line, as parts of it.
 SHARES, WEIGHTS = (1 + leggauss(8)[0]) / 2, leggauss(8)[1] / 2
@@ -25,14 +25,14 @@ class LineStress:
     model: Model
 
     def means(
-        self, deformation: Floats, begin: Floats, way: Floats, body: Ints
+        self, stress: StressOn, begin: Floats, way: Floats, body: Ints
     ) -> tuple[Floats, Bools]:
         """Return mean stresses (k, 3) in body axes, in Pa, and which lines (k,) stay in their body.
 
         Parameters
         ----------
-        deformation
-            (n,) unknowns.
+        stress
+            That acts.
         begin, way
             (k, 2) where each begins in the reference place, and from there to its end (m).
         body
@@ -42,7 +42,7 @@ class LineStress:
         known = element >= 0
         found = np.zeros((len(points), 3))
         rule = PointRule(points[known], np.ones(int(known.sum())), element[known])
-        found[known] = stresses(self.model, deformation, rule)
+        found[known] = stress(rule)
         mean = np.einsum("q,kqi->ki", WEIGHTS, found.reshape(-1, len(WEIGHTS), 3))
         return mean, np.asarray(known.reshape(-1, len(WEIGHTS)).all(axis=1))
 

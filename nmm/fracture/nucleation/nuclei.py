@@ -13,8 +13,8 @@ import shapely
 
 from integration.arrays import Bools, Floats, Ints
 from integration.rules import PointRule
-from nmm.assembly.errors import stresses
 from nmm.assembly.model import Model
+from nmm.fracture.acting_stress import StressOn
 from nmm.fracture.clear_way import LIGAMENT, clear_length
 from nmm.fracture.nucleation.line_stress import LineStress
 from nmm.fracture.nucleation.places import Places, outline
@@ -69,8 +69,8 @@ class Nuclei:
         """Return those of a model on a geometry."""
         return cls(model, rule, Places.of(model.cut, geometry, rule.deep, rule.away))
 
-    def nearest(self, deformation: Floats) -> Nucleus | None:
-        """Return the place that has reached most of the strength; None where none can.
+    def nearest(self, stress: StressOn) -> Nucleus | None:
+        """Return the place that has reached most of the strength under a stress; None without any.
 
         Places are looked at in the order of the stress at each, which no share exceeds.
         """
@@ -78,7 +78,7 @@ class Nuclei:
         if not len(places):
             return None
         rule = PointRule(places.point, np.ones(len(places)), places.element)
-        pulled = LargestPrincipal.of(stresses(self.model, deformation, rule))
+        pulled = LargestPrincipal.of(stress(rule))
         order = self._order(pulled.size)
         best: Nucleus | None = None
         for first in range(0, len(order), CHUNK):  # until no stress is as large as the best mean
@@ -86,7 +86,7 @@ class Nuclei:
             bound = float(pulled.size[rows].max()) / self.rule.strength
             if best is not None and bound <= best.share * (1 + EVEN):
                 break
-            found = self._best(deformation, rows, pulled)
+            found = self._best(stress, rows, pulled)
             if found is not None and (best is None or found.share > best.share * (1 + EVEN)):
                 best = found
         return best
@@ -99,7 +99,7 @@ class Nuclei:
         away = np.hypot(*(self.places.point - middle).T)
         return np.lexsort((away, self.places.inside, -level))
 
-    def _best(self, deformation: Floats, rows: Ints, pulled: LargestPrincipal) -> Nucleus | None:
+    def _best(self, stress: StressOn, rows: Ints, pulled: LargestPrincipal) -> Nucleus | None:
         """Return the best of some places (k,), the first of even ones."""
         places, whole = self.places.take(rows), self.rule.length
         inside, body = places.inside, self.model.manifold.element_body[places.element]
@@ -107,7 +107,7 @@ class Nuclei:
         for _ in range(TURNS):
             begin = places.point - (inside * whole)[:, None] * way
             along = (whole * (1 + inside))[:, None] * way
-            mean, known = self._stress.means(deformation, begin, along, body)
+            mean, known = self._lines.means(stress, begin, along, body)
             opened = LargestPrincipal.of(mean)
             last, way = way, _inwards(opened.plane, places.inward)
             turned = np.abs(last[:, 0] * way[:, 1] - last[:, 1] * way[:, 0])
@@ -144,11 +144,11 @@ class Nuclei:
         inward = edges.inward / np.maximum(np.hypot(*edges.inward.T), 1e-300)[:, None]
         body = self.model.manifold.element_body[edges.element]
         ends = edges.point + self.rule.length * inward
-        stays = self._stress.stays(edges.point, self.rule.length * inward, body)
+        stays = self._lines.stays(edges.point, self.rule.length * inward, body)
         return bool((stays & self._ends_deep(ends)).any())
 
     @cached_property
-    def _stress(self) -> LineStress:
+    def _lines(self) -> LineStress:
         return LineStress(self.model)
 
     @cached_property

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 from nmm.scene.lines import Path
 from nmm.scene.unread_rows import Finding, Tables
 
-# Tables whose stress the means along lines do not know where cracks begin.
-UNKNOWN = ("heat", "initial_stresses", "seepage")
+# Tables that leave open which stress meets the strength where cracks begin: of the grains, or all.
+UNKNOWN = ("seepage",)
 # What running tips alone have: cracks in equilibrium have no speed, and do not divide.
 IN_TIME = ("speed", "branching")
 # Tables beside which loads alone do not say where the next piece begins.
@@ -30,9 +30,9 @@ def fracture_contradictions(data: Tables) -> Iterator[Finding]:
             yield ("fracture", key), f'"{table[key]}"', "a scene with [inertia]", remedy
     for key in UNKNOWN if begins else ():
         if data.get(key):
-            remedy = "the stress where cracks begin lacks it: remove one of the two"
+            remedy = "which stress makes cracks begin is left open by it: remove one of the two"
             path: Path = ("fracture", "nucleation")
-            yield path, f"[{key}]", "loads, supports, contact and weight alone", remedy
+            yield path, f"[{key}]", "a scene without water in its pores", remedy
     if isinstance(table, Mapping) and table.get("control") == "toughness":
         yield from _control(data)
 
