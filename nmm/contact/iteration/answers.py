@@ -99,15 +99,13 @@ def free_part(found: IterationResult, linear: LinearSolver, memory: Memory) -> V
     springs, increment = found.springs, found.increment
     problem = springs.problem
     pattern = memory.pattern_of(problem)
-    # What an iteration leaves is a difference of all forces: their rounding moves no part.
-    among = np.abs(problem.force) if problem.among is None else problem.among
     for _ in range(PASSES):
         is_open, sliding = springs.states(increment)
         normal = np.where(is_open, 0.0, springs.normal_stiffness)
         shear = np.where(is_open | sliding, 0.0, springs.shear_stiffness)
         try:
             factor = linear.factorise(pattern.matrix(problem, normal, shear))
-            increment = increment - factor.solve(springs.residual(increment).force, among)
+            increment = increment - factor.solve(springs.residual(increment).force, problem.among)
         except SolveError as fault:
             sentence = (
                 f"{int(is_open.sum())} of {problem.n_contacts} contacts open, "
