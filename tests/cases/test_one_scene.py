@@ -95,8 +95,9 @@ def rigid_cells() -> float:
 # (2e-4 of most deflections, 2e-3 of that of "dda"), joints between sub-blocks by 1e-3.
 EXPECTED: dict[str, tuple[Callable[[], float], float, float]] = {
     "dda": (constant_strains, 0.0, 0.004),
-    # One cubic a block, of which the wall keeps the section from thinning.
-    "dda_cubic": (continuum, 0.01, 0.0),
+    # One cubic a block, of which the wall keeps the section from thinning: Ritz's method with all
+    # integrals exact is 1.5 % stiffer; what holds the wall gives way by a third of that.
+    "dda_cubic": (continuum, 0.016, 0.0),
     "sub_blocks": (linear_triangles, 0.0, 0.002),
     # Cells of a Voronoi diagram lie in no rows: 0.9 % is measured, half a cell is 3 %.
     "rigid_springs": (rigid_cells, 0.015, 0.015),

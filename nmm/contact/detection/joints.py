@@ -17,6 +17,7 @@ from nmm.errors import FormulationError
 # Where the points of a joint stand, and why: at the corners the bond opens where an open-close
 # iteration looks; at two Gauss points a linear stress is exact.
 _RULES = ("corners", "gauss")
+_TWO = np.array([0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,7 +143,8 @@ def joint_points(
         )
     at, weight = np.array([0.0, 1.0]), np.array([0.5, 0.5])
     if joint_rule == "gauss":
-        at, weight = ((one + shift) / 2 for one, shift in zip(leggauss(count), (1, 0), strict=True))
+        roots, weights = leggauss(count)
+        at, weight = (_TWO if count == 2 else 0.5 + 0.5 * roots), 0.5 * weights
     joint = np.repeat(np.arange(len(joints)), len(at))
     a, b = joints.edge_a[joint], joints.edge_b[joint]
     s, t = (
