@@ -94,21 +94,16 @@ class Matter:
                 found[name][self.law == number, : len(value)] = value
         return found
 
-    def prestressed(
-        self, history: History, stress: Floats, across: Floats | None = None
-    ) -> dict[str, Floats]:
-        """Return the history with an initial stress (E, 3) of the elements.
+    def prestressed(self, history: History, stress: Floats, across: Floats) -> dict[str, Floats]:
+        """Return the history with an initial stress (Q, 3) of the points.
 
-        Where a stress ``across`` (E,) is given, what laws remember makes it; nan is none.
+        Where a stress ``across`` (Q,) is given, what laws remember makes it; nan is none.
         """
-        owner = self.points.rule.owner
-        of_point = stress[owner][:, :, None]
-        strain = np.asarray(np.linalg.solve(self.elastic, of_point), dtype=float)[:, :, 0]
+        strain = np.asarray(np.linalg.solve(self.elastic, stress[:, :, None]), dtype=float)[:, :, 0]
         found = {**history, INITIAL: strain}
-        given = np.zeros(0) if across is None else across[owner]
-        for number, law in enumerate(self.laws if len(given) else ()):  # a handful of laws
-            at = np.flatnonzero((self.law == number) & ~np.isnan(given))
-            for name, value in law.under(strain[at], stress[owner[at]], given[at]).items():
+        for number, law in enumerate(self.laws):  # a handful of laws
+            at = np.flatnonzero((self.law == number) & ~np.isnan(across))
+            for name, value in law.under(strain[at], stress[at], across[at]).items():
                 found[name] = found[name].copy()
                 found[name][at, : value.shape[1]] = value
         return found

@@ -1,16 +1,15 @@
-"""Stress in blocks at the start of a run, constant in each, turning with the material."""
+"""Stress in blocks at the start of a run, turning with the material."""
 
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Self
-
-import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
+from nmm.effects.stress_at_start import StressAtStart
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class InitialStress(Effect):
-    """Internal force ``- int B^T sigma0``; ``stress`` (E, 3) in body axes (Pa).
+    """Internal force ``- int B^T sigma0``; ``given`` in body axes.
 
     With the elasticity ``D`` it stores ``1/2 sigma0 : D^-1 sigma0`` before anything moves, and
     ``sigma0 : eps`` more under a strain, so that strain energy is that of the whole stress.
@@ -30,23 +29,20 @@ class InitialStress(Effect):
     stays = True
 
     def __init__(
-        self,
-        model: Model,
-        stress: Floats,
-        turned: "TurningStress | None" = None,
-        across: Floats | None = None,
+        self, model: Model, given: StressAtStart, turned: "TurningStress | None" = None
     ) -> None:
-        self.stress, self._turned, self._across = stress, turned, across
-        self._force = -model.stress_load(stress)
-        self._model = model
+        self.given, self._turned, self._model = given, turned, model
+        self._force = -given.force(model)
+
+    @property
+    def stress(self) -> Floats:
+        """Mean (E, 3) of the elements (Pa)."""
+        return self.given.mean[:, :3]
 
     @cached_property
     def _stored(self) -> float:
         """Energy (J) of the stress before anything moves."""
-        model, stress = self._model, self.stress
-        strain = np.linalg.solve(model.elasticity, stress[:, :, None])[:, :, 0]
-        density = np.einsum("ei,ei->e", stress, strain) / 2
-        return float(density @ (model.element_area * model.thickness))
+        return self.given.energy(self._model)
 
     @property
     def bends(self) -> bool:
@@ -56,29 +52,26 @@ class InitialStress(Effect):
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from ``[[initial_stresses]]``; later tables overwrite earlier ones."""
-        region = setup.model.manifold.element_region
-        stress, across = np.zeros((len(region), 3)), np.full(len(region), np.nan)
-        for item in setup.scene.initial_stresses:  # a handful of tables
-            regions = setup.regions(item.block)
-            chosen = slice(None) if regions is None else regions[region]
-            stress[chosen], across[chosen] = (
-                item.stress,
-                np.nan if item.across is None else item.across,
-            )
-        return cls(setup.model, stress, _turned(setup, stress), across)
+        given = StressAtStart.declared(setup)
+        return cls(setup.model, given, _turned(setup, given))
 
     def follow(self, change: "Change") -> Effect:
         """Return the stress of each element from those that it comes from; else as declared."""
-        declared = InitialStress.from_setup(change.setup).stress
-        stress = change.parentage.elements.mean(self.stress, declared)
-        return InitialStress(change.new, stress, _turned(change.setup, stress))
+        given = StressAtStart.declared(change.setup)
+        if given.even and self.given.even:
+            mean = given.mean.copy()
+            mean[:, :3] = change.parentage.elements.mean(self.stress, mean[:, :3])
+            given = replace(given, mean=mean)
+        return InitialStress(change.new, given, _turned(change.setup, given))
 
     def begin(self, state: State) -> State:
         """Return the start with material points that know of the stress."""
         matter = self._model.matter
         if not isinstance(matter, Matter):
             return state
-        history = matter.prestressed(state.history, self.stress, self._across)
+        rule = matter.points.rule
+        at_points = self.given.at(self._model, rule.owner, rule.points)
+        history = matter.prestressed(state.history, at_points[:, :3], at_points[:, 3])
         return replace(state, history=history)
 
     def force(self, state: State, end: Instant) -> Floats:
@@ -96,7 +89,7 @@ class InitialStress(Effect):
 
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         """See `Effect.stress_at`."""
-        return np.asarray(self.stress[elements])
+        return self.given.at(self._model, elements, points)[:, :3]
 
     def energy(self, state: State) -> float:
         """Energy (J) that the stress adds to that of the strain, ``1/2 eps : D eps``."""
@@ -105,8 +98,8 @@ class InitialStress(Effect):
         return self._stored - float(self._force @ state.deformation)
 
 
-def _turned(setup: Setup, stress: Floats) -> "TurningStress | None":
-    """Return the stress (E, 3) at the points of bodies that bend by any angle; None of others."""
+def _turned(setup: Setup, given: StressAtStart) -> "TurningStress | None":
+    """Return the stress at the points of bodies that bend by any angle; None of others."""
     if not setup.kinematics.finite:
         return None
     from nmm.assembly.finite_strain.finite_matter import FiniteMatter
@@ -115,5 +108,6 @@ def _turned(setup: Setup, stress: Floats) -> "TurningStress | None":
 
     matter = setup.model.matter
     assert isinstance(matter, FiniteMatter)
-    at_points = stress[matter.points.rule.owner]
+    rule = matter.points.rule
+    at_points = given.at(setup.model, rule.owner, rule.points)[:, :3]
     return TurningStress(GivenStress(matter), lambda time: at_points)

@@ -42,6 +42,8 @@ class Stage:
         s; None is to rest.
     acting
         Which loads grow and which fade in it.
+    reset
+        Whether displacements count from its start.
     """
 
     name: str
@@ -50,6 +52,7 @@ class Stage:
     present: Bools
     duration: float | None
     acting: Acting
+    reset: bool = False
 
     @property
     def dynamic(self) -> bool:
@@ -134,6 +137,7 @@ def _resolved(
                 frozenset(o.name for one in leaving.values() for o in one),
                 table.release,
             ),
+            table.reset_displacements,
         )
         before = names
 

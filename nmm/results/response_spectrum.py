@@ -1,12 +1,13 @@
 """Response spectra: the largest answers of masses on springs that stand on a monitored point."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import NmmError
-from nmm.results.sink import RunData
+from nmm.results.sink import RESETS, RunData
 
 PERIODS = np.geomspace(0.02, 5.0, 100)
 """Periods (s) of a spectrum for which none are given."""
@@ -143,7 +144,7 @@ def monitor_spectrum(
             f"monitor {monitor}, axis {axis}: no column {column}: expected one of "
             f"{', '.join(known) or 'no monitors'} with axis x or y: correct the name"
         )
-    times, way = _from_rest(history["time"], history[column])
+    times, way = _from_rest(history, history[column])
     if len(times) < 4 or (np.diff(times) <= 0).any():
         raise NmmError(
             f"monitor {monitor}: {len(times) - 1} steps in time: expected three or more: run a "
@@ -152,12 +153,17 @@ def monitor_spectrum(
     return response_spectrum(times[:-1], _accelerations(times, way), periods, ratio)
 
 
-def _from_rest(times: Floats, way: Floats) -> tuple[Floats, Floats]:
+def _from_rest(history: Mapping[str, Floats], way: Floats) -> tuple[Floats, Floats]:
     """Times and displacements (n,) from the start; of stages at rest before it the last state."""
+    times = history["time"]
     if times[0] > 0:
         return np.append(0.0, times), np.append(0.0, way)
     begin = int(np.flatnonzero(times <= times[0])[-1])
-    return times[begin:], way[begin:]
+    times, way = times[begin:], way[begin:].copy()
+    resets = np.nan_to_num(history.get(RESETS, np.zeros(0)))[begin : begin + 2]
+    if resets.any() and resets[0] != resets[-1]:
+        way[0] = 0.0  # displacements count from the state at rest
+    return times, way
 
 
 def _accelerations(times: Floats, way: Floats) -> Floats:

@@ -10,6 +10,9 @@ from integration.arrays import Floats
 from nmm.results.frame import Frame, Topology
 from nmm.results.summary import Summary
 
+RESETS = "displacement_resets"
+"""Column of the history: how often displacements were set to zero; only where they were."""
+
 
 class Sink(Protocol):
     """Receiver of a run: `begin`, then frames and rows as they come, then `finish`."""

@@ -70,6 +70,12 @@ class StageTable(Frozen):
         "of all that is held back; all of it at once when never given",
         examples=[0.5],
     )
+    reset_displacements: bool = Field(
+        default=False,
+        description="true or false: whether displacements, of monitors and of frames, count from "
+        "its start",
+        examples=[True],
+    )
     cover: Options | None = Field(
         default=None,
         description="keys of the formulation's [cover] that are other from this stage on",

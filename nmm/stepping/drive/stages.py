@@ -9,13 +9,12 @@ import numpy as np
 from nmm.assembly.motion import State
 from nmm.frozen import with_parts
 from nmm.progress import Progress
-from nmm.stepping.drive.changes import difference, follow
+from nmm.stepping.drive.changes import difference, follow, watch
 from nmm.stepping.drive.dynamics import run_in_time
 from nmm.stepping.drive.in_time import InTime, Schedule
 from nmm.stepping.drive.statics import run_load
 from nmm.stepping.drive.under_load import LoadSchedule, UnderLoad
 from nmm.stepping.drive.verdict import CONVERGED, RunVerdict
-from nmm.stepping.reports.monitors import monitors
 from nmm.stepping.reports.output import choice_in_time, choice_under_loads
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.stepper import Stepper
@@ -116,7 +115,7 @@ def enter(
     """Solve what the stage has from now on; return the state carried over, and what changed."""
     change = _entered(stepper, state, staged, integrator)
     before = recorder.ledger.change_energy
-    follow(recorder, change)
+    follow(recorder, change, staged.stage.reset)
     recorder.totals = with_parts(recorder.totals, taken=0, periods=0)
     added = recorder.ledger.change_energy - before
     name = staged.stage.name
@@ -131,10 +130,8 @@ def enter_again(
     integrator: "Integrator",
 ) -> None:
     """Enter the stages of a run that was stopped, of which all is known that was recorded."""
-    pairs = zip(so_far.entered, stages[1:], strict=False)
-    changes = [_entered(stepper, state, staged, integrator) for state, staged in pairs]
-    if changes:  # monitors are those of the stage that it stands in
-        recorder.monitors = monitors(changes[-1].setup, all_there=False)
+    for state, staged in zip(so_far.entered, stages[1:], strict=False):  # a handful of stages
+        watch(recorder, _entered(stepper, state, staged, integrator), staged.stage.reset)
 
 
 def _entered(

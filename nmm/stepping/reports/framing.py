@@ -10,6 +10,7 @@ from nmm.effects.view import View
 from nmm.model.planning.pressures import patch_pressures
 from nmm.results.frame import Frame
 from nmm.stepping.reports.declared import Declared
+from nmm.stepping.reports.zero import Zero
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:
@@ -21,10 +22,13 @@ def viewed(stepper: Stepper, state: State, contacts: "ContactPoints | None") -> 
     return View(stepper.model, state, contacts, lambda state: _stress(stepper, state))
 
 
-def framed(stepper: Stepper, view: View, declared: Declared, index: int, stage: str) -> Frame:
+def framed(
+    stepper: Stepper, view: View, declared: Declared, zero: Zero, index: int, stage: str
+) -> Frame:
     """Return the frame of a state; ``declared`` are its quantities besides."""
     state, manifold = view.state, view.model.manifold
     place = stepper.place(state)
+    start = stepper.reference if zero.state is None else stepper.place(zero.state)
     body = manifold.element_body[manifold.elements.polygon_of_point]
     velocity = stepper.vertices.rows.apply(state.velocity)
     return Frame(
@@ -33,7 +37,7 @@ def framed(stepper: Stepper, view: View, declared: Declared, index: int, stage: 
         load_factor=state.load_factor,
         stage=stage,
         points=place,
-        displacement=place - stepper.reference,
+        displacement=place - start,
         velocity=state.frames.to_global(body, velocity),
         stress=view.stress,
         **_contact_arrays(stepper, view),

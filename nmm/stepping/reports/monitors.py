@@ -21,15 +21,17 @@ class Monitor:
     start: Floats
 
 
-def monitors(setup: Setup, all_there: bool = True) -> list[Monitor]:
+def monitors(setup: Setup, all_there: bool = True, zero: State | None = None) -> list[Monitor]:
     """Return the monitors of a scene; of a stage those that are on its blocks.
+
+    They count from the state ``zero``, or from the start.
 
     Raises
     ------
     GeometryError
         When a monitor lies on no material.
     """
-    found = []
+    found, begin = [], zero or setup.start
     for item in setup.scene.monitors:  # a handful
         place = at_point(setup.model.manifold, np.array(item.point), setup.regions(item.block))
         if not len(place) and not all_there:
@@ -40,7 +42,7 @@ def monitors(setup: Setup, all_there: bool = True) -> list[Monitor]:
                 "onto a block"
             )
         first = place.points.take(np.array([0]))
-        start = first.place(setup.start.frames, setup.start.deformation)[0]
+        start = first.place(begin.frames, begin.deformation)[0]
         found.append(Monitor(item.name, first, start))
     return found
 

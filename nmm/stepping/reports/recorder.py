@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from nmm.assembly.motion import State
 from nmm.effects.view import View
 from nmm.frozen import with_parts
-from nmm.results.sink import Sink
+from nmm.results.sink import RESETS, Sink
 from nmm.stepping.reports.contact_tally import tallied
 from nmm.stepping.reports.declared import Declared
 from nmm.stepping.reports.framing import framed, viewed
@@ -15,6 +15,7 @@ from nmm.stepping.reports.lengths import StepLengths
 from nmm.stepping.reports.monitors import Monitor, monitored
 from nmm.stepping.reports.output import Choice
 from nmm.stepping.reports.totals import Totals
+from nmm.stepping.reports.zero import Zero
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -39,6 +40,8 @@ class Recorder:
         Of the steps so far.
     staged
         Whether what is solved may change.
+    zero
+        What displacements count from.
     """
 
     stepper: Stepper
@@ -48,6 +51,7 @@ class Recorder:
     declared: Declared = field(default_factory=Declared)
     totals: Totals = field(default_factory=Totals)
     staged: bool = False
+    zero: Zero = field(default_factory=Zero)
 
     @property
     def steps(self) -> int:
@@ -125,6 +129,8 @@ class Recorder:
         if plan.supports is not None:
             for name, force in plan.supports.reactions(after).items():
                 row[f"reaction:{name}:x"], row[f"reaction:{name}:y"] = force
+        if self.zero.resets:
+            row[RESETS] = float(self.zero.resets)
         return row | monitored(self.monitors, after)
 
     def choosing(self) -> None:
@@ -174,7 +180,7 @@ class Recorder:
     def frame(self, state: State, stage: str, contacts: "ContactPoints | None") -> None:
         """Hand over a frame."""
         view = self.view(state, contacts)
-        made = framed(self.stepper, view, self.declared, self.totals.frames, stage)
+        made = framed(self.stepper, view, self.declared, self.zero, self.totals.frames, stage)
         self.sink.frame(made)
         self.totals = with_parts(self.totals, frames=self.totals.frames + 1, stored=True)
 

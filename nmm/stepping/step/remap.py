@@ -73,8 +73,10 @@ def with_stress_so_far(
 def with_stress(new: Discretisation, stress: Floats) -> Discretisation:
     """Return a discretisation with another initial stress (E, 3)."""
     from nmm.effects.initial_stress import InitialStress
+    from nmm.effects.stress_at_start import StressAtStart
 
-    effects = {**new.plan.effects, InitialStress.name: InitialStress(new.model, stress)}
+    given = StressAtStart.constant(stress)
+    effects = {**new.plan.effects, InitialStress.name: InitialStress(new.model, given)}
     return replace(new, plan=replace(new.plan, effects=effects))
 
 

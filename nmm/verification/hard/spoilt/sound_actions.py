@@ -152,7 +152,11 @@ block = "b"
 field = ["1e3 * sin(x)", "-1e3 * max(0, y)"]
 [[initial_stresses]]
 block = "all"
-stress = [0, "-1 kPa", 0]
+surface = "1 m"
+unit_weight = "20 kN/m^3"
+ratio = 0.5
+ratio_across = 0.5
+surcharge = "1 kPa"
 [[monitors]]
 name = "o"
 point = [1, 1]

@@ -1,0 +1,108 @@
+"""The stress in the ground before anything moves: even in a block, or growing with depth."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from integration.polygons import areas, centroids
+from integration.rules import polygon_rule
+from nmm.assembly.model import Model
+from nmm.assembly.stress_points import StressPoints
+
+if TYPE_CHECKING:
+    from nmm.effects.base import Setup
+    from nmm.scene.actions import InitialStressTable
+
+
+@dataclass(frozen=True)
+class StressAtStart:
+    """Stress of elements, linear in y.
+
+    Attributes
+    ----------
+    mean
+        (E, 4) xx, yy, xy and out of the plane at the centroids (Pa); nan where that is not given.
+    slope
+        (E, 4) by y (Pa/m).
+    """
+
+    mean: Floats
+    slope: Floats
+
+    @classmethod
+    def constant(cls, stress: Floats) -> Self:
+        """Return a stress (E, 3) that is even in each element."""
+        mean = np.column_stack([stress, np.full(len(stress), np.nan)])
+        return cls(mean, np.zeros_like(mean))
+
+    @classmethod
+    def declared(cls, setup: "Setup") -> Self:
+        """Return that of ``[[initial_stresses]]``; later tables overwrite earlier ones."""
+        region = setup.model.manifold.element_region
+        height = centroids(setup.model.manifold.elements)[:, 1]
+        mean, slope = np.zeros((len(region), 4)), np.zeros((len(region), 4))
+        mean[:, 3] = np.nan
+        for item in setup.scene.initial_stresses:  # a handful of tables
+            regions = setup.regions(item.block)
+            chosen = np.full(len(region), True) if regions is None else regions[region]
+            at_zero, slope[chosen] = _line(item, setup.origin[1])
+            mean[chosen] = at_zero + height[chosen, None] * slope[chosen]
+        return cls(mean, slope)
+
+    @property
+    def even(self) -> bool:
+        """Whether it is constant in each element."""
+        return not self.slope.any()
+
+    def at(self, model: Model, elements: Ints, points: Floats) -> Floats:
+        """Return it (m, 4) at reference points (m, 2) in elements (m,)."""
+        above = points[:, 1] - centroids(model.manifold.elements)[elements, 1]
+        return np.asarray(self.mean[elements] + above[:, None] * self.slope[elements])
+
+    def force(self, model: Model) -> Floats:
+        """Return the integral of ``B^T sigma`` (n,): that of the means, and of what is linear."""
+        found = model.stress_load(self.mean[:, :3])
+        if self.even:
+            return found
+        points = StressPoints.of(model.manifold, np.asarray(self.slope.any(axis=1)))
+        owner = points.rule.owner
+        beyond = (self.at(model, owner, points.rule.points) - self.mean[owner])[:, :3]
+        return found + model.thickness * points.force(beyond)
+
+    def energy(self, model: Model) -> float:
+        """Return what it stores (J): half of it times the strain that it would make."""
+        area = areas(model.manifold.elements)
+        found = float(_density(model, self.mean) @ area)
+        if not self.even:
+            rule, middle = (
+                polygon_rule(model.manifold.elements, 2),
+                centroids(model.manifold.elements),
+            )
+            square = rule.weights * (rule.points[:, 1] - middle[rule.owner, 1]) ** 2
+            found += float(_density(model, self.slope) @ np.bincount(rule.owner, square, len(area)))
+        return found * model.thickness
+
+
+def _density(model: Model, stress: Floats) -> Floats:
+    """Elastic energy (E,) of a stress (E, 4) for each volume."""
+    in_plane = stress[:, :3]
+    strain = np.linalg.solve(model.elasticity, in_plane[:, :, None])[:, :, 0]
+    return np.asarray(np.einsum("ei,ei->e", in_plane, strain) / 2)
+
+
+def _line(item: "InitialStressTable", origin: float) -> tuple[Floats, Floats]:
+    """Return the stress (4,) at y = 0 and its slope (4,) by y, of a table in the model's axes."""
+    if item.stress is not None:
+        across = np.nan if item.across is None else item.across
+        return np.array([*item.stress, across]), np.zeros(4)
+    assert item.surface is not None
+    assert item.unit_weight is not None
+    assert item.ratio is not None
+    known = item.ratio_across is not None
+    shares = np.array([item.ratio, 1.0, 0.0, item.ratio_across if known else 0.0])
+    at_zero = -(item.surcharge + item.unit_weight * (item.surface - origin)) * shares
+    if not known:
+        at_zero[3] = np.nan
+    return at_zero, item.unit_weight * shares
