@@ -16,7 +16,7 @@ from nmm.heat.thermal_strain import ThermalStrain
 from nmm.quantity import Quantity
 
 if TYPE_CHECKING:
-    from nmm.effects.turning_stress import TurningStress
+    from nmm.effects.initial.turning_stress import TurningStress
 
 
 class Heat(FieldEffect):
@@ -121,7 +121,7 @@ def _turned(strain: ThermalStrain, rise: Callable[[float], Floats]) -> "TurningS
     """Return the stress of a temperature at the points of bodies that bend by any angle."""
     from nmm.assembly.finite_strain.finite_matter import FiniteMatter
     from nmm.assembly.finite_strain.given_stress import GivenStress
-    from nmm.effects.turning_stress import TurningStress
+    from nmm.effects.initial.turning_stress import TurningStress
 
     matter = strain.model.matter
     assert isinstance(matter, FiniteMatter)

@@ -57,7 +57,7 @@ class Discretisation:
             history=new.history(),
         )
         if setup.scene.initial_velocities:
-            from nmm.effects.initial_velocity import InitialVelocity
+            from nmm.effects.initial.initial_velocity import InitialVelocity
 
             declared = InitialVelocity.from_setup(setup).begin(declared)
         after = carried(old, new, kin, state, declared)

@@ -22,8 +22,8 @@ EFFECTS: Registry[type[Effect]] = Registry(
     "effect",
     Effect,
     {
-        "initial velocity": "nmm.effects.initial_velocity:InitialVelocity",
-        "initial stress": "nmm.effects.initial_stress:InitialStress",
+        "initial velocity": "nmm.effects.initial.initial_velocity:InitialVelocity",
+        "initial stress": "nmm.effects.initial.initial_stress:InitialStress",
         "gravity": "nmm.effects.gravity:Gravity",
         "heat": "nmm.heat.temperature:Heat",
         "seepage": "nmm.water.seepage:Seepage",

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from nmm.effects.contact import Contact
     from nmm.effects.event import Event
     from nmm.effects.inertia import Inertia
-    from nmm.effects.initial_stress import InitialStress
+    from nmm.effects.initial.initial_stress import InitialStress
     from nmm.effects.loads import Loads
     from nmm.effects.view import View
     from nmm.fracture.growth.growing import GrowingCracks

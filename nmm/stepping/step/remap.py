@@ -72,8 +72,8 @@ def with_stress_so_far(
 
 def with_stress(new: Discretisation, stress: Floats) -> Discretisation:
     """Return a discretisation with another initial stress (E, 3)."""
-    from nmm.effects.initial_stress import InitialStress
-    from nmm.effects.stress_at_start import StressAtStart
+    from nmm.effects.initial.initial_stress import InitialStress
+    from nmm.effects.initial.stress_at_start import StressAtStart
 
     given = StressAtStart.constant(stress)
     effects = {**new.plan.effects, InitialStress.name: InitialStress(new.model, given)}

@@ -9,11 +9,11 @@ from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
-from nmm.effects.stress_at_start import StressAtStart
+from nmm.effects.initial.stress_at_start import StressAtStart
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
-    from nmm.effects.turning_stress import TurningStress
+    from nmm.effects.initial.turning_stress import TurningStress
 
 
 class InitialStress(Effect):
@@ -104,7 +104,7 @@ def _turned(setup: Setup, given: StressAtStart) -> "TurningStress | None":
         return None
     from nmm.assembly.finite_strain.finite_matter import FiniteMatter
     from nmm.assembly.finite_strain.given_stress import GivenStress
-    from nmm.effects.turning_stress import TurningStress
+    from nmm.effects.initial.turning_stress import TurningStress
 
     matter = setup.model.matter
     assert isinstance(matter, FiniteMatter)
