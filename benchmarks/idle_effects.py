@@ -221,6 +221,18 @@ def _without_stone(**more: float) -> Callable[[int], Tables]:
     return made
 
 
+def _renamed(**more: object) -> Callable[[int], Tables]:
+    """Return what makes the bar in two stages, with a second material that is as the first."""
+
+    def made(steps: int) -> Tables:
+        found = _staged(begun_anew, 0.5, 0.5)(steps)
+        found["materials"]["twin"] = dict(found["materials"]["rock"])
+        found["stages"][1] |= more
+        return found
+
+    return made
+
+
 def _block(name: str, left: float, low: float, right: float, high: float) -> Tables:
     ring = [[left, low], [right, low], [right, high], [left, high]]
     return {"name": name, "material": "rock", "vertices": ring}
@@ -411,6 +423,9 @@ IDLE: dict[str, Idle] = {
     ),
     "a release of what exerted nothing": Idle(
         ("unreleased forces",), _without_stone(), _without_stone(release=0.5)
+    ),
+    "a material that changes its name alone": Idle(
+        ("changed materials",), _renamed(), _renamed(materials={"bar": "twin"})
     ),
 }
 """By what is idle, as a row of the page says it."""

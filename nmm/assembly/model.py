@@ -103,8 +103,10 @@ class Model:
         FormulationError
             Projected volumes: pressures on patches are linear in the strain.
         """
-        linear = all(law.linear for law in self.laws) and not self.finite
-        if self.law is None or linear:
+        if self.law is None:
+            return None
+        straight = np.array([law.linear for law in self.laws])[self.law]
+        if straight.all() and not self.finite:
             return None
         if self.projected and self.pressures is not None:
             raise FormulationError(
@@ -116,10 +118,14 @@ class Model:
 
             given = self.manifold, self.laws, self.law, self.plane, self.thickness
             return FiniteMatter.of(*given)
-        straight = np.array([law.linear for law in self.laws])[self.law]
         elastic = self.thickness * self.elasticity * straight[:, None, None]
         rest = self._matrix(element_matrices.stiffness, elastic)
         return Matter.of(self.manifold, self.laws, self.law, self.plane, self.thickness, rest)
+
+    @property
+    def may_bend(self) -> bool:
+        """Whether matter is no line in the displacements, be it in another stage."""
+        return self.finite or any(not law.linear for law in self.laws or ())
 
     @property
     def bent(self) -> str:

@@ -22,6 +22,7 @@ CALLED_BY = {
     "moving loads": '[[loads]] of kind "moving"',
     "supports": "[[supports]]",
     "unreleased forces": "[[stages]] with release",
+    "changed materials": "[[stages]] with materials",
     "bonded interfaces": "bonded interface without contact",
     "initial velocity": "[[initial_velocities]]",
     "initial stress": "[[initial_stresses]]",

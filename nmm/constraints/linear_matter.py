@@ -11,7 +11,7 @@ from nmm.errors import FormulationError
 
 def method_for(model: Model, asked: str, springs: str) -> str:
     """Return ``springs`` for "auto" where some material is not linear, else what is ``asked``."""
-    return springs if asked == "auto" and model.matter is not None else asked
+    return springs if asked == "auto" and model.may_bend else asked
 
 
 def check_linear(model: Model, place: str, instead: str) -> None:

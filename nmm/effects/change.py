@@ -1,6 +1,7 @@
 """From one model to the next: what a change hands to all that hold numbers of the old one."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,6 +11,9 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Setup
+
+if TYPE_CHECKING:
+    from nmm.effects.initial.changed_materials import KeptStress
 
 
 @dataclass(frozen=True)
@@ -28,6 +32,8 @@ class Change:
         The last state, carried over to the new model; its effects are built for it.
     former
         The same on the old model.
+    kept
+        The stress of blocks whose material is another; None where none is.
     """
 
     before: Setup
@@ -35,6 +41,7 @@ class Change:
     parentage: Parentage
     state: State
     former: State
+    kept: "KeptStress | None" = None
 
     def field(self, displacement: Floats) -> Floats:
         """Return a displacement field (n,) of the old model on the unknowns of the new one."""

@@ -3,6 +3,8 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol, Self
 
+import numpy as np
+
 from covers.change.parentage import Parentage
 from nmm.assembly.carried.state import carried
 from nmm.assembly.motion import State, initial_state
@@ -61,7 +63,20 @@ class Discretisation:
 
             declared = InitialVelocity.from_setup(setup).begin(declared)
         after = carried(old, new, kin, state, declared)
-        return Change(self.setup, setup, kin, after, former=state)
+        change = Change(self.setup, setup, kin, after, former=state)
+        if np.array_equal(self.setup.region_material, setup.region_material):
+            return change
+        return self._with_other_materials(change, declared)
+
+    def _with_other_materials(self, change: Change, declared: State) -> Change:
+        """Return a change after which blocks of other materials keep their stress."""
+        from nmm.effects.initial.changed_materials import ChangedMaterials, remembered
+
+        effect = self.plan.effects[ChangedMaterials.name]
+        assert isinstance(effect, ChangedMaterials)
+        old, new, after = change.before, change.setup, change.state
+        kept = effect.kept_by(old, new, change.former, after)
+        return replace(change, state=remembered(new, old, kept, after, declared), kept=kept)
 
     def joined(self, effect: Effect) -> "Discretisation":
         """Return the same with one effect more, for a motion that is no result."""

@@ -24,6 +24,7 @@ EFFECTS: Registry[type[Effect]] = Registry(
     {
         "initial velocity": "nmm.effects.initial.initial_velocity:InitialVelocity",
         "initial stress": "nmm.effects.initial.initial_stress:InitialStress",
+        "changed materials": "nmm.effects.initial.changed_materials:ChangedMaterials",
         "gravity": "nmm.effects.gravity:Gravity",
         "heat": "nmm.heat.temperature:Heat",
         "seepage": "nmm.water.seepage:Seepage",
@@ -64,6 +65,7 @@ EFFECTS: Registry[type[Effect]] = Registry(
 NAMED: dict[str, Callable[["Scene"], bool]] = {
     "initial velocity": lambda s: bool(s.initial_velocities),
     "initial stress": lambda s: bool(s.initial_stresses),
+    "changed materials": lambda s: any(one.materials for one in s.stages),
     "gravity": lambda s: s.gravity is not None,
     "heat": lambda s: s.heat is not None,
     "seepage": lambda s: s.seepage is not None and not s.seepage.coupled,

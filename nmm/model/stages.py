@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import ValidationError
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from nmm.effects.base import Acting
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.model.origin import shifted
@@ -44,6 +44,8 @@ class Stage:
         Which loads grow and which fade in it.
     reset
         Whether displacements count from its start.
+    material
+        (N,) that of each block, in the order of the scene.
     """
 
     name: str
@@ -52,7 +54,8 @@ class Stage:
     present: Bools
     duration: float | None
     acting: Acting
-    reset: bool = False
+    reset: bool
+    material: Ints
 
     @property
     def dynamic(self) -> bool:
@@ -95,9 +98,11 @@ def _resolved(
     present = np.ones(len(regions), dtype=bool)
     listed: dict[str, tuple[str, ...] | None] = dict.fromkeys(KINDS)
     members, before = None, frozenset[str]()
+    material = np.asarray(regions.material)
     for number, table in enumerate(scene.stages):  # a handful of stages
         place = _Place(scene, number, origin)
         present = _present(table, present, regions, place)
+        material = _materials(table, material, regions, place)
         formulation = _formulation(table, formulation, place)
         listed |= {kind: table.lists(kind) for kind in KINDS if table.lists(kind) is not None}
         members = members if table.members is None else table.members
@@ -115,7 +120,7 @@ def _resolved(
         }
         whole = {
             # What names no effect of its own is resolved here.
-            "stages": () if table.release is None else (table,),
+            "stages": _naming(scene, table),
             **{key: (*items, *leaving.get(key, ())) for key, items in acting.items()},
             **_members(scene, members, dynamic=table.duration is not None),
             "monitors": tuple(one for one in scene.monitors if _acts(one, None, there)),
@@ -138,8 +143,23 @@ def _resolved(
                 table.release,
             ),
             table.reset_displacements,
+            material,
         )
         before = names
+
+
+def _naming(scene: "Scene", table: "StageTable") -> tuple["StageTable", ...]:
+    """Return what of the stages names effects: release in this one, materials in any."""
+    changing = [one.model_copy(update={"release": None}) for one in scene.stages if one.materials]
+    return (*changing, table) if table.release is not None else tuple(changing)
+
+
+def _materials(table: "StageTable", before: Ints, regions: "Regions", place: "_Place") -> Ints:
+    """Return the materials (N,) of all blocks with those that the stage changes."""
+    found, known = before.copy(), list(place.scene.materials)
+    for block, name in table.materials.items():
+        found[_chosen(block, regions, place, "materials")] = known.index(name)
+    return found
 
 
 def _members(

@@ -32,6 +32,7 @@ def stage_contradictions(data: Tables) -> Iterator[Finding]:
             for name in _texts(stage, key):
                 if name != "all" and name.split(".")[0] not in solids:
                     yield (*path, key), f'"{name}"', "the name of a block", suggestion(name, solids)
+        yield from _materials(stage, path, solids, [*data.get("materials", ())])
         for key, names in known.items():
             for name in _texts(stage, key):
                 if name not in names:
@@ -49,6 +50,16 @@ def stage_contradictions(data: Tables) -> Iterator[Finding]:
         if "duration" in stage and "inertia" not in data:
             remedy = "remove it, so that the stage is solved to rest, or add [inertia]"
             yield (*path, "duration"), "no [inertia]", "a dynamic scene", remedy
+
+
+def _materials(stage: Tables, path: Path, solids: list[str], known: list[str]) -> Iterator[Finding]:
+    given = stage.get("materials")
+    for block, name in given.items() if isinstance(given, Mapping) else ():
+        where = (*path, "materials", block)
+        if block != "all" and block.split(".")[0] not in solids:
+            yield where, f'"{block}"', "the name of a block", suggestion(block, solids)
+        if isinstance(name, str) and name not in known:
+            yield where, f'"{name}"', "the name of a material", suggestion(name, known)
 
 
 def _beside(data: Tables) -> Iterator[Finding]:

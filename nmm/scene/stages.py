@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field, model_validator
 
-from nmm.scene.fields import BlockName, Frozen, Name, Options, Time, example, fault
+from nmm.scene.fields import BlockName, Frozen, Name, Options, TableName, Time, example, fault
 
 KINDS = {
     "loads": ("loads",),
@@ -34,6 +34,12 @@ class StageTable(Frozen):
         default=(),
         description="names of blocks that arrive, free of stress, at the place they are drawn at",
         examples=[["lift"]],
+    )
+    materials: dict[BlockName, TableName] = Field(
+        default={},
+        description="blocks that are of another material from this stage on, and which; they keep "
+        "their stress",
+        examples=[{"slope": "weathered"}],
     )
     loads: tuple[Name, ...] | None = Field(
         default=None, description="names of all loads that act", examples=[["pressure"]]

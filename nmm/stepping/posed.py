@@ -129,6 +129,7 @@ def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) ->
     check_parts(stage.scene, stage.formulation)
     cover, place = stage.formulation.cover, scene.source.place("stages")
     refuse_many_cells(regions, cover, place)
+    regions = replace(regions, material=stage.material)
     geometry = geometry_of(scene, regions.only(stage.present))
     setup = setup_of(stage.scene, stage.formulation, geometry, origin)
     whole = replace(

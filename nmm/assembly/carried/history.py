@@ -26,7 +26,7 @@ def carried_history(
         return {}
     if old.matter is None:
         return dict(declared)
-    nearest = _nearest(old, old.matter.points, new, new.matter.points)
+    nearest = nearest_points(old, old.matter.points, new, new.matter.points)
     body = new.manifold.element_body[new.matter.points.rule.owner]
     known = (nearest >= 0) & ~kin.new_bodies[body]
     found = {}
@@ -39,7 +39,7 @@ def carried_history(
     return found
 
 
-def _nearest(old: Model, before: StressPoints, new: Model, after: StressPoints) -> Ints:
+def nearest_points(old: Model, before: StressPoints, new: Model, after: StressPoints) -> Ints:
     """Nearest old material point (Q,) of the same region, -1 without any."""
     from scipy.spatial import KDTree
 

@@ -55,9 +55,9 @@ class Omission:
 def omissions(scene: Tables, formulation: Tables) -> Iterator[Omission]:
     """Yield the tables without each effect that a scene names, each load, and what is no table.
 
-    The latter are the dowels of its bars, forces that stages hold back, the friction of its
-    interfaces, what the integrator takes of velocities, and rotations that are finite. Tables hold
-    what was given alone, no defaults.
+    The latter are the dowels of its bars, forces that stages hold back, materials that they change,
+    the friction of its interfaces, what the integrator takes of velocities, and rotations that are
+    finite. Tables hold what was given alone, no defaults.
     """
     for name, keys in TABLES.items():
         if keys[0] in scene:
@@ -67,6 +67,7 @@ def omissions(scene: Tables, formulation: Tables) -> Iterator[Omission]:
     for name, change in (
         ("dowels", _without_dowels),
         ("unreleased forces", _released),
+        ("changed materials", _unchanged),
         ("friction", _frictionless),
         ("kinetic damping", _undamped),
         ("finite rotation", _small),
@@ -108,6 +109,12 @@ def _released(scene: Tables, formulation: Tables) -> Changed:
     shares = [stage.pop("release", None) for stage in scene.get("stages", ())]
     held = any(share is not None for share in shares)
     return (scene, formulation) if held else None
+
+
+def _unchanged(scene: Tables, formulation: Tables) -> Changed:
+    """With the materials that blocks have at first."""
+    changed = [stage.pop("materials", None) for stage in scene.get("stages", ())]
+    return (scene, formulation) if any(changed) else None
 
 
 def _frictionless(scene: Tables, formulation: Tables) -> Changed:

@@ -75,7 +75,7 @@ def test_every_effect_can_be_left_out_or_is_known_to_be_left_out_by_its_loads_or
     by_load = {"loads", "body loads", "field loads", "pressures", "moving loads"}
     as_damping = {"viscous damping", "damping against the ground", "local damping"}
     kept = {"supports", "bonded interfaces"}  # without them nothing is left of a structure
-    within_tables = {"dowels", "unreleased forces"}
+    within_tables = {"dowels", "unreleased forces", "changed materials"}
     assert set(NAMED) - set(TABLES) == by_load | as_damping | kept | within_tables
 
 
@@ -84,6 +84,12 @@ def test_forces_that_a_stage_holds_back_are_released_and_the_stages_stay():
     found = {one.name: one.scene for one in omissions({"stages": stages}, {})}
     assert found["unreleased forces"]["stages"] == [{"name": "dig"}, {"name": "line"}]
     assert "release" in stages[0]
+
+
+def test_materials_that_a_stage_changes_stay_and_so_does_the_stage():
+    stages = [{"name": "in place"}, {"name": "wet", "materials": {"slope": "weathered"}}]
+    found = {one.name: one.scene for one in omissions({"stages": stages}, {})}
+    assert found["changed materials"]["stages"] == [{"name": "in place"}, {"name": "wet"}]
 
 
 def test_dowels_are_left_out_and_their_bars_stay():

@@ -1,0 +1,208 @@
+"""Blocks whose material a stage changes: they keep the stress that they have.
+
+What the new law does not make of the strain so far is a stress at material points. It acts as one
+from the start does, so that the new law answers for strains from here on alone.
+"""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.carried.history import nearest_points
+from nmm.assembly.matter import INITIAL, STRESS, Matter
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.assembly.stress_points import StressPoints, nearest
+from nmm.effects.base import Effect, Instant, Setup
+from nmm.errors import FormulationError
+
+if TYPE_CHECKING:
+    from nmm.effects.change import Change
+
+
+@dataclass(frozen=True)
+class KeptStress:
+    """A stress at the points of blocks whose material has changed.
+
+    Attributes
+    ----------
+    points
+        Q points.
+    stress
+        (Q, 3) what their law does not make of the strain, in body axes (Pa).
+    beside
+        (Q, 3) the initial stress that acts there too.
+    """
+
+    points: StressPoints
+    stress: Floats
+    beside: Floats
+
+
+class ChangedMaterials(Effect):
+    """Internal force ``- int B^T tau`` of the stress that changed blocks keep."""
+
+    name = "changed materials"
+    external = False
+    stays = True
+
+    def __init__(self, model: Model, kept: KeptStress) -> None:
+        self._model, self.kept = model, kept
+        self._force = -model.thickness * kept.points.force(kept.stress)
+
+    @classmethod
+    def from_setup(cls, setup: Setup) -> Self:
+        """Return no stress: no material has changed yet."""
+        _refuse(setup)
+        none = np.zeros(len(setup.model.manifold.elements), dtype=bool)
+        empty = np.zeros((0, 3))
+        return cls(
+            setup.model, KeptStress(StressPoints.of(setup.model.manifold, none), empty, empty)
+        )
+
+    def follow(self, change: "Change") -> Effect:
+        """Return the stress on the new model, with that of the materials that have just changed."""
+        if change.kept is not None:
+            return ChangedMaterials(change.new, change.kept)
+        region = change.old.manifold.element_region[self.kept.points.rule.owner]
+        points = _points(change.new, np.isin(change.new.manifold.element_region, region))
+        stress = self._at(change.old, change.new, points)
+        kept = KeptStress(points, stress, _initial(change.setup, points))
+        return ChangedMaterials(change.new, kept)
+
+    def kept_by(self, old: Setup, new: Setup, before: State, after: State) -> KeptStress:
+        """Return what changed blocks keep as they go from one model to the next."""
+        changed = np.flatnonzero(old.region_material != new.region_material)
+        had = old.model.manifold.element_region[self.kept.points.rule.owner]
+        region = new.model.manifold.element_region
+        points = _points(new.model, np.isin(region, [*changed, *had]))
+        tau = self._at(old.model, new.model, points)
+        there = np.isin(region[points.rule.owner], changed)
+        was = _former(old, new, points, before, after)
+        now = _answer(old, new, points, after, was)
+        tau[there] += (was - now)[there]
+        return KeptStress(points, tau, _initial(new, points))
+
+    def _at(self, old: Model, new: Model, points: StressPoints) -> Floats:
+        """The stress (Q, 3) so far at points of the new model; zero where there was none."""
+        if not len(self.kept.points):
+            return np.zeros((len(points), 3))
+        near = nearest_points(old, self.kept.points, new, points)
+        return np.where(near[:, None] < 0, 0.0, self.kept.stress[near])
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """Return the internal force, which is constant in axes that turn."""
+        return self._force
+
+    def mean_stress(self, state: State) -> Floats:
+        """See `Effect.mean_stress`."""
+        found = np.zeros((len(self._model.manifold.elements), 3))
+        if len(self.kept.points):
+            elements, means = self.kept.points.means(self.kept.stress)
+            found[elements] = means
+        return found
+
+    def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        """See `Effect.stress_at`: that of the nearest point."""
+        if not len(self.kept.points):
+            return np.zeros((len(elements), 3))
+        at = nearest(self.kept.points.rule, elements, points)
+        return np.where(at[:, None] < 0, 0.0, self.kept.stress[at])
+
+    def energy(self, state: State) -> float:
+        """Energy (J) that it adds to that of the strain and of the initial stress."""
+        tau, rule = self.kept.stress, self.kept.points.rule
+        elastic = self._model.elasticity[rule.owner]
+        strain = np.linalg.solve(elastic, (tau / 2 + self.kept.beside)[:, :, None])[:, :, 0]
+        density = np.einsum("qi,qi->q", tau, strain)
+        stored = self._model.thickness * float(rule.weights @ density)
+        return stored - float(self._force @ state.deformation)
+
+
+def remembered(setup: Setup, old: Setup, kept: KeptStress, after: State, declared: State) -> State:
+    """Return the state whose matter knows of the stress that it keeps."""
+    matter, model = setup.model.matter, setup.model
+    if not isinstance(matter, Matter):
+        return after
+    region = model.manifold.element_region[matter.points.rule.owner]
+    changed = old.region_material[region] != setup.region_material[region]
+    fresh = changed & ~_alike(old, setup)[region]
+    history = {
+        name: np.where(fresh[:, None], declared.history[name], value)
+        if name in declared.history
+        else value
+        for name, value in after.history.items()
+    }
+    own = _places_of(matter.points, kept.points)
+    there = own >= 0
+    total = (kept.stress + kept.beside)[own]
+    strain = np.linalg.solve(matter.elastic, total[:, :, None])[:, :, 0]
+    known = history.get(INITIAL, np.zeros_like(strain))
+    history[INITIAL] = np.where(there[:, None], strain, known)
+    return replace(after, history=history)
+
+
+def _points(model: Model, chosen: Bools) -> StressPoints:
+    return StressPoints.of(model.manifold, chosen)
+
+
+def _initial(setup: Setup, points: StressPoints) -> Floats:
+    if not setup.scene.initial_stresses:
+        return np.zeros((len(points), 3))
+    from nmm.effects.initial.stress_at_start import StressAtStart
+
+    rule = points.rule
+    return StressAtStart.declared(setup).at(setup.model, rule.owner, rule.points)[:, :3]
+
+
+def _former(old: Setup, new: Setup, points: StressPoints, before: State, after: State) -> Floats:
+    """Stress (Q, 3) of the old law, beyond what acts besides, at points of the new model."""
+    region = new.model.manifold.element_region[points.rule.owner]
+    found = _by_region(old, region) @ points.strain(after.deformation)[:, :, None]
+    found, matter = found[:, :, 0], old.model.matter
+    if isinstance(matter, Matter):
+        near = nearest_points(old.model, matter.points, new.model, points)
+        found = np.where(near[:, None] < 0, found, before.history[STRESS][near])
+    return np.asarray(found)
+
+
+def _answer(old: Setup, new: Setup, points: StressPoints, after: State, was: Floats) -> Floats:
+    """Stress (Q, 3) that the new law makes: of elastic strain where it remembers what flowed."""
+    region = new.model.manifold.element_region[points.rule.owner]
+    elastic = np.linalg.solve(_by_region(old, region), was[:, :, None])[:, :, 0]
+    strain = np.where(_alike(old, new)[region, None], elastic, points.strain(after.deformation))
+    return np.asarray((_by_region(new, region) @ strain[:, :, None])[:, :, 0])
+
+
+def _by_region(setup: Setup, region: Ints) -> Floats:
+    """Elasticity (Q, 3, 3) of the materials of regions (Q,)."""
+    model = setup.model
+    matrices = np.array([law.stiffness(model.plane) for law in model.laws])
+    return np.asarray(matrices[setup.region_material[region]])
+
+
+def _alike(old: Setup, new: Setup) -> Bools:
+    """(N,) whether regions have a law of one kind before and after, and remember on."""
+    kinds = [type(law) for law in new.model.laws]
+    pairs = zip(old.region_material, new.region_material, strict=True)
+    return np.array([kinds[one] is kinds[two] for one, two in pairs])
+
+
+def _places_of(points: StressPoints, among: StressPoints) -> Ints:
+    """Return where points (Q,) are ``among`` others of the same manifold; -1 where they are not."""
+    one, other = points.rule.owner, among.rule.owner
+    found = np.full(len(points), -1)
+    found[np.isin(one, other)] = np.flatnonzero(np.isin(other, one))
+    return found
+
+
+def _refuse(setup: Setup) -> None:
+    """Refuse what strain is no matter of small strain, or whose stress is none of points."""
+    if setup.kinematics.finite or setup.model.projected:
+        key = '[rotation] update = "finite"' if setup.kinematics.finite else "[cover] volumetric"
+        raise FormulationError(
+            f"[[stages]] materials with {key}: expected small strains, and volumes that are "
+            'resisted in full: use update = "exact" and volumetric = "full"'
+        )
