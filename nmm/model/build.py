@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from nmm.assembly.kinematics import CLASSICAL, COROTATIONAL, FINITE, SMALL, Kinematics
 from nmm.assembly.model import Model
 from nmm.assembly.motion import initial_state
@@ -36,22 +36,33 @@ WHERE_GIVEN = (
 )
 
 
+Blocks = tuple[tuple[str, ...], Ints]
+"""Names (N,) of blocks and their materials (N,), as the scene counts them."""
+
+
+def named(regions: "Regions") -> Blocks:
+    """Return names and materials of blocks."""
+    return tuple(regions.name), np.asarray(regions.material)
+
+
 def setup_of(
     scene: "Scene",
     formulation: "Formulation",
     geometry: Geometry,
     origin: Floats,
     before: "Cutting | None" = None,
+    blocks: Blocks | None = None,
 ) -> Setup:
     """Return what effects are built from, with a model of all blocks at rest.
 
-    ``before`` is the last cut of the same blocks.
+    ``before`` is the last cut of the same blocks. ``blocks`` are names and materials of the blocks
+    that elements have the numbers of: those of the geometry, unless these are some or pieces.
     """
     model = build_model(scene, formulation, geometry, before)
     start = replace(initial_state(model.manifold), history=model.history())
     if scene.inertia is not None:
         start = replace(start, load_factor=1.0)
-    names, material = tuple(geometry.regions.name), np.asarray(geometry.regions.material)
+    names, material = blocks or named(geometry.regions)
     kinematics = kinematics_of(scene, formulation)
     setup = Setup(
         scene, formulation, model, geometry, names, material, start, origin, kinematics=kinematics
@@ -75,8 +86,8 @@ def kinematics_of(scene: "Scene", formulation: "Formulation") -> Kinematics:
 
 def reshaped(setup: Setup, geometry: Geometry) -> Setup:
     """Return what effects are built from on another geometry of the same blocks."""
-    before = setup.model.cutting
-    new = setup_of(setup.scene, setup.formulation, geometry, setup.origin, before)
+    before, blocks = setup.model.cutting, (setup.region_name, setup.region_material)
+    new = setup_of(setup.scene, setup.formulation, geometry, setup.origin, before, blocks)
     return replace(setup, model=new.model, geometry=geometry, start=new.start)
 
 

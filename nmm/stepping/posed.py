@@ -9,8 +9,6 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from covers.approximation.block_manifold import block_manifold
 from integration.arrays import Floats
 from nmm.assembly.model import Model
@@ -20,7 +18,7 @@ from nmm.geometry.checks.amounts import refuse_many_cells
 from nmm.geometry.regions import regions as build_regions
 from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.integrators.base import Integrator, make_integrator
-from nmm.model.build import block_functions, geometry_of, setup_of
+from nmm.model.build import block_functions, geometry_of, named, setup_of
 from nmm.model.consistency import check_kinematics, check_together
 from nmm.model.discretisation import Discretisation
 from nmm.model.fault_places import placed
@@ -131,14 +129,8 @@ def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) ->
     refuse_many_cells(regions, cover, place)
     regions = replace(regions, material=stage.material)
     geometry = geometry_of(scene, regions.only(stage.present))
-    setup = setup_of(stage.scene, stage.formulation, geometry, origin)
-    whole = replace(
-        setup,
-        region_name=tuple(regions.name),
-        region_material=np.asarray(regions.material),
-        acting=stage.acting,
-    )
-    return Staged(stage, whole, clock=scene.inertia is not None)
+    setup = setup_of(stage.scene, stage.formulation, geometry, origin, blocks=named(regions))
+    return Staged(stage, replace(setup, acting=stage.acting), clock=scene.inertia is not None)
 
 
 def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:

@@ -113,3 +113,48 @@ def test_foundations_keep_what_every_effect_promises(effect):
 
 def test_masses_keep_what_every_effect_promises():
     check_effect_of(nmm.parse_scene(SWING.replace("[inertia]", "[inertia]\n[gravity]")), "masses")
+
+
+STAGED = """
+plane = "strain"
+[materials.rock]
+young_modulus = 1e9
+poisson_ratio = 0.2
+density = 2000
+[gravity]
+acceleration = [0, -10]
+[[blocks]]
+name = "fill"
+material = "rock"
+vertices = [[3, 0], [4, 0], [4, 1], [3, 1]]
+[[blocks]]
+name = "pier"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 2], [0, 2]]
+[[masses]]
+name = "machine"
+point = [0.5, 2]
+block = "pier"
+mass = 500
+[[supports]]
+name = "left"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+[[supports]]
+name = "right"
+segment = [[3, 0], [4, 0]]
+fix = ["x", "y"]
+[[stages]]
+name = "both"
+[[stages]]
+name = "dug"
+remove = ["fill"]
+supports = ["left"]
+"""
+
+
+def test_a_mass_weighs_on_its_block_when_one_listed_before_it_has_left():
+    found = nmm.run(nmm.parse_scene(STAGED))
+    assert found.summary.status == "converged", found.summary.sentence
+    # The pier's 2 m2 of 2000 kg/m3 and the machine; supports are springs to rounding.
+    assert found.history["reaction:left:y"][-1] == pytest.approx((4000 + 500) * 10, rel=1e-9)
