@@ -234,6 +234,7 @@ ELSEWHERE = {
     "fracture": "divides blocks itself",
     "fracture in time": "divides blocks itself",
     "cohesive zones": "divides blocks itself",
+    "changed materials": "of stages",
     "unreleased forces": "of stages, which no event interrupts",
 }
 """Effects that are held to a change of topology by other tests, and where."""

@@ -454,6 +454,10 @@ plane = "strain"
 young_modulus = 1e9
 poisson_ratio = 0.2
 density = 2000
+[materials.weathered]
+young_modulus = 5e8
+poisson_ratio = 0.2
+density = 2000
 [[blocks]]
 name = "ground"
 material = "rock"
@@ -487,6 +491,7 @@ release = 0.5
 [[stages]]
 name = "open"
 release = 1.0
+materials = { ground = "weathered" }
 [formulation.cover]
 type = "quads"
 size = 0.8
