@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
+from typing import Any
 
 from pydantic import Field, PrivateAttr
 
@@ -73,6 +74,11 @@ class Formulation(Frozen):
         return self._source
 
 
+UNSAID = {"loading": ("increment",), "contact": ("max_passes",)}
+"""Keys whose default is not what is done without them: stages come to rest in one increment, and
+every enforcement has passes of its own."""
+
+
 def read_formulation(path: str | Path) -> Formulation:
     """Formulation of a TOML file.
 
@@ -89,6 +95,18 @@ def parse_formulation(text: str, place: str = "formulation") -> Formulation:
     formulation, source = parse(text, Formulation, place, FormulationError)
     formulation._source = source
     return formulation
+
+
+def as_tables(formulation: Formulation) -> dict[str, Any]:
+    """Return the tables that read back as the same formulation, with its defaults.
+
+    Keys that mean something else when they are left out stay left out.
+    """
+    left = {
+        table: {key for key in keys if key not in getattr(formulation, table).model_fields_set}
+        for table, keys in UNSAID.items()
+    }
+    return formulation.model_dump(mode="json", by_alias=True, exclude_none=True, exclude=left)
 
 
 def canonical_text(formulation: Formulation) -> str:

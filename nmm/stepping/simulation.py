@@ -11,7 +11,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.formulation import Formulation, formulation_hash
+from nmm.formulation import Formulation, as_tables, formulation_hash
 from nmm.integrators.base import make_integrator
 from nmm.model.build import reshaped
 from nmm.model.origin import MovedBack
@@ -255,4 +255,9 @@ class Simulation(CompiledScene):
 def _toml(model: "Scene | Formulation") -> str:
     import tomli_w
 
-    return tomli_w.dumps(model.model_dump(mode="json", by_alias=True, exclude_none=True))
+    if isinstance(model, Formulation):
+        return tomli_w.dumps(as_tables(model))
+    tables = model.model_dump(mode="json", by_alias=True, exclude_none=True)
+    if model.formulation is not None:
+        tables["formulation"] = as_tables(model.formulation)
+    return tomli_w.dumps(tables)

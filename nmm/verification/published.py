@@ -8,12 +8,11 @@ import shutil
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from pydantic import Field
 
 from nmm.errors import NmmError
-from nmm.formulation import Formulation, read_formulation
+from nmm.formulation import Formulation, as_tables, read_formulation
 from nmm.results.versions import installed_versions
 from nmm.scene import read_scene
 from nmm.scene.document import parse, read_text
@@ -161,7 +160,7 @@ def publish(
         raise NmmError(f"quantity {lost[0]}: the run has none ({done.summary.sentence})")
     out.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(scene_file, out / SCENE)
-    method: dict[str, Any] = chosen.model_dump(mode="json", exclude_none=True)
+    method = as_tables(chosen)
     (out / FORMULATION).write_text(tomli_w.dumps(method), encoding="utf-8")
     expected = {
         "title": scene.title,

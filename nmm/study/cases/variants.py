@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from nmm.errors import FormulationError, NmmError
-from nmm.formulation import Formulation, read_formulation
+from nmm.formulation import Formulation, as_tables, read_formulation
 from nmm.formulation import canonical_text as formulation_text
 from nmm.scene import Scene, build_scene
 from nmm.scene import canonical_text as scene_text
@@ -71,7 +71,7 @@ def with_settings(case: StudyCase, settings: Mapping[str, Any]) -> StudyCase:
         When a path leads nowhere, or scene or formulation refuses the value.
     """
     tables = case.scene.model_dump(mode="json", by_alias=True, exclude_none=True)
-    method = case.formulation.model_dump(mode="json", exclude_none=True)
+    method = as_tables(case.formulation)
     for path, value in settings.items():
         first, _, rest = path.partition(".")
         if first == "formulation":

@@ -146,6 +146,10 @@ kind = "edge"
 segment = [[0, 0], [0, 1]]
 field = "table"
 [[loads]]
+name = "g"
+kind = "body"
+density = [0, "-1 kN/m^3"]
+[[loads]]
 name = "v"
 kind = "body"
 block = "b"

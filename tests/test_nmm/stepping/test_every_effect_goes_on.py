@@ -1,0 +1,127 @@
+"""Every effect goes on from a checkpoint bit by bit, and over a change of its covers.
+
+Scenes are those whose files are spoilt elsewhere: small ones that together name every table.
+"""
+
+import tomllib
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.errors import NmmError
+from nmm.model.effects_table import EFFECTS, GLUE, called_for
+from nmm.scene import build_scene
+from nmm.stepping.prepare import prepare
+from nmm.verification.hard.spoilt.mutations import sound_files
+
+# Loads that come on in one step are brought on in increments; weight alone has none, and these
+# scenes go on over stages alone. Splitting takes minutes, and goes on beside its own tests.
+INCREMENTS = ("loaded", "zones")
+ONE_STEP = ("cracked", "jointed", "nets", "joints under water", "splitting")
+# A path past the peak stores no checkpoint, nor do searches for a factor of safety.
+WITHOUT = ("softening", "opened", "yielding")
+SCENES = sorted(
+    name
+    for name, (kind, _) in sound_files().items()
+    if kind == "scene" and "/" not in name and name not in WITHOUT
+)
+SLOW = ("pulled", "rolled over", "splitting")
+# What changes its own covers, or says by line that it knows one set of joints.
+OWN_CHANGES = {"fracture", "fracture in time", "cohesive zones", "splitting"}
+REFUSED = {"transient joint flow"}
+
+
+def tables(name):
+    """Return the tables of a scene that stores a checkpoint after each step."""
+    made = tomllib.loads(sound_files()[name][1])
+    made.setdefault("output", {})["checkpoint"] = {"every_steps": 1}
+    if name in INCREMENTS:
+        made["loading"] = {"until": 1.0}
+        made.setdefault("formulation", {})["loading"] = {"increment": 0.25}
+    return made
+
+
+def in_stages(name):
+    """Return the same in two stages, in the second of which cells are other."""
+    made = tables(name)
+    made.pop("loading", None)
+    duration = made.pop("duration", None)
+    cover = made.get("formulation", {}).get("cover", {})
+    stages = [{"name": "first"}, {"name": "second"}]
+    if "size" in cover:
+        stages[1]["cover"] = {"size": 0.8 * cover["size"]}
+    if duration is not None:
+        # 1.2 s and "20 ms" alike
+        seconds = build_scene(tables(name), name).duration
+        stages = [{**one, "duration": seconds / 2} for one in stages]
+    return {**made, "stages": stages}
+
+
+def named(made):
+    """Return the effects that tables name."""
+    scene = build_scene(made, "scene")
+    glue = {GLUE} if "sub_blocks" in str(made.get("formulation")) else set()
+    return {name for name, wanted in called_for(scene).items() if wanted} | glue
+
+
+class StoppedError(Exception):
+    """Stands for a user's Ctrl-C."""
+
+
+def check_goes_on(made, tmp_path):
+    """A run that is stopped past its middle ends as one that was not."""
+    scene = build_scene(made, "scene")
+    whole = nmm.run(scene, out=tmp_path / "whole")
+    left = [max(int(0.6 * whole.summary.steps), 1)]
+
+    def progress(share, said):
+        left[0] -= 1
+        if left[0] < 0:
+            raise StoppedError
+
+    with pytest.raises(StoppedError):
+        nmm.run(scene, out=tmp_path / "half", progress=progress)
+    resumed = nmm.resume(tmp_path / "half")
+    assert resumed.summary.status == whole.summary.status
+    assert np.array_equal(whole.displacement, resumed.displacement)
+    assert list(whole.history) == list(resumed.history)
+    for name, column in whole.history.items():
+        assert np.array_equal(column, resumed.history[name], equal_nan=True), name
+    return whole
+
+
+def posed(made):
+    scene = build_scene(made, "scene")
+    return prepare(scene, scene.formulation)
+
+
+def marked(names):
+    return [pytest.param(n, marks=pytest.mark.slow) if n in SLOW else n for n in names]
+
+
+@pytest.mark.parametrize("name", marked(n for n in SCENES if n not in ONE_STEP))
+def test_a_run_goes_on_from_a_checkpoint_bit_by_bit(name, tmp_path):
+    check_goes_on(tables(name), tmp_path)
+
+
+STAGED = [name for name in SCENES if name not in ("creeping", "staged")]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("name", marked(STAGED))
+def test_a_run_goes_on_over_a_change_of_covers_bit_by_bit_or_is_refused_by_line(name, tmp_path):
+    made = in_stages(name)
+    if named(tables(name)) & (OWN_CHANGES | REFUSED):
+        with pytest.raises(NmmError, match=r"scene: .*stages"):
+            posed(made)
+        return
+    whole = check_goes_on(made, tmp_path)
+    assert whole.summary.status == "converged", whole.summary.sentence
+
+
+def test_together_the_scenes_name_every_effect():
+    """Those that are missing here are stopped and gone on with beside their own tests."""
+    elsewhere = {"changed materials", "unreleased forces", "fracture in time"}
+    found = set().union(*(named(tables(name)) for name in SCENES))
+    assert set(EFFECTS.table) - found == elsewhere
