@@ -6,7 +6,7 @@ their forces; here both are handed what the last accepted step left.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Self
 
 from scipy.sparse import csr_array
@@ -17,28 +17,24 @@ from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.candidates.candidates import Candidates
-from nmm.contact.candidates.succession import succeeding
-from nmm.contact.detection.crossing import Motion
 from nmm.contact.detection.narrow_phase import Contacts
-from nmm.contact.following.path_equation import PathEquation
-from nmm.contact.following.path_solution import path_solution
-from nmm.contact.following.release import let_go
 from nmm.contact.laws.failing_bonds import overload
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import follow_joints
-from nmm.contact.points.on_faces import on_faces
-from nmm.contact.problem.step_problem import Limits, StepAnswer
-from nmm.contact.solution.driver import ContactSolver
 from nmm.contact.solution.geometry import ContactGeometry
-from nmm.contact.solution.momentum import Momentum
 from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
-from nmm.contact.solution.request import StepRequest
 from nmm.contact.solution.step_bonds import StepBonds
-from nmm.contact.solution.steps import ContactSteps
 from nmm.effects.base import Effect, Setup
 from nmm.effects.contact_parts import ContactParts, contact_parts
 
 if TYPE_CHECKING:
+    from nmm.contact.detection.crossing import Motion
+    from nmm.contact.following.path_equation import PathEquation
+    from nmm.contact.problem.step_problem import Limits, StepAnswer
+    from nmm.contact.solution.driver import ContactSolver
+    from nmm.contact.solution.momentum import Momentum
+    from nmm.contact.solution.request import StepRequest
+    from nmm.contact.solution.steps import ContactSteps
     from nmm.effects.change import Change
 
 
@@ -55,7 +51,8 @@ class Contact(Effect):
     laws, partners
         Which laws act, and which points may meet.
     geometry, momentum, solver
-        Rows of contact points, what keeps momentum, and the solver of a problem.
+        Rows of contact points, what keeps momentum, and the solver of a problem;
+        what solves is made in the first step.
     steps
         What puts the problem of a step together and solves it.
     """
@@ -81,12 +78,7 @@ class Contact(Effect):
         self.laws.refuse_soft(book.points.take(~book.points.tied))
         self.record, self._unbonded = ContactRecord(book), book.broken
         self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.trace_space)
-        self.momentum = Momentum(model, sides, parts.held, self.geometry.curved)
-        compliance = self.momentum.compliance
-        self.solver = ContactSolver.of(model, self.laws, parts.enforcement, compliance)
-        self.steps = ContactSteps(
-            self.laws, self.geometry, self._bonds, self.solver, self.partners.surface
-        )
+        self._model, self._parts = model, parts
         self._candidates = Candidates(self.partners, self.laws, self.geometry)
         self._found: Contacts | None = None
 
@@ -95,8 +87,34 @@ class Contact(Effect):
         """See `Effect.from_setup`."""
         return cls(setup.model, contact_parts(setup), setup.start)
 
+    @cached_property
+    def momentum(self) -> "Momentum":
+        """Inertia of the bodies as contact needs it."""
+        from nmm.contact.solution.momentum import Momentum
+
+        curved = self.geometry.curved
+        return Momentum(self._model, self.partners.sides, self._parts.held, curved)
+
+    @cached_property
+    def solver(self) -> "ContactSolver":
+        """What solves the contacts of a step."""
+        from nmm.contact.solution.driver import ContactSolver
+
+        enforcement, compliance = self._parts.enforcement, self.momentum.compliance
+        return ContactSolver.of(self._model, self.laws, enforcement, compliance)
+
+    @cached_property
+    def steps(self) -> "ContactSteps":
+        """What puts the problem of a step together."""
+        from nmm.contact.solution.steps import ContactSteps
+
+        surface = self.partners.surface
+        return ContactSteps(self.laws, self.geometry, self._bonds, self.solver, surface)
+
     def follow(self, change: "Change") -> "Contact":
         """Return the contact of the new model: joints and contacts go on."""
+        from nmm.contact.candidates.succession import succeeding
+
         new = type(self).from_setup(change.setup)
         new.record = succeeding(
             self.record,
@@ -122,9 +140,11 @@ class Contact(Effect):
         return points
 
     def solve_path(
-        self, contacts: ContactPoints, state: State, request: StepRequest, path: PathEquation
+        self, contacts: ContactPoints, state: State, request: "StepRequest", path: "PathEquation"
     ) -> tuple[ContactSolution, float]:
         """Solve a step along a path; return it and by how much the load factor changes."""
+        from nmm.contact.following.path_solution import path_solution
+
         rows = self.geometry.rows(contacts, state)
         tied = self._bonds.tied(contacts, state, rows, request.weight, request.time)
         mixed = self._bonds.mixed(contacts, state, request.time)
@@ -160,10 +180,12 @@ class Contact(Effect):
 
         Return by how much they hold less energy from then on (J), but for those that broke.
         """
+        from nmm.contact.following.release import let_go
+
         self.record, shed = let_go(self.record, self.laws, solved, gone)
         return shed
 
-    def overlooked(self, contacts: ContactPoints, motion: Motion) -> tuple[Ints, Ints] | None:
+    def overlooked(self, contacts: ContactPoints, motion: "Motion") -> tuple[Ints, Ints] | None:
         """Return pairs that crossed and were no contacts; see `Candidates.overlooked`."""
         return self._candidates.overlooked(self.record, contacts, motion)
 
@@ -223,7 +245,7 @@ class Contact(Effect):
         """Number of joint points whose bond is broken."""
         return self.record.book.broken - self._unbonded
 
-    def near(self, state: State, reach: float) -> tuple[tuple[csr_array, csr_array], Limits]:
+    def near(self, state: State, reach: float) -> "tuple[tuple[csr_array, csr_array], Limits]":
         """Return rows and strength of contacts that bonds hold or that are open by ``reach``."""
         return self._candidates.near(self.record, state, reach)
 
@@ -235,6 +257,8 @@ class Contact(Effect):
 
     def pushes(self, state: State) -> Pushes:
         """See `Effect.pushes`: those on faces of cracks, as last committed."""
+        from nmm.contact.points.on_faces import on_faces
+
         return on_faces(self.geometry.model, self.standing)
 
     def feel(self, stresses: Sequence[StressAt]) -> None:

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.registry import Registry
 
 if TYPE_CHECKING:
     from nmm.contact.iteration.memory import Memory
+    from nmm.contact.problem.step_problem import StepAnswer, StepProblem
     from nmm.solvers.linear import LinearSolver
 
 
@@ -41,8 +41,8 @@ class Enforcement(ABC):
 
     @abstractmethod
     def solve(
-        self, problem: StepProblem, linear_solver: "LinearSolver", memory: "Memory | None" = None
-    ) -> StepAnswer:
+        self, problem: "StepProblem", linear_solver: "LinearSolver", memory: "Memory | None" = None
+    ) -> "StepAnswer":
         """Find unknowns and contact forces of one step.
 
         Parameters

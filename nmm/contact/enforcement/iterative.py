@@ -2,23 +2,19 @@
 
 from abc import abstractmethod
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from nmm.contact.enforcement.base import Enforcement
-from nmm.contact.iteration.answers import answer, singular_answer
-from nmm.contact.iteration.interior_point import Goal
-from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.multiplier_rounds import (
-    MultiplierIterate,
-    exact_goal,
-    rounds_verdict,
-    stiff_springs,
-)
 from nmm.contact.iteration.options import IterationOptions
-from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.errors import SolveError
 from nmm.registry import above_zero
-from nmm.solvers.linear import LinearSolver
+
+if TYPE_CHECKING:
+    from nmm.contact.iteration.interior_point import Goal
+    from nmm.contact.iteration.memory import Memory
+    from nmm.contact.iteration.multiplier_rounds import MultiplierIterate
+    from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+    from nmm.solvers.linear import LinearSolver
 
 
 @dataclass(frozen=True)
@@ -34,8 +30,10 @@ class IterativeEnforcement(Enforcement):
 
     iterations: IterationOptions = field(default_factory=IterationOptions, kw_only=True)
 
-    def memory(self) -> Memory:
+    def memory(self) -> "Memory":
         """See `Enforcement.memory`."""
+        from nmm.contact.iteration.memory import Memory
+
         return Memory(options=self.iterations.memory)
 
 
@@ -58,8 +56,8 @@ class ExactEnforcement(IterativeEnforcement):
 
     @abstractmethod
     def forces(
-        self, problem: StepProblem, linear: LinearSolver, memory: Memory, goal: Goal
-    ) -> tuple[MultiplierIterate, str]:
+        self, problem: "StepProblem", linear: "LinearSolver", memory: "Memory", goal: "Goal"
+    ) -> "tuple[MultiplierIterate, str]":
         """Forces within ``goal`` or the best found, and how they were found.
 
         Raises
@@ -69,9 +67,16 @@ class ExactEnforcement(IterativeEnforcement):
         """
 
     def solve(
-        self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
-    ) -> StepAnswer:
+        self, problem: "StepProblem", linear_solver: "LinearSolver", memory: "Memory | None" = None
+    ) -> "StepAnswer":
         """Find admissible forces that balance the step with complementary gaps."""
+        from nmm.contact.iteration.answers import answer, singular_answer
+        from nmm.contact.iteration.multiplier_rounds import (
+            exact_goal,
+            rounds_verdict,
+            stiff_springs,
+        )
+
         problem.check()
         memory = memory or self.memory()
         goal = exact_goal(problem, self.tolerance, self.gap_tolerance)

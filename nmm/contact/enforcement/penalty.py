@@ -1,33 +1,16 @@
 """Penalty springs and Shi's open-close iteration."""
 
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
-import numpy as np
-
-from integration.arrays import Floats
 from nmm.contact.enforcement.iterative import IterativeEnforcement
-from nmm.contact.iteration.answers import spring_answer
-from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.open_close import (
-    ActiveSet,
-    changes,
-    first_active_set,
-    forces,
-    next_active_set,
-    words,
-)
-from nmm.contact.problem.balance import relative_residual, weights
-from nmm.contact.problem.coulomb import label, project, shear_bound
-from nmm.contact.problem.cut_springs import CutSprings
-from nmm.contact.problem.matrix_pattern import SpringPattern
-from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
-from nmm.errors import FormulationError, SolveError
+from nmm.errors import FormulationError
 from nmm.registry import above_zero
-from nmm.solvers.linear import LinearSolver
 
-REMEDY = "allow more passes, shorten the step or use the cone enforcement"
+if TYPE_CHECKING:
+    from nmm.contact.iteration.memory import Memory
+    from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+    from nmm.solvers.linear import LinearSolver
 
 
 @dataclass(frozen=True)
@@ -66,156 +49,18 @@ class Penalty(IterativeEnforcement):
             )
 
     def solve(
-        self, problem: StepProblem, linear_solver: LinearSolver, memory: Memory | None = None
-    ) -> StepAnswer:
+        self, problem: "StepProblem", linear_solver: "LinearSolver", memory: "Memory | None" = None
+    ) -> "StepAnswer":
         """Find the forces of the springs."""
         problem.check()
         memory = memory or self.memory()
         if self.iteration == "open_close":
-            return _OpenClose(self, problem, linear_solver, memory.pattern_of(problem)).run()
-        return spring_answer(
-            CutSprings.of(problem), linear_solver, memory, self.tolerance, self.iterations
-        )
+            from nmm.contact.enforcement.open_close_passes import OpenClosePasses
 
+            limits, pattern = (self.max_passes, self.tolerance), memory.pattern_of(problem)
+            return OpenClosePasses(*limits, problem, linear_solver, pattern).run()
+        from nmm.contact.iteration.answers import spring_answer
+        from nmm.contact.problem.cut_springs import CutSprings
 
-class _OpenClose:
-    """One run of the iteration: the trail of states and what the last pass found."""
-
-    def __init__(
-        self,
-        options: Penalty,
-        problem: StepProblem,
-        linear: LinearSolver,
-        pattern: SpringPattern,
-    ) -> None:
-        self.options, self.problem, self.linear = options, problem, linear
-        self.pattern = pattern
-        self.weight = weights(problem)
-        self.trail: list[ActiveSet] = []
-        self.increment = np.zeros_like(problem.force)
-        self.factorisations = 0
-
-    def run(self) -> StepAnswer:
-        springs = first_active_set(self.problem)
-        friction_from = self.problem.normal_force
-        factor, stiff = None, b""
-        for _ in range(self.options.max_passes):
-            self.trail.append(springs)
-            normal, shear = _stiffness(self.problem, springs)
-            key = normal.tobytes() + shear.tobytes()
-            try:
-                if factor is None or key != stiff:
-                    matrix = self.pattern.matrix(self.problem, normal, shear)
-                    factor, stiff = self.linear.factorise(matrix), key
-                    self.factorisations += 1
-                constant = _constant_forces(self.problem, springs, friction_from)
-                rhs = self._load(normal, shear, *constant)
-                self.increment = factor.solve(rhs)
-            except SolveError as fault:
-                if len(self.trail) == 1 and not springs.closed.all():
-                    springs = ActiveSet(np.ones_like(springs.closed), springs.sliding, springs.sign)
-                    continue
-                return self._answer(springs, self._singular(springs, fault))
-            gap, slip = self.problem.gaps(self.increment), self.problem.slips(self.increment)
-            found = next_active_set(self.problem, springs, gap, slip)
-            friction_from = np.minimum(
-                self.problem.normal_stiffness * gap, self.problem.limits.tension
-            )
-            if not changes(self.problem, springs, found).any():
-                answer = self._answer(springs, None)
-                if answer.verdict.converged:
-                    return answer
-            springs = found
-        self.trail.append(springs)
-        return self._answer(self.trail[-2], self._unsettled())
-
-    def _load(self, kn: Floats, kt: Floats, normal: Floats, shear: Floats) -> Floats:
-        p = self.problem
-        at_normal = p.normal_rows.T @ (kn * p.gap + normal)
-        return np.asarray(p.force - at_normal - p.tangent_rows.T @ (kt * p.slip + shear))
-
-    def _answer(self, springs: ActiveSet, verdict: Verdict | None) -> StepAnswer:
-        p = self.problem
-        gap, slip = p.gaps(self.increment), p.slips(self.increment)
-        normal, shear = forces(p, springs, gap, slip)
-        residual = relative_residual(p, self.weight, self.increment, normal, shear)
-        passes = len(self.trail) - (verdict is not None and verdict.code in ("cycle", "passes"))
-        if verdict is None:
-            good = residual <= self.options.tolerance and self._admissible(normal, shear, gap, slip)
-            verdict = Verdict(good, "converged", f"contact states settled in {passes} passes")
-        held = (springs.closed | (p.limits.tension > 0)) & (p.shear_stiffness > 0)
-        elastic = np.divide(shear, p.shear_stiffness, out=np.zeros_like(shear), where=held)
-        return StepAnswer(
-            increment=self.increment,
-            normal_force=normal,
-            shear_force=shear,
-            gap=gap,
-            slip=elastic,
-            state=label(p, ~springs.closed, springs.sliding),
-            passes=passes,
-            residual=residual,
-            verdict=verdict,
-            factorisations=self.factorisations,
-            solver=self.linear.name,
-        )
-
-    def _admissible(self, normal: Floats, shear: Floats, gap: Floats, slip: Floats) -> bool:
-        p = self.problem
-        meant = project(p.normal_stiffness * gap, p.shear_stiffness * slip, p.limits)
-        size = max(float(np.abs(force).max(initial=0.0)) for force in meant)
-        miss = np.abs(np.stack(meant) - np.stack([normal, shear])).max(initial=0.0)
-        return bool(miss <= 1e-9 * size)
-
-    def _singular(self, springs: ActiveSet, fault: SolveError) -> Verdict:
-        n_open = int((~springs.closed).sum())
-        sentence = (
-            f"pass {len(self.trail)}: {n_open} of {self.problem.n_contacts} contacts open and "
-            f"nothing else holds a part: {fault}"
-        )
-        return Verdict(False, "singular", sentence)
-
-    def _unsettled(self) -> Verdict:
-        codes = [springs.code for springs in self.trail]
-        last = len(codes) - 1
-        first = max((i for i in range(last - 1) if codes[i] == codes[last]), default=None)
-        changing = np.flatnonzero(changes(self.problem, self.trail[-2], self.trail[-1]))
-        if first is None or not changing.size:
-            tail = f"{changing.size} of {self.problem.n_contacts} contacts changed in pass {last}"
-            if not changing.size:
-                tail = "states stood still but friction had not settled"
-            sentence = f"not settled after {last} passes: {tail}; allow more passes, shorten"
-            where = tuple(int(i) for i in changing)
-            return Verdict(
-                False, "passes", f"{sentence} the step or use the cone enforcement", where
-            )
-        cycle = self.trail[first:]
-        moved = np.zeros(self.problem.n_contacts, dtype=bool)
-        for old, new in pairwise(cycle):
-            moved |= changes(self.problem, old, new)
-        who = np.flatnonzero(moved)
-        named = "; ".join(f"contact {i} {_story(cycle, int(i))}" for i in who[:5])
-        more = f" and {who.size - 5} more" if who.size > 5 else ""
-        sentence = (
-            f"the contact state cycled between passes {first + 1} and {last + 1}: {named}{more}; "
-            f"{REMEDY}"
-        )
-        return Verdict(False, "cycle", sentence, tuple(int(i) for i in who))
-
-
-def _stiffness(problem: StepProblem, springs: ActiveSet) -> tuple[Floats, Floats]:
-    normal = np.where(springs.closed, problem.normal_stiffness, 0.0)
-    sticks = ~springs.sliding & (springs.closed | (problem.limits.tension > 0))
-    return normal, np.where(sticks, problem.shear_stiffness, 0.0)
-
-
-def _constant_forces(
-    problem: StepProblem, springs: ActiveSet, normal: Floats
-) -> tuple[Floats, Floats]:
-    held = np.where(springs.closed, 0.0, problem.limits.tension)
-    bound = shear_bound(np.where(springs.closed, normal, held), springs.closed, problem.limits)
-    return held, np.where(springs.sliding, springs.sign * bound, 0.0)
-
-
-def _story(cycle: list[ActiveSet], contact: int) -> str:
-    seen = dict.fromkeys(words(springs, contact) for springs in cycle)
-    return "/".join(seen)
+        springs = CutSprings.of(problem)
+        return spring_answer(springs, linear_solver, memory, self.tolerance, self.iterations)
