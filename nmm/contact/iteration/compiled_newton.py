@@ -13,6 +13,7 @@ from nmm.contact.problem.residual_kernel import SpringColumns, residual
 from nmm.solvers.anderson import add_step, mixed_step
 from nmm.solvers.frontal.frontal_factor import FrontalFactor
 from nmm.solvers.frontal.numbers import substitution
+from nmm.solvers.frontal.numbers.blas import Outside
 from nmm.solvers.linear import Factor
 from nmm.solvers.threads import OneThread
 
@@ -70,7 +71,7 @@ def loop(
     patience: tuple[float, float, int],
     steer: tuple[int, float],
     scale: Floats,
-    outside: substitution.Outside,
+    outside: Outside,
     plan: substitution.Inside,
     springs: SpringColumns,
 ) -> tuple[Floats, Floats, float, int]:

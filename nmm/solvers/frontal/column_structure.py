@@ -11,9 +11,7 @@ from nmm.solvers.kernels.ascending import ascend, extended
 def elimination_tree(ptr: Index, graph: Index, order: Ints) -> tuple[Ints, Ints]:
     """Return the parent (n,) of every node of an order, -1 at roots, and a postorder (n,)."""
     n = len(order)
-    place = np.empty(n, dtype=np.int64)
-    for k in range(n):
-        place[order[k]] = k
+    place = _places(order)
     parent = np.full(n, -1)
     ancestor = np.full(n, -1)
     for k in range(n):
@@ -25,7 +23,23 @@ def elimination_tree(ptr: Index, graph: Index, order: Ints) -> tuple[Ints, Ints]
                 if above == -1:
                     parent[i] = k
                 i = above
-    head = np.full(n, -1)
+    return parent, _postorder(parent)
+
+
+@compiled
+def _places(order: Ints) -> Ints:
+    """Where each node stands in an order."""
+    place = np.empty(len(order), dtype=np.int64)
+    for k in range(len(order)):
+        place[order[k]] = k
+    return place
+
+
+@compiled
+def _postorder(parent: Ints) -> Ints:
+    """Nodes of a forest, each after its children, which are taken in ascending order."""
+    n = len(parent)
+    head = np.full(n, -1)  # first child, then the next that is not visited
     following = np.full(n, -1)
     for k in range(n - 1, -1, -1):
         if parent[k] >= 0:
@@ -50,16 +64,14 @@ def elimination_tree(ptr: Index, graph: Index, order: Ints) -> tuple[Ints, Ints]
                 post[count] = node
                 count += 1
                 top -= 1
-    return parent, post
+    return post
 
 
 @compiled
 def structures(ptr: Index, graph: Index, order: Ints, parent: Ints) -> tuple[Ints, Ints]:
     """Rows below every node in the factor, ascending."""
     n = len(order)
-    place = np.empty(n, dtype=np.int64)
-    for k in range(n):
-        place[order[k]] = k
+    place = _places(order)
     head = np.full(n, -1)
     following = np.full(n, -1)
     start = np.zeros(n + 1, dtype=np.int64)

@@ -13,7 +13,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats, Index, Ints
 from nmm.solvers.frontal.elimination import Fronts
 from nmm.solvers.frontal.numbers import fronts, inverted, substitution
-from nmm.solvers.frontal.numbers.blas import addresses, words
+from nmm.solvers.frontal.numbers.blas import Outside, addresses, words
 from nmm.solvers.frontal.numbers.workspace import Loan
 from nmm.solvers.threads import OneThread
 
@@ -28,7 +28,7 @@ piles and slopes with springs of 10 E have 2e-3 and more, and keep six digits of
 LARGE = 200_000
 """Numbers of a factor from which reading half of them is quicker: about a core's own cache. Walls
 of 100 blocks have a quarter of it, of 1 000 five times as many."""
-ForLoops = tuple[substitution.Outside, substitution.Inside]
+ForLoops = tuple[Outside, substitution.Inside]
 """What compiled loops hand to `substitution.solve` before and after the right-hand side."""
 NO_SWAPS = np.empty(0, dtype=np.int32)
 
@@ -135,7 +135,7 @@ class FrontalFactor:
         single = panels.dtype == np.float32
         kernels = addresses(*(SINGLE_INVERTING if single else INVERTING))
         with OneThread():
-            inverted.invert(kernels, words(single), first, row_start, panel_start, panels)
+            inverted.invert((kernels, *words(single)), first, row_start, panel_start, panels)
         return loan, panels
 
     @property
@@ -150,8 +150,7 @@ class FrontalFactor:
         plan, stack = self.plan, Loan(self.plan.stack_size)
         with OneThread():
             bad = fronts.factorise(
-                addresses(*self._kernels),
-                *words(),
+                (addresses(*self._kernels), *words()),
                 matrix.data,
                 *places,
                 plan.n_children,

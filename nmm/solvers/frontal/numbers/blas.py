@@ -15,6 +15,8 @@ LETTERS, SCALARS = np.frombuffer(b"LNRTU", dtype=np.uint8), np.array([1.0, -1.0,
 ARGUMENTS = 5, 6, 8, 10, 11, 13
 """How many the kernels take."""
 SINGLES = SCALARS.astype(np.float32)
+Outside = tuple[Ints, npt.NDArray[np.uint8], Index, npt.NDArray[Any]]
+"""Addresses of kernels, and room for the letters, sizes and numbers they take."""
 
 
 @cache

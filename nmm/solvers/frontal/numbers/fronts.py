@@ -7,20 +7,17 @@ whether there is room for exchanges, ``swaps``; the two share all that runs over
 """
 
 import numpy as np
-import numpy.typing as npt
 
 from integration.arrays import Floats, Index, Ints
 from nmm.compiled import compiled
 from nmm.solvers.frontal.numbers import blas
+from nmm.solvers.frontal.numbers.blas import Outside
 from nmm.solvers.frontal.numbers.extend_add import collect_lower, collect_whole, runs
 
 
 @compiled
 def factorise(
-    kernels: Ints,
-    letters: npt.NDArray[np.uint8],
-    sizes: Index,
-    scalars: Floats,
+    outside: Outside,
     data: Floats,
     source: Ints,
     target: Ints,
@@ -47,17 +44,10 @@ def factorise(
     local = np.empty(first[-1], dtype=np.int64)
     start = np.empty(first[-1], dtype=np.int64)
     shift = np.empty(first[-1], dtype=np.int64)
-    at = letters.ctypes.data
-    low, plain, right, turned, high = at, at + 1, at + 2, at + 3, at + 4
-    n_c = sizes.ctypes.data
-    n_r, n_h, info = n_c + 4, n_c + 8, n_c + 12
-    one = scalars.ctypes.data
-    minus = one + 8
     for s in range(count):
         c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
         panel = panels[panel_start[s] : panel_start[s + 1]]
         beside = panel[:0] if symmetric else panels[beside_start[s] : beside_start[s + 1]]
-        swap = swaps[:0] if symmetric else swaps[first[s] : first[s + 1]]
         update = stack[base[n_held] : base[n_held] + r * r]
         update[:] = 0.0
         for k in range(c):
@@ -74,34 +64,13 @@ def factorise(
                 collect_lower(panel, update, part, c, r, size, start, shift, n_runs)
             else:
                 collect_whole(panel, beside, update, part, c, r, size, start, shift, n_runs)
-        sizes[0], sizes[1], sizes[2] = c, r, c + r
-        block = panel.ctypes.data
         if symmetric:
-            blas.call5(kernels[0], (low, n_c, block, n_h, info))
+            bad = _cholesky(outside, c, r, panel, update)
         else:
-            blas.call6(kernels[0], (n_c, n_c, block, n_h, swap.ctypes.data, info))
-        if sizes[3] != 0:
-            return int(first[s] + sizes[3] - 1)
+            bad = _lu(outside, c, r, panel, beside, swaps[first[s] : first[s + 1]], update)
+        if bad != 0:
+            return int(first[s] + bad - 1)
         if r > 0:
-            left, new = panel[c:].ctypes.data, update.ctypes.data
-            if symmetric:
-                blas.call11(
-                    kernels[1], (right, low, turned, plain, n_r, n_c, one, block, n_h, left, n_h)
-                )
-                blas.call10(kernels[2], (low, plain, n_r, n_c, minus, left, n_h, one, new, n_r))
-            else:
-                _exchange(beside, swap, r)
-                top = beside.ctypes.data
-                blas.call11(
-                    kernels[1], (right, high, plain, plain, n_r, n_c, one, block, n_h, left, n_h)
-                )
-                blas.call11(
-                    kernels[1], (right, low, turned, high, n_r, n_c, one, block, n_h, top, n_r)
-                )
-                blas.call13(
-                    kernels[2],
-                    (plain, turned, n_r, n_r, n_c, minus, left, n_h, top, n_r, one, new, n_r),
-                )
             place = base[n_held]
             if n_children[s] > 0:
                 for k in range(r * r):  # down to where the children's updates were
@@ -110,6 +79,46 @@ def factorise(
             n_held += 1
             base[n_held] = place + r * r
     return -1
+
+
+@compiled
+def _cholesky(outside: Outside, c: int, r: int, panel: Floats, update: Floats) -> int:
+    """Factorise a front of ``c`` pivots over ``r`` rows; its pivot that will not do, else 0."""
+    kernels, letters, sizes, scalars = outside
+    at, n_c, one = letters.ctypes.data, sizes.ctypes.data, scalars.ctypes.data
+    low, plain, right, turned = at, at + 1, at + 2, at + 3
+    n_r, n_h, info, minus = n_c + 4, n_c + 8, n_c + 12, one + 8
+    sizes[0], sizes[1], sizes[2] = c, r, c + r
+    block = panel.ctypes.data
+    blas.call5(kernels[0], (low, n_c, block, n_h, info))
+    if sizes[3] == 0 and r > 0:
+        left, new = panel[c:].ctypes.data, update.ctypes.data
+        blas.call11(kernels[1], (right, low, turned, plain, n_r, n_c, one, block, n_h, left, n_h))
+        blas.call10(kernels[2], (low, plain, n_r, n_c, minus, left, n_h, one, new, n_r))
+    return int(sizes[3])
+
+
+@compiled
+def _lu(
+    outside: Outside, c: int, r: int, panel: Floats, beside: Floats, swap: Index, update: Floats
+) -> int:
+    """Do the same for ``L U``, with rows exchanged among the pivots."""
+    kernels, letters, sizes, scalars = outside
+    at, n_c, one = letters.ctypes.data, sizes.ctypes.data, scalars.ctypes.data
+    low, plain, right, turned, high = at, at + 1, at + 2, at + 3, at + 4
+    n_r, n_h, info, minus = n_c + 4, n_c + 8, n_c + 12, one + 8
+    sizes[0], sizes[1], sizes[2] = c, r, c + r
+    block = panel.ctypes.data
+    blas.call6(kernels[0], (n_c, n_c, block, n_h, swap.ctypes.data, info))
+    if sizes[3] == 0 and r > 0:
+        _exchange(beside, swap, r)
+        left, top, new = panel[c:].ctypes.data, beside.ctypes.data, update.ctypes.data
+        blas.call11(kernels[1], (right, high, plain, plain, n_r, n_c, one, block, n_h, left, n_h))
+        blas.call11(kernels[1], (right, low, turned, high, n_r, n_c, one, block, n_h, top, n_r))
+        blas.call13(
+            kernels[2], (plain, turned, n_r, n_r, n_c, minus, left, n_h, top, n_r, one, new, n_r)
+        )
+    return int(sizes[3])
 
 
 @compiled

@@ -11,22 +11,22 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from integration.arrays import Index, Ints
+from integration.arrays import Ints
 from nmm.compiled import compiled, place
 from nmm.solvers.frontal.numbers import blas
+from nmm.solvers.frontal.numbers.blas import Outside
 
 
 @compiled
 def invert(
-    kernels: Ints,
-    outside: tuple[npt.NDArray[np.uint8], Index, npt.NDArray[Any]],
+    outside: Outside,
     first: Ints,
     row_start: Ints,
     panel_start: Ints,
     panels: npt.NDArray[Any],
 ) -> None:
     """Put inverses in the place of pivot blocks; kernels are trtri and trsm."""
-    letters, sizes, scalars = outside
+    kernels, letters, sizes, scalars = outside
     at, n_c, one = letters.ctypes.data, sizes.ctypes.data, scalars.ctypes.data
     low, plain, right = at, at + 1, at + 2
     n_r, n_h, info = n_c + 4, n_c + 8, n_c + 12
@@ -47,7 +47,7 @@ def invert(
 
 @compiled
 def multiply(
-    outside: tuple[Ints, npt.NDArray[np.uint8], Index, npt.NDArray[Any]],
+    outside: Outside,
     first: Ints,
     row_start: Ints,
     rows: Ints,

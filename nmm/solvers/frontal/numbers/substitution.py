@@ -8,10 +8,9 @@ import numpy.typing as npt
 from integration.arrays import Floats, Index, Ints
 from nmm.compiled import compiled, place
 from nmm.solvers.frontal.numbers import blas
+from nmm.solvers.frontal.numbers.blas import Outside
 from nmm.solvers.frontal.numbers.inverted import multiply
 
-Outside = tuple[Ints, npt.NDArray[np.uint8], Index, npt.NDArray[Any]]
-"""Addresses of kernels, and room for the letters, sizes and numbers they take."""
 Inside = tuple[Ints, Ints, Ints, Ints, Ints, Ints, npt.NDArray[Any], Index, bool]
 """A plan and the numbers of a factor on it, as `solve` takes them; whether pivots are inverted."""
 
@@ -42,19 +41,25 @@ def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> No
 @compiled
 def substitute(outside: Outside, inside: Inside, x: npt.NDArray[Any]) -> None:
     """Turn an ordered load ``x`` (n,) into its solution."""
+    work = np.empty(len(x), dtype=x.dtype)
+    _forwards(outside, inside, x, work)
+    _backwards(outside, inside, x, work)
+
+
+@compiled
+def _forwards(
+    outside: Outside, inside: Inside, x: npt.NDArray[Any], work: npt.NDArray[Any]
+) -> None:
     kernels, letters, sizes, scalars = outside
-    _, first, row_start, rows, panel_start, beside_start, panels, swaps, _ = inside
-    count, symmetric = len(first) - 1, len(swaps) == 0
-    work = np.empty(len(x), dtype=panels.dtype)
-    at = letters.ctypes.data
-    low, plain, turned, high = at, at + 1, at + 3, at + 4
-    n_c = sizes.ctypes.data
+    _, first, row_start, rows, panel_start, _, panels, swaps, _ = inside
+    at, n_c, one = letters.ctypes.data, sizes.ctypes.data, scalars.ctypes.data
+    low, plain, high = at, at + 1, at + 4
     n_r, n_h, step = n_c + 4, n_c + 8, n_c + 12
-    sizes[3] = 1
-    one = scalars.ctypes.data
     minus, zero = one + scalars.itemsize, one + 2 * scalars.itemsize
-    ends = work.ctypes.data
-    for s in range(count):
+    symmetric, ends = len(swaps) == 0, work.ctypes.data
+    diagonal = plain if symmetric else high  # that of L is ones in LU
+    sizes[3] = 1
+    for s in range(len(first) - 1):
         c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
         sizes[0], sizes[1], sizes[2] = c, r, c + r
         if not symmetric:
@@ -62,10 +67,7 @@ def substitute(outside: Outside, inside: Inside, x: npt.NDArray[Any]) -> None:
                 other = first[s] + swaps[k] - 1
                 x[k], x[other] = x[other], x[k]
         own, block = x[first[s] :].ctypes.data, panels[panel_start[s] :].ctypes.data
-        if symmetric:
-            blas.call8(kernels[3], (low, plain, plain, n_c, block, n_h, own, step))
-        else:  # the diagonal of L is ones
-            blas.call8(kernels[3], (low, plain, high, n_c, block, n_h, own, step))
+        blas.call8(kernels[3], (low, plain, diagonal, n_c, block, n_h, own, step))
         if r > 0:
             left = panels[panel_start[s] + c :].ctypes.data
             blas.call11(
@@ -73,23 +75,34 @@ def substitute(outside: Outside, inside: Inside, x: npt.NDArray[Any]) -> None:
             )
             for k in range(r):
                 x[place(rows[row_start[s] + k])] += work[k]
-    for s in range(count - 1, -1, -1):
+
+
+@compiled
+def _backwards(
+    outside: Outside, inside: Inside, x: npt.NDArray[Any], work: npt.NDArray[Any]
+) -> None:
+    kernels, letters, sizes, scalars = outside
+    _, first, row_start, rows, panel_start, beside_start, panels, swaps, _ = inside
+    at, n_c, one = letters.ctypes.data, sizes.ctypes.data, scalars.ctypes.data
+    low, plain, turned, high = at, at + 1, at + 3, at + 4
+    n_r, n_h, step, minus = n_c + 4, n_c + 8, n_c + 12, one + scalars.itemsize
+    symmetric, ends = len(swaps) == 0, work.ctypes.data
+    sizes[3] = 1
+    for s in range(len(first) - 2, -1, -1):
         c, r = first[s + 1] - first[s], row_start[s + 1] - row_start[s]
         sizes[0], sizes[1], sizes[2] = c, r, c + r
         own, block = x[first[s] :].ctypes.data, panels[panel_start[s] :].ctypes.data
         for k in range(r):
             work[k] = x[place(rows[row_start[s] + k])]
+        # What stands right of the pivots: the transpose of L, or rows of U kept by columns.
+        right = panels[panel_start[s] + c :] if symmetric else panels[beside_start[s] :]
+        stride = n_h if symmetric else n_r
+        if r > 0:
+            blas.call11(
+                kernels[4],
+                (turned, n_r, n_c, minus, right.ctypes.data, stride, ends, step, one, own, step),
+            )
         if symmetric:
-            if r > 0:
-                left = panels[panel_start[s] + c :].ctypes.data
-                blas.call11(
-                    kernels[4], (turned, n_r, n_c, minus, left, n_h, ends, step, one, own, step)
-                )
             blas.call8(kernels[3], (low, turned, plain, n_c, block, n_h, own, step))
         else:
-            if r > 0:
-                top = panels[beside_start[s] :].ctypes.data
-                blas.call11(
-                    kernels[4], (turned, n_r, n_c, minus, top, n_r, ends, step, one, own, step)
-                )
             blas.call8(kernels[3], (high, plain, plain, n_c, block, n_h, own, step))
