@@ -152,13 +152,29 @@ def _labels(
             (tangent_pointers, tangent_columns),
         ):
             for k in range(pointer[c], pointer[c + 1]):
-                root = _root(parent, column[k])
-                if owner[c] < 0 or fixed[owner[c]]:
-                    owner[c] = root if owner[c] < 0 or not fixed[root] else owner[c]
-                elif not fixed[root]:
-                    own = _root(parent, owner[c])
-                    parent[max(own, root)] = min(own, root)
-                    owner[c] = min(own, root)
+                owner[c] = _joined(parent, fixed, owner[c], _root(parent, column[k]))
+    return _numbered(parent, fixed, owner)
+
+
+@compiled
+def _joined(parent: Ints, fixed: Bools, owner: int, root: int) -> int:
+    """Owner of a contact (-1: none yet) that holds the body at ``root`` as well.
+
+    What is not fixed on both sides becomes one island.
+    """
+    if owner < 0 or fixed[owner]:
+        return root if owner < 0 or not fixed[root] else owner
+    if fixed[root]:
+        return owner
+    own = _root(parent, owner)
+    parent[max(own, root)] = min(own, root)
+    return min(own, root)
+
+
+@compiled
+def _numbered(parent: Ints, fixed: Bools, owner: Ints) -> tuple[Ints, Ints, Bools]:
+    """Islands of unknowns and contacts in the order of their first unknowns, and which are held."""
+    n, m = len(parent), len(owner)
     number = np.full(n, -1)
     unknown, contact = np.empty(n, dtype=np.int64), np.zeros(m, dtype=np.int64)
     held = np.empty(n, dtype=np.bool_)

@@ -79,45 +79,26 @@ def midpoint_rows(
     Every body must be one element: the rows of its points then hold all of its unknowns. With
     their `body_projection` one compiled pass takes the place of sparse sums and products.
     """
-    surface = sides.moved(half.frames, half.deformation)
-    edge = contacts.edge_b
-    shares = EdgeShares.of(contacts, sides.length)
-    line = shares.along(contacts, surface)
-    stretch = np.hypot(*line.T)[:, None]
-    along = line / stretch
-    direction = tangents(along)
-    side_a = sides.at(contacts.edge_a, contacts.parameter_a)
-    place_a = side_a.place(half.frames, half.deformation)
-    foot = contract("ij,ij->i", place_a - surface.start[edge], along) / surface.length[edge]
-    contacts = with_parts(
-        contacts,
-        normal=direction,
-        parameter_b=np.where(contacts.is_joint, contacts.parameter_b, foot),
-    )
-    side_b = sides.at(edge, contacts.parameter_b)
-    apart = place_a - side_b.place(half.frames, half.deformation)
-    factors = (shares.a / stretch).ravel(), (shares.b / stretch).ravel()
-    turns = sides.turns(contacts.edge_a), sides.turns(edge)
-    points = _HalfWay(direction, factors, apart, turns, (side_a, side_b))
+    contacts, points = _half_way(contacts, sides, half)
     parts = rows(contacts, sides, half.frames, model.manifold.n_unknowns)
     if projection is None:
         one, other = _turned_plainly(parts, points, model, start, half)
-        return ContactRows(one, other, direction)
+        return ContactRows(one, other, points.direction)
     normal, tangent = parts
-    m = len(contacts)
+    m, (side_a, side_b) = len(contacts), points.points
     add_turns(
         normal.data.reshape(m, -1),
         tangent.data.reshape(m, -1),
-        direction,
+        points.direction,
         points.levers,
-        factors,
-        turns,
+        points.factors,
+        points.turns,
         (side_a.body, side_b.body),
         (side_a.rows.apply(half.deformation), side_b.rows.apply(half.deformation)),
         (start.frames.rotation, half.frames.rotation),
         projection,
     )
-    return ContactRows(normal, tangent, direction)
+    return ContactRows(normal, tangent, points.direction)
 
 
 @dataclass(frozen=True)
@@ -150,6 +131,26 @@ class _HalfWay:
         across = tangents(self.direction)
         one, other = (contract("ij,ij->i", self.apart, way) for way in (across, self.direction))
         return one, other
+
+
+def _half_way(contacts: ContactPoints, sides: Sides, half: State) -> tuple[ContactPoints, _HalfWay]:
+    """Contacts with their normals and feet half way, and where their points are."""
+    surface, edge = sides.moved(half.frames, half.deformation), contacts.edge_b
+    shares = EdgeShares.of(contacts, sides.length)
+    line = shares.along(contacts, surface)
+    stretch = np.hypot(*line.T)[:, None]
+    along = line / stretch
+    direction = tangents(along)
+    side_a = sides.at(contacts.edge_a, contacts.parameter_a)
+    place_a = side_a.place(half.frames, half.deformation)
+    foot = contract("ij,ij->i", place_a - surface.start[edge], along) / surface.length[edge]
+    parameter = np.where(contacts.is_joint, contacts.parameter_b, foot)
+    side_b = sides.at(edge, parameter)
+    apart = place_a - side_b.place(half.frames, half.deformation)
+    factors = (shares.a / stretch).ravel(), (shares.b / stretch).ravel()
+    turns = sides.turns(contacts.edge_a), sides.turns(edge)
+    there = with_parts(contacts, normal=direction, parameter_b=parameter)
+    return there, _HalfWay(direction, factors, apart, turns, (side_a, side_b))
 
 
 def _turned_plainly(

@@ -74,19 +74,40 @@ class SpringColumns(NamedTuple):
 def residual(increment: Floats, springs: SpringColumns) -> tuple[Floats, float]:
     """Out-of-balance force (n,) and its size over the largest of its parts, or over ``least``.
 
-    The matrix is symmetric: its compressed columns serve as rows. Where normal and tangent rows are
-    ``paired``, entry by entry of the same unknowns, a contact is read once.
+    The matrix is symmetric: its compressed columns serve as rows.
     """
-    load, weight, gap, slip = springs.load, springs.weight, springs.gap, springs.slip
+    load, weight, least = springs.load, springs.weight, springs.least
     pointers, columns, entries = springs.matrix
+    contact, n = _contact_forces(increment, springs), len(increment)
+    force = np.empty(n)
+    inner_size, contact_size, load_size, rest_size = 0.0, 0.0, 0.0, 0.0
+    for i in range(n):
+        inner = 0.0
+        for k in range(place(pointers[i]), place(pointers[i + 1])):
+            inner += entries[k] * increment[place(columns[k])]
+        force[i] = inner + contact[i] - load[i]
+        inner_size += (weight[i] * inner) ** 2
+        contact_size += (weight[i] * contact[i]) ** 2
+        load_size += (weight[i] * load[i]) ** 2
+        rest_size += (weight[i] * force[i]) ** 2
+    largest = max(inner_size, contact_size, load_size, least**2)
+    return force, np.sqrt(rest_size / largest) if largest > 0.0 else 0.0
+
+
+@compiled
+def _contact_forces(increment: Floats, springs: SpringColumns) -> Floats:
+    """Forces of all springs on the unknowns (n,).
+
+    Where normal and tangent rows are ``paired``, entry by entry of the same unknowns, a contact is
+    read once.
+    """
     normal_pointers, normal_columns, normal_entries = springs.normal_rows
     tangent_pointers, tangent_columns, tangent_entries = springs.tangent_rows
     normal_stiffness, shear_stiffness = springs.normal_stiffness, springs.shear_stiffness
     normal_shift, shear_shift = springs.normal_shift, springs.shear_shift
     tension, cohesion, friction = springs.tension, springs.cohesion, springs.friction
-    least, paired = springs.least, springs.paired
-    n = len(increment)
-    contact = np.zeros(n)
+    gap, slip, paired = springs.gap, springs.slip, springs.paired
+    contact = np.zeros(len(increment))
     for c in range(len(gap)):
         opening, sliding = gap[c], slip[c]
         if paired:
@@ -112,19 +133,7 @@ def residual(increment: Floats, springs: SpringColumns) -> tuple[Floats, float]:
         if shear != 0.0 and not paired:
             for k in range(place(tangent_pointers[c]), place(tangent_pointers[c + 1])):
                 contact[place(tangent_columns[k])] += tangent_entries[k] * shear
-    force = np.empty(n)
-    inner_size, contact_size, load_size, rest_size = 0.0, 0.0, 0.0, 0.0
-    for i in range(n):
-        inner = 0.0
-        for k in range(place(pointers[i]), place(pointers[i + 1])):
-            inner += entries[k] * increment[place(columns[k])]
-        force[i] = inner + contact[i] - load[i]
-        inner_size += (weight[i] * inner) ** 2
-        contact_size += (weight[i] * contact[i]) ** 2
-        load_size += (weight[i] * load[i]) ** 2
-        rest_size += (weight[i] * force[i]) ** 2
-    largest = max(inner_size, contact_size, load_size, least**2)
-    return force, np.sqrt(rest_size / largest) if largest > 0.0 else 0.0
+    return contact
 
 
 @compiled

@@ -10,7 +10,8 @@ from nmm.contact.detection.narrow.shields import rays
 from nmm.contact.detection.narrow.tables import BODY, LENGTH, PREVIOUS, SX, SY, TX, TY, Shape, Small
 from nmm.contact.detection.tolerances import Rules
 
-Lines = tuple[int, int, int, int]
+Four = tuple[int, int, int, int]
+Chosen = tuple[bool, bool, bool, bool]
 
 
 @compiled
@@ -30,7 +31,7 @@ def _beyond(
 
 
 @compiled
-def _best(lines: Lines, eligible: tuple[bool, bool, bool, bool], rank: Floats) -> int:
+def _best(lines: Four, eligible: Chosen, rank: Floats) -> int:
     """Index of the eligible line of highest rank, the first row among equals; -1 without any."""
     best = -1
     for i in range(4):
@@ -58,50 +59,20 @@ def pair(
     """Judge the four lines at a pair of near vertices as a whole."""
     dx = shape.real[v, SX] - shape.real[w, SX]
     dy = shape.real[v, SY] - shape.real[w, SY]
-    apart = math.sqrt(dx * dx + dy * dy)
     thin = thinner(shape, v, w)
-    if apart > max(rules.reach, rules.depth * thin):
+    if math.sqrt(dx * dx + dy * dy) > max(rules.reach, rules.depth * thin):
         return
     p, q = shape.link[v, PREVIOUS], shape.link[w, PREVIOUS]
-    lines = (
-        _find(edge, offset, v, w),
-        _find(edge, offset, v, q),
-        _find(edge, offset, w, v),
-        _find(edge, offset, w, p),
-    )
-    on = (w, q, v, p)
+    one, two = _find(edge, offset, v, w), _find(edge, offset, v, q)
+    three, four = _find(edge, offset, w, v), _find(edge, offset, w, p)
+    lines = one, two, three, four
     entered = False
     for k in lines:
         entered |= k >= 0 and kept[k] != 0
     if entered:
-        standing = (
-            lines[0] >= 0 and kept[lines[0]] == 1,
-            lines[1] >= 0 and kept[lines[1]] == 1,
-            lines[2] >= 0 and kept[lines[2]] == 1,
-            lines[3] >= 0 and kept[lines[3]] == 1,
-        )
-        best = _best(lines, standing, rank)
-        if best < 0:
-            return
-        # Contacts that are one above the other are one, however wide the gap.
-        beside = abs(dx * shape.real[on[best], TX] + dy * shape.real[on[best], TY])
-        merged = beside <= rules.flush * thin + rules.rounding
-        for i in range(4):
-            if i == best or not standing[i]:
-                continue
-            # Edges of the other body have the opposite sense.
-            agree = dot(shape, on[i], on[best])
-            if (i < 2) != (best < 2):
-                agree = -agree
-            if merged or agree < 1.0 - 2.0 * rules.sine * rules.sine:
-                final[lines[i]] = -1
+        _thin_out(shape, lines, (w, q, v, p), (dx, dy), thin, rank, kept, final, rules)
         return
-    free = (
-        lines[0] >= 0 and state[lines[0]] & USABLE != 0,
-        lines[1] >= 0 and state[lines[1]] & USABLE != 0,
-        lines[2] >= 0 and state[lines[2]] & USABLE != 0,
-        lines[3] >= 0 and state[lines[3]] & USABLE != 0,
-    )
+    free = _usable(state, one), _usable(state, two), _usable(state, three), _usable(state, four)
     best = _best(lines, free, rank)
     if best < 0:
         return
@@ -113,3 +84,49 @@ def pair(
         shape, v, shape.link[w, BODY], -dx, -dy, slop, rules
     ):
         final[lines[best]] = 2
+
+
+@compiled
+def _usable(state: Small, k: int) -> bool:
+    return bool(k >= 0 and state[k] & USABLE != 0)
+
+
+@compiled
+def _stands(kept: Small, k: int) -> bool:
+    return bool(k >= 0 and kept[k] == 1)
+
+
+@compiled
+def _thin_out(
+    shape: Shape,
+    lines: Four,
+    on: Four,
+    apart: tuple[float, float],
+    thin: float,
+    rank: Floats,
+    kept: Small,
+    final: Small,
+    rules: Rules,
+) -> None:
+    """Drop the lines, on the edges ``on``, that say what the best of those that stand says."""
+    standing = (
+        _stands(kept, lines[0]),
+        _stands(kept, lines[1]),
+        _stands(kept, lines[2]),
+        _stands(kept, lines[3]),
+    )
+    best = _best(lines, standing, rank)
+    if best < 0:
+        return
+    # Contacts that are one above the other are one, however wide the gap.
+    tx, ty = shape.real[on[best], TX], shape.real[on[best], TY]
+    merged = abs(apart[0] * tx + apart[1] * ty) <= rules.flush * thin + rules.rounding
+    for i in range(4):
+        if i == best or not standing[i]:
+            continue
+        # Edges of the other body have the opposite sense.
+        agree = dot(shape, on[i], on[best])
+        if (i < 2) != (best < 2):
+            agree = -agree
+        if merged or agree < 1.0 - 2.0 * rules.sine * rules.sine:
+            final[lines[i]] = -1

@@ -18,7 +18,7 @@ Columns = tuple[Ints, Ints, Floats, Floats, Floats, Ints, Ints, Ints, Ints]
 # Columns of Shape.real: start, end and unit direction, length of the edge, thickness of its body.
 SX, SY, EX, EY, TX, TY, LENGTH, THICK = range(8)
 # Columns of Shape.link: body, neighbours in the ring, whether the vertex is convex, and the flush
-# covers of its two edges (flush.Covers).
+# covers of its two edges (`edges.cover`).
 BODY, NEXT, PREVIOUS, CONVEX, OWN, BEFORE = range(6)
 
 
@@ -38,12 +38,8 @@ def shape_of(
     real, link = np.zeros((n, 8)), np.empty((n, 6), np.int64)
     top = -1
     for e in range(n):
-        real[e, SX], real[e, SY], real[e, EX], real[e, EY] = (
-            start[e, 0],
-            start[e, 1],
-            end[e, 0],
-            end[e, 1],
-        )
+        real[e, SX], real[e, SY] = start[e, 0], start[e, 1]
+        real[e, EX], real[e, EY] = end[e, 0], end[e, 1]
         dx, dy = end[e, 0] - start[e, 0], end[e, 1] - start[e, 1]
         size = math.sqrt(dx * dx + dy * dy)
         real[e, LENGTH] = size
@@ -95,7 +91,7 @@ def describe(
     gap: Floats,
     rules: Rules,
 ) -> Columns:
-    """Columns of `narrow.Contacts` for the kept rows."""
+    """Columns of `narrow_phase.Contacts` for the kept rows."""
     m, n = len(rows), len(shape.link)
     v, e, key = np.empty(m, np.int64), np.empty(m, np.int64), np.empty(m, np.int64)
     body, corner = np.empty(m, np.int64), np.empty(m, np.int64)
