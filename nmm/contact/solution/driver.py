@@ -5,7 +5,7 @@ What is posed stands: limits, springs, lifted faces. Between two solutions laws 
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -18,60 +18,22 @@ from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.enforcement.rebalanced import solve_rebalanced
 from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.contact_laws import ContactLaws
-from nmm.contact.laws.dashpots import Dashpots, RigidMass
+from nmm.contact.laws.dashpots import RigidMass
 from nmm.contact.laws.failing_bonds import break_bonds, breaking
 from nmm.contact.laws.history_iteration import HistoryIteration, slid_under_load
-from nmm.contact.laws.late_cohesion import LateCohesion
-from nmm.contact.laws.time_weighting import RaisedFaces, TimeWeighting, end_shares
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.problem.balance import with_springs
 from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
+from nmm.contact.solution.posed_step import Posing
 from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.request import StepRequest
 from nmm.contact.solution.untouched import Untouched
 from nmm.errors import SolveError
 from nmm.frozen import with_parts
 from nmm.solvers.linear import LinearSolver
-
-
-@dataclass(frozen=True)
-class PosedStep:
-    """The problem of a step, and what is made of it before an enforcement sees it.
-
-    Attributes
-    ----------
-    problem
-        Springs, limits and rows of the contact points.
-    transforms
-        In the order of their application.
-    springs
-        That of springs over the time of the step, one of them; None where none is.
-    dashpots
-        Dampers among them; None without.
-    weight
-        (m,) share of the end of the step in the stretch of each spring.
-    """
-
-    problem: StepProblem
-    transforms: list[Transform]
-    springs: TimeWeighting | None
-    dashpots: Dashpots | None
-    weight: Floats
-
-    def missed(self, answer: StepAnswer) -> Floats | None:
-        """See `ContactSolution.missed`."""
-        return None if self.springs is None else self.springs.missed(answer, self.problem)
-
-    def loss(self, contacts: ContactPoints, answer: StepAnswer) -> float:
-        """Energy (J) that dampers took in the step."""
-        if self.dashpots is None:
-            return 0.0
-        end = answer.normal_force
-        start = np.where(self.weight < 1, end, contacts.normal_force)
-        return self.dashpots.loss(self.problem.normal_stiffness, answer.gap, (start, end))
 
 
 class ContactSolver:
@@ -109,8 +71,8 @@ class ContactSolver:
         self.memory = enforcement.memory()
         self.last: tuple[StepProblem, StepAnswer] | None = None
         self.untouched = Untouched()
-        self._laws, self._softness, self._enforcement = laws, softness, enforcement
-        self._mass, self._unknown_body = mass, unknown_body
+        self._laws, self._enforcement, self._unknown_body = laws, enforcement, unknown_body
+        self._posing = Posing(laws, softness, mass, enforcement.exact)
 
     @classmethod
     def of(
@@ -151,7 +113,7 @@ class ContactSolver:
         start: Floats | None = None
         besides = more(contacts)
         while True:
-            posed = self._posed(iteration, rows, request, besides, start)
+            posed = self._posing.posed(iteration, rows, request, besides, start)
             enforced = partial(self._enforced, posed.transforms, request.solver)
             answer = solve_through(posed.transforms, posed.problem, enforced)
             passes += answer.passes
@@ -176,15 +138,30 @@ class ContactSolver:
                 return found
             if request.breaking == "stop" and brittle.any():
                 return replace(found, stopped=True)
-            loss += _stored(posed.problem, answer, brittle, contacts)
             freed = broken & contacts.tied
-            if freed.any():
-                limits, springs = iteration.response.limits, iteration.springs
-                contacts, stored = released(contacts, freed, brittle, answer, springs, limits)
-                loss += stored
-            contacts = break_bonds(self._laws, contacts, brittle)
+            loss += _stored(posed.problem, answer, brittle, contacts)
+            contacts, stored = self._broken(iteration, contacts, answer, (broken, brittle))
+            loss += stored
             besides = more(contacts) if freed.any() else besides
             iteration, start = HistoryIteration(self._laws, contacts), None
+
+    def _broken(
+        self,
+        iteration: HistoryIteration,
+        contacts: ContactPoints,
+        answer: StepAnswer,
+        gone: tuple[Bools, Bools],
+    ) -> tuple[ContactPoints, float]:
+        """Return contacts whose bonds are released or broken, and what `released` says of energy.
+
+        ``gone`` are the bonds that cannot hold, and those of them that break at once.
+        """
+        (broken, brittle), stored = gone, 0.0
+        freed = broken & contacts.tied
+        if freed.any():
+            limits, springs = iteration.response.limits, iteration.springs
+            contacts, stored = released(contacts, freed, brittle, answer, springs, limits)
+        return break_bonds(self._laws, contacts, brittle), stored
 
     def acting(self) -> csc_array | None:
         """Return the matrix of the last system with the springs that acted in it."""
@@ -219,52 +196,6 @@ class ContactSolver:
         pressed = answer.normal_force < 0
         return float(problem.normal_stiffness[pressed].max()) if pressed.any() else None
 
-    def _posed(
-        self,
-        iteration: HistoryIteration,
-        rows: ContactRows,
-        request: StepRequest,
-        more: Sequence[Transform],
-        start: Floats | None,
-    ) -> PosedStep:
-        """Return the problem of a step as laws stand, and its transforms."""
-        laws, contacts, exact = self._laws, iteration.start, self._enforcement.exact
-        normal, shear, own = iteration.springs
-        if exact:
-            share = self._softness.of_contacts(contacts, own)
-            normal, shear = share * normal, share * shear
-        problem = StepProblem(
-            matrix=request.matrix,
-            force=request.force,
-            normal_rows=rows.normal,
-            tangent_rows=rows.tangent,
-            gap=contacts.gap,
-            slip=contacts.slip,
-            normal_stiffness=normal,
-            shear_stiffness=shear,
-            limits=iteration.response.limits,
-            state=contacts.state,
-            normal_force=contacts.normal_force,
-            shear_force=contacts.shear_force,
-            compliant=own,
-            start=start,
-            among=request.among,
-        )
-        weight = end_shares(request.weight, exact, own, iteration.softening)
-        springs = _weighted(weight, iteration.before.rise, problem, contacts, request.foreseen)
-        late = None if request.step is None else LateCohesion.of(problem.limits, contacts)
-        transforms: list[Transform] = [part for part in (late, springs) if part is not None]
-        dashpots = None
-        if request.step is not None and laws.damps:
-            damping = laws.damping(contacts)
-            dashpots = self._mass.dashpots(contacts, damping, normal, rows.normal, request.step)
-            transforms.append(dashpots)
-        if iteration.response.rise.any():
-            transforms.append(RaisedFaces(iteration.response.rise))
-        if (asymmetric := iteration.asymmetric) is not None:
-            transforms.append(asymmetric)
-        return PosedStep(problem, [*transforms, *more], springs, dashpots, weight)
-
     def _enforced(
         self, transforms: list[Transform], solver: LinearSolver, problem: StepProblem
     ) -> StepAnswer:
@@ -278,23 +209,6 @@ class ContactSolver:
             answer = solve_rebalanced(self._enforcement, started, solver, self.memory, body)
         self.memory.answered = self.last = problem, answer
         return answer
-
-
-def _weighted(
-    weight: Floats,
-    rise: Floats,
-    problem: StepProblem,
-    contacts: ContactPoints,
-    foreseen: Floats | None,
-) -> TimeWeighting | None:
-    """Return how springs act over the time of a step; None where they act as at its end."""
-    if not (weight < 1).any():
-        return None
-    if foreseen is None:
-        return TimeWeighting(weight, rise, contacts.bonded)
-    from nmm.contact.laws.conserving_springs import ConservingSprings
-
-    return ConservingSprings(weight, rise, contacts.bonded, problem.gaps(foreseen))
 
 
 def _stored(

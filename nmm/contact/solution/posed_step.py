@@ -1,0 +1,151 @@
+"""The problem of a step as laws stand, and its transforms before an enforcement sees it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.contact.laws.compliance import Softness
+from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.dashpots import Dashpots, RigidMass
+from nmm.contact.laws.history_iteration import HistoryIteration
+from nmm.contact.laws.late_cohesion import LateCohesion
+from nmm.contact.laws.time_weighting import RaisedFaces, TimeWeighting, end_shares
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.midpoint import ContactRows
+from nmm.contact.problem.step_problem import StepAnswer, StepProblem
+from nmm.contact.problem.transform import Transform
+from nmm.contact.solution.request import StepRequest
+
+
+@dataclass(frozen=True)
+class PosedStep:
+    """The problem of a step, and what is made of it before an enforcement sees it.
+
+    Attributes
+    ----------
+    problem
+        Springs, limits and rows of the contact points.
+    transforms
+        In the order of their application.
+    springs
+        That of springs over the time of the step, one of them; None where none is.
+    dashpots
+        Dampers among them; None without.
+    weight
+        (m,) share of the end of the step in the stretch of each spring.
+    """
+
+    problem: StepProblem
+    transforms: list[Transform]
+    springs: TimeWeighting | None
+    dashpots: Dashpots | None
+    weight: Floats
+
+    def missed(self, answer: StepAnswer) -> Floats | None:
+        """See `ContactSolution.missed`."""
+        return None if self.springs is None else self.springs.missed(answer, self.problem)
+
+    def loss(self, contacts: ContactPoints, answer: StepAnswer) -> float:
+        """Energy (J) that dampers took in the step."""
+        if self.dashpots is None:
+            return 0.0
+        end = answer.normal_force
+        start = np.where(self.weight < 1, end, contacts.normal_force)
+        return self.dashpots.loss(self.problem.normal_stiffness, answer.gap, (start, end))
+
+
+@dataclass(frozen=True)
+class Posing:
+    """What a run poses the problems of its steps by.
+
+    Attributes
+    ----------
+    laws, softness
+        Interface laws, and how soft the bodies are that they join.
+    mass
+        Of the bodies, for dampers.
+    exact
+        Whether contacts without a stiffness of their own are to have none.
+    """
+
+    laws: ContactLaws
+    softness: Softness
+    mass: RigidMass
+    exact: bool
+
+    def posed(
+        self,
+        iteration: HistoryIteration,
+        rows: ContactRows,
+        request: StepRequest,
+        more: Sequence[Transform],
+        start: Floats | None,
+    ) -> PosedStep:
+        """Return the problem of a step as laws stand, and its transforms; ``more`` come last."""
+        problem = self._problem(iteration, rows, request, start)
+        response, contacts = iteration.response, iteration.start
+        weight = end_shares(request.weight, self.exact, problem.own_stiffness, iteration.softening)
+        springs = _weighted(weight, iteration.before.rise, problem, contacts, request.foreseen)
+        late = None if request.step is None else LateCohesion.of(problem.limits, contacts)
+        dashpots = self._dashpots(contacts, problem, request.step)
+        raised = RaisedFaces(response.rise) if response.rise.any() else None
+        transforms = [late, springs, dashpots, raised, iteration.asymmetric]
+        given = [one for one in transforms if one is not None]
+        return PosedStep(problem, [*given, *more], springs, dashpots, weight)
+
+    def _problem(
+        self,
+        iteration: HistoryIteration,
+        rows: ContactRows,
+        request: StepRequest,
+        start: Floats | None,
+    ) -> StepProblem:
+        contacts, (normal, shear, own) = iteration.start, iteration.springs
+        if self.exact:
+            share = self.softness.of_contacts(contacts, own)
+            normal, shear = share * normal, share * shear
+        return StepProblem(
+            matrix=request.matrix,
+            force=request.force,
+            normal_rows=rows.normal,
+            tangent_rows=rows.tangent,
+            gap=contacts.gap,
+            slip=contacts.slip,
+            normal_stiffness=normal,
+            shear_stiffness=shear,
+            limits=iteration.response.limits,
+            state=contacts.state,
+            normal_force=contacts.normal_force,
+            shear_force=contacts.shear_force,
+            compliant=own,
+            start=start,
+            among=request.among,
+        )
+
+    def _dashpots(
+        self, contacts: ContactPoints, problem: StepProblem, step: float | None
+    ) -> Dashpots | None:
+        """Return dampers of a step in time; None without."""
+        if step is None or not self.laws.damps:
+            return None
+        damping, stiffness = self.laws.damping(contacts), problem.normal_stiffness
+        return self.mass.dashpots(contacts, damping, stiffness, problem.normal_rows, step)
+
+
+def _weighted(
+    weight: Floats,
+    rise: Floats,
+    problem: StepProblem,
+    contacts: ContactPoints,
+    foreseen: Floats | None,
+) -> TimeWeighting | None:
+    """Return how springs act over the time of a step; None where they act as at its end."""
+    if not (weight < 1).any():
+        return None
+    if foreseen is None:
+        return TimeWeighting(weight, rise, contacts.bonded)
+    from nmm.contact.laws.conserving_springs import ConservingSprings
+
+    return ConservingSprings(weight, rise, contacts.bonded, problem.gaps(foreseen))
