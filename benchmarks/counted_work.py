@@ -10,6 +10,7 @@ process of its own.
 """
 
 import cProfile
+import gc
 import json
 import platform
 import pstats
@@ -73,7 +74,12 @@ def run(made: Simulation) -> MemorySink:
 def raced(race: Race) -> Raced:
     """Run and count; the run is slowed down by its profiler."""
     made, profile = prepare(*race.made()), cProfile.Profile()
-    memory = profile.runcall(run, made)
+    gc.collect()
+    gc.disable()  # what it finds of earlier runs would be counted as this one's
+    try:
+        memory = profile.runcall(run, made)
+    finally:
+        gc.enable()
     assert isinstance(memory, MemorySink)
     steps, found = max(len(memory.rows), 1), pstats.Stats(profile)
     counts = found.stats.items()  # type: ignore[attr-defined]

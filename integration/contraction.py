@@ -1,10 +1,13 @@
-"""Sums of products over the small axes of arrays, as `numpy.einsum` says them.
+"""Sums over the axes of arrays without the choices of numpy's own functions.
 
-A step makes twenty of them, of arrays of a few numbers in small scenes: what numpy's own function
-asks and looks through first costs more than the sums.
+A step makes dozens of them, of arrays of a few numbers in small scenes: what `numpy.einsum` and the
+methods of arrays ask and look through first costs more than the sums.
 """
 
+import numpy as np
 from numpy._core.multiarray import c_einsum
 
 contract = c_einsum
 """`numpy.einsum` without choices: ``contract("mij,mj->mi", matrices, vectors)``."""
+some, every = np.logical_or.reduce, np.logical_and.reduce
+"""`any` and `all` along the first axis: of vectors, what their methods say by three calls."""

@@ -8,16 +8,15 @@ stress (MacLaughlin and Sitar 1996 name the growth of the linear update that thi
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 
 from covers.approximation.manifold import Manifold
 from covers.approximation.rows import Rows
 from integration.arrays import Floats, Ints
-from integration.contraction import contract
+from integration.contraction import contract, some
 from nmm.assembly.model import Model
-from nmm.frozen import with_parts
+from nmm.frozen import MadeOnce, with_parts
 from nmm.solvers.unchecked import product
 
 
@@ -44,12 +43,12 @@ class Frames:
     tilt: Floats | None = None
     way: Floats | None = None
 
-    @cached_property
+    @MadeOnce
     def rotation(self) -> Floats:
         """(B, 2, 2) from body axes to global axes."""
         return rotation_matrices(self.angle)
 
-    @cached_property
+    @MadeOnce
     def turn(self) -> Floats:
         """(B, 2, 2) the rotation less one, to its own rounding."""
         found = np.empty((len(self.angle), 2, 2))
@@ -158,7 +157,7 @@ class MaterialPoints:
             across = np.stack([-self.arm[:, 1], self.arm[:, 0]], axis=1)
             local = local + frames.tilt[self.body, None] * across
         found = frames.way[self.body] + frames.to_global(self.body, local)
-        if frames.angle.any():
+        if some(frames.angle):
             found = found + contract("mij,mj->mi", frames.turn[self.body], self.arm)
         return np.asarray(found)
 
@@ -242,7 +241,7 @@ def rigid_rates(model: Model, state: State) -> Floats:
 
 def _turn_translation(model: Model, rate: Floats, turn: Floats) -> Floats:
     """Keep the mean translation of a rate fixed in space while the body's axes ``turn``."""
-    if not rate.any():
+    if not some(rate):
         return rate
     mean = product(model.rigid_projection, rate).reshape(-1, 3)
     turned = contract("bji,bj->bi", turn, mean[:, :2])

@@ -3,6 +3,7 @@
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.contraction import every, some
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
@@ -139,11 +140,11 @@ class Partners:
         """
         interface = self.interfaces(found.vertex, found.edge)
         missing = (interface == MISSING) & (found.gap <= 0)
-        if missing.any():
+        if some(missing):
             x, y = surface.start[found.vertex[missing]][0] + self._origin
             raise (SceneError if first else SolveError)(no_interface(x, y))
         meets = (interface >= 0) & ~book.hides(found)
-        return (found, interface) if meets.all() else (found.take(meets), interface[meets])
+        return (found, interface) if every(meets) else (found.take(meets), interface[meets])
 
     def motion(self, before: State, after: State) -> Motion:
         """Return the step last solved as the edges moved in it."""
@@ -172,7 +173,7 @@ class Partners:
 
     def _flight(self, state: State, step: float | None) -> Floats | None:
         """Return how far (n, 2) the vertices fly in a step; None where nothing does."""
-        if step is None or not state.velocity.any():
+        if step is None or not some(state.velocity):
             return None
         vertices = self.sides.start
         rate = state.frames.to_global(vertices.body, vertices.rows.apply(state.velocity))

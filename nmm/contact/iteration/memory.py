@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.contraction import every
 from nmm.contact.islands.partition import Islands
 from nmm.contact.iteration.options import MemoryOptions
 from nmm.contact.iteration.ways import Ways
@@ -163,7 +164,7 @@ class Memory:
 
     def keep(self, increment: Floats, load: Floats) -> None:
         """Keep the unknowns found under a load, in place of what was found under it before."""
-        if not np.isfinite(increment).all():
+        if not every(np.isfinite(increment)):
             return
         again = self._load is not None and _equal(self._load, load)
         before = [old for old in self.found[int(again) :] if len(old) == len(increment)]

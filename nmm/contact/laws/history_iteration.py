@@ -6,17 +6,17 @@ iteration: they vanish as long as the structure is stable, and acceleration make
 """
 
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from integration.contraction import some
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.tension_compression import AsymmetricSprings
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
-from nmm.frozen import with_parts
+from nmm.frozen import MadeOnce, with_parts
 from nmm.interfaces.history import History
 from nmm.solvers.anderson import FixedPoint
 
@@ -64,7 +64,7 @@ class HistoryIteration:
             for name, column in laws.evolving.items()
         }
 
-    @cached_property
+    @MadeOnce
     def softening(self) -> Bools:
         """Which contacts are bonds that lose their strength in the course of solutions."""
         if not self._laws.hold(self.start):
@@ -147,7 +147,7 @@ class HistoryIteration:
         if static:
             rubbed *= self._mean_share(answer)
         soft = self.softening
-        if not soft.any():
+        if not some(soft):
             return float(rubbed.sum())
         before = self.start.take(soft)
         ended = {name: getattr(answer, name)[soft] for name in ENDED}

@@ -13,6 +13,7 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from integration.contraction import some
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.step_problem import BROKEN, OPEN, Limits, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
@@ -43,7 +44,7 @@ class LateCohesion(Transform):
     def of(cls, limits: Limits, contacts: ContactPoints) -> Self | None:
         """Return that of a step with the laws' limits; None where nothing has a cohesion alone."""
         loose = (limits.tension == 0) & (limits.cohesion > 0)
-        if not loose.any():
+        if not some(loose):
             return None
         parted = (contacts.gap > CLOSED * contacts.length) & (contacts.normal_force >= 0)
         return cls(loose, np.where(parted, 0.0, limits.cohesion))

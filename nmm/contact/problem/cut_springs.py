@@ -1,7 +1,6 @@
 """Contact forces as springs that a law cuts off: the equations every iterative solver works on."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -10,6 +9,7 @@ from nmm.contact.problem.balance import weights
 from nmm.contact.problem.coulomb import project, states, tangent
 from nmm.contact.problem.residual_kernel import SpringColumns, residual
 from nmm.contact.problem.step_problem import StepProblem
+from nmm.frozen import MadeOnce
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class CutSprings:
         """Springs with other shifts."""
         return replace(self, normal_shift=normal, shear_shift=shear)
 
-    @cached_property
+    @MadeOnce
     def weight(self) -> Floats:
         """(n,) weights of out-of-balance forces."""
         return weights(self.problem, self.normal_stiffness, self.shear_stiffness)
@@ -90,7 +90,7 @@ class CutSprings:
         force, size = residual(increment, self.columns)
         return Residual(force, float(size))
 
-    @cached_property
+    @MadeOnce
     def columns(self) -> SpringColumns:
         """The same as compiled code takes them."""
         p = self.problem

@@ -7,7 +7,6 @@ Signs: gap positive open, normal force positive in tension, shear force along th
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.contact.problem.contact_state import ContactState
 from nmm.contact.problem.residual_kernel import weighted
 from nmm.contact.problem.row_products import Compressed, along
+from nmm.frozen import MadeOnce
 from nmm.interfaces.limits import Limits as Limits
 from nmm.solvers.known import known_load
 
@@ -108,7 +108,7 @@ class StepProblem:
         n, t = self.normal_rows, self.tangent_rows
         return (n.indptr, n.indices, n.data), (t.indptr, t.indices, t.data)
 
-    @cached_property
+    @MadeOnce
     def weight(self) -> Floats:
         """(n,) weights of out-of-balance forces: see `nmm.contact.problem.balance.weights`."""
         return self.weight_with(self.normal_stiffness, self.shear_stiffness)
@@ -119,7 +119,7 @@ class StepProblem:
         own = matrix.indptr, matrix.indices, matrix.data
         return np.asarray(weighted(*own, *rows[0], normal, *rows[1], shear))
 
-    @cached_property
+    @MadeOnce
     def paired(self) -> bool:
         """Whether normal and tangent rows hold the same unknowns, entry by entry."""
         normal, tangent = self.normal_rows, self.tangent_rows

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Bools, Floats, Ints
+from integration.contraction import some
 from nmm.assembly.model import Model
 from nmm.contact.bonds.release import released, tied_energy
 from nmm.contact.enforcement.base import Enforcement
@@ -129,7 +130,7 @@ class ContactSolver:
                 continue
             broken = breaking(self._laws, iteration.contacts, answer, request.breaking == "worst")
             brittle = broken & self._laws.brittle[contacts.interface]
-            if not broken.any():
+            if not some(broken):
                 rubbed = iteration.loss(answer, sliding, static=request.step is None)
                 loss += rubbed + posed.loss(contacts, answer)
                 missed = posed.missed(answer)
@@ -194,7 +195,7 @@ class ContactSolver:
             return None
         problem, answer = self.last
         pressed = answer.normal_force < 0
-        return float(problem.normal_stiffness[pressed].max()) if pressed.any() else None
+        return float(problem.normal_stiffness[pressed].max()) if some(pressed) else None
 
     def _enforced(
         self, transforms: list[Transform], solver: LinearSolver, problem: StepProblem

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
+from integration.contraction import some
 from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import Dashpots, RigidMass
@@ -142,7 +143,7 @@ def _weighted(
     foreseen: Floats | None,
 ) -> TimeWeighting | None:
     """Return how springs act over the time of a step; None where they act as at its end."""
-    if not (weight < 1).any():
+    if not some(weight < 1):
         return None
     if foreseen is None:
         return TimeWeighting(weight, rise, contacts.bonded)

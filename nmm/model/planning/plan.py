@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from math import isfinite
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
@@ -256,22 +256,22 @@ class Plan(Hooks):
     @property
     def contact(self) -> "Contact | None":
         """The contact effect."""
-        return cast("Contact | None", self.effects.get("contact"))
+        return self.effects.get("contact")  # type: ignore[return-value]
 
     @property
     def fracture(self) -> "GrowingCracks | None":
         """The growth of cracks."""
-        return cast("GrowingCracks | None", self.effects.get("fracture"))
+        return self.effects.get("fracture")  # type: ignore[return-value]
 
     @property
     def inertia(self) -> "Inertia | None":
         """The inertia effect."""
-        return cast("Inertia | None", self.effects.get("inertia"))
+        return self.effects.get("inertia")  # type: ignore[return-value]
 
     @property
     def loads(self) -> "Loads | None":
         """The point and edge loads."""
-        return cast("Loads | None", self.effects.get("loads"))
+        return self.effects.get("loads")  # type: ignore[return-value]
 
     def scaled_load(self, factor: float) -> float | None:
         """Return the resultant (N) of the scaled loads at a load factor; None without loads."""
@@ -280,12 +280,12 @@ class Plan(Hooks):
     @property
     def supports(self) -> "Supports | None":
         """The supports."""
-        return cast("Supports | None", self.effects.get("supports"))
+        return self.effects.get("supports")  # type: ignore[return-value]
 
     @property
     def initial_stress(self) -> "InitialStress | None":
         """The initial stress."""
-        return cast("InitialStress | None", self.effects.get("initial stress"))
+        return self.effects.get("initial stress")  # type: ignore[return-value]
 
 
 def _are(some: list[csc_array], others: list[csc_array]) -> bool:

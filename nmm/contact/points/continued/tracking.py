@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from integration.contraction import every
 from nmm.contact.detection.face_contacts import FaceContacts
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.detection.surface import Surface
@@ -75,7 +76,7 @@ def continues(old: Contacts | None, new: Contacts) -> bool:
     """Whether search has found the pairs of the last step, corners before edges alone."""
     if old is None or type(old) is not Contacts or type(new) is not Contacts:
         return False
-    return len(old.key) == len(new.key) and bool((old.key == new.key).all())
+    return len(old.key) == len(new.key) and bool(every(old.key == new.key))
 
 
 def continued(old: ContactPoints, found: Contacts) -> ContactPoints:
