@@ -58,9 +58,14 @@ class Stage:
     material: Ints
 
     @property
-    def dynamic(self) -> bool:
-        """Whether it is solved in time."""
+    def in_time(self) -> bool:
+        """Whether time passes in it."""
         return self.duration is not None
+
+    @property
+    def dynamic(self) -> bool:
+        """Whether it moves; else it comes to rest, and time that passes then does so in balance."""
+        return self.duration is not None and self.scene.inertia is not None
 
 
 @dataclass(frozen=True)
@@ -113,7 +118,8 @@ def _resolved(
             for key in keys
         }
         names = frozenset(one.name for key in PUSHING for one in acting[key])
-        fading = frozenset() if table.duration else before - names
+        moves = table.duration is not None and scene.inertia is not None
+        fading = frozenset() if moves else before - names
         leaving = {
             key: [o for o in getattr(scene, key) if o.name in fading and _acts(o, None, there)]
             for key in PUSHING

@@ -174,7 +174,8 @@ class Scene(Frozen):
     @property
     def in_time(self) -> bool:
         """Whether a clock runs: with inertia, or with a duration in which matter creeps."""
-        return self.inertia is not None or (self.duration is not None and self.loading is None)
+        passing = self.duration is not None and self.loading is None
+        return self.inertia is not None or passing or any(one.duration for one in self.stages)
 
     @property
     def followed(self) -> bool:

@@ -48,8 +48,7 @@ def stage_contradictions(data: Tables) -> Iterator[Finding]:
                 remedy,
             )
         if "duration" in stage and "inertia" not in data:
-            remedy = "remove it, so that the stage is solved to rest, or add [inertia]"
-            yield (*path, "duration"), "no [inertia]", "a dynamic scene", remedy
+            yield from _two_clocks(data, path)
 
 
 def _materials(stage: Tables, path: Path, solids: list[str], known: list[str]) -> Iterator[Finding]:
@@ -60,6 +59,16 @@ def _materials(stage: Tables, path: Path, solids: list[str], known: list[str]) -
             yield where, f'"{block}"', "the name of a block", suggestion(block, solids)
         if isinstance(name, str) and name not in known:
             yield where, f'"{name}"', "the name of a material", suggestion(name, known)
+
+
+def _two_clocks(data: Tables, path: Path) -> Iterator[Finding]:
+    """Time that passes in equilibrium, beside that of a field that is followed by load factors."""
+    for key in ("heat", "seepage", "joint_flow"):
+        table = data.get(key)
+        if isinstance(table, Mapping) and table.get("transient") is True:
+            remedy = f"remove it, and let [{key}] have its duration, or add [inertia]"
+            value = f"duration with transient [{key}]"
+            yield (*path, "duration"), value, "one clock", remedy
 
 
 def _beside(data: Tables) -> Iterator[Finding]:

@@ -65,7 +65,8 @@ class StageTable(Frozen):
     duration: Time | None = Field(
         default=None,
         gt=0,
-        description="a duration in s, > 0; solved to rest when not given",
+        description="a duration in s, > 0; solved to rest when not given; without inertia time "
+        "passes in equilibrium, and matter creeps",
         examples=example("s"),
     )
     release: float | None = Field(

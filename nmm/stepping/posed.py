@@ -130,7 +130,7 @@ def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) ->
     regions = replace(regions, material=stage.material)
     geometry = geometry_of(scene, regions.only(stage.present))
     setup = setup_of(stage.scene, stage.formulation, geometry, origin, blocks=named(regions))
-    return Staged(stage, replace(setup, acting=stage.acting), clock=scene.inertia is not None)
+    return Staged(stage, replace(setup, acting=stage.acting), clock=scene.in_time)
 
 
 def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:

@@ -184,7 +184,7 @@ class Simulation(CompiledScene):
             so_far = stood.stages
             enter_again(self.stepper, recorder, so_far, self.stages, rule)
             present = self.stages[len(so_far.entered)].stage
-            at = checkpoints.entered(so_far, present.dynamic).go_on(stood)
+            at = checkpoints.entered(so_far, present.in_time).go_on(stood)
         self.stepper.budget.taken = recorder.steps
         end = run_stages(
             self.stepper, recorder, so_far, self.stages, rule, progress, checkpoints.entered, at

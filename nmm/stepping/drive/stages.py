@@ -99,7 +99,7 @@ def run_stages(
             name = stages[number].stage.name
             progress((number + share) / len(stages), f"stage {name}: {text}")
 
-        keep = keeper(so_far, stage.dynamic)
+        keep = keeper(so_far, stage.in_time)
         state, verdict = _solved(stepper, recorder, so_far.start, staged, told, keep, at)
         at, sentence = None, f"stage {stage.name}: {verdict.sentence}"
         if verdict.code != CONVERGED:
@@ -163,10 +163,30 @@ def _solved(
     if stage.duration is not None:
         recorder.choice = choice_in_time(output, state.time, stage.duration)
         times = Schedule.of(stepper, steps, stage.duration)
+        if not stage.dynamic and not isinstance(at, InTime):
+            # Time passes once what is new has come on while the clock stands.
+            state, verdict = _to_rest(stepper, recorder, state, staged, progress, keeps, at)
+            if verdict.code != CONVERGED:
+                return state, verdict
+            at = None
         moving = at or keeps.begin(InTime.at_start(state, times))
         assert isinstance(moving, InTime)
         return run_in_time(stepper, recorder, moving, times, progress, keeps.keep)
     recorder.choice = choice_under_loads(output)
+    return _to_rest(stepper, recorder, state, staged, progress, keeps, at)
+
+
+def _to_rest(
+    stepper: Stepper,
+    recorder: Recorder,
+    state: State,
+    staged: "Staged",
+    progress: Progress,
+    keeps: "Keeps",
+    at: InTime | UnderLoad | None,
+) -> tuple[State, RunVerdict]:
+    """Bring a stage to rest under its loads, from its start or from where it stands."""
+    stage, steps = staged.stage, staged.stage.formulation
     asked = steps.loading
     # What is new is brought on at once unless increments are asked for, or a field is followed.
     stepped = "increment" in asked.model_fields_set or stage.scene.followed

@@ -300,7 +300,6 @@ def test_a_stored_run_has_the_topologies_of_its_stages(tmp_path):
         ('remove = ["upper", "lower"]', "no block is left"),
         ('add = ["upper"]', "is there already"),
         ('loads = ["push"]', "push"),
-        ("duration = 1.0", "no [inertia]"),
         ('blocks = ["lower"]\nremove = ["upper"]', "one way"),
     ],
 )
