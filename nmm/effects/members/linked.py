@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 # Where members turn the matrix of an earlier step serves while what it is made of is off by no more
 # than this share of the largest: what it misses is solved for within the step.
 LIKE = 1e-3
+# Share of the largest size by which rounding parts sizes that are alike, at either end of a bar.
+ALIKE = 1e-6
 
 
 class Linked(Effect):
@@ -219,8 +221,13 @@ def _alike(some: tuple[Floats, ...], others: tuple[Floats, ...], share: float) -
 
 
 def _largest(names: Sequence[str], owner: Ints, values: Floats, what: str) -> dict[str, float]:
-    """Return the value (m,) of the largest size of each member by its column."""
-    order = np.argsort(np.abs(values), kind="stable")
+    """Return the value (m,) of the largest size of each member by its column.
+
+    Of sizes that differ by rounding the first along the member is taken: rounding chooses no sign.
+    """
+    sizes, most = np.abs(values), np.zeros(len(names))
+    np.maximum.at(most, owner, sizes)
+    large = np.flatnonzero(sizes >= (1 - ALIKE) * most[owner])[::-1]
     largest = np.zeros(len(names))
-    largest[owner[order]] = values[order]
+    largest[owner[large]] = values[large]
     return {f"{name}:{what}": float(one) for name, one in zip(names, largest, strict=True)}

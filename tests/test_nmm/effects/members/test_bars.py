@@ -370,3 +370,49 @@ def test_a_piece_whose_middle_is_on_a_joint_knows_no_order_of_blocks():
     ]
     assert found[0] > 1e3
     assert found[1] == pytest.approx(found[0], rel=1e-10)
+
+
+HELD_AT_BOTH_ENDS = """
+plane = "stress"
+[materials.rock]
+young_modulus = "1e6 GPa"
+poisson_ratio = 0.0
+[[blocks]]
+name = "host"
+material = "rock"
+vertices = [[{x}, {y}], [{end}, {y}], [{end}, {top}], [{x}, {top}]]
+[[bars]]
+name = "bar"
+points = [[{first}, {middle}], [{last}, {middle}]]
+diameter = "16 mm"
+young_modulus = "200 GPa"
+[bars.bond]
+law = "linear"
+stiffness = "10 GPa/m"
+[[supports]]
+name = "left"
+segment = [[{x}, {y}], [{x}, {top}]]
+fix = ["x", "y"]
+[[supports]]
+name = "right"
+segment = [[{end}, {y}], [{end}, {top}]]
+fix = ["x", "y"]
+displacement = [4e-5, 0]
+[formulation.bars]
+pieces = 41
+"""
+
+
+@pytest.mark.parametrize("x", [0.0, 1234.5, -0.37])
+@pytest.mark.parametrize("way", [1, -1])
+def test_of_slips_alike_at_both_ends_the_one_at_the_first_is_told_wherever_the_bar_lies(x, way):
+    """Shear lag in a host of strain 1e-4: slips are -1e-4 sinh(a z) / (a cosh(a l / 2))."""
+    first, last = [x + 0.05, x + 0.35][::way]
+    across = {"y": x / 3, "middle": x / 3 + 0.1, "top": x / 3 + 0.2}
+    text = HELD_AT_BOTH_ENDS.format(x=x, end=x + 0.4, first=first, last=last, **across)
+    rate = np.sqrt(10e9 * AROUND / EA)
+    middle = 0.15 * (1 - 1 / 41)  # of the first piece, from the bar's
+    wanted = 1e-4 * np.sinh(rate * middle) / (rate * np.cosh(rate * 0.15))
+    told = nmm.run(nmm.parse_scene(text)).history["bars:bar:slip"][-1]
+    # Pieces of h = 7 mm: (a h)^2 = 7e-4.
+    assert told == pytest.approx(wanted, rel=1e-3)
