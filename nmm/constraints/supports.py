@@ -50,6 +50,7 @@ class Supports(TiedInterfaces):
         self._in_time = in_time
         grounds = [tie.interface.displacement for tie in self.ties]
         self._grounds = [ground for ground in grounds if isinstance(ground, Ground)]
+        self._still = in_time and self.steady and len(self._grounds) == len(grounds)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:

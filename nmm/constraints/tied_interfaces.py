@@ -50,6 +50,7 @@ class TiedInterfaces(Effect):
         self._kept: tuple[Floats, csc_array] | None = None  # the matrix, at angles
         self._motions = KeptOfPlaces(self._moved)
         self._last: tuple[list[Floats], Instant, list[Floats]] | None = None  # jumps of motions
+        self._still = False  # whether the ground stands still as time goes on
         self._spaces = list({id(t.shared): t.shared for t in ties if t.shared}.values())
         unlike = [t.interface.bodies for t in ties if t.turns]
         self._stresses: Sequence[StressAt] = ()
@@ -229,12 +230,17 @@ class TiedInterfaces(Effect):
 
     def _jumps(self, state: State, end: Instant) -> list[Floats]:
         motions, last = self._motions.of(state), self._last
-        if last is not None and last[0] is motions and last[1] == end:
+        if last is not None and last[0] is motions and self._alike(last[1], end):
             return last[2]
         pairs = zip(self.ties, motions, strict=True)
         jumps = [tie.interface.jump(motion, end) for tie, motion in pairs]
         self._last = motions, end, jumps
         return jumps
+
+    def _alike(self, one: Instant, other: Instant) -> bool:
+        """Whether the ground is at one instant where it is at another."""
+        same = one.load_factor == other.load_factor
+        return same and (self._still or one.time == other.time)
 
     def _moved(self, state: State) -> list[Floats]:
         """How far the sides have moved apart."""

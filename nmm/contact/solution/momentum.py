@@ -75,7 +75,7 @@ class Momentum:
         through, modes = solved.rows, self._model.manifold.rigid_modes
         forces = solved.answer.normal_force, solved.answer.shear_force
         half = middle(before, after)
-        push = through.push(*forces)
+        push = solved.push
         owed = product(self._modes_turned, balance - push).reshape(-1, 3)
         acted = product(self._modes_turned, push)
         owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, acted)

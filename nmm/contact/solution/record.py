@@ -11,6 +11,7 @@ from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.joint_book import JointBook
 from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.problem.step_problem import StepAnswer
+from nmm.frozen import MadeOnce
 
 Breaking = Literal["all", "worst", "stop"]
 """Which bonds that cannot hold break at a time; at "stop" none, and the step is given up."""
@@ -49,6 +50,12 @@ class ContactSolution:
     sliding: Floats = field(default_factory=lambda: np.zeros(0))
     rows: ContactRows | None = None
     missed: Floats | None = None
+
+    @MadeOnce
+    def push(self) -> Floats:
+        """What its forces are on the unknowns (n,), through the rows that they acted through."""
+        assert self.rows is not None
+        return self.rows.push(self.answer.normal_force, self.answer.shear_force)
 
     @property
     def pushing(self) -> Ints:

@@ -85,6 +85,5 @@ def booked(
         beyond += (terms.weight - 0.5) * (elastic / terms.weight - off_line - more)
     work = 0.0
     if solved is not None and solved.rows is not None:
-        forces = solved.answer.normal_force, solved.answer.shear_force
-        work = -float(solved.rows.push(*forces) @ increment)
+        work = -float(solved.push @ increment)
     return Booked(taken, beyond, work, terms.contact_factor, lost)

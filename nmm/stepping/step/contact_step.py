@@ -265,7 +265,7 @@ class Touching:
         rows = self.contact.geometry.conserving(solved.contacts, state, end)
         normal, shear = solved.answer.normal_force, solved.answer.shear_force
         whole = normal if solved.missed is None else normal + solved.missed
-        return rows.push(whole, shear) - solved.rows.push(normal, shear)
+        return rows.push(whole, shear) - solved.push
 
     def _judged(
         self, equations: Equations, solved: "ContactSolution", held: "NullSpace | None"
