@@ -62,7 +62,7 @@ def rows(summary: Summary) -> list[tuple[str, str]]:
         ("condition estimate", _or_none(summary.condition_estimate, _number)),
         ("contacts at most", _counts(summary.largest_contacts)),
         ("seconds", _seconds(summary.seconds)),
-        ("seconds by effect", _seconds(summary.effect_seconds)),
+        ("seconds by effect", _shares(summary)),
         ("peak memory", _or_none(summary.peak_memory, lambda v: f"{v / 2**20:.0f} MiB")),
         ("seed", _or_none(summary.seed, str)),
         ("scene", summary.scene_hash[:12] or None),
@@ -105,6 +105,14 @@ def _newton(value: float) -> str:
 
 def _counts(counts: Mapping[str, int]) -> str | None:
     return ", ".join(f"{count:,} {name}" for name, count in counts.items() if count) or None
+
+
+def _shares(summary: Summary) -> str | None:
+    """Seconds of the effects and of all else, which sum to the run."""
+    whole, known = sum(summary.seconds.values()), summary.effect_seconds
+    if not known:
+        return None
+    return _seconds({**known, "all else": max(whole - sum(known.values()), 0.0)})
 
 
 def _seconds(seconds: Mapping[str, float]) -> str | None:

@@ -12,6 +12,7 @@ from nmm.stepping.audits.base import Ended
 from nmm.stepping.audits.judge import audit, judged
 from nmm.stepping.drive.verdict import RunVerdict
 from nmm.stepping.reports.recorder import Recorder
+from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:
     from nmm.scene.model import Scene
@@ -57,7 +58,7 @@ def summed_up(
         passes=totals.passes,
         frames=totals.frames,
         seconds=_with_rest(stepper.seconds, perf_counter() - begun),
-        effect_seconds=dict(stepper.plan.seconds),
+        effect_seconds=_by_effect(stepper, recorder),
         peak_memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
         equilibrium_residual=totals.residual,
         largest_penetration=totals.penetration,
@@ -75,6 +76,23 @@ def summed_up(
         fracture_energy=None if growth is None else growth.energy_taken,
         freed_energy=None if growth is None else recorder.freed_by(growth),
     )
+
+
+def _by_effect(stepper: Stepper, recorder: Recorder) -> dict[str, float]:
+    """Return seconds by effect: of its own calls, and of phases that are there because of it.
+
+    Search is contact's, and so is every solution of a step but the one that it would have without
+    it. Events and the changes that they lead to are those of the one effect that asks for them.
+    """
+    found, phases, totals = dict(stepper.plan.seconds), stepper.seconds, recorder.totals
+    if stepper.plan.contact is not None:
+        more = max(totals.passes - recorder.steps, 0) / max(totals.passes, 1)
+        caused = phases.get("search", 0.0) + more * phases.get("solve", 0.0)
+        found["contact"] = found.get("contact", 0.0) + caused
+    if len(stepper.plan.askers) == 1:
+        (asker,) = stepper.plan.askers
+        found[asker] = found.get(asker, 0.0) + phases.get("events", 0.0)
+    return found
 
 
 def _with_rest(seconds: dict[str, float], total: float) -> dict[str, float]:
