@@ -60,6 +60,7 @@ def main(
 ) -> None:
     """Numerical manifold method in 2D: blocks, joints, contact and fracture."""
     gc.set_threshold(MADE_BETWEEN_SEARCHES)
+    lean.without_farewell()
     if version:
         import nmm
 
