@@ -12,7 +12,7 @@ from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled import CompiledScene
 from nmm.stepping.drive.dynamics import run_in_time
 from nmm.stepping.drive.in_time import InTime, Schedule
-from nmm.stepping.drive.statics import run_load
+from nmm.stepping.drive.statics import run_load, with_neutral
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, UnderLoad, unseen
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
@@ -80,7 +80,11 @@ class Drive:
                 return state, verdict
             at = self.checkpoints.begin(InTime.at_start(state, times))
             assert isinstance(at, InTime)
-        return self._let_pass(at, times)
+        state, verdict = self._let_pass(at, times)
+        if verdict.code == CONVERGED:  # as where loads alone grow: some place may be any
+            names = self.made.regions.name
+            verdict = with_neutral(verdict, self.made.stepper, state, names)
+        return state, verdict
 
     def _along_path(self, table: "ControlTable", loads: LoadSchedule) -> Ended:
         from nmm.stepping.control.following import run_path

@@ -167,7 +167,7 @@ class ContactSolver:
     def acting(self) -> csc_array | None:
         """Return the matrix of the last system with the springs that acted in it."""
         if self.last is None:
-            return None
+            return self.untouched.matrix
         problem, answer = self.last
         closed = answer.normal_force != 0
         bound = shear_bound(answer.normal_force, closed, problem.limits)

@@ -20,15 +20,17 @@ class Untouched:
     ----------
     factor
         Of the last system; None before the first.
+    matrix
+        Of the last system.
     """
 
     def __init__(self) -> None:
         self.factor: Factor | None = None
-        self._of: csc_array | None = None
+        self.matrix: csc_array | None = None
 
     def forget(self) -> None:
         """Drop the factor."""
-        self.factor = self._of = None
+        self.factor = self.matrix = None
 
     def solve(self, contacts: ContactPoints, request: StepRequest) -> ContactSolution:
         """Solve a step of no ``contacts``.
@@ -38,11 +40,11 @@ class Untouched:
         SolveError
             Where the load moves a part that has no mass.
         """
-        factor, kept = self.factor, self._of is request.matrix
+        factor, kept = self.factor, self.matrix is request.matrix
         if factor is None or not kept:
             # A factor may hold its matrix in another order of its entries.
             factor = self.factor = request.solver.factorise(request.matrix)
-            self._of = request.matrix
+            self.matrix = request.matrix
         increment = factor.solve(request.force)
         residual = factor.relative_residual(increment, request.force)
         answer = _answer(increment, residual, int(not kept), request.solver.name)

@@ -153,7 +153,7 @@ class _Raising:
         verdict = _no_equilibrium(
             at, trial.factor, trial.found, self.schedule, self.stepper, self.names, self.beyond
         )
-        return _with_neutral(verdict, self.stepper, at.state, self.names)
+        return with_neutral(verdict, self.stepper, at.state, self.names)
 
     def arrived(self, at: UnderLoad) -> RunVerdict:
         """Return the verdict at the end of the path."""
@@ -161,14 +161,14 @@ class _Raising:
         if at.rest is not None:
             sentence += f", loose blocks brought to rest in {at.rest.steps} steps of relaxation"
             sentence += f" over {at.rest.way:.3g} m"
-        return _with_neutral(RunVerdict(CONVERGED, sentence), self.stepper, at.state, self.names)
+        return with_neutral(RunVerdict(CONVERGED, sentence), self.stepper, at.state, self.names)
 
 
 def _breaking(fine: bool) -> "Breaking":
     return "worst" if fine else "stop"
 
 
-def _with_neutral(
+def with_neutral(
     verdict: RunVerdict, stepper: Stepper, state: State, names: Sequence[str]
 ) -> RunVerdict:
     """Add which blocks nothing but anchors would hold, and whether anchors were used."""

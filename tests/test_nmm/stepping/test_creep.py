@@ -101,3 +101,25 @@ def test_another_clock_is_refused(more, said):
     text = SCENE.format(duration="1 s", step="1").replace("[output]", more + "[output]")
     with pytest.raises(nmm.errors.SceneError, match=said):
         parse_scene(text, "creep")
+
+
+BESIDE = """[[blocks]]
+name = "beside"
+material = "salt"
+vertices = [[1, 0], [2, 0], [2, 1], [1, 1]]
+[interfaces.any]
+between = "any"
+friction_angle = 0.0
+[contact]
+"""
+
+
+def test_a_block_that_nothing_holds_is_told_in_neutral_equilibrium_though_time_passes():
+    """No friction, no weight, no support: its place is any, and its monitors say nothing."""
+    text = SCENE.format(duration="3000 s", step="1000")
+    alone = nmm.run(parse_scene(text)).summary
+    beside = nmm.run(parse_scene(text.replace("[output]", BESIDE + "[output]"))).summary
+    assert alone.status == beside.status == "converged"
+    assert "block beside is in neutral equilibrium" in beside.sentence
+    assert "block block" not in beside.sentence
+    assert "neutral" not in alone.sentence
