@@ -14,6 +14,7 @@ from nmm.constraints.imposition import Imposition, Method, support_method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
 from nmm.constraints.nitsche import Nitsche
+from nmm.constraints.springs import Springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.constraints.volume_lift import sharing
@@ -73,15 +74,27 @@ class Supports(TiedInterfaces):
         return cls(found, n_unknowns, setup.start, in_time, model)
 
     def follow(self, change: "Change") -> "Supports":
-        """Return the supports of the new model; those that are new hold the material as it is."""
-        new, state = type(self).from_setup(change.setup), change.state
-        known = {tie.interface.name: tie.interface for tie in self.ties}
+        """Return the supports of the new model; those that are new hold the material as it is.
+
+        Springs that the change makes stiffer or softer exert what they did.
+        """
+        new, state, former = type(self).from_setup(change.setup), change.state, change.former
+        jumps = self._jumps(former, Instant.of(former))
+        known = {
+            tie.interface.name: (tie, jump) for tie, jump in zip(self.ties, jumps, strict=True)
+        }
         for number, tie in enumerate(new.ties):
             interface, before = tie.interface, known.get(tie.interface.name)
             anchor = interface.motion(state)
             if before is not None:
-                positions = interface.first.position, before.first.position
-                anchor = nearest(*positions, np.broadcast_to(before.anchor, (len(before), 2)))
+                old, jump = before
+                positions = interface.first.position, old.interface.first.position
+                had = np.broadcast_to(old.interface.anchor, jump.shape)
+                anchor = nearest(*positions, had)
+                rate, past = _rate(tie), _rate(old)
+                if rate is not None and past is not None:
+                    share = 1 - nearest(*positions, past) / rate
+                    anchor = anchor + share * nearest(*positions, jump)
             new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
         return new
 
@@ -214,6 +227,13 @@ def _sharing(supports: Sequence[Imposition]) -> list[Imposition]:
     own = [s.lift if isinstance(s, Nitsche) else None for s in supports]
     pairs = zip(supports, sharing(own), strict=True)
     return [replace(s, lift=one) if isinstance(s, Nitsche) else s for s, one in pairs]
+
+
+def _rate(tie: Imposition) -> Floats | None:
+    """Springs (m, 1) for each length along edges (Pa/m); None of what is none of the kind."""
+    if not isinstance(tie, Springs) or tie.stiffness.ndim > 1 or tie.interface.first.normal is None:
+        return None
+    return (tie.stiffness / tie.interface.area)[:, None]
 
 
 def _interface(setup: Setup, support: "SupportTable", method: Method) -> Interface:
