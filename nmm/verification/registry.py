@@ -146,6 +146,7 @@ CASES = Registry[type[Case]](
         "GR15": f"{_HOME}.branched_cracks:BranchedCrack",
         "GR16": f"{_HOME}.pushed_cracks:PushedCrack",
         "CO1": f"{_HOME}.cohesive.double_cantilever:BentByMoments",
+        "CO2": f"{_HOME}.cohesive.pulled_arms:PulledApart",
         "CO3": f"{_HOME}.cohesive.notched_beam:CohesiveBeam",
         "CO4": f"{_HOME}.cohesive.double_cantilever:ClosedAgain",
         "PL0 bar": f"{_HOME}.plasticity:PlasticBar",

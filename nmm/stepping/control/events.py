@@ -51,10 +51,9 @@ def next_event(trials: Trials, at: OnPath, most: float) -> Reached | RunVerdict:
             end = no_event(at) if other is None else no_balance(at, other.attempt)
             return _at_most(try_, most - factor) or end
         low, high = sorted((still, other), key=lambda one: one.over)
-        event = located(try_, low, high)
-        if event is None:
-            return no_balance(at, other.attempt)
-        found = event
+        found = located(try_, low, high)
+        if not found.attempt.converged:
+            return no_balance(at, found.attempt)
     last = _at_most(try_, most - factor) if factor + found.way > most else None
     return last or Reached(replace(found, way=0.0), event=True)
 

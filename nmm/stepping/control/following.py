@@ -135,8 +135,8 @@ class _Following:
             return self._shorter(at, step, found.attempt)
         if found.load > 1 + ABOVE:
             event = self._event_within(standing, found)
-            if event is None:
-                return self._shorter(at, step, found.attempt)
+            if not event.attempt.converged:
+                return self._shorter(at, step, event.attempt)
             return self._happened(at, event, step)
         after = self._accepted(at, found.attempt, found.way)
         if isinstance(after, Attempt):
@@ -150,8 +150,8 @@ class _Following:
         waits = self.control.idle(at.events, at.softened) and self.trials.may_give_way()
         return self.control.by_load or waits or not self.control.row(standing).any()
 
-    def _event_within(self, at: Standing, end: Tried) -> Tried | None:
-        """Return where on a step the first bond is at its limit; None where it is not found."""
+    def _event_within(self, at: Standing, end: Tried) -> Tried:
+        """Return where on a step the first bond is at its limit, or the trial that failed."""
         now = Tried(0.0, end.attempt, np.minimum(self.trials.loads(), 1.0))
         return located(lambda way: self.trials.along(at, self.control.path(at, way)), now, end)
 

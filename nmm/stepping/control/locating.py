@@ -1,7 +1,7 @@
 """Where on a step the first bond is at its limit: each by itself, by regula falsi (Illinois)."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -38,11 +38,11 @@ class Tried:
         return self.load - 1.0
 
 
-def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried | None:
+def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried:
     """Return the trial at one between two, of which the load of ``high`` is above one.
 
-    Of ``low`` only its loads are read. None where a trial in between has no solution, or loads pass
-    one by a jump.
+    Of ``low`` only its loads are read. Where a trial in between has no solution it is returned;
+    where loads pass one by a jump, the nearest trial as one that has not converged and says so.
     """
     best, stays, beyond = high, [1.0, 1.0], None
     for _ in range(MOST):
@@ -50,7 +50,7 @@ def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried | 
             break
         found = try_(_crossing(low, high, stays))
         if not found.attempt.converged:
-            return None
+            return found
         best = min(best, found, key=lambda one: abs(one.over))
         again, beyond = beyond == (found.over > 0), found.over > 0
         # An end that stays once more counts half.
@@ -59,7 +59,16 @@ def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried | 
             high, stays = found, [part * stays[0], 1.0]
         else:
             low, stays = found, [1.0, part * stays[1]]
-    return best if abs(best.over) <= JUMP else None
+    return best if abs(best.over) <= JUMP else _jumped(best, low, high)
+
+
+def _jumped(nearest: Tried, low: Tried, high: Tried) -> Tried:
+    """Return the nearest trial as one that is no balance at which a bond is at its limit."""
+    sentence = (
+        f"the load of the bond that gives way first jumps from {low.load:.6g} to "
+        f"{high.load:.6g} of its strength, where 1 was expected in between"
+    )
+    return replace(nearest, attempt=replace(nearest.attempt, converged=False, sentence=sentence))
 
 
 def _crossing(low: Tried, high: Tried, counts: list[float]) -> float:

@@ -1,5 +1,6 @@
 """Where on a step the first bond is at its limit: few trials, and the right bond."""
 
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -26,7 +27,7 @@ def test_the_first_bond_at_its_limit_is_found_in_few_trials(name, length):
         return Tried(way, SimpleNamespace(converged=True), loads)
 
     found = located(trial, trial(0.0), trial(length))
-    assert found is not None
+    assert found.attempt.converged
     assert abs(found.load - 1) <= CLOSE
     # Nothing is over its strength before: brute force over the way to it.
     ways = np.linspace(0.0, found.way, 501)[:-1]
@@ -52,8 +53,29 @@ def test_a_trial_without_a_solution_is_told_from_loads_that_do_not_change():
     assert found.over >= 0
 
 
-def test_loads_that_pass_one_by_a_jump_are_no_event():
-    def trial(way):
-        return Tried(way, SimpleNamespace(converged=True), np.array([0.9 if way < 1.7 else 1.2]))
+@dataclass(frozen=True)
+class Answer:
+    """What `located` reads and changes of an attempt."""
 
-    assert located(trial, trial(0.0), trial(3.0)) is None
+    converged: bool = True
+    sentence: str = ""
+
+
+def test_loads_that_pass_one_by_a_jump_are_no_event_and_are_told():
+    def trial(way):
+        return Tried(way, Answer(), np.array([0.9 if way < 1.7 else 1.2]))
+
+    found = located(trial, trial(0.0), trial(3.0))
+    assert not found.attempt.converged
+    assert "jumps from 0.9 to 1.2 of its strength" in found.attempt.sentence
+
+
+def test_a_trial_in_between_that_has_no_solution_is_returned_with_its_reason():
+    def trial(way):
+        if 0.5 < way < 2.5:
+            return Tried(way, Answer(False, "no balance"), np.full(1, np.inf))
+        return Tried(way, Answer(), np.array([0.4 * way]))
+
+    found = located(trial, trial(0.0), trial(4.0))
+    assert not found.attempt.converged
+    assert found.attempt.sentence == "no balance"
