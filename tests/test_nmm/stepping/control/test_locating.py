@@ -72,7 +72,7 @@ def test_loads_that_pass_one_by_a_jump_are_no_event_and_are_told():
 
 def test_a_trial_in_between_that_has_no_solution_is_returned_with_its_reason():
     def trial(way):
-        if 0.5 < way < 2.5:
+        if 0.5 < way < 3.5:
             return Tried(way, Answer(False, "no balance"), np.full(1, np.inf))
         return Tried(way, Answer(), np.array([0.4 * way]))
 
