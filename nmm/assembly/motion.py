@@ -118,6 +118,16 @@ def initial_state(manifold: Manifold) -> State:
     return State(0.0, 0.0, initial_frames(manifold), np.zeros(n), np.zeros(n), np.zeros(n))
 
 
+def coordinate_rounding(manifold: Manifold) -> Floats:
+    """Return the unknowns (n,) of a motion of all bodies by the rounding of coordinates.
+
+    Where nothing acts such motions are all there is, and no force is there to measure them by.
+    """
+    farthest = float(np.abs(manifold.elements.points).max())
+    along = manifold.rigid_modes @ np.tile([1.0, 1.0, 0.0], manifold.rigid_modes.shape[1] // 3)
+    return np.asarray(float(np.finfo(float).eps) * farthest * along)
+
+
 @dataclass(frozen=True)
 class MaterialPoints:
     """Points that move with the material.

@@ -69,7 +69,7 @@ class Regions:
             np.asarray(self.source)[index],
             self.cracks[cracked],
             place[self.crack_region[cracked]],
-            index if self.number is None else self.number[index],
+            self.numbers[index],
             self.box,
         )
 
@@ -78,7 +78,6 @@ class Regions:
 
         Pieces of a block have its number, so that all that is said of it is said of them.
         """
-        number = np.arange(len(self)) if self.number is None else self.number
         first = (parent == self.crack_region[:, None]).argmax(axis=1)
         return Regions(
             polygons,
@@ -87,7 +86,25 @@ class Regions:
             np.asarray(self.source)[parent],
             self.cracks,
             first,
-            number[parent],
+            self.numbers[parent],
+            self.box,
+        )
+
+    @property
+    def numbers(self) -> Ints:
+        """(N,) numbers among the blocks of the scene."""
+        return np.arange(len(self)) if self.number is None else self.number
+
+    def beside(self, others: Regions) -> Regions:
+        """Return these and ``others`` of the same scene after them."""
+        return Regions(
+            Polygons.concatenate([self.polygons, others.polygons]),
+            np.concatenate([self.material, others.material]),
+            (*self.name, *others.name),
+            np.concatenate([self.source, others.source]),
+            np.concatenate([self.cracks, others.cracks]),
+            np.concatenate([self.crack_region, others.crack_region + len(self)]),
+            np.concatenate([self.numbers, others.numbers]),
             self.box,
         )
 

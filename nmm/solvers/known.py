@@ -47,9 +47,13 @@ def is_rounding(
         return True
     if left > RESOLVED * size:
         return False
+    return left < TERMS * float(np.finfo(float).eps) * gross(matrix, at)
+
+
+def gross(matrix: csc_array, at: Floats) -> float:
+    """Return the size of what a matrix (n, n) times unknowns (n,) is the sum of."""
     magnitudes = csc_array((np.abs(matrix.data), matrix.indices, matrix.indptr), matrix.shape)
-    eps = float(np.finfo(float).eps)
-    return left < TERMS * eps * _norm(magnitudes @ np.abs(at))
+    return _norm(magnitudes @ np.abs(at))
 
 
 def _norm(vector: Floats) -> float:

@@ -154,7 +154,7 @@ def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
 
 
 def _refuse_events(scene: "Scene", plan: "Plan") -> None:
-    """Refuse effects that may change a geometry which stages or a control know nothing of.
+    """Refuse effects that may change a geometry which shares of forces or a control are of.
 
     Raises
     ------
@@ -163,12 +163,14 @@ def _refuse_events(scene: "Scene", plan: "Plan") -> None:
     """
     controlled = scene.loading is not None and scene.loading.control is not None
     off_path = [name for name in plan.askers if not plan.effects[name].on_paths]
-    beside: dict[tuple[str, ...], list[str]] = {
-        ("stages",): list(plan.askers) if scene.stages else [],
+    released = [number for number, one in enumerate(scene.stages) if one.release is not None]
+    beside: dict[tuple[str | int, ...], list[str]] = {
+        ("stages", *released[:1], "release"): list(plan.askers) if released else [],
         ("loading", "control"): off_path if controlled else [],
     }
     for key, askers in beside.items():
         if askers:
             place, names = scene.source.place(*key), ", ".join(askers)
-            expected, word = "blocks and cracks that no event changes", ".".join(key)
+            word = key[-1] if released else ".".join(map(str, key))
+            expected = "blocks and cracks that no event changes"
             raise SceneError(Fault(place, names, expected, f"remove it, or {word}"))

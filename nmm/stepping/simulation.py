@@ -16,6 +16,7 @@ from nmm.integrators.base import make_integrator
 from nmm.model.build import reshaped
 from nmm.model.origin import MovedBack
 from nmm.model.solver_settings import cures, warnings
+from nmm.model.stage_geometry import present_setup
 from nmm.progress import Progress
 from nmm.results.frame import Topology
 from nmm.results.safety import Safety
@@ -161,14 +162,13 @@ class Simulation(CompiledScene):
 
     def _model_of(self, stood: RunState) -> Model:
         """Return the model that was solved where a run stood."""
-        if stood.carried.geometry is not None:
-            return reshaped(self.stepper.discretisation.setup, stood.carried.geometry).model
-        if stood.stages is None or not self.stages:
-            return self.stepper.model
-        number = len(stood.stages.entered)
-        if number >= len(self.stages):
-            raise ValueError(f"it is of stage {number + 1} of {len(self.stages)}")
-        return self.stages[number].setup.model
+        setup, geometry = self.stepper.discretisation.setup, stood.carried.geometry
+        if stood.stages is not None and self.stages:
+            number = len(stood.stages.entered)
+            if number >= len(self.stages):
+                raise ValueError(f"it is of stage {number + 1} of {len(self.stages)}")
+            setup = present_setup(self.stages, stood.stages.left)
+        return setup.model if geometry is None else reshaped(setup, geometry).model
 
     def _in_stages(
         self,
@@ -193,8 +193,8 @@ class Simulation(CompiledScene):
         summary = summed_up(
             self.identity(), recorder, end.start, end.state, end.verdict, asked, self.begun
         )
-        energy, changes = recorder.ledger.change_energy, [*end.changes, *recorder.totals.changes]
-        recorder.sink.finish(replace(summary, change_energy=energy, changes=changes))
+        energy = recorder.ledger.change_energy
+        recorder.sink.finish(replace(summary, change_energy=energy))
         return end.state
 
     def _failure_bound(self) -> float | None:

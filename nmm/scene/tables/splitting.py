@@ -88,6 +88,3 @@ def splitting_contradictions(data: Mapping[str, Any]) -> Iterator[Finding]:
     if "contact" not in data:
         remedy = "add [contact] and an interface, through which the pieces meet"
         yield ("splitting",), "no [contact]", "a scene with contact", remedy
-    if data.get("stages"):
-        remedy = "remove [splitting], or [[stages]]"
-        yield ("splitting",), "[splitting] with [[stages]]", "one of the two", remedy

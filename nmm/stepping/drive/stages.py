@@ -8,6 +8,8 @@ import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.frozen import with_parts
+from nmm.geometry.geometry import Geometry
+from nmm.model.stage_geometry import begun_with
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import difference, follow, watch
 from nmm.stepping.drive.dynamics import run_in_time
@@ -47,13 +49,13 @@ class StagesSoFar:
         The state at the start of the present stage.
     entered
         The states from which this stage and those before it were entered; none for the first.
-    changes
-        What changed each time, in words.
+    left
+        The geometries with which the stages before it ended, None of one that no event changed.
     """
 
     start: State
     entered: tuple[State, ...] = ()
-    changes: tuple[str, ...] = ()
+    left: tuple[Geometry | None, ...] = ()
 
 
 StageKeeper = Callable[[StagesSoFar, bool], Keeps]
@@ -68,7 +70,6 @@ class StagesEnd:
     start: State
     stage: "Stage"
     verdict: RunVerdict
-    changes: Sequence[str]
 
 
 def run_stages(
@@ -90,10 +91,9 @@ def run_stages(
     for number in range(len(so_far.entered), len(stages)):  # a handful of stages
         staged, stage = stages[number], stages[number].stage
         if number > len(so_far.entered):
-            before = state
-            state, said = enter(stepper, recorder, before, staged, integrator)
-            entered, changes = (*so_far.entered, before), (*so_far.changes, said)
-            so_far = StagesSoFar(state, entered, changes)
+            entered, left = (*so_far.entered, state), (*so_far.left, stepper.geometry)
+            state = enter(stepper, recorder, state, staged, integrator)
+            so_far = StagesSoFar(state, entered, left)
 
         def told(share: float, text: str, number: int = number) -> None:
             name = stages[number].stage.name
@@ -104,22 +104,23 @@ def run_stages(
         at, sentence = None, f"stage {stage.name}: {verdict.sentence}"
         if verdict.code != CONVERGED:
             verdict = replace(verdict, sentence=sentence)
-            return StagesEnd(state, so_far.start, stage, verdict, so_far.changes)
+            return StagesEnd(state, so_far.start, stage, verdict)
     verdict = RunVerdict(CONVERGED, f"{len(stages)} stages; {sentence}")
-    return StagesEnd(state, so_far.start, stage, verdict, so_far.changes)
+    return StagesEnd(state, so_far.start, stage, verdict)
 
 
 def enter(
     stepper: Stepper, recorder: Recorder, state: State, staged: "Staged", integrator: "Integrator"
-) -> tuple[State, str]:
-    """Solve what the stage has from now on; return the state carried over, and what changed."""
+) -> State:
+    """Solve what the stage has from now on, tell what changed; return the state carried over."""
     change = _entered(stepper, state, staged, integrator)
     before = recorder.ledger.change_energy
     follow(recorder, change, staged.stage.reset)
-    recorder.totals = with_parts(recorder.totals, taken=0, periods=0)
     added = recorder.ledger.change_energy - before
-    name = staged.stage.name
-    return change.state, f"stage {name} at {state.time:.6g}: {difference(change)}, {added:.6g} J"
+    said = f"stage {staged.stage.name} at {state.time:.6g}: {difference(change)}, {added:.6g} J"
+    changes = (*recorder.totals.changes, said)
+    recorder.totals = with_parts(recorder.totals, taken=0, periods=0, changes=changes)
+    return change.state
 
 
 def enter_again(
@@ -130,7 +131,10 @@ def enter_again(
     integrator: "Integrator",
 ) -> None:
     """Enter the stages of a run that was stopped, of which all is known that was recorded."""
-    for state, staged in zip(so_far.entered, stages[1:], strict=False):  # a handful of stages
+    ways = zip(so_far.entered, so_far.left, stages[1:], strict=False)
+    for state, left, staged in ways:  # a handful of stages
+        if left is not None:
+            stepper.reshape(left, stepper.discretisation.setup.start)
         watch(recorder, _entered(stepper, state, staged, integrator), staged.stage.reset)
 
 
@@ -144,7 +148,7 @@ def _entered(
         state = replace(state, load_factor=1.0)
     else:
         state = replace(state, load_factor=0.0, velocity=still, acceleration=still)
-    change = old.change(staged.setup, state)
+    change = old.change(begun_with(staged, old.setup.geometry), state)
     stepper.begin_anew(change, integrator)
     return change
 

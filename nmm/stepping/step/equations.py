@@ -4,6 +4,7 @@ Matter that is not linear enters by its `Linearisation` at an iterate of the ste
 stay linear in the whole increment, whatever the iterate.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,13 +12,13 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.assembly.motion import State
-from nmm.effects.base import Instant
+from nmm.assembly.motion import State, coordinate_rounding
+from nmm.effects.base import Instant, defines
 from nmm.frozen import with_parts
 from nmm.integrators.base import Integrator
 from nmm.integrators.damping import Damping
 from nmm.model.discretisation import ModelWithEffects
-from nmm.solvers.known import is_rounding
+from nmm.solvers.known import gross, is_rounding
 from nmm.solvers.unchecked import product
 
 
@@ -158,13 +159,26 @@ class Assembly:
                 among = sum((np.abs(part) for part in parts), start=np.abs(line.force))
             held = self._anchored(line.stiffness) if anchored else line.stiffness
             matrix, even = plan.matrix(state, held), line.symmetric
-            if among is not None and is_rounding(
-                force, [*parts, line.force], nothing, matrix, state.deformation
+            if among is not None and (
+                is_rounding(force, [*parts, line.force], nothing, matrix, state.deformation)
+                or self._nothing_acts(parts, force, matrix)
             ):
                 force = np.zeros_like(force)
             return Equations(state, end, step, rule, matrix, force, symmetric=even, among=among)
         given = Equations(state, end, step, rule, line.stiffness, force, symmetric=line.symmetric)
         return self._in_time(given, line, matter is None)
+
+    def _nothing_acts(self, parts: Sequence[Floats], force: Floats, matrix: csc_array) -> bool:
+        """Whether a force (n,) is left of earlier loads: no more than places are rounded by.
+
+        ``parts`` (n,) are those of the effects; what has no stiffness acts by itself.
+        """
+        effects = (effect for _, effect in self._solved.plan.named("force"))
+        pairs = zip(effects, parts, strict=True)
+        if any(part.any() for effect, part in pairs if not defines(effect, "matrix")):
+            return False
+        rounded = coordinate_rounding(self._solved.model.manifold)
+        return float(np.linalg.norm(force)) < gross(matrix, rounded)
 
     def _in_time(self, static: Equations, line: Linearisation, linear: bool) -> Equations:
         """Return the equations with inertia, over the factor of contact forces."""

@@ -15,7 +15,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
-from nmm.assembly.motion import State
+from nmm.assembly.motion import State, coordinate_rounding
 from nmm.effects.base import Instant, Span, StepForce, defines
 from nmm.integrators.base import Integrator
 from nmm.model.discretisation import Current
@@ -243,14 +243,8 @@ class Inner:
 
     @cached_property
     def _of_places(self) -> Floats:
-        """(n,) what stiffnesses of effects make of a motion by the rounding of coordinates.
-
-        Where nothing acts such motions are all there is, and there is no force to measure them by.
-        """
-        manifold = self._model.manifold
-        farthest = float(np.abs(manifold.elements.points).max())
-        along = manifold.rigid_modes @ np.tile([1.0, 1.0, 0.0], manifold.rigid_modes.shape[1] // 3)
-        return self._gross(float(np.finfo(float).eps) * farthest * along)
+        """(n,) what stiffnesses of effects make of a motion by the rounding of coordinates."""
+        return self._gross(coordinate_rounding(self._model.manifold))
 
     def _of_matter(
         self, increment: Floats, before: Iterate | None

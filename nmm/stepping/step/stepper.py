@@ -152,6 +152,11 @@ class Stepper:
         self._carried = replace(self._carried, anchored=anchored)
 
     @property
+    def geometry(self) -> "Geometry | None":
+        """Blocks and cracks, where an event has changed those with which scene or stage began."""
+        return self._geometry
+
+    @property
     def discretisation(self) -> Discretisation:
         """What is solved now."""
         return self._current.discretisation
@@ -320,6 +325,7 @@ class Stepper:
         for part in self._solvers:
             part.solver = solver
         self.size = max(self.size, float(np.hypot(*np.ptp(self.reference, axis=0))))
+        self._geometry = None
         self._carried = CarriedOver(self._carried.reach)
         self.forget()
 

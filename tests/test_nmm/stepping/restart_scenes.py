@@ -836,65 +836,6 @@ name = "{name}"
 material = "rock"
 vertices = [[0, {low}], [1, {low}], [1, {high}], [0, {high}]]
 """
-MEMBERS = (
-    'duration = "30 ms"'
-    + HEAD
-    + BOX.format(name="lower", low=0, high=1)
-    + BOX.format(name="upper", low=1, high=2)
-    + """
-[inertia]
-[gravity]
-[contact]
-[interfaces.dry]
-friction_angle = "25 deg"
-[[foundations]]
-name = "soil"
-segment = [[0, 0], [1, 0]]
-normal_stiffness = 2e7
-shear_stiffness = 1e7
-[[springs]]
-name = "anchor"
-points = [[1, 1.2], [2, 1.5]]
-blocks = ["upper", "ground"]
-stiffness = 1e7
-force = 2e3
-yield_force = 3e3
-[[dashpots]]
-name = "damper"
-points = [[0, 1.5], [-1, 1.7]]
-blocks = ["upper", "ground"]
-viscosity = 5e4
-[[masses]]
-name = "machine"
-point = [0.5, 2]
-block = "upper"
-mass = 500.0
-[[bars]]
-name = "bolt"
-points = [[0.3, 0.3], [0.7, 1.9]]
-diameter = 0.05
-young_modulus = 2e11
-[bars.bond]
-law = "bilinear"
-strength = 1e6
-slips = [1e-4, 2e-3]
-[bars.dowel]
-bedding_stiffness = 5e7
-[[loads]]
-name = "pull"
-kind = "body"
-block = "upper"
-density = [2e4, 0]
-[output]
-every_steps = 4
-{checkpoint}
-[formulation.integrator]
-step = 1e-3
-"""
-)
-GROUND_DAMPED = SHAKEN_ON_ROCK.replace(
-    "stiffness = 1e-4\nlocal = 0.2", 'mass = 5.0\nground = "held"'
-)
 CRUSHED = (
     'duration = "12 ms"'
     + HEAD
@@ -954,58 +895,26 @@ energy = 100.0
 increment = 0.05
 max_growth = 0.2
 """
-ZONES = """
-[contact]
-[interfaces.i]
-law = "linear_softening"
-friction_angle = 0.5
-cohesion = 2e6
-tensile_strength = 1e6
-bonded = true
-fracture_energy = 1e4
-normal_stiffness = 1e10
-shear_stiffness = 1e10
-[cohesive_zones]
-increment = 0.1
-length = 0.2
-ahead = 0.5
-max_growth = 0.3
+GROWING_STAGES = """
+[[stages]]
+name = "in time"
+duration = 4e-3
+[[stages]]
+name = "at rest"
+loads = []
+[[stages]]
+name = "in time again"
+duration = 5e-4
+loads = ["pull"]
 """
-BY_INCREMENTS = "[formulation.loading]\nincrement = 0.1\n"
-SEEPING_JOINT = (
-    'duration = "20 ms"'
-    + HEAD
-    + BOX.format(name="lower", low=0, high=1)
-    + BOX.format(name="upper", low=1, high=2)
-    + """
-[inertia]
-[gravity]
-[contact]
-[interfaces.wet]
-friction_angle = "25 deg"
-aperture = "0.1 mm"
-[[supports]]
-name = "held"
-block = "lower"
-fix = ["x", "y"]
-[joint_flow]
-[[joint_heads]]
-name = "above"
-point = [0, 1]
-head = 3.0
-[[joint_heads]]
-name = "below"
-point = [1, 1]
-head = 1.0
-[output]
-every_steps = 4
-{checkpoint}
-[formulation.integrator]
-step = 1e-3
+IN_STAGES = """
+[[stages]]
+name = "first"
+duration = "6 ms"
+[[stages]]
+name = "second"
+duration = "6 ms"
 """
-)
-SUB_BLOCKS = RELAXED + '[formulation.cover]\ntype = "sub_blocks"\nsize = 0.6\n'
-
 SHI = 'step = "2 ms"'
 NEWMARK = 'type = "newmark"\nstep = "2 ms"'
 OWN_NEWMARK = 'type = "newmark"\nstep = "2 ms"\n[formulation.integrator.options]\ngamma = 0.6'
@@ -1054,14 +963,10 @@ SCENES = {
     "filling joint": FILLING_JOINT,
     "rubber": RUBBER,
     "bent": BENT,
-    "members": MEMBERS,
-    "damped against the ground": GROUND_DAMPED,
     "crushed": CRUSHED,
-    "growing": NOTCHED + GROWING + BY_INCREMENTS,
+    "crushed in stages": CRUSHED.replace('duration = "12 ms"', "") + IN_STAGES,
     "growing in time": "duration = 1e-3\n" + NOTCHED + GROWING + "[inertia]\n" + IN_TIME,
-    "zones": NOTCHED + ZONES + BY_INCREMENTS,
-    "seeping joint": SEEPING_JOINT,
-    "sub blocks": SUB_BLOCKS,
+    "growing in stages": NOTCHED + GROWING + GROWING_STAGES + "[inertia]\n" + IN_TIME,
 }
 
 

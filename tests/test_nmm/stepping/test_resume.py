@@ -13,9 +13,6 @@ import pytest
 
 import nmm
 from nmm.errors import DamageError, StorageError
-from nmm.formulation import Formulation
-from nmm.model.effects_table import EFFECTS, GLUE, called_for
-from nmm.stepping.posed import pose
 
 SPEC = importlib.util.spec_from_file_location(
     "restart_scenes", Path(__file__).with_name("restart_scenes.py")
@@ -83,19 +80,6 @@ def check_same(whole, resumed, folders):
         assert np.array_equal(column, resumed.history[name], equal_nan=True), name
     assert [frame.index for frame in resumed.frames] == [*range(len(whole.frames))]
     assert np.array_equal(whole.displacement, resumed.displacement)
-
-
-def test_every_effect_is_in_a_scene_that_is_stopped_and_gone_on_with():
-    named = set()
-    for text in map(scenes.scene_of, scenes.SCENES):
-        scene = nmm.parse_scene(text, "scene")
-        parts = [scene]
-        if scene.stages or "sub_blocks" in text:  # what the scene alone does not tell
-            posed = pose(scene, scene.formulation or Formulation())
-            parts += [one.stage.scene for one in posed.stages]
-            named |= {GLUE} & set(posed.discretisation.plan.effects)
-        named |= {effect for part in parts for effect, is_so in called_for(part).items() if is_so}
-    assert named == set(EFFECTS.table)
 
 
 @pytest.mark.parametrize("steps", [5, pytest.param(1, marks=pytest.mark.slow)])

@@ -54,7 +54,7 @@ class CohesiveZonesTable(Frozen):
 
 
 # Tables in whose scenes zones are not defined yet.
-BESIDE = ("fracture", "inertia", "stages", "splitting", "heat", "initial_stresses")
+BESIDE = ("fracture", "inertia", "splitting", "heat", "initial_stresses")
 
 
 def cohesive_contradictions(data: Tables) -> Iterator[Finding]:

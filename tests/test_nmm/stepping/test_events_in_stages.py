@@ -1,0 +1,190 @@
+"""Blocks that split and cracks that grow in a stage are what the next stages begin with."""
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.errors import SceneError
+
+CRUSHED = """
+plane = "strain"
+[materials.rock]
+young_modulus = 1e9
+poisson_ratio = 0.0
+density = 2000
+[materials.steel]
+young_modulus = 1e9
+poisson_ratio = 0.0
+density = 4000
+[[blocks]]
+name = "floor"
+material = "steel"
+vertices = [[-1, -1], [3, -1], [3, 0], [-1, 0]]
+[[blocks]]
+name = "left"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+name = "right"
+material = "rock"
+vertices = [[1, 0], [2, 0], [2, 1], [1, 1]]
+[[blocks]]
+name = "roof"
+material = "steel"
+vertices = [[0, 1], [2, 1], [2, 2], [0, 2]]
+[[blocks]]
+name = "late"
+material = "steel"
+vertices = [[-1, 0], [0, 0], [0, 1], [-1, 1]]
+[gravity]
+acceleration = [0, -10]
+[contact]
+[interfaces.dry]
+friction_angle = "35 deg"
+[[supports]]
+name = "held"
+segment = [[-1, -1], [3, -1]]
+fix = ["x", "y"]
+[[supports]]
+name = "aligned"
+segment = [[0, 1], [0, 2]]
+block = "roof"
+fix = ["x"]
+[[supports]]
+name = "walled"
+segment = [[0, 0], [0, 1]]
+block = "left"
+fix = ["x"]
+[splitting.rock]
+tensile_strength = 1e4
+cohesion = 3e4
+friction_angle = 0.3
+smallest_block = 0.1
+most_blocks = 16
+[[loads]]
+name = "push"
+kind = "edge"
+segment = [[0, 2], [2, 2]]
+traction = [0, -1e5]
+[[stages]]
+name = "in place"
+remove = ["late"]
+loads = []
+[[stages]]
+name = "loaded"
+loads = ["push"]
+[[stages]]
+name = "unloaded"
+loads = []
+add = ["late"]
+"""
+WEIGHT = 10 * (2 * 2000 + (4 + 2) * 4000)
+
+
+def test_pieces_of_a_stage_bear_the_weight_of_the_next_one():
+    found = nmm.run(nmm.parse_scene(CRUSHED))
+    assert found.summary.status == "converged", found.summary.sentence
+    bodies, load = found.history["splitting:bodies"], found.history["reaction:held:y"]
+    assert bodies[0] == 4
+    assert bodies[-1] > 8  # each pillar more than once, and the block that arrives
+    loaded = np.flatnonzero(found.history["load_factor"] == 1.0)
+    # Walls take no load upright; the solution of contact leaves 1e-8 of the forces.
+    assert load[loaded[[0, -2, -1]]] == pytest.approx(
+        [WEIGHT, WEIGHT + 2e5, WEIGHT + 4e4], rel=1e-7
+    )
+    area = sum(one.area for one in found.topologies[-1].elements.to_shapely())
+    assert area == pytest.approx(4 + 2 + 2 + 1, rel=1e-12)
+
+
+def test_what_happens_is_told_in_the_order_of_time():
+    told = nmm.run(nmm.parse_scene(CRUSHED)).summary.changes
+    assert told[0].startswith("stage loaded at 1:")
+    assert all("split into" in one for one in told[1:-1])
+    assert told[-1].startswith("stage unloaded at 2: 1 blocks added")
+
+
+NOTCHED = """
+plane = "strain"
+[materials.rock]
+young_modulus = 1e9
+poisson_ratio = 0.2
+density = 2000
+[[blocks]]
+name = "plate"
+material = "rock"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[cracks]]
+name = "notch"
+points = {notch}
+[[supports]]
+name = "held"
+segment = [[0, 0], [1, 0]]
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[0, 1], [1, 1]]
+traction = [5e4, 1e6]
+[[loads]]
+name = "other"
+kind = "edge"
+segment = [[0, 1], [1, 1]]
+traction = [-2e3, 4e4]
+[[monitors]]
+name = "corner"
+point = [0, 1]
+[fracture]
+energy = 100.0
+increment = 0.05
+max_growth = {growth}
+[[stages]]
+name = "pulled"
+loads = ["pull"]
+{times}
+[[stages]]
+name = "otherwise"
+loads = ["other"]
+[formulation.cover]
+type = "quads"
+size = 0.125
+degree = 1
+[formulation.integrator]
+type = "newmark"
+step = 1e-4
+"""
+STRAIGHT = [[0.0, 0.51], [0.45, 0.51]]
+
+
+def test_a_crack_that_grew_in_a_stage_is_the_crack_of_the_next_one():
+    """What is elastic does not know how the crack came to be: it may as well be drawn."""
+    text = NOTCHED.format(notch=STRAIGHT, growth=0.2, times="")
+    grown = nmm.run(nmm.parse_scene(text))
+    assert grown.summary.status == "converged", grown.summary.sentence
+    assert grown.history["fracture:growth"][-1] == pytest.approx(0.2, rel=1e-12)
+    ends = [grown.history[f"fracture:notch:end:{axis}"] for axis in "xy"]
+    way = np.unique(np.round(np.transpose(ends), 12), axis=0)
+    drawn = nmm.run(
+        nmm.parse_scene(
+            NOTCHED.format(notch=[STRAIGHT[0], *way.tolist()], growth=1e-9, times="").replace(
+                'loads = ["pull"]', 'loads = ["other"]'
+            )
+        )
+    )
+    for name in ("monitor:corner:ux", "monitor:corner:uy", "fracture:notch:end:K_I"):
+        # The kinks of one are found from its last piece, those of the other were read.
+        assert grown.history[name][-1] == pytest.approx(drawn.history[name][-1], rel=1e-6), name
+
+
+def test_a_crack_grows_in_time_and_rests_in_a_stage_after():
+    text = NOTCHED.format(notch=STRAIGHT, growth=0.2, times="duration = 4e-3") + "[inertia]\n"
+    grown = nmm.run(nmm.parse_scene(text))
+    assert grown.summary.status == "converged", grown.summary.sentence
+    assert grown.history["fracture:growth"][-1] == pytest.approx(0.2, rel=1e-12)
+    assert grown.history["reaction:held:y"][-1] == pytest.approx(-4e4, rel=1e-6)
+
+
+def test_shares_of_forces_and_events_are_refused_together():
+    text = CRUSHED.replace('name = "unloaded"', 'name = "unloaded"\nrelease = 0.5')
+    text = text.replace('add = ["late"]', 'remove = ["right"]')
+    with pytest.raises(SceneError, match=r"stages.2.release: splitting: .*no event changes"):
+        nmm.run(nmm.parse_scene(text))
