@@ -241,6 +241,15 @@ class Effect(ABC):
         """Return the effect on the new model: built anew from what declares it."""
         return type(self).from_setup(change.setup)
 
+    @classmethod
+    def in_place_of(cls, other: "Effect", change: "Change") -> "Effect":
+        """Return what goes on for ``other``, of this name but of another kind.
+
+        It is of a stage in time for one at rest, or the other way round; built from what
+        declares it.
+        """
+        return cls.from_setup(change.setup)
+
     def begin(self, state: State) -> State:
         """Return the state at the start of the run as the effect changes it."""
         raise NotImplementedError

@@ -33,12 +33,8 @@ class CrackGrowth(GrowingCracks):
         # A crack that begins frees what it does under the load at which strength was reached.
         self.at_toughness = self._followed and not setup.geometry.nuclei
 
-    def follow(self, change: "Change") -> GrowingCracks:
+    def follow(self, change: "Change") -> "CrackGrowth":
         """Return the effect on the new geometry, with what its fronts have gained."""
-        if change.setup.scene.inertia is not None:  # of a stage in time
-            from nmm.fracture.growth.in_time import GrowthInTime
-
-            return GrowthInTime(change.setup, self._grown_so_far(change))
         parted = change.new.manifold.n_bodies > change.old.manifold.n_bodies
         begun = len(change.setup.geometry.nuclei) > len(self._setup.geometry.nuclei)
         path = self._path.begun_anew() if begun else self._path

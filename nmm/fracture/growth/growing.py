@@ -233,6 +233,12 @@ class GrowingCracks(Effect):
     def follow(self, change: "Change") -> "GrowingCracks":
         """Return the effect on the new geometry, with what its fronts have gained."""
 
+    @classmethod
+    def in_place_of(cls, other: Effect, change: "Change") -> Self:
+        """See `Effect.in_place_of`: tips are where they are, and no force holds new faces."""
+        assert isinstance(other, GrowingCracks)
+        return cls(change.setup, other._grown_so_far(change))
+
     def _grown_so_far(self, change: "Change") -> GrownSoFar:
         lines = self._setup.geometry.cracks, change.setup.geometry.cracks
         fronts = self._fronts.with_born(len(lines[1]), change.setup.geometry.nuclei)

@@ -73,15 +73,8 @@ class GrowthInTime(GrowingCracks):
         element = model.cut.tips.element[self._tips[self._tips >= 0]]
         return rayleigh_speeds(model, element, tip_moduli(model, element)[0])
 
-    def follow(self, change: "Change") -> GrowingCracks:
-        """Return the effect on the new geometry, with faces held where tips have gone on.
-
-        A stage that comes to rest lets go of all faces.
-        """
-        if change.setup.scene.inertia is None:
-            from nmm.fracture.growth.crack_growth import CrackGrowth
-
-            return CrackGrowth(change.setup, self._grown_so_far(change))
+    def follow(self, change: "Change") -> "GrowthInTime":
+        """Return the effect on the new geometry, with faces held where tips have gone on."""
         before, after = self._setup.geometry.cracks, change.setup.geometry.cracks
         new = GrowthInTime(change.setup, self._grown_so_far(change))
         length, was = new._fronts.gained(before, after), new._fronts.former(before, after)

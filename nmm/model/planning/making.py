@@ -54,11 +54,14 @@ def _check_finite(plan: Plan) -> None:
 
 def plan_after(plan: Plan, change: "Change") -> Plan:
     """Return the plan on the new model: effects follow, and those newly named are built."""
-    makers = _makers(change.setup)
+    makers, kinds = _makers(change.setup), _kinds(change.setup)
     for name, effect in plan.effects.items():
         if effect.stays or name in makers:
             own = replace(change, setup=with_table(change.setup, name))
-            makers[name] = partial(effect.follow, own)
+            kind = kinds.get(name, type(effect))
+            same = kind is type(effect)
+            goes_on = effect.follow if same else partial(kind.in_place_of, effect)
+            makers[name] = partial(goes_on, own)
     new = Plan({}, plan.seconds)
     for name, make in makers.items():
         new.effects[name] = effect = new.timed(name, make)
@@ -78,12 +81,17 @@ def plan_after(plan: Plan, change: "Change") -> Plan:
     return new
 
 
-def _makers(setup: Setup) -> dict[str, Callable[[], Effect]]:
-    """Return what builds the effects that a scene names, in the order of the table."""
+def _kinds(setup: Setup) -> dict[str, type[Effect]]:
+    """Return the effects that a scene names by keys of its own, in the order of the table."""
     kinds = [EFFECTS.load(name) for name, wanted in called_for(setup.scene).items() if wanted]
     if piece_glue(setup.formulation.cover) is not None:
         kinds.append(EFFECTS.load(GLUE))
+    return {kind.name: kind for kind in kinds}
+
+
+def _makers(setup: Setup) -> dict[str, Callable[[], Effect]]:
+    """Return what builds the effects that a scene names, in the order of the table."""
     makers: dict[str, Callable[[], Effect]] = {
-        kind.name: partial(kind.from_setup, setup) for kind in kinds
+        name: partial(kind.from_setup, setup) for name, kind in _kinds(setup).items()
     }
     return makers | {OWN + name: partial(make_own, setup, name) for name in setup.scene.effects}
