@@ -149,13 +149,14 @@ class Supports(TiedInterfaces):
         """See `Effect.first_work`.
 
         What is driven at the start of statics is driven there from nothing in the first step, and
-        the reaction grows with it.
+        the reaction grows with it. Where loose blocks were brought to rest under the whole load
+        what they stand on has gone with them: it is driven from where they stand.
         """
-        total = 0.0
+        total, jumps = 0.0, self._jumps(before, Instant.of(before))
         for number, start, end in self._driven(before, after):
-            if start.any():
+            if jumps[number].any():
                 first, last = self._ends(number, before, after)
-                total += float(np.sum(last * end)) / 2
+                total += float(np.sum(last * (end - start - jumps[number]))) / 2
                 total -= float(np.sum((first + last) / 2 * (end - start)))
         return total
 
