@@ -148,11 +148,18 @@ def test_a_bar_that_is_cut_through_fails_at_the_load_of_the_cut():
     assert "after a seam opened" in done.summary.sentence
 
 
-def test_stages_that_would_set_an_event_back_are_refused_by_line():
+def test_a_seam_that_opened_in_a_stage_stays_open_in_the_next_one():
     text = SEAM.replace('duration = "20 ms"\n', "", 1)
-    text += '[[stages]]\nname = "first"\nduration = "10 ms"\n'
-    with pytest.raises(SceneError, match=r"scene:\d+: stages.*effects.seam"):
-        run(text)
+    text += '[[stages]]\nname = "first"\nduration = "15 ms"\n'
+    done = run(text + '[[stages]]\nname = "second"\nduration = "5 ms"\n')
+    assert done.summary.status == "converged", done.summary.sentence
+    assert done.manifold.n_bodies == 2
+    assert [one for one in done.summary.changes if "seam" in one] == ["at 0.01: a seam opened"]
+    model, state = done.stepper.model, done.state
+    momentum = (model.manifold.rigid_modes.T @ (model.mass @ state.velocity)).reshape(-1, 3)
+    push = state.frames.to_global(np.arange(2), momentum[:, :2])
+    # As without stages: 4000 kg at (3, 1) m/s.
+    np.testing.assert_allclose(push.sum(axis=0), [12000, 4000], rtol=1e-9)
 
 
 def test_a_control_that_would_overlook_an_event_is_refused_by_line():
