@@ -26,7 +26,7 @@ from nmm.verification.hard.spoilt.sound_texts import DYNAMIC
 
 PLACE = "file.toml"
 # Processor seconds that a file may take to be refused or prepared, and bytes that it may ask for.
-LONGEST, MEMORY = 10.0, 1e8
+LONGEST, MEMORY = 10.0, 2e8
 COUNT = 50
 
 REFUSED, SOUND = "refused", "sound"
