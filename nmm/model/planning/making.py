@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def compile_plan(setup: Setup) -> Plan:
     """Import and build the effects that a scene names, with keys of its own or in tables."""
     plan = Plan({})
-    for name, make in _makers(setup).items():
+    for name, make in _makers(setup, _kinds(setup)).items():
         plan.effects[name] = plan.timed(name, make)
     if setup.kinematics.finite:
         _check_finite(plan)
@@ -54,7 +54,8 @@ def _check_finite(plan: Plan) -> None:
 
 def plan_after(plan: Plan, change: "Change") -> Plan:
     """Return the plan on the new model: effects follow, and those newly named are built."""
-    makers, kinds = _makers(change.setup), _kinds(change.setup)
+    kinds = _kinds(change.setup)
+    makers = _makers(change.setup, kinds)
     for name, effect in plan.effects.items():
         if effect.stays or name in makers:
             own = replace(change, setup=with_table(change.setup, name))
@@ -89,9 +90,9 @@ def _kinds(setup: Setup) -> dict[str, type[Effect]]:
     return {kind.name: kind for kind in kinds}
 
 
-def _makers(setup: Setup) -> dict[str, Callable[[], Effect]]:
-    """Return what builds the effects that a scene names, in the order of the table."""
+def _makers(setup: Setup, kinds: dict[str, type[Effect]]) -> dict[str, Callable[[], Effect]]:
+    """Return what builds effects of ``kinds`` and those of one's own."""
     makers: dict[str, Callable[[], Effect]] = {
-        name: partial(kind.from_setup, setup) for name, kind in _kinds(setup).items()
+        name: partial(kind.from_setup, setup) for name, kind in kinds.items()
     }
     return makers | {OWN + name: partial(make_own, setup, name) for name in setup.scene.effects}

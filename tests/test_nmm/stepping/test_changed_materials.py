@@ -5,6 +5,7 @@ import pytest
 
 import nmm
 from nmm.errors import FormulationError, SceneError
+from nmm.testing.stopping import check_goes_on
 
 BAR = """
 plane = "stress"
@@ -161,20 +162,7 @@ def test_a_run_that_is_stopped_goes_on_bit_by_bit(tmp_path):
     more = "[output.checkpoint]\nevery_steps = 3\n"
     second = f"{FLOWS}young_modulus = {E2}"
     scene = bar(ELASTIC["first"], second, change="cover = { size = 0.7 }", more=more)
-    whole = nmm.run(scene, out=tmp_path / "whole")
-    left = [10]
-
-    def progress(share, said):
-        left[0] -= 1
-        if left[0] < 0:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        nmm.run(scene, out=tmp_path / "half", progress=progress)
-    resumed = nmm.resume(tmp_path / "half")
-    assert np.array_equal(whole.displacement, resumed.displacement)
-    for name, column in whole.history.items():
-        assert np.array_equal(column, resumed.history[name], equal_nan=True), name
+    check_goes_on(scene, tmp_path, 10)
 
 
 @pytest.mark.parametrize(

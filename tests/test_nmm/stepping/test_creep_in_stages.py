@@ -6,6 +6,7 @@ import pytest
 import nmm
 from nmm.errors import SceneError
 from nmm.testing.scenes import floor_and_pin
+from nmm.testing.stopping import check_goes_on
 
 G_K, ETA_K = 2e9, 2e14
 BULK, SHEAR = 20e9 / 3, 4e9
@@ -123,20 +124,7 @@ def test_settlements_of_stages_superpose(law, cover):
 
 def test_a_run_that_is_stopped_goes_on_bit_by_bit(tmp_path):
     scene = salt("burgers", "cover = { size = 0.3 }", "[output.checkpoint]\nevery_steps = 20\n")
-    whole = nmm.run(scene, out=tmp_path / "whole")
-    left = [250]
-
-    def progress(share, said):
-        left[0] -= 1
-        if left[0] < 0:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        nmm.run(scene, out=tmp_path / "half", progress=progress)
-    resumed = nmm.resume(tmp_path / "half")
-    assert np.array_equal(whole.displacement, resumed.displacement)
-    for name, column in whole.history.items():
-        assert np.array_equal(column, resumed.history[name], equal_nan=True), name
+    check_goes_on(scene, tmp_path, 250)
 
 
 def test_two_clocks_are_refused_by_line():

@@ -115,9 +115,9 @@ def test_two_halves_are_the_whole_before_and_after_an_event(steps, tmp_path):
     def progress(share, said):
         left[0] -= 1
         if left[0] < 0:
-            raise resumed.StoppedError
+            raise resumed.stopping.StoppedError
 
-    with pytest.raises(resumed.StoppedError):
+    with pytest.raises(resumed.stopping.StoppedError):
         run(kept, out=folder, progress=progress)
     half = nmm.resume(folder, allow_code=["seam"])
     resumed.check_same(whole, half, (tmp_path / "whole", folder))

@@ -5,14 +5,13 @@ Scenes are those whose files are spoilt elsewhere: small ones that together name
 
 import tomllib
 
-import numpy as np
 import pytest
 
-import nmm
 from nmm.errors import NmmError
 from nmm.model.effects_table import EFFECTS, GLUE, called_for
 from nmm.scene import build_scene
 from nmm.stepping.prepare import prepare
+from nmm.testing.stopping import check_goes_on
 from nmm.verification.hard.spoilt.mutations import sound_files
 
 # Loads that come on in one step are brought on in increments; weight alone has none, and these
@@ -64,32 +63,6 @@ def named(made):
     return {name for name, wanted in called_for(scene).items() if wanted} | glue
 
 
-class StoppedError(Exception):
-    """Stands for a user's Ctrl-C."""
-
-
-def check_goes_on(made, tmp_path):
-    """A run that is stopped past its middle ends as one that was not."""
-    scene = build_scene(made, "scene")
-    whole = nmm.run(scene, out=tmp_path / "whole")
-    left = [max(int(0.6 * whole.summary.steps), 1)]
-
-    def progress(share, said):
-        left[0] -= 1
-        if left[0] < 0:
-            raise StoppedError
-
-    with pytest.raises(StoppedError):
-        nmm.run(scene, out=tmp_path / "half", progress=progress)
-    resumed = nmm.resume(tmp_path / "half")
-    assert resumed.summary.status == whole.summary.status
-    assert np.array_equal(whole.displacement, resumed.displacement)
-    assert list(whole.history) == list(resumed.history)
-    for name, column in whole.history.items():
-        assert np.array_equal(column, resumed.history[name], equal_nan=True), name
-    return whole
-
-
 def posed(made):
     scene = build_scene(made, "scene")
     return prepare(scene, scene.formulation)
@@ -101,7 +74,7 @@ def marked(names):
 
 @pytest.mark.parametrize("name", marked(n for n in SCENES if n not in ONE_STEP))
 def test_a_run_goes_on_from_a_checkpoint_bit_by_bit(name, tmp_path):
-    check_goes_on(tables(name), tmp_path)
+    check_goes_on(build_scene(tables(name), "scene"), tmp_path)
 
 
 STAGED = [name for name in SCENES if name not in ("creeping", "splitting", "staged")]
@@ -115,7 +88,7 @@ def test_a_run_goes_on_over_a_change_of_covers_bit_by_bit_or_is_refused_by_line(
         with pytest.raises(NmmError, match=r"scene: .*stages"):
             posed(made)
         return
-    whole = check_goes_on(made, tmp_path)
+    whole = check_goes_on(build_scene(made, "scene"), tmp_path)
     assert whole.summary.status == "converged", whole.summary.sentence
 
 

@@ -1,9 +1,9 @@
 """Displacements that count from the start of a stage that asks for it."""
 
-import numpy as np
 import pytest
 
 import nmm
+from nmm.testing.stopping import check_goes_on
 
 COLUMN = """
 plane = "strain"
@@ -103,17 +103,4 @@ def test_frames_count_as_monitors_do():
 def test_a_run_that_is_stopped_goes_on_counting(tmp_path):
     more = "[output.checkpoint]\nevery_steps = 2\n[formulation.loading]\nincrement = 0.25\n"
     scene = column("reset_displacements = true", "cover = { size = 0.7 }", more=more)
-    whole = nmm.run(scene, out=tmp_path / "whole")
-    left = [10]
-
-    def progress(share, said):
-        left[0] -= 1
-        if left[0] < 0:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        nmm.run(scene, out=tmp_path / "half", progress=progress)
-    resumed = nmm.resume(tmp_path / "half")
-    assert np.array_equal(whole.displacement, resumed.displacement)
-    tops = (one.history["monitor:top:uy"] for one in (whole, resumed))
-    assert np.array_equal(*tops, equal_nan=True)
+    check_goes_on(scene, tmp_path, 10)

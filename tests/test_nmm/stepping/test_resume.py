@@ -13,6 +13,7 @@ import pytest
 
 import nmm
 from nmm.errors import DamageError, StorageError
+from nmm.testing import stopping
 
 SPEC = importlib.util.spec_from_file_location(
     "restart_scenes", Path(__file__).with_name("restart_scenes.py")
@@ -43,10 +44,6 @@ nmm.run(nmm.read_scene(scene), out=folder,
 """
 
 
-class StoppedError(Exception):
-    """Stands for a user's Ctrl-C."""
-
-
 def content(folder):
     """Bytes of the files of a run by name, and its summary but for seconds and memory."""
     files = {str(path.relative_to(folder)): path for path in folder.rglob("*") if path.is_file()}
@@ -57,17 +54,8 @@ def content(folder):
 
 
 def stopped_after(text, folder, steps):
-    """Run a scene until an exception ends it after so many steps."""
-    left = [steps]
-
-    def progress(share, said):
-        left[0] -= 1
-        if left[0] < 0:
-            raise StoppedError
-
-    with pytest.raises(StoppedError):
-        nmm.run(nmm.parse_scene(text, "scene"), out=folder, progress=progress)
-    return folder
+    """Run the text of a scene until an exception ends it after so many steps."""
+    return stopping.stopped_after(nmm.parse_scene(text, "scene"), folder, steps)
 
 
 def check_same(whole, resumed, folders):
@@ -141,9 +129,9 @@ def test_a_run_stopped_twice_goes_on_twice(tmp_path):
     def progress(share, said):
         left[0] -= 1
         if left[0] < 0:
-            raise StoppedError
+            raise stopping.StoppedError
 
-    with pytest.raises(StoppedError):
+    with pytest.raises(stopping.StoppedError):
         nmm.resume(tmp_path / "half", progress=progress)
     resumed = nmm.resume(tmp_path / "half")
     check_same(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
@@ -212,9 +200,9 @@ def test_an_effect_of_ones_own_goes_on_with_what_it_says_it_carries(remembers, t
     def progress(share, said):
         left[0] -= 1
         if left[0] < 0:
-            raise StoppedError
+            raise stopping.StoppedError
 
-    with pytest.raises(StoppedError):
+    with pytest.raises(stopping.StoppedError):
         nmm.run(scene, out=tmp_path / "half", progress=progress, **trust)
     resumed = nmm.resume(tmp_path / "half", **trust)
     same = np.array_equal(whole.displacement, resumed.displacement)
