@@ -85,15 +85,17 @@ class Checkpoints:
     def go_on(self, state: RunState) -> InTime | UnderLoad:
         """Take up a run where it stood."""
         self.stepper.carry(state.carried)
-        if state.carried.geometry is not None:
+        self.recorder.totals, self.recorder.zero = state.totals, state.zero
+        if state.stages is not None or state.carried.geometry is not None:
             setup = self.stepper.discretisation.setup
-            self.recorder.monitors = monitors(setup, all_there=False)
-        self.recorder.totals = state.totals
+            found = monitors(setup, all_there=False, zero=state.zero.state)
+            self.recorder.monitors = found
         if self.choice is not None:
             self._periods = self.choice.periods(state.at.state.time)
         return state.at
 
     def _stored(self, at: At) -> At:
-        arrays = RunState(at, self.stepper.carried, self.recorder.totals, self.stages).to_arrays()
+        recorded = self.recorder.totals, self.stages, self.recorder.zero
+        arrays = RunState(at, self.stepper.carried, *recorded).to_arrays()
         self.store(arrays)
         return cast(At, self.go_on(RunState.from_arrays(arrays)))

@@ -1,7 +1,7 @@
 """All of a run that matters: what a checkpoint stores and a run goes on from."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from nmm.results.storage.values import Arrays, Kinds, decoded, encoded
@@ -9,6 +9,7 @@ from nmm.stepping.drive.in_time import InTime
 from nmm.stepping.drive.stages import StagesSoFar
 from nmm.stepping.drive.under_load import UnderLoad
 from nmm.stepping.reports.totals import Totals
+from nmm.stepping.reports.zero import Zero
 from nmm.stepping.step.carried import CarriedOver
 
 if TYPE_CHECKING:
@@ -30,12 +31,15 @@ class RunState:
         Of what was recorded.
     stages
         Those that were entered; None of a run without stages.
+    zero
+        What displacements count from.
     """
 
     at: InTime | UnderLoad
     carried: CarriedOver
     totals: Totals
     stages: StagesSoFar | None = None
+    zero: Zero = field(default_factory=Zero)
 
     def to_arrays(self) -> Arrays:
         """Return it as arrays by name."""
@@ -109,6 +113,7 @@ _PLACES = {
     "nmm.stepping.reports.lengths": ("StepLengths",),
     "nmm.stepping.reports.output": ("Watch",),
     "nmm.stepping.reports.totals": ("Totals",),
+    "nmm.stepping.reports.zero": ("Zero",),
     "nmm.stepping.run_state": ("RunState",),
     "nmm.stepping.step.carried": ("CarriedOver", "LaidAnew"),
 }

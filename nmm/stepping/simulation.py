@@ -182,7 +182,7 @@ class Simulation(CompiledScene):
         so_far, at = StagesSoFar(self.start), None
         if stood is not None and stood.stages is not None:
             so_far = stood.stages
-            enter_again(self.stepper, recorder, so_far, self.stages, rule)
+            enter_again(self.stepper, so_far, self.stages, rule)
             present = self.stages[len(so_far.entered)].stage
             at = checkpoints.entered(so_far, present.in_time).go_on(stood)
         self.stepper.budget.taken = recorder.steps

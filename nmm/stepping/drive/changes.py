@@ -77,18 +77,13 @@ def follow(recorder: Recorder, change: "Change", reset: bool = False) -> None:
 
     ``reset`` lets displacements count from here.
     """
-    watch(recorder, change, reset)
+    recorder.zero = recorder.zero.followed(change, reset)
+    recorder.monitors = monitors(change.setup, all_there=False, zero=recorder.zero.state)
     stepper, totals = recorder.stepper, recorder.totals
     ledger = totals.ledger.changed(stepper.plan, stepper.model, change.state)
     recorder.totals = with_parts(totals, ledger=ledger, since=change.state)
     if not same_elements(change.old.manifold, change.new.manifold):
         recorder.sink.begin(topology(change.setup))
-
-
-def watch(recorder: Recorder, change: "Change", reset: bool) -> None:
-    """Let monitors be those of the new model, and displacements count on from where they did."""
-    recorder.zero = recorder.zero.followed(change, reset)
-    recorder.monitors = monitors(change.setup, all_there=False, zero=recorder.zero.state)
 
 
 def topology(setup: "Setup") -> Topology:

@@ -11,7 +11,7 @@ from nmm.frozen import with_parts
 from nmm.geometry.geometry import Geometry
 from nmm.model.stage_geometry import begun_with
 from nmm.progress import Progress
-from nmm.stepping.drive.changes import difference, follow, watch
+from nmm.stepping.drive.changes import difference, follow
 from nmm.stepping.drive.dynamics import run_in_time
 from nmm.stepping.drive.in_time import InTime, Schedule
 from nmm.stepping.drive.statics import run_load
@@ -124,18 +124,14 @@ def enter(
 
 
 def enter_again(
-    stepper: Stepper,
-    recorder: Recorder,
-    so_far: StagesSoFar,
-    stages: "Sequence[Staged]",
-    integrator: "Integrator",
+    stepper: Stepper, so_far: StagesSoFar, stages: "Sequence[Staged]", integrator: "Integrator"
 ) -> None:
     """Enter the stages of a run that was stopped, of which all is known that was recorded."""
     ways = zip(so_far.entered, so_far.left, stages[1:], strict=False)
     for state, left, staged in ways:  # a handful of stages
         if left is not None:
             stepper.reshape(left, stepper.discretisation.setup.start)
-        watch(recorder, _entered(stepper, state, staged, integrator), staged.stage.reset)
+        _entered(stepper, state, staged, integrator)
 
 
 def _entered(
