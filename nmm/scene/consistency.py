@@ -209,11 +209,9 @@ def _control(data: Tables) -> Iterator[Finding]:
     if "contact" not in data:
         remedy = "add [contact], or remove [loading.control]"
         yield ("loading", "control"), "no [contact]", "a scene with contact", remedy
-    others = ("stages", data), ("checkpoint", _table(data, "output"))
-    for key, table in others:
-        if table.get(key):
-            remedy = f"remove {key}, or [loading.control]"
-            yield ("loading", "control"), f"{key} besides", f"a path without {key}", remedy
+    if data.get("stages"):
+        remedy = "remove stages, or [loading.control]"
+        yield ("loading", "control"), "stages besides", "a path without stages", remedy
     known = [row["name"] for _, row in rows(data, "monitors") if isinstance(row.get("name"), str)]
     named = control.get("monitors", ())
     for number, name in enumerate(named if isinstance(named, list | tuple) else ()):

@@ -15,13 +15,14 @@ from nmm.stepping.drive.under_load import UnderLoad
 from nmm.stepping.reports.monitors import monitors
 from nmm.stepping.reports.output import Choice
 from nmm.stepping.reports.recorder import Recorder
-from nmm.stepping.run_state import RunState
+from nmm.stepping.run_state import RunPosition, RunState
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:
     from nmm.scene.output import CheckpointTable
+    from nmm.stepping.control.position import OnPath
 
-At = TypeVar("At", InTime, UnderLoad)
+At = TypeVar("At", InTime, UnderLoad, "OnPath")
 
 
 def checkpoint_choice(
@@ -82,7 +83,7 @@ class Checkpoints:
         due = self.choice.takes(time, steps, before, frozenset())
         return self._stored(at) if due else at
 
-    def go_on(self, state: RunState) -> InTime | UnderLoad:
+    def go_on(self, state: RunState) -> RunPosition:
         """Take up a run where it stood."""
         self.stepper.carry(state.carried)
         self.recorder.totals, self.recorder.zero = state.totals, state.zero

@@ -16,7 +16,7 @@ from nmm.stepping.drive.statics import run_load, with_neutral
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, UnderLoad, unseen
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
-from nmm.stepping.run_state import RunState
+from nmm.stepping.run_state import RunPosition, RunState
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.control import ControlTable
@@ -53,20 +53,20 @@ class Drive:
         scene, loads = self.made.scene, self._load_schedule()
         control = None if scene.loading is None else scene.loading.control
         if control is not None:
-            return self._along_path(control, loads)
+            return self._along_path(at, control, loads)
         under = at or self.checkpoints.begin(UnderLoad.at_start(self.made.start, loads))
         assert isinstance(under, UnderLoad)
         if scene.fracture is not None and scene.fracture.control == "toughness":
             return self._at_toughness(under, loads)
         return self._under_loads(under, loads)
 
-    def _in_time(self, at: InTime | UnderLoad | None) -> Ended:
+    def _in_time(self, at: "RunPosition | None") -> Ended:
         times = self._times()
         begun = at or self.checkpoints.begin(InTime.at_start(self.made.start, times))
         assert isinstance(begun, InTime)
         return self._let_pass(begun, times)
 
-    def _creep(self, at: InTime | UnderLoad | None) -> Ended:
+    def _creep(self, at: "RunPosition | None") -> Ended:
         """Bring the loads on while the clock stands; then let time pass, in equilibrium."""
         asked, times = self.made.formulation.loading, self._times("creep")
         if not isinstance(at, InTime):
@@ -86,15 +86,20 @@ class Drive:
             verdict = with_neutral(verdict, self.made.stepper, state, names)
         return state, verdict
 
-    def _along_path(self, table: "ControlTable", loads: LoadSchedule) -> Ended:
+    def _along_path(
+        self, at: "RunPosition | None", table: "ControlTable", loads: LoadSchedule
+    ) -> Ended:
         from nmm.stepping.control.following import run_path
         from nmm.stepping.control.making import control_of
-        from nmm.stepping.control.position import PathEnd
+        from nmm.stepping.control.position import OnPath, PathEnd
 
         stepper, start = self.made.stepper, self.made.start
-        control = control_of(table, stepper, self.made.formulation)
+        control = control_of(table)
         end = PathEnd(loads.target, table.fall)
-        return run_path(stepper, self.recorder, start, control, end, self.progress)
+        begun = at or self.checkpoints.begin(OnPath.at_start(start, control.increment))
+        assert isinstance(begun, OnPath)
+        keep = self.checkpoints.keep
+        return run_path(stepper, self.recorder, begun, control, end, self.progress, keep)
 
     def _at_toughness(self, under: UnderLoad, loads: LoadSchedule) -> Ended:
         from nmm.stepping.drive.growth import run_growth

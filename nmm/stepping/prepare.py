@@ -43,8 +43,8 @@ def prepare(scene: "Scene", formulation: Formulation) -> Simulation:
     )
     loading = posed.scene.loading
     if loading is not None and loading.control is not None:
-        from nmm.stepping.control.making import control_of  # no other scene follows a path
+        from nmm.stepping.control.making import check_path  # no other scene follows a path
 
         with placed(scene, formulation):
-            control_of(loading.control, stepper, posed.formulation)
+            check_path(loading.control, stepper, posed.formulation)
     return ready

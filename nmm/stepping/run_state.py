@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from nmm.results.storage.values import Arrays, Kinds, decoded, encoded
 from nmm.stepping.drive.in_time import InTime
@@ -15,6 +15,10 @@ from nmm.stepping.step.carried import CarriedOver
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
     from nmm.contact.points.contact_points import ContactPoints
+    from nmm.stepping.control.position import OnPath
+
+RunPosition: TypeAlias = "InTime | UnderLoad | OnPath"
+"""Where a run stands in time, under loads that grow, or on a path past the peak."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +39,7 @@ class RunState:
         What displacements count from.
     """
 
-    at: InTime | UnderLoad
+    at: "RunPosition"
     carried: CarriedOver
     totals: Totals
     stages: StagesSoFar | None = None
@@ -106,6 +110,7 @@ _PLACES = {
     "nmm.geometry.blocks": ("Regions",),
     "nmm.geometry.geometry": ("Geometry",),
     "nmm.stepping.adaptive.control": ("Chosen",),
+    "nmm.stepping.control.position": ("OnPath",),
     "nmm.stepping.drive.in_time": ("InTime",),
     "nmm.stepping.drive.stages": ("StagesSoFar",),
     "nmm.stepping.drive.under_load": ("UnderLoad", "Rest"),

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -50,6 +50,8 @@ from nmm.stepping.summing_up import summed_up
 if TYPE_CHECKING:
     from nmm.model.stages import Staged
     from nmm.scene.model import Scene
+    from nmm.stepping.drive.in_time import InTime
+    from nmm.stepping.drive.under_load import UnderLoad
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -184,7 +186,8 @@ class Simulation(CompiledScene):
             so_far = stood.stages
             enter_again(self.stepper, so_far, self.stages, rule)
             present = self.stages[len(so_far.entered)].stage
-            at = checkpoints.entered(so_far, present.in_time).go_on(stood)
+            entered = checkpoints.entered(so_far, present.in_time)
+            at = cast("InTime | UnderLoad", entered.go_on(stood))  # stages follow no path
         self.stepper.budget.taken = recorder.steps
         end = run_stages(
             self.stepper, recorder, so_far, self.stages, rule, progress, checkpoints.entered, at

@@ -6,6 +6,7 @@ still, bond after bond; under control by events they find none before the load h
 the next bond is at its limit.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -45,21 +46,27 @@ TURNS, LEAST = 0.5, 1e-6
 def run_path(
     stepper: Stepper,
     recorder: Recorder,
-    start: State,
+    at: OnPath,
     control: Control,
     end: PathEnd,
     progress: Progress,
+    keep: Callable[[OnPath], OnPath] = lambda at: at,
 ) -> tuple[State, RunVerdict]:
-    """Follow a path from ``start``; return the last state in equilibrium and the verdict."""
+    """Follow a path from ``at``; return the last state in equilibrium and the verdict.
+
+    ``keep`` takes each place on it that is told, and returns from where it goes on.
+    """
     following = _Following(stepper, recorder, control, end, progress)
 
     def step(at: OnPath) -> OnPath | RunVerdict:
-        if at.state is start and (begun := following.begun(at)) is not at:
+        if not recorder.totals.taken and (begun := following.begun(at)) is not at:
             return begun
         ended = None if at.changed else arrived(at, control.end, end)
-        return ended or following.next(at)
+        after = ended or following.next(at)
+        if isinstance(after, RunVerdict) or after.state is at.state:
+            return after
+        return keep(after)
 
-    at = OnPath(start, None, control.increment, np.zeros_like(start.deformation))
     return until_verdict(at, step, recorder)
 
 

@@ -6,7 +6,7 @@ from nmm.contact.controls.dissipation import Dissipation
 from nmm.contact.controls.events import NextEvent
 from nmm.results.tee import Tee
 from nmm.stepping.control.following import run_path
-from nmm.stepping.control.position import PathEnd
+from nmm.stepping.control.position import OnPath, PathEnd
 from nmm.stepping.drive.verdict import FAILURE, LimitPoint
 from nmm.stepping.reports.ledger import stored
 from nmm.stepping.reports.recorder import Recorder
@@ -50,7 +50,8 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
     soft = not contact.laws.brittle.all()
     control: Control = Dissipation(PART * energy) if soft else NextEvent(1.0)
     end, quiet = PathEnd(factor, FALLEN), Recorder(stepper, Tee([]), [])
-    last, verdict = run_path(stepper, quiet, state, control, end, lambda share, said: None)
+    at = OnPath.at_start(state, control.increment)
+    last, verdict = run_path(stepper, quiet, at, control, end, lambda share, said: None)
     stepper.restore(record)
     stepper.budget.taken = taken
     peak = verdict.load_factor

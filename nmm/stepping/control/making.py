@@ -16,8 +16,13 @@ if TYPE_CHECKING:
 ELASTIC = 'use law = "elastic" and small strain, or let the load grow without [loading.control]'
 
 
-def control_of(table: "ControlTable", stepper: "Stepper", formulation: "Formulation") -> Control:
-    """Return the control that a scene names.
+def control_of(table: "ControlTable") -> Control:
+    """Return the control that a scene names."""
+    return CONTROLS.load(table.type).of(table)
+
+
+def check_path(table: "ControlTable", stepper: "Stepper", formulation: "Formulation") -> None:
+    """Check that a path can be followed from the start of a scene.
 
     Raises
     ------
@@ -25,13 +30,11 @@ def control_of(table: "ControlTable", stepper: "Stepper", formulation: "Formulat
         Where steps along a path cannot be solved, or it would have no beginning.
     """
     faults = hindrances(stepper, formulation)
-    control = CONTROLS.load(table.type).of(table)
-    if control.from_limit and not faults and not Trials(stepper, {}).may_give_way():
+    if control_of(table).from_limit and not faults and not Trials(stepper, {}).may_give_way():
         what = f'type: "{table.type}": no bond breaks, or begins to soften, at a limit of its own'
         faults.append((what, 'use "displacement" or "opening", or no normal_stiffness of bonds'))
     if faults:
         raise FormulationError(*(f"loading.control: {what}: {why}" for what, why in faults))
-    return control
 
 
 def hindrances(stepper: "Stepper", formulation: "Formulation") -> list[tuple[str, str]]:

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from integration.arrays import Floats
 from nmm.assembly.motion import State
 
@@ -49,6 +51,11 @@ class OnPath:
     events: int = 0
     shed: float = 0.0
     lost: int = 0
+
+    @classmethod
+    def at_start(cls, state: State, increment: float) -> "OnPath":
+        """Return the start of a path from ``state``, whose first step goes so far at most."""
+        return cls(state, None, increment, np.zeros_like(state.deformation))
 
 
 @dataclass(frozen=True)

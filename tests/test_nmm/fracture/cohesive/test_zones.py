@@ -8,6 +8,7 @@ from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
+from nmm.testing.stopping import check_goes_on
 
 # A beam of 100 mm, span 400, notch 30 mm, in three-point bending.
 BEAM = """
@@ -114,6 +115,14 @@ def test_work_is_what_is_stored_and_what_softening_took(grown):
     stored = h["strain_energy"] + h["contact_energy"] + h["support_energy"]
     missing = h["external_work"] - stored - h["friction_loss"]
     assert np.abs(missing).max() < 1e-3 * h["external_work"].max()
+
+
+def test_a_path_along_which_a_zone_grows_goes_on_bit_by_bit(tmp_path):
+    cover = NET.format(angle=0.3, x=0.13, size=0.03).replace("[cover]", "[formulation.cover]")
+    beam = BEAM.format(cracks=NOTCH, zones=ZONES, left=-0.005, right=0.005, end="40 um")
+    scene = parse_scene(f"{beam}[output.checkpoint]\nevery_steps = 2\n{cover}")
+    whole = check_goes_on(scene, tmp_path)
+    assert len(whole.summary.changes) > 1
 
 
 @pytest.mark.slow

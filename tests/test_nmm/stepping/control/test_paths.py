@@ -5,6 +5,7 @@ import pytest
 
 import nmm
 from nmm.scene import parse_scene
+from nmm.testing.stopping import check_goes_on
 from nmm.verification.problems.past_the_peak.links import bundle, pull
 from nmm.verification.problems.past_the_peak.softening_bar import (
     AREA,
@@ -92,10 +93,32 @@ def test_a_path_that_no_bond_begins_is_refused(control):
         nmm.run(parse_scene(scene))
 
 
-def test_a_path_with_checkpoints_is_refused():
-    more = "[output.checkpoint]\nevery_steps = 1\n"
-    with pytest.raises(nmm.NmmError, match="checkpoint besides"):
-        nmm.run(parse_scene(softening_bar(1.0, ENERGY, 'type = "events"\n', more=more)))
+@pytest.mark.parametrize("every", [1, 3])
+@pytest.mark.parametrize(
+    "control",
+    [
+        'type = "dissipation"\nenergy = 2e-3\nend_energy = 9e-3\n',
+        'type = "opening"\nmonitors = ["one", "other"]\nincrement = "5 um"\nend = "60 um"\n',
+    ],
+)
+def test_a_path_that_was_stopped_goes_on_bit_by_bit(control, every, tmp_path):
+    more = f"[output.checkpoint]\nevery_steps = {every}\n"
+    check_goes_on(parse_scene(softening_bar(1.0, ENERGY, control, more=more)), tmp_path)
+
+
+@pytest.mark.parametrize(
+    "control",
+    [
+        'type = "events"\n',
+        'type = "displacement"\nmonitors = ["top"]\ndirection = [0, 1]\n'
+        'increment = "0.1 mm"\nend = "2 mm"\n',
+    ],
+)
+def test_a_path_on_which_links_break_one_by_one_goes_on_bit_by_bit(control, tmp_path):
+    more = "\n[output.checkpoint]\nevery_steps = 1\n"
+    scene = bundle((1e3, 2e3, 1.5e3), control) + more
+    run = check_goes_on(parse_scene(scene), tmp_path)
+    assert run.history["broken"].max() == 4
 
 
 @pytest.mark.parametrize("more", ['[formulation.contact]\nenforcement = "lagrange"\n'])
