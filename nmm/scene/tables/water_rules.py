@@ -24,19 +24,9 @@ def water_contradictions(data: Tables) -> Iterator[Finding]:
         yield ("joint_heads",), "no [joint_flow]", "a scene with water in joints", remedy
     if "joint_flow" in data:
         yield from durations(data, "joint_flow")
-        yield from _one_set_of_joints(data)
     if "joint_flow" in data and not data.get("joint_heads"):
         remedy = "add [[joint_heads]] with a point and a head"
         yield ("joint_flow",), "no head", "at least one of [[joint_heads]]", remedy
-
-
-def _one_set_of_joints(data: Tables) -> Iterator[Finding]:
-    """What takes time in joints cannot follow them through stages."""
-    table = data["joint_flow"]
-    if data.get("stages") and isinstance(table, Mapping) and table.get("transient") is True:
-        expected = "no stages: water that takes time knows one set of joints"
-        remedy = "remove transient, so that flow is steady in each stage, or the stages"
-        yield ("joint_flow", "transient"), "transient with [[stages]]", expected, remedy
 
 
 def seepage_contradictions(data: Tables) -> Iterator[Finding]:
