@@ -12,11 +12,14 @@ import numpy as np
 
 from covers.approximation.ghost import neighbours
 from integration.arrays import Floats, Ints
+from integration.polygons import centroids
 from nmm.assembly.model import Model
 
 # Share of its largest neighbour below which an element is no donor, and how many neighbours on
 # the way to one.
 FAIR, STEPS = 0.3, 3
+# Digits of the logarithm of areas that tell elements apart by size.
+ALIKE = 6
 
 
 @dataclass(frozen=True)
@@ -65,19 +68,21 @@ def donors(model: Model, elements: Ints) -> Ints:
 def _largest_about(model: Model, elements: Ints) -> Ints:
     """Largest (E,) of each element and its neighbours in its region that may be continued.
 
-    Neighbours are those across edges of ``elements``; others are their own largest.
+    Neighbours are those across edges of ``elements``; others are their own largest. Of whole cells,
+    which are as large as each other, it is the one whose middle is nearest: not one that rounding
+    chooses, and none that is continued far.
     """
     manifold, area = model.manifold, model.element_area
     first, second = neighbours(manifold, elements)
+    one, two = np.concatenate([first, second]), np.concatenate([second, first])
+    use = manifold.extends[two] & (manifold.element_region[one] == manifold.element_region[two])
+    one, two, middle = one[use], two[use], centroids(manifold.elements)
+    away = np.hypot(*(middle[one] - middle[two]).T)
+    rising = np.lexsort((-away, np.round(np.log(area[two] / area.max()), ALIKE)))
     best = np.arange(len(area))
-    for one, two in ((first, second), (second, first)):
-        use = manifold.extends[two] & (manifold.element_region[one] == manifold.element_region[two])
-        rising = np.argsort(area[two[use]], kind="stable")
-        pick = np.arange(len(area))
-        # Of several neighbours the last, the largest, stays.
-        pick[one[use][rising]] = two[use][rising]
-        best = np.where(area[pick] > area[best], pick, best)
-    return best
+    # Of several neighbours the last, the largest and nearest, stays.
+    best[one[rising]] = two[rising]
+    return np.where(area[best] > area, best, np.arange(len(area)))
 
 
 def across(stress: Floats, normal: Floats) -> Floats:

@@ -126,11 +126,12 @@ def compared(first: "Run", other: "Run", image: Image, to: float = HELD_TO) -> C
     units = {_unit(name) for name in one} - {None, "m" if NEUTRAL in words else None}
     # Shear along an edge changes its sign in a mirror, and is part of this number.
     signed = "foundations:" if np.linalg.det(image.turn) < 0 else "none:"
-    names = [name for name in one if _unit(name) in units and not name.startswith(signed)]
-    wanted = {name: _there(name, first, image) for name in names}
+    known = [name for name in one if _unit(name) and not name.startswith(signed)]
+    wanted = {name: _there(name, first, image) for name in known}
     sizes, least = _sizes(wanted), _least(other, image)
     worst, where = 0.0, "none"
-    for name, column in wanted.items():
+    for name in (name for name in known if _unit(name) in units):
+        column = wanted[name]
         size = max(sizes[_family(name)], least.get(_unit(name) or "", 0.0)) or 1.0
         off = np.nanmax(np.abs(there[name][rows] - column[rows]), initial=0.0) / size
         worst, where = (float(off), name) if off > worst else (worst, where)
