@@ -154,6 +154,14 @@ class Contact(Effect):
         solved, change = path_solution(self.laws, *posed, tied, path, whole)
         return solved if mixed is None else mixed.told(solved, contacts), change
 
+    def gaps(self, contacts: ContactPoints, before: State, after: State) -> Floats:
+        """Gaps (m,) after a step: measured where contacts act, as solved elsewhere."""
+        gap = contacts.gap + contacts.reference
+        acts = (contacts.normal_force < 0) & ~contacts.is_joint
+        surface = self.partners.surface(after)
+        gap[acts] = self.geometry.gaps(contacts.take(acts), before, after, surface)
+        return gap
+
     def overload(
         self, contacts: ContactPoints, answer: "StepAnswer | ContactPoints | None" = None
     ) -> Floats:

@@ -5,6 +5,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from integration.arrays import Floats
+from integration.contraction import contract
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.contact.detection.surface import Surface
@@ -98,6 +99,15 @@ class ContactGeometry:
         normal = bent_normals(self.sides, points, state)
         apart = JointSites.at(self.sides, points).apart(points, state.frames, state.deformation)
         return with_parts(points, normal=normal, gap=np.einsum("ij,ij->i", apart, normal))
+
+    def gaps(self, points: ContactPoints, before: State, after: State, surface: Surface) -> Floats:
+        """Return the gaps (m,) after a step, with the edges of ``surface``; normals turn along."""
+        body = surface.body[points.edge_b]
+        back = contract("mji,mj->mi", before.frames.rotation[body], points.normal)
+        normal = contract("mij,mj->mi", after.frames.rotation[body], back)
+        if self.bends:
+            return self.measured(with_parts(points, normal=normal), after).gap
+        return np.asarray(contract("mi,mi->m", apart_on(surface, points), normal))
 
     def face_means(self, contacts: ContactPoints, surface: Surface) -> FaceMeans | None:
         """Return how exact conditions on faces of meshes are held in the mean; None elsewhere."""

@@ -17,7 +17,18 @@ def growth(run: Ended) -> Findings:
         f"the path of a crack swings: pieces turn to and fro by {math.degrees(swing):.0f} degrees",
         "add parallel_stress = true to [fracture], or take shorter pieces",
     )
-    if not cracks.at_toughness or not ledger.throughput:
+    if not ledger.throughput:
+        return
+    if run.dynamic and not run.scene.stages:
+        added = ledger.change_energy / ledger.throughput
+        word = "added" if added > 0 else "took"
+        yield AuditFinding(
+            "growth_projection",
+            abs(added),
+            f"laying functions about grown tips anew {word} {percent(abs(added))} of the turnover",
+            "take cells that are small beside the pieces of cracks and what is left to supports",
+        )
+    if not cracks.at_toughness:
         return
     missed = (run.recorder.freed_by(cracks) - cracks.energy_taken) / ledger.throughput
     word = "more" if missed > 0 else "less"

@@ -137,6 +137,12 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         '`[fracture]` with `control = "toughness"`',
     ),
+    "growth_projection": Threshold(
+        "energy that laying functions anew about grown tips added or took, over the turnover",
+        2e-2,
+        0.5,
+        "`[fracture]` in dynamics without `[[stages]]`",
+    ),
     "growth_swing": Threshold(
         "angle (rad) by which pieces of a crack turn one way and at once back",
         0.2,

@@ -57,8 +57,8 @@ class Relaxed:
         Which block moves, and how, if it does.
     falls
         Whether it moves on, so that the structure and not the solver is at fault.
-    way
-        Sum of the largest motions of the steps (m).
+    way, lost
+        Sum of the largest motions of the steps (m), and what friction, bonds and matter took (J).
     """
 
     state: State
@@ -67,6 +67,7 @@ class Relaxed:
     sentence: str
     falls: bool = False
     way: float = 0.0
+    lost: float = 0.0
 
 
 def relax(
@@ -85,8 +86,8 @@ class _Search:
 
     Attributes
     ----------
-    way
-        Sum of the largest motions of the steps (m).
+    way, lost
+        Sum of the largest motions of the steps (m), and what they took for good (J).
     first
         The step whose motion tells what is free: what moves later may have hit something.
     start
@@ -111,7 +112,7 @@ class _Search:
         self.pace = Pace(_first_length(self.heavy, stepper.plan.force(state, end), self.size))
         self.proof = carried(stepper, state, end.load_factor)
         self.near, self.farthest = near, (COLLAPSE if near else 1.0) * self.size
-        self.way, self.steps, self.stands = 0.0, 0, True
+        self.way, self.lost, self.steps, self.stands = 0.0, 0.0, 0, True
         self.first: Attempt | None = None
         self.start: float | None = None
 
@@ -138,7 +139,7 @@ class _Search:
         # A step cut short moves little, which is no rest.
         slow = found.motion < STILL * self.size * min(1.0, (length / self.pace.first) ** 2)
         if slow and self.pace.may_ask(self.steps) and _holds(self.stepper, still, self.end):
-            return Relaxed(still, self.steps, True, "", way=self.way)
+            return Relaxed(still, self.steps, True, "", way=self.way, lost=self.lost)
         if self.way > self.farthest:
             return self._given_up()
         if self.near and self.steps % LOOK == 0:
@@ -150,6 +151,7 @@ class _Search:
     def _take(self, found: Attempt, length: float) -> None:
         """Go on from the end of a step."""
         self.moving.accept(found)
+        self.lost += _taken(self.moving, self.state, found)
         goes = self.pace.speed(self.heavy, found.state.velocity)
         self.state = replace(found.state, velocity=goes, acceleration=np.zeros_like(goes))
         self.way += found.motion
@@ -196,6 +198,14 @@ def _holds(stepper: Stepper, state: State, end: Instant) -> bool:
     """Whether there is equilibrium without mass near ``state``."""
     alone = stepper.attempt(state, end, None)
     return alone.converged and alone.motion <= SLOW * stepper.size
+
+
+def _taken(moving: Stepper, before: State, found: Attempt) -> float:
+    """Energy (J) that friction, breaking bonds, members and matter took for good in a step."""
+    after = found.state
+    by_contact = 0.0 if found.solved is None else found.solved.loss
+    by_effects = sum(moving.plan.losses(before, after).values())
+    return by_contact + by_effects + moving.model.dissipated(before, after)
 
 
 def _first_length(model: Model, force: Floats, size: float) -> float:

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
 # A load increment that was cut to this share of the largest is not cut further.
 SMALLEST = 2.0**-30
+# Share of the stored energy from which on what was lost on the way to rest is told.
+TOOK = 1e-6
 
 
 def run_load(
@@ -114,7 +116,9 @@ class _Raising:
         # A bond that breaks in a coarse increment is no news yet: the increment is cut first.
         end, breaking = self.schedule.instant(factor), _breaking(fine)
         found = settle(stepper, state, end, breaking)
-        last = fine or (state.load_factor == 0 and not schedule.until_failure)
+        # Matter keeps what a relaxation did to it on the way: smaller increments come first.
+        forgets = stepper.model.matter is None
+        last = fine or (forgets and state.load_factor == 0 and not schedule.until_failure)
         if last and may_be_loose(stepper, found):
             stepper.restore(start)
             found = anchored(stepper, state, end, breaking)
@@ -146,7 +150,7 @@ class _Raising:
             return _no_rest(rest)
         state = replace(rest.state, time=at.state.time, load_factor=0.0)
         self.recorder.brought_to(state)
-        return replace(at, state=state, rest=Rest(rest.steps, rest.way))
+        return replace(at, state=state, rest=Rest(rest.steps, rest.way, rest.lost))
 
     def _ended(self, at: UnderLoad, trial: Trial) -> RunVerdict:
         """Return the verdict on the finest increment, under which no equilibrium was found."""
@@ -161,6 +165,11 @@ class _Raising:
         if at.rest is not None:
             sentence += f", loose blocks brought to rest in {at.rest.steps} steps of relaxation"
             sentence += f" over {at.rest.way:.3g} m"
+            if at.rest.lost > TOOK * self.recorder.ledger.in_store:
+                sentence += (
+                    f", on which friction, bonds or matter took {at.rest.lost:.3g} J: by another "
+                    "way they may rest under other forces"
+                )
         return with_neutral(RunVerdict(CONVERGED, sentence), self.stepper, at.state, self.names)
 
 

@@ -59,10 +59,14 @@ class LoadSchedule:
 
 @dataclass(frozen=True)
 class Rest:
-    """How loose blocks were brought to rest: steps of relaxation, and the way they took (m)."""
+    """How loose blocks were brought to rest: steps of relaxation, and the way they took (m).
+
+    ``lost`` (J) is what friction, bonds and matter took on it.
+    """
 
     steps: int
     way: float
+    lost: float = 0.0
 
 
 @dataclass(frozen=True)

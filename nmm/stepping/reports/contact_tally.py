@@ -4,27 +4,34 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nmm.assembly.motion import State
 from nmm.frozen import with_parts
 from nmm.stepping.reports.totals import Totals
 from nmm.stepping.step.anchors import block_name
 from nmm.stepping.step.stepper import Stepper
+from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
 
 
 def tallied(
-    totals: Totals, stepper: Stepper, contacts: "ContactPoints", time: float
+    totals: Totals, stepper: Stepper, contacts: "ContactPoints", before: State, attempt: Attempt
 ) -> tuple[Totals, float]:
-    """Return the totals with the contacts of a step that ends at ``time`` (s); the overlap (m)."""
+    """Return the totals with the contacts of a step; their largest overlap at its end (m)."""
+    from nmm.contact.detection.tolerances import MIDPOINT_GAPS
     from nmm.contact.problem.contact_state import NAMES
 
-    contact, deepest = stepper.plan.contact, totals.deepest
+    contact, deepest, after = stepper.plan.contact, totals.deepest, attempt.state
     assert contact is not None
     gap = contacts.gap + contacts.reference
     overlap = -float(gap.min(initial=0.0))
+    turned = float(np.abs(after.frames.angle - before.frames.angle).max(initial=0.0))
+    if turned * attempt.motion > MIDPOINT_GAPS * overlap:  # gaps are solved along straight ways
+        gap = contact.gaps(contacts, before, after)
+        overlap = -float(gap.min(initial=0.0))
     if overlap > totals.penetration:
-        deepest = _pair(stepper, contacts, int(gap.argmin()), time)
+        deepest = _pair(stepper, contacts, int(gap.argmin()), after.time)
     tally = np.bincount(contacts.state, minlength=len(NAMES)).tolist()
     counts = dict(zip(NAMES, tally, strict=True)) | {"broken": contact.broken_bonds}
     totals = with_parts(

@@ -79,7 +79,7 @@ class Recorder:
         ``stands`` is its end where blocks are laid anew after each step.
         """
         self._book(before, attempt, stands)
-        row = self._row(attempt, contacts)
+        row = self._row(before, attempt, contacts)
         declared, after = self.declared, attempt.state
         self.sink.row(row | declared.row(self.stepper.plan, lambda: self.view(after, contacts)))
         held = [f"{count} {name}" for name, count in self.totals.counts.items() if count]
@@ -103,7 +103,9 @@ class Recorder:
         )
         self.stepper.budget.taken += 1
 
-    def _row(self, attempt: Attempt, contacts: "ContactPoints | None") -> dict[str, float]:
+    def _row(
+        self, before: State, attempt: Attempt, contacts: "ContactPoints | None"
+    ) -> dict[str, float]:
         """Return the numbers of a booked step by their columns of the history."""
         plan, after, ledger = self.stepper.plan, attempt.state, self.ledger
         row = {
@@ -121,7 +123,7 @@ class Recorder:
         if attempt.booked is not None:
             row["integration_loss"] = ledger.integration_loss
         if contacts is not None:
-            self.totals, overlap = tallied(self.totals, self.stepper, contacts, after.time)
+            self.totals, overlap = tallied(self.totals, self.stepper, contacts, before, attempt)
             row |= {"penetration": overlap, "friction_loss": ledger.friction_loss}
             if attempt.booked is not None:
                 row["contact_loss"] = ledger.contact_loss

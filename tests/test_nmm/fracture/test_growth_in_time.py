@@ -192,3 +192,45 @@ def test_momentum_of_a_plate_that_is_torn_apart_stays_zero() -> None:
     # Each half has been given 4 kN for 20 ms, less what the ligament held.
     assert np.abs(parts).max() > 10.0
     assert np.abs(parts.sum(axis=0)).max() < 1e-11 * np.abs(parts).max()
+
+
+PULLED = """
+plane = "strain"
+duration = 0.02
+[inertia]
+[materials.m]
+young_modulus = 3e8
+poisson_ratio = 0.2
+density = 2000
+[[blocks]]
+name = "plate"
+material = "m"
+vertices = [[0, 0], [1.958, 0], [1.958, 1.2966], [0, 1.2966]]
+[[cracks]]
+name = "notch"
+points = [[2.15, 0.6483], [0.783, 0.6483]]
+[[supports]]
+name = "floor"
+segment = [[0, 0], [1.958, 0]]
+fix = ["x", "y"]
+[[loads]]
+name = "pull"
+kind = "edge"
+segment = [[0, 1.2966], [1.958, 1.2966]]
+traction = [0, 1e5]
+[fracture]
+criterion = "straight_ahead"
+energy = 4.0
+increment = 0.13
+max_growth = 0.26
+"""
+
+
+@pytest.mark.parametrize(("size", "told"), [(0.54, True), (0.12, False)])
+def test_functions_of_tips_that_reach_stiff_supports_are_told_by_the_energy_they_bring(size, told):
+    net = f'[cover]\ntype = "triangles"\nsize = {size}\ndegree = 1\n'
+    run = nmm.run(parse_scene(PULLED), parse_formulation(net + "[integrator]\nstep = 0.01\n"))
+    assert run.history["fracture:growth"][-1] > 0.1
+    share = abs(run.summary.audits["growth_projection"])
+    assert (share > 0.02) == told
+    assert any("growth_projection" in warning for warning in run.summary.warnings) == told

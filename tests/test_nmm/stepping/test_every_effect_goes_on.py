@@ -26,8 +26,8 @@ SCENES = sorted(
     if kind == "scene" and "/" not in name and name not in WITHOUT
 )
 SLOW = ("pulled", "rolled over", "splitting")
-# What says by line that it knows one set of joints, or loads of one factor.
-REFUSED = ("growing", "filling")
+# What says by line that it knows loads of one factor.
+REFUSED = ("growing",)
 
 
 def tables(name):

@@ -89,3 +89,14 @@ def test_iterations_that_gain_go_on_and_those_that_go_to_and_fro_end(rate):
     to_and_fro = [(1e-3, 0.6)[k % 2] for k in range(MOST)]
     ends = next(k for k in range(1, MOST + 1) if _hopeless(to_and_fro[:k]))
     assert ends <= FRUITLESS + 2
+
+
+def test_what_friction_took_on_the_way_to_rest_is_told():
+    """Down a slope of 45 degrees to a step, on which it comes to lie; and straight down."""
+    slope = "[[0, 0], [1, -1], [3, -3], [3, -2.5], [4, -2.5], [4, -5], [0, -5]]"
+    above = "[[1, -0.99], [1.3, -1.29], [1.6, -0.99], [1.3, -0.69]]"
+    slides = LOOSE.replace("[[0, 0], [3, 0], [3, -1], [0, -1]]", slope)
+    slides = slides.replace("[[1, 0.01], [2, 0.01], [2, 1.01], [1, 1.01]]", above)
+    sentences = [nmm.run(nmm.parse_scene(text)).summary.sentence for text in (slides, LOOSE)]
+    assert all("brought to rest" in sentence for sentence in sentences)
+    assert ["by another way" in sentence for sentence in sentences] == [True, False]
