@@ -24,6 +24,8 @@ from nmm.interfaces.from_scene import interface_law
 
 # Lengths by which a cut may move a crack, within which an edge lies on it.
 MOVED = 4.0
+# Points of a joint between cells that leave nothing of splines and moving least squares to see.
+MOST = 4
 
 
 FACES = (
@@ -115,11 +117,12 @@ def _joint_rule(method: ContactMethod, laws: ContactLaws, manifold: Manifold) ->
 
     Fields that bend along an edge give way about forces at its corners: by 0.6 of a cell's own
     strain with covers of degree 1, by that of a cell with degree 2; at Gauss points they do not.
-    Blocks of their own bend apart between fewer points than their degree asks; cells hold those
-    beside them.
+    Bodies bend apart between fewer points than their degree asks; cells hold those beside them, by
+    one point, and by more where weights are not of one cell.
     """
     auto = "gauss" if laws.consistent or manifold.degree > 1 else "corners"
-    count = 2 if manifold.shared_covers else max(2, manifold.degree + 1)
+    degree = manifold.degree
+    count = min(max(2, degree), MOST) if manifold.shared_covers else max(2, degree + 1)
     return auto if method.joint_points == "auto" else method.joint_points, count
 
 
