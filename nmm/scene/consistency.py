@@ -24,7 +24,7 @@ from nmm.scene.tables.splitting import splitting_contradictions
 from nmm.scene.tables.strength_reduction import reduction_contradictions
 from nmm.scene.tables.water_rules import PLACED as WATER
 from nmm.scene.tables.water_rules import seepage_contradictions, water_contradictions
-from nmm.scene.unread_rows import Finding, Tables, rows
+from nmm.scene.unread_rows import Finding, Tables, has_clock, rows
 
 Rule = Callable[[Tables], Iterator[Finding]]
 
@@ -187,7 +187,7 @@ def _without_inertia(data: Tables) -> Iterator[Finding]:
 
 def _output(data: Tables) -> Iterator[Finding]:
     output, loading = _table(data, "output"), _table(data, "loading")
-    timed = "inertia" in data or "duration" in data
+    timed = has_clock(data)
     moves = timed or "motion_after_failure" in loading
     if "every_time" in output and not moves:
         remedy = "use every_steps, or add [inertia]; growing loads have no time"

@@ -20,3 +20,9 @@ def rows(data: Tables, *keys: str) -> Iterator[tuple[Path, Tables]]:
         for index, row in enumerate(value if isinstance(value, list | tuple) else ()):
             if isinstance(row, Mapping):
                 yield (key, index), row
+
+
+def has_clock(data: Tables) -> bool:
+    """Say whether time passes in a scene: with inertia, or in equilibrium over a duration."""
+    whole = "inertia" in data or "duration" in data
+    return whole or any("duration" in stage for _, stage in rows(data, "stages"))

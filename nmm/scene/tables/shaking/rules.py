@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 
 from nmm.scene.faults import suggestion
 from nmm.scene.lines import Path
-from nmm.scene.unread_rows import Finding, Tables, rows
+from nmm.scene.unread_rows import Finding, Tables, has_clock, rows
 
 EDGES = ("viscous_boundaries", "free_fields")
 
@@ -63,15 +63,16 @@ def _fields(data: Tables) -> Iterator[Finding]:
     """Yield tables of fields that are not there, and forces that travel without time."""
     known = data.get("fields")
     names = list(known) if isinstance(known, Mapping) else []
+    timed = has_clock(data)
     for key in ("loads", "supports"):
         for path, row in rows(data, key):
             name = row.get("field")
             if isinstance(name, str) and name not in names:
                 expected = "the name of one of [fields.NAME], or two expressions"
                 yield (*path, "field"), f'"{name}"', expected, suggestion(name, names)
-            if row.get("kind") == "moving" and "inertia" not in data:
-                remedy = "add [inertia]; in statics place a point load where it stands"
-                yield (*path, "kind"), '"moving", no [inertia]', "a dynamic scene", remedy
+            if row.get("kind") == "moving" and not timed:
+                remedy = "add a duration, over which it travels at rest, or [inertia]"
+                yield (*path, "kind"), '"moving" in a scene without time', "a clock", remedy
 
 
 def _named_records(data: Tables, path: Path, motion: object) -> Iterator[Finding]:
