@@ -81,6 +81,7 @@ class Contact(Effect):
         self._model, self._parts = model, parts
         self._candidates = Candidates(self.partners, self.laws, self.geometry)
         self._found: Contacts | None = None
+        self._crossed: tuple[Ints, Ints] | None = None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -136,6 +137,7 @@ class Contact(Effect):
         crossed: tuple[Ints, Ints] | None = None,
     ) -> ContactPoints:
         """Return the contact points of a step; see `Candidates.sought`."""
+        self._crossed = crossed
         self._found, points = self._candidates.sought(self.record, state, reach, step, crossed)
         return points
 
@@ -199,7 +201,8 @@ class Contact(Effect):
 
     def commit(self, solved: ContactSolution, state: State) -> ContactPoints:
         """Keep the accepted contacts as the start of the next step, and return them."""
-        self.record, done = self._candidates.left(self.record, self._found, solved, state)
+        found = self._found, self._crossed
+        self.record, done = self._candidates.left(self.record, found, solved, state)
         return done
 
     def restore(self, record: ContactRecord) -> None:
@@ -224,7 +227,7 @@ class Contact(Effect):
         """See `Effect.forget`."""
         self.solver.forget()
         self.partners.forget()
-        self._found = None
+        self._found = self._crossed = None
 
     @property
     def caution(self) -> str:

@@ -8,6 +8,7 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Ints
 from nmm.assembly.motion import State
+from nmm.contact.candidates.held_back import held_back, joined
 from nmm.contact.candidates.partners import Partners
 from nmm.contact.detection.crossing import Motion, crossings_in, over_seams
 from nmm.contact.detection.narrow_phase import Contacts, follow
@@ -60,6 +61,7 @@ class Candidates:
         edge that are contacts in any case (`overlooked`).
         """
         joints = self.joints(record.book, state)
+        crossed = joined(record.crossed, crossed)
         found = self.partners.search(state, 2 * reach, step, record.book, record.found, crossed)
         if record.known is not None and not self._laws.stiff and continues(record.found, found):
             points = continued(record.known, found)
@@ -118,12 +120,17 @@ class Candidates:
         return (found.vertex[new], found.edge[new]) if new.any() else None
 
     def left(
-        self, record: ContactRecord, found: Contacts | None, solved: ContactSolution, state: State
+        self,
+        record: ContactRecord,
+        sought: tuple[Contacts | None, tuple[Ints, Ints] | None],
+        solved: ContactSolution,
+        state: State,
     ) -> tuple[ContactRecord, ContactPoints]:
         """Return the record after an accepted step, and its contacts with joints given up before.
 
-        ``found`` is what search found for it.
+        It was ``sought`` with: what search found for it, and pairs that crossed in it at first.
         """
+        found, crossed = sought
         bonded = self._laws.bonded[solved.contacts.interface]
         done = answered(solved.contacts, solved.answer, bonded)
         book, known = record.book, done
@@ -131,7 +138,9 @@ class Candidates:
             surface, joints = self.partners.surface(state), done.is_joint
             book = book.keep(done.take(joints), self._geometry.faces(state, surface))
             known = done.take(~joints)
-        after = ContactRecord(book, found, known, solved.answer.stored)
+        crossed = joined(record.crossed, crossed)
+        crossed = held_back(crossed, solved, self.partners.surface(state))
+        after = ContactRecord(book, found, known, solved.answer.stored, crossed)
         return after, concatenate([done, book.lost])
 
     def _followed(

@@ -75,12 +75,16 @@ class ContactRecord:
         Contacts of the last search, and the same as points with forces and slip.
     stored
         See `StepAnswer.stored` (J).
+    crossed
+        Vertex and edge (k,) of pairs that were contacts only because the step without them let
+        them through, and that pushed.
     """
 
     book: JointBook
     found: Contacts | None = None
     known: ContactPoints | None = None
     stored: float = 0.0
+    crossed: tuple[Ints, Ints] | None = None
 
 
 @dataclass(frozen=True)

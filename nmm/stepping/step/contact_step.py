@@ -11,6 +11,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State, middle
+from nmm.contact.candidates.held_back import joined
 from nmm.contact.detection.tolerances import (
     CROSSING_SOLUTIONS,
     FIRST_REACH,
@@ -116,7 +117,7 @@ class Touching:
             motion = contact.partners.motion(state, result.state) if good else None
             missed = None if motion is None else contact.overlooked(contacts, motion)
             if missed is not None and looks < CROSSING_SOLUTIONS:
-                looks, crossed = looks + 1, _joined(crossed, missed)
+                looks, crossed = looks + 1, joined(crossed, missed)
                 contacts, midpoint = self.candidates(state, reach, equations.step, crossed), ahead
                 continue
             if good and equations.step is not None and self._mover.kinematics.turns:
@@ -288,10 +289,3 @@ class Touching:
         state = result.state
         change = self.contact.momentum.kept(solved, equations.state, state, equations.step, rest)
         return with_parts(result, state=with_parts(state, velocity=state.velocity + change))
-
-
-def _joined(one: Pairs | None, other: Pairs) -> Pairs:
-    """Return pairs that were missed before and now."""
-    if one is None:
-        return other
-    return np.concatenate([one[0], other[0]]), np.concatenate([one[1], other[1]])

@@ -1,0 +1,39 @@
+"""Pairs that the last step let through: contacts of the next one from its start, while they push.
+
+Search chooses the edge that a corner meets from where bodies are and go. Where two corners stand
+at each other's edge ends it may leave out a pair in every step that the answer without it lets
+through, and each step would be solved twice. A pair that pushes and stands over its edge would be
+let through again without its force; one that no longer pushes is left to search.
+"""
+
+import numpy as np
+
+from integration.arrays import Ints
+from nmm.contact.detection.measures import measure
+from nmm.contact.detection.pair_keys import pair_key
+from nmm.contact.detection.surface import Surface
+from nmm.contact.solution.record import ContactSolution
+
+Pairs = tuple[Ints, Ints]
+"""Vertex and edge (k,)."""
+
+
+def joined(one: Pairs | None, other: Pairs | None) -> Pairs | None:
+    """Return pairs of both; None without any."""
+    if one is None or other is None:
+        return other if one is None else one
+    return np.concatenate([one[0], other[0]]), np.concatenate([one[1], other[1]])
+
+
+def held_back(pairs: Pairs | None, solved: ContactSolution, surface: Surface) -> Pairs | None:
+    """Return those of the pairs that push over their edges, as ``surface`` stands; else None."""
+    if pairs is None:
+        return None
+    vertex, edge = pairs
+    pushes = (solved.answer.normal_force < 0) & ~solved.contacts.is_joint
+    contacts = solved.contacts.take(pushes)
+    standing = pair_key(surface, contacts.edge_a, contacts.edge_b)
+    along, _ = measure(surface, vertex, edge)
+    keep = (along >= 0) & (along <= surface.length[edge])
+    keep &= np.isin(pair_key(surface, vertex, edge), standing)
+    return (vertex[keep], edge[keep]) if keep.any() else None
