@@ -77,7 +77,7 @@ NAMED: dict[str, Callable[["Scene"], bool]] = {
     "body loads": lambda s: any(load.density is not None for load in s.loads),
     "field loads": lambda s: any(load.field is not None for load in s.loads),
     "pressures": lambda s: any(load.kind == "pressure" for load in s.loads),
-    "moving loads": lambda s: s.in_time and any(load.kind == "moving" for load in s.loads),
+    "moving loads": lambda s: any(load.kind == "moving" for load in s.loads),
     "supports": lambda s: bool(s.supports),
     "bonded interfaces": lambda s: (
         s.contact is None and any(i.bonded for i in s.interfaces.values())

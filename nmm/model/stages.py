@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
     from nmm.scene.stages import StageTable
+    from nmm.scene.tables.loading.loads import LoadTable
 
 # Tables of forces: what is new grows with the load factor, what is listed no more fades with it.
 PUSHING = ("loads", "water_pressures")
@@ -129,6 +130,7 @@ def _resolved(
             "stages": _naming(scene, table),
             **{key: (*items, *leaving.get(key, ())) for key, items in acting.items()},
             **_members(scene, members, dynamic=table.duration is not None),
+            "loads": _standing(scene, table, (*acting["loads"], *leaving.get("loads", ()))),
             "monitors": tuple(one for one in scene.monitors if _acts(one, None, there)),
             "duration": table.duration,
             "inertia": scene.inertia if table.duration else None,
@@ -152,6 +154,14 @@ def _resolved(
             material,
         )
         before = names
+
+
+def _standing(
+    scene: "Scene", table: "StageTable", loads: tuple["LoadTable", ...]
+) -> tuple["LoadTable", ...]:
+    """Return the loads of a stage; those that travel in motion are gone while it comes to rest."""
+    rests = scene.inertia is not None and table.duration is None
+    return tuple(one for one in loads if not (rests and one.kind == "moving"))
 
 
 def _naming(scene: "Scene", table: "StageTable") -> tuple["StageTable", ...]:

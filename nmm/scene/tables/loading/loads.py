@@ -33,7 +33,8 @@ class LoadTable(Placed):
 
     Forces and tractions keep their direction while blocks turn; a "pressure" turns with the
     surface that it acts on, a segment or the whole boundary of a block, and grows with it. A
-    "moving" force travels along the segment, from its first point to its second, with `speed`.
+    "moving" force travels along the segment, from its first point to its second, with `speed`;
+    without inertia it passes in equilibrium, over the `duration` of the scene or of a stage.
     A `field` gives the traction (Pa) or the force on volume (N/m3) by expressions of the place
     x, y (m) in the drawn state and the time t (s; in statics the load factor), or by a table.
     """

@@ -132,6 +132,15 @@ def test_a_force_that_travels_at_rest_draws_the_line_of_influence(stages):
     np.testing.assert_allclose(h["reaction:pin:y"], FORCE * (1 - front / LENGTH), atol=1e-6 * FORCE)
 
 
+def test_a_force_that_travels_at_rest_stands_where_the_clock_stopped_it_while_a_stage_rests():
+    way = '[[stages]]\nname = "{}"\nduration = 2.5\n'
+    h = at_rest(way.format("half way") + '[[stages]]\nname = "waits"\n' + way.format("on")).history
+    assert (h["time"] == 2.5).sum() > 1
+    # The lever; supports are springs whose forces end at the tolerance of a solution.
+    front = 2.0 * h["time"]
+    np.testing.assert_allclose(h["reaction:pin:y"], FORCE * (1 - front / LENGTH), atol=1e-6 * FORCE)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
