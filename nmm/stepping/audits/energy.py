@@ -78,7 +78,8 @@ def _made(run: Ended) -> Findings:
 def _driven(run: Ended) -> AuditFinding:
     """Energy that dampers gave in all: forces that hang on the sign of a velocity lag behind it."""
     ledger = run.recorder.ledger
-    given = {name: -loss for name, loss in ledger.damping_loss.items() if loss < 0}
+    losses = {**ledger.damping_loss, "friction and bonds": ledger.friction_loss}
+    given = {name: -loss for name, loss in losses.items() if loss < 0}
     most = sum(given.values())
     share = most / ledger.throughput
     return AuditFinding(

@@ -39,6 +39,8 @@ HELD_TO = 1e-8
 """Of the largest number of a unit and family; residuals are held to 1e-8 too."""
 STRAIN = 1e-12
 """Strain below which motions, forces and energies are rounding."""
+SPRING = 1e4
+"""Stiffness of springs that hold supports, over that of the material."""
 NEUTRAL = "neutral equilibrium"
 """What a run says of bodies whose place its loads do not determine."""
 FAR_TO = 1e-6
@@ -139,12 +141,18 @@ def compared(first: "Run", other: "Run", image: Image, to: float = HELD_TO) -> C
 
 
 def _least(run: "Run", image: Image) -> dict[str, float]:
-    """Return what rounding makes of nothing, by unit: strains of `STRAIN` over the whole scene."""
+    """Return what rounding makes of nothing, by unit: strains of `STRAIN` over the whole scene.
+
+    Of far places it makes the rounding of their coordinates over its size, and springs of supports
+    store it.
+    """
     tables = image.scene["materials"].values()
     modulus = max(float(table["young_modulus"]) for table in tables)
     size, thick = run.stepper.size, float(image.scene.get("thickness", 1.0))
-    force = modulus * STRAIN * size * thick
-    return {"m": STRAIN * size, "N": force, "J": force * STRAIN * size}
+    strain = max(STRAIN, 4 * np.finfo(float).eps * float(np.abs(image.by).max()) / size)
+    force = modulus * strain * size * thick
+    stored = SPRING * force * strain * size if strain > STRAIN else force * strain * size
+    return {"m": strain * size, "N": force, "J": stored}
 
 
 def _sizes(columns: Mapping[str, Floats]) -> dict[tuple[str, str], float]:
