@@ -7,6 +7,7 @@ to guess which of the two it is. The shear force stays with the first, whose fri
 """
 
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from scipy.sparse import csr_array, vstack
@@ -17,6 +18,8 @@ from nmm.contact.problem.transform import Transform
 
 # Shear stiffness of the second contact, which carries no shear: a positive number is expected.
 FAINT = 1e-9
+# Least share of the first contact, whose friction counts the pressure of both by it.
+LEAST = 1e-12
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,11 @@ class AsymmetricSprings(Transform):
 
     index: Ints
     share: Floats
+
+    @classmethod
+    def of(cls, index: Ints, share: Floats) -> Self:
+        """Return the contacts, with a trace of stiffness where none is left."""
+        return cls(index, np.maximum(share, LEAST))
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """Return the problem with the second contacts added at its end."""

@@ -145,3 +145,31 @@ def test_a_transform_of_ones_own_stands_in_the_list():
         (-4.0 - SPRING * (-0.1 - 0.05)) / (MATRIX + SPRING), rel=1e-12
     )
     assert balance(problem, answer) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_bond_that_is_spent_rubs_under_its_whole_pressure():
+    """Friction of 0.5 under N = -3 N of a spring without tension: it holds 1.4 N, and not 1.6 N."""
+    for pull, slides in ((1.4, False), (1.6, True)):
+        one = np.ones(1)
+        problem = StepProblem(
+            csc_array(np.diag([0.1, 0.1])),
+            np.array([-3.0, pull]),
+            csr_array([[1.0, 0.0]]),
+            csr_array([[0.0, 1.0]]),
+            gap=0 * one,
+            slip=0 * one,
+            normal_stiffness=SPRING * one,
+            shear_stiffness=SPRING * one,
+            limits=Limits(0 * one, 0 * one, 0.5 * one),
+            state=np.array([STICK]),
+            normal_force=-3 * one,
+            shear_force=0 * one,
+            compliant=np.ones(1, dtype=bool),
+        )
+        answer = solved(problem, AsymmetricSprings.of(np.array([0]), np.zeros(1)))
+        pressure = 3 * SPRING / (SPRING + 0.1)
+        assert answer.normal_force[0] == pytest.approx(-pressure, rel=1e-9)
+        stuck, limit = pull * SPRING / (SPRING + 0.1), 0.5 * pressure
+        held = min(stuck, limit)
+        assert abs(answer.shear_force[0]) == pytest.approx(held, rel=1e-6)
+        assert (stuck > limit) == slides
