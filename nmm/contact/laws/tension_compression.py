@@ -19,7 +19,7 @@ from nmm.contact.problem.transform import Transform
 # Shear stiffness of the second contact, which carries no shear: a positive number is expected.
 FAINT = 1e-9
 # Least share of the first contact, whose friction counts the pressure of both by it.
-LEAST = 1e-12
+TRACE = 1e-12
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class AsymmetricSprings(Transform):
     @classmethod
     def of(cls, index: Ints, share: Floats) -> Self:
         """Return the contacts, with a trace of stiffness where none is left."""
-        return cls(index, np.maximum(share, LEAST))
+        return cls(index, np.maximum(share, TRACE))
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """Return the problem with the second contacts added at its end."""
