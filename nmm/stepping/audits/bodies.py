@@ -12,7 +12,7 @@ from nmm.stepping.step.stepper import Stepper
 
 def bodies(run: Ended) -> Findings:
     """Audit overlap, area and momentum."""
-    model, deep = run.stepper.model, run.recorder.totals.penetration
+    model, deep = run.stepper.model, run.recorder.totals.overlap
     contact = run.stepper.plan.contact
     if contact is not None:
         size = float(np.sqrt(model.manifold.body_area.min()))

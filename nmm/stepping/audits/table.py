@@ -87,7 +87,8 @@ THRESHOLDS: dict[str, Threshold] = {
         "all",
     ),
     "penetration": Threshold(
-        "largest overlap over the size (root of the area) of the smallest body",
+        "largest overlap, measured where steps end, over the size (root of the area) of the "
+        "smallest body",
         2e-3,
         0.1,
         "contact; it only warns where an interface names its stiffness",

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
 # A load increment that was cut to this share of the largest is not cut further.
 SMALLEST = 2.0**-30
+# Share of the tolerance to which increments are cut where matter flows to a given load.
+FLOWING = 1e-6
 # Share of the stored energy from which on what was lost on the way to rest is told.
 TOOK = 1e-6
 
@@ -98,7 +100,7 @@ class _Raising:
         unheld = self.stepper.plan.contact is not None and at.state.load_factor == 0
         if unheld and at.rest is None and trial.last and not trial.events:
             return self._relaxed(at, trial)
-        if trial.fine:
+        if trial.fine and not self._may_flow(at, trial.factor):
             return self._ended(at, trial)
         if self.schedule.until_failure and _unsettled(trial.found.attempt):
             limit = self.beyond(at.state, trial.factor)
@@ -125,6 +127,17 @@ class _Raising:
         stands = Stands(found.attempt.state, found.contacts)
         events = asked(self.recorder, stands) if found.attempt.converged else ()
         return Trial(factor, fine, last, found, stepper.broken_bonds > bonds, events)
+
+    def _may_flow(self, at: UnderLoad, factor: float) -> bool:
+        """Whether matter that flows to a given load may find equilibrium over a shorter way yet.
+
+        That it flows without stiffness where a trial ended is no proof of failure: where friction
+        and dilation differ ground may do so on its way to a state that it can bear.
+        """
+        schedule = self.schedule
+        sought = schedule.until_failure or schedule.at_once
+        flows = self.stepper.model.matter is not None and not sought
+        return flows and at.rise > FLOWING * schedule.tolerance * factor
 
     def _grown(self, at: UnderLoad, trial: Trial) -> UnderLoad:
         """Accept an increment; the next is larger unless bonds broke."""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def tallied(
     totals: Totals, stepper: Stepper, contacts: "ContactPoints", before: State, attempt: Attempt
 ) -> tuple[Totals, float]:
-    """Return the totals with the contacts of a step; their largest overlap at its end (m)."""
+    """Return the totals with the contacts of a step; the overlap (m) that their forces go with."""
     from nmm.contact.detection.tolerances import MIDPOINT_GAPS
     from nmm.contact.problem.contact_state import NAMES
 
@@ -29,8 +29,8 @@ def tallied(
     turned = float(np.abs(after.frames.angle - before.frames.angle).max(initial=0.0))
     if turned * attempt.motion > MIDPOINT_GAPS * overlap:  # gaps are solved along straight ways
         gap = contact.gaps(contacts, before, after)
-        overlap = -float(gap.min(initial=0.0))
-    if overlap > totals.penetration:
+    ends = -float(gap.min(initial=0.0))
+    if ends > totals.overlap:
         deepest = _pair(stepper, contacts, int(gap.argmin()), after.time)
     tally = np.bincount(contacts.state, minlength=len(NAMES)).tolist()
     counts = dict(zip(NAMES, tally, strict=True)) | {"broken": contact.broken_bonds}
@@ -38,6 +38,7 @@ def tallied(
         totals,
         stiffest=max(totals.stiffest, contact.solver.stiffest or 0.0),
         penetration=max(totals.penetration, overlap),
+        overlap=max(totals.overlap, ends),
         deepest=deepest,
         largest={name: max(totals.largest.get(name, 0), n) for name, n in counts.items()},
         counts=counts,

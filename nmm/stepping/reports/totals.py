@@ -20,7 +20,10 @@ class Totals:
     passes, frames
         Linear systems solved, and frames stored.
     residual, penetration, stiffest
-        Largest relative out-of-balance force, overlap (m) and stiffness of a contact (N/m).
+        Largest relative out-of-balance force, overlap (m) that forces go with, and stiffness of a
+        contact (N/m).
+    overlap
+        Largest overlap of bodies measured where steps end (m).
     deepest
         Which bodies overlapped most, and when, in words; empty before any did.
     largest, counts
@@ -44,6 +47,7 @@ class Totals:
     frames: int = 0
     residual: float = 0.0
     penetration: float = 0.0
+    overlap: float = 0.0
     deepest: str = ""
     stiffest: float = 0.0
     largest: Mapping[str, int] = field(default_factory=dict)

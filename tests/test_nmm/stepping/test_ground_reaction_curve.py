@@ -62,6 +62,7 @@ def scene():
             '[[stages]]\nname = "in place"\n',
             '[[stages]]\nname = "half"\nremove = ["core"]\nrelease = 0.5\n',
             '[[stages]]\nname = "on"\nrelease = 0.8\n',
+            '[[stages]]\nname = "whole"\nrelease = 1.0\n',
         ],
     )
 
@@ -77,7 +78,7 @@ def test_the_wall_comes_in_by_the_closed_form_at_each_share_that_is_released():
     inwards = -run.history["monitor:wall:ux"][ends]
     # Springs of the sides give by 2e-8 m; the core that leaves takes none of what they exert.
     assert inwards[0] < 1e-6
-    expected = [closed_form((1 - share) * PRESSURE) for share in (0.5, 0.8)]
+    expected = [closed_form((1 - share) * PRESSURE) for share in (0.5, 0.8, 1.0)]
     assert closed_form(0.0) == pytest.approx(10.10033741e-3, rel=1e-8)
     # Cells of a quarter of the radius and 32 sides.
     assert inwards[1:] == pytest.approx(expected, rel=3e-3)

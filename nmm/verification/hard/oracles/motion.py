@@ -111,8 +111,8 @@ def energy_checks(found: Ran) -> Checks:
 def overlap(points: Floats, found: "Run") -> float:
     """Largest part of an element that lies in an element of another body, by shapely.
 
-    Springs are pressed in by what the run tells as its penetration: a strip of that depth along
-    the smaller of both does not count.
+    Bodies lie in each other by what the run tells in its audit `penetration`: a strip of that depth
+    along the smaller of both does not count.
     """
     topology = found.topologies[0]
     elements = topology.elements.with_points(points)
@@ -126,7 +126,9 @@ def overlap(points: Floats, found: "Run") -> float:
     shared = shapely.area(shapely.intersection(shapes[one], shapes[other]))
     across = diameters(elements)
     size = np.maximum(shapely.area(shapes), THINNEST * across**2)
-    told = (found.summary.largest_penetration or 0.0) * np.minimum(across[one], across[other])
+    measured = found.summary.audits.get("penetration", 0.0)
+    deep = measured * float(np.sqrt(found.manifold.body_area.min()))
+    told = deep * np.minimum(across[one], across[other])
     untold = np.maximum(shared - told, 0.0)
     return float((untold / np.minimum(size[one], size[other])).max())
 
