@@ -17,6 +17,7 @@ from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.candidates.candidates import Candidates
+from nmm.contact.candidates.held_back import Crossed
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.laws.failing_bonds import overload
 from nmm.contact.points.contact_points import ContactPoints, concatenate
@@ -80,8 +81,7 @@ class Contact(Effect):
         self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.trace_space)
         self._model, self._parts = model, parts
         self._candidates = Candidates(self.partners, self.laws, self.geometry)
-        self._found: Contacts | None = None
-        self._crossed: tuple[Ints, Ints] | None = None
+        self._sought: tuple[Contacts | None, Crossed | None] = None, None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -134,11 +134,11 @@ class Contact(Effect):
         state: State,
         reach: float,
         step: float | None = None,
-        crossed: tuple[Ints, Ints] | None = None,
+        crossed: Crossed | None = None,
     ) -> ContactPoints:
         """Return the contact points of a step; see `Candidates.sought`."""
-        self._crossed = crossed
-        self._found, points = self._candidates.sought(self.record, state, reach, step, crossed)
+        found, points = self._candidates.sought(self.record, state, reach, step, crossed)
+        self._sought = found, crossed
         return points
 
     def solve_path(
@@ -158,7 +158,7 @@ class Contact(Effect):
 
     def gaps(self, contacts: ContactPoints, before: State, after: State) -> Floats:
         """Gaps (m,) after a step: measured where contacts act, as solved elsewhere."""
-        gap = contacts.gap + contacts.reference
+        gap = contacts.distance
         acts = (contacts.normal_force < 0) & ~contacts.is_joint
         surface = self.partners.surface(after)
         gap[acts] = self.geometry.gaps(contacts.take(acts), before, after, surface)
@@ -201,8 +201,7 @@ class Contact(Effect):
 
     def commit(self, solved: ContactSolution, state: State) -> ContactPoints:
         """Keep the accepted contacts as the start of the next step, and return them."""
-        found = self._found, self._crossed
-        self.record, done = self._candidates.left(self.record, found, solved, state)
+        self.record, done = self._candidates.left(self.record, self._sought, solved, state)
         return done
 
     def restore(self, record: ContactRecord) -> None:
@@ -227,7 +226,7 @@ class Contact(Effect):
         """See `Effect.forget`."""
         self.solver.forget()
         self.partners.forget()
-        self._found = self._crossed = None
+        self._sought = None, None
 
     @property
     def caution(self) -> str:

@@ -125,12 +125,13 @@ def _resolved(
             key: [o for o in getattr(scene, key) if o.name in fading and _acts(o, None, there)]
             for key in PUSHING
         }
+        named = {key: (*items, *leaving.get(key, ())) for key, items in acting.items()}
         whole = {
             # What names no effect of its own is resolved here.
             "stages": _naming(scene, table),
-            **{key: (*items, *leaving.get(key, ())) for key, items in acting.items()},
+            **named,
             **_members(scene, members, dynamic=table.duration is not None),
-            "loads": _standing(scene, table, (*acting["loads"], *leaving.get("loads", ()))),
+            "loads": _standing(scene, table, named["loads"]),
             "monitors": tuple(one for one in scene.monitors if _acts(one, None, there)),
             "duration": table.duration,
             "inertia": scene.inertia if table.duration else None,

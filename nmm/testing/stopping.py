@@ -1,5 +1,6 @@
 """Runs that are stopped in mid-run and gone on with, as after Ctrl-C."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +15,10 @@ class StoppedError(Exception):
     """Stands for a user's Ctrl-C."""
 
 
-def stopped_after(scene: Scene, folder: Path, steps: int) -> Path:
+def stopped_after(scene: Scene, folder: Path, steps: int, allow_code: Sequence[str] = ()) -> Path:
     """Run a scene into a folder until an exception ends it after so many steps.
+
+    ``allow_code`` names modules of one's own that may run.
 
     Raises
     ------
@@ -30,7 +33,7 @@ def stopped_after(scene: Scene, folder: Path, steps: int) -> Path:
             raise StoppedError
 
     try:
-        nmm.run(scene, out=folder, progress=progress)
+        nmm.run(scene, out=folder, progress=progress, allow_code=allow_code)
     except StoppedError:
         return folder
     raise AssertionError(f"{folder}: the run ended before step {steps}")

@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Ints
 from nmm.assembly.motion import State
-from nmm.contact.candidates.held_back import held_back, joined
+from nmm.contact.candidates.held_back import Crossed, held_back, joined
 from nmm.contact.candidates.partners import Partners
 from nmm.contact.detection.crossing import Motion, crossings_in, over_seams
 from nmm.contact.detection.narrow_phase import Contacts, follow
@@ -122,7 +122,7 @@ class Candidates:
     def left(
         self,
         record: ContactRecord,
-        sought: tuple[Contacts | None, tuple[Ints, Ints] | None],
+        sought: tuple[Contacts | None, Crossed | None],
         solved: ContactSolution,
         state: State,
     ) -> tuple[ContactRecord, ContactPoints]:
@@ -139,7 +139,8 @@ class Candidates:
             book = book.keep(done.take(joints), self._geometry.faces(state, surface))
             known = done.take(~joints)
         crossed = joined(record.crossed, crossed)
-        crossed = held_back(crossed, solved, self.partners.surface(state))
+        if crossed is not None:
+            crossed = held_back(crossed, solved, self.partners.surface(state))
         after = ContactRecord(book, found, known, solved.answer.stored, crossed)
         return after, concatenate([done, book.lost])
 

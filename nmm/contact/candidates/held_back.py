@@ -14,21 +14,19 @@ from nmm.contact.detection.pair_keys import pair_key
 from nmm.contact.detection.surface import Surface
 from nmm.contact.solution.record import ContactSolution
 
-Pairs = tuple[Ints, Ints]
-"""Vertex and edge (k,)."""
+Crossed = tuple[Ints, Ints]
+"""Vertex and edge (k,) of pairs that a step let through each other."""
 
 
-def joined(one: Pairs | None, other: Pairs | None) -> Pairs | None:
+def joined(one: Crossed | None, other: Crossed | None) -> Crossed | None:
     """Return pairs of both; None without any."""
     if one is None or other is None:
         return other if one is None else one
     return np.concatenate([one[0], other[0]]), np.concatenate([one[1], other[1]])
 
 
-def held_back(pairs: Pairs | None, solved: ContactSolution, surface: Surface) -> Pairs | None:
+def held_back(pairs: Crossed, solved: ContactSolution, surface: Surface) -> Crossed | None:
     """Return those of the pairs that push over their edges, as ``surface`` stands; else None."""
-    if pairs is None:
-        return None
     vertex, edge = pairs
     pushes = (solved.answer.normal_force < 0) & ~solved.contacts.is_joint
     contacts = solved.contacts.take(pushes)

@@ -88,6 +88,11 @@ class ContactPoints:
         """Edge and parameter (m,) of sides a and b."""
         return (self.edge_a, self.parameter_a), (self.edge_b, self.parameter_b)
 
+    @property
+    def distance(self) -> Floats:
+        """Normal distance (m,) of the sides (m), wherever gaps are counted from."""
+        return self.gap + self.reference
+
     def inherited(self, old: "ContactPoints", parent: Ints) -> dict[str, Any]:
         """Return what laws remember (m,) by name: that of old points under the same interface.
 

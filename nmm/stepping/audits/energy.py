@@ -76,7 +76,7 @@ def _made(run: Ended) -> Findings:
 
 
 def _driven(run: Ended) -> AuditFinding:
-    """Energy that dampers gave in all: forces that hang on the sign of a velocity lag behind it."""
+    """Energy that dampers and friction gave in all: what hangs on a velocity's sign lags behind."""
     ledger = run.recorder.ledger
     losses = {**ledger.damping_loss, "friction and bonds": ledger.friction_loss}
     given = {name: -loss for name, loss in losses.items() if loss < 0}

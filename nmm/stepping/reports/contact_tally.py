@@ -24,7 +24,7 @@ def tallied(
 
     contact, deepest, after = stepper.plan.contact, totals.deepest, attempt.state
     assert contact is not None
-    gap = contacts.gap + contacts.reference
+    gap = contacts.distance
     overlap = -float(gap.min(initial=0.0))
     turned = float(np.abs(after.frames.angle - before.frames.angle).max(initial=0.0))
     if turned * attempt.motion > MIDPOINT_GAPS * overlap:  # gaps are solved along straight ways

@@ -80,6 +80,6 @@ def _contact_arrays(stepper: Stepper, view: View) -> dict[str, Any]:
         "contact_normal": contacts.normal,
         "contact_length": contacts.length,
         "contact_force": np.stack([contacts.normal_force, contacts.shear_force], axis=1),
-        "contact_gap": contacts.gap + contacts.reference,
+        "contact_gap": contacts.distance,
         "contact_state": contacts.state,
     }

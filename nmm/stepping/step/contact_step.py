@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats
 from nmm.assembly.motion import State, middle
-from nmm.contact.candidates.held_back import joined
+from nmm.contact.candidates.held_back import Crossed, joined
 from nmm.contact.detection.tolerances import (
     CROSSING_SOLUTIONS,
     FIRST_REACH,
@@ -40,8 +40,6 @@ if TYPE_CHECKING:
 
 # Solutions of a step along a path, each with contacts sought further.
 PATH_SOLUTIONS = 4
-# Vertex and edge (k,) of pairs.
-Pairs = tuple[Ints, Ints]
 
 
 class Touching:
@@ -102,7 +100,7 @@ class Touching:
         passes, halves, looks = 0, 0, 0
         contacts = self.candidates(state, reach, equations.step)
         midpoint = ahead = self._ahead(equations, contacts, contact.momentum)
-        crossed: Pairs | None = None
+        crossed: Crossed | None = None
         held = self._conditions(equations)
         while True:
             solved = self._solve(equations, contacts, breaking, midpoint, held, reach, near)
@@ -199,7 +197,7 @@ class Touching:
         return solution
 
     def candidates(
-        self, state: State, reach: float, step: float | None, crossed: Pairs | None = None
+        self, state: State, reach: float, step: float | None, crossed: Crossed | None = None
     ) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
         with self._clock.phase("search"):

@@ -109,17 +109,9 @@ def test_two_halves_are_the_whole_before_and_after_an_event(steps, tmp_path):
     asked = 'every_time = "2 ms"'
     kept = SEAM.replace(asked, asked + "\ncheckpoint = { every_steps = 4 }")
     whole = run(kept, out=tmp_path / "whole")
-    folder = tmp_path / "half"
-    left = [steps]
-
-    def progress(share, said):
-        left[0] -= 1
-        if left[0] < 0:
-            raise resumed.stopping.StoppedError
-
-    with pytest.raises(resumed.stopping.StoppedError):
-        run(kept, out=folder, progress=progress)
-    half = nmm.resume(folder, allow_code=["seam"])
+    scene, trust = nmm.parse_scene(kept, "scene"), ["seam"]
+    folder = resumed.stopping.stopped_after(scene, tmp_path / "half", steps, trust)
+    half = nmm.resume(folder, allow_code=trust)
     resumed.check_same(whole, half, (tmp_path / "whole", folder))
 
 

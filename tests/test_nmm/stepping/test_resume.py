@@ -195,16 +195,8 @@ def test_an_effect_of_ones_own_goes_on_with_what_it_says_it_carries(remembers, t
     (tmp_path / "scene.toml").write_text(text)
     scene, trust = nmm.read_scene(tmp_path / "scene.toml"), {"allow_code": [module]}
     whole = nmm.run(scene, out=tmp_path / "whole", **trust)
-    left = [6]
-
-    def progress(share, said):
-        left[0] -= 1
-        if left[0] < 0:
-            raise stopping.StoppedError
-
-    with pytest.raises(stopping.StoppedError):
-        nmm.run(scene, out=tmp_path / "half", progress=progress, **trust)
-    resumed = nmm.resume(tmp_path / "half", **trust)
+    half = stopping.stopped_after(scene, tmp_path / "half", 6, **trust)
+    resumed = nmm.resume(half, **trust)
     same = np.array_equal(whole.displacement, resumed.displacement)
     assert same == remembers
 

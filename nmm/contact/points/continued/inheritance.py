@@ -102,7 +102,7 @@ def continued(
     ``springs`` are the normal and shear stiffness (m,) of the new points (N/m); None where contact
     has none.
     """
-    measured = new.gap + new.reference
+    measured = new.distance
     normal, shear = (
         line.shared(getattr(old, name), new.length) for name in ("normal_force", "shear_force")
     )

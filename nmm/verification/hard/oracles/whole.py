@@ -237,11 +237,14 @@ def _again(scene: Document, found: Ran, way: str) -> Checks:
     allowed = max(allowed, *(2 * run.summary.audits.get("rounding", 0.0) for run in (first, seen)))
     if "inertia" in scene and any(_told(run, *CHANCE) for run in (first, seen)):
         return {}
-    if any(_told(run, "audit growth_projection") for run in (first, seen)):
-        return {}
-    if any(ANOTHER_WAY in run.summary.sentence for run in (first, seen)):
+    if any(_another_answer(run) for run in (first, seen)):
         return {}
     return {way: compared(first, seen, image, allowed)}
+
+
+def _another_answer(run: "Run") -> bool:
+    """Say whether a run tells that its answer is one of several."""
+    return _told(run, "audit growth_projection") or ANOTHER_WAY in run.summary.sentence
 
 
 def _proportional(first: "Run", other: "Run", factor: float) -> Check:
