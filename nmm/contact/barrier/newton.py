@@ -8,11 +8,10 @@ from integration.arrays import Floats
 from nmm.contact.barrier.curve import Curves, Spot, with_forces
 from nmm.contact.barrier.potential import Potential
 from nmm.contact.iteration.multiplier_rounds import compliances, stiff_springs
-from nmm.contact.iteration.options import DEFAULT, BarrierOptions
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.balance import length
-from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.errors import SolveError
-from nmm.solvers.linear import Factor, LinearSolver
+from nmm.solvers.linear import Factor
 
 Trials = tuple[Floats, Floats]
 
@@ -51,20 +50,15 @@ class Newton:
         Matrices factorised and systems solved so far.
     """
 
-    def __init__(
-        self,
-        well: Potential,
-        pattern: SpringPattern,
-        linear: LinearSolver,
-        weight: Floats,
-        options: BarrierOptions = DEFAULT.barrier,
-    ) -> None:
-        self.options = options
-        self.well, self.pattern, self.linear = well, pattern, linear.unsymmetric()
+    def __init__(self, well: Potential, tools: Tools, weight: Floats) -> None:
+        self.options, self.linear = tools.options.barrier, tools.linear.unsymmetric()
+        self.well, self.pattern = well, tools.pattern_of(well.problem)
         springs = stiff_springs(well.problem, 1.0)
         self.weight, self.own = springs.weight, weight
         self.soft = tuple(1 / c for c in compliances(well.problem))
-        self.curves = Curves(well, options.stiff * self.soft[0], options.stiff * self.soft[1])
+        self.curves = Curves(
+            well, self.options.stiff * self.soft[0], self.options.stiff * self.soft[1]
+        )
         self.size = length(self.weight * well.problem.force) or 1.0
         self.bound: Floats | None = None
         self.factorisations = self.solves = 0

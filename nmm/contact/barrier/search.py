@@ -10,11 +10,9 @@ from nmm.contact.barrier.potential import Potential
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_point import InteriorPoint
 from nmm.contact.iteration.multiplier_rounds import compliances
-from nmm.contact.iteration.options import BarrierOptions, InteriorOptions
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
-from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
-from nmm.solvers.linear import LinearSolver
 
 
 @dataclass(frozen=True)
@@ -27,11 +25,8 @@ class Search:
     """
 
     well: Potential
-    pattern: SpringPattern
-    linear: LinearSolver
+    tools: Tools
     tolerance: float
-    options: BarrierOptions
-    interior: InteriorOptions
 
     def run(
         self,
@@ -43,10 +38,10 @@ class Search:
 
         ``solved`` is the last problem with its answer, where it was of the same step.
         """
-        well, options = self.well, self.options
+        well, options = self.well, self.tools.options.barrier
         springs = CutSprings.of(well.problem)
-        newton = Newton(well, self.pattern, self.linear, springs.weight, options)
-        path = InteriorPoint(_sides(well), self.pattern, self.linear, self.interior)
+        newton = Newton(well, self.tools, springs.weight)
+        path = InteriorPoint(_sides(well), self.tools)
         starts = [] if solved is None else [_end(newton, *solved)]
         increment = None
         for start in [*starts, _cut(newton, rough)]:
@@ -70,13 +65,11 @@ class Search:
         self, newton: Newton, path: InteriorPoint, rough: IterationResult, passes: int
     ) -> Floats | None:
         """Unknowns (n,) by way of the interior point."""
-        options = self.options
+        options, within = self.tools.options.barrier, self.tools.options.interior.within
         size = options.goal * self.well.scale * self.well.width**2
         trial = np.stack(rough.springs.forces(rough.increment))
         point = path.centred(
-            path.sides.start(rough.increment, trial, self.interior.within),
-            size,
-            min(options.path, passes),
+            path.sides.start(rough.increment, trial, within), size, min(options.path, passes)
         )
         if point is None:
             return None

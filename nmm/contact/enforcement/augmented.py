@@ -6,7 +6,6 @@ from typing import ClassVar
 from nmm.contact.enforcement.iterative import ExactEnforcement
 from nmm.contact.iteration.exact import exact_round
 from nmm.contact.iteration.interior_point import Goal
-from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import (
     MultiplierIterate,
     converged_rounds,
@@ -14,9 +13,9 @@ from nmm.contact.iteration.multiplier_rounds import (
     stiff_springs,
 )
 from nmm.contact.iteration.options import IterationBudget
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.step_problem import StepProblem
 from nmm.registry import above_zero
-from nmm.solvers.linear import LinearSolver
 
 
 @dataclass(frozen=True)
@@ -50,15 +49,14 @@ class Augmented(ExactEnforcement):
     rescue: int = 100
 
     def forces(
-        self, problem: StepProblem, linear: LinearSolver, memory: Memory, goal: Goal
+        self, problem: StepProblem, tools: Tools, goal: Goal
     ) -> tuple[MultiplierIterate, str]:
         """Alternate solving and updating until forces and multipliers agree."""
         budget = IterationBudget(400, 20, 0) if self.rescue else IterationBudget()
-        rounds, growth = self.max_rounds, self.growth
         first = first_round(stiff_springs(problem, self.scale))
-        at = converged_rounds(first, linear, memory, goal, rounds, growth, budget, self.iterations)
+        at = converged_rounds(first, tools, goal, self.max_rounds, self.growth, budget)
         how = f"{at.count} rounds"
         if self.rescue and not at.meets(goal):
-            at, rest = exact_round(problem, linear, memory, goal, self.rescue, self.iterations)
+            at, rest = exact_round(problem, tools, goal, self.rescue)
             how = f"{how}, then {rest}"
         return at, how

@@ -8,11 +8,12 @@ import numpy as np
 from nmm.contact.barrier.potential import Potential
 from nmm.contact.barrier.search import Search
 from nmm.contact.enforcement.iterative import IterativeEnforcement
-from nmm.contact.iteration.answers import free_part, singular_answer, worst_contacts
+from nmm.contact.iteration.answers import singular_answer, unsettled
 from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import compliances, stiff_springs
 from nmm.contact.iteration.options import IterationBudget
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.coulomb import label
 from nmm.contact.problem.cut_springs import IterationResult
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
@@ -59,17 +60,10 @@ class Barrier(IterativeEnforcement):
     ) -> StepAnswer:
         """Balance the step from roughly settled springs, or in the end from no motion."""
         problem.check()
-        memory, steer = memory or self.memory(), self.iterations
-        springs = stiff_springs(problem, 1.0)
+        tools = self.tools(linear_solver, memory)
+        springs, memory = stiff_springs(problem, 1.0), tools.memory
         try:
-            rough = solve_springs(
-                springs,
-                linear_solver,
-                memory,
-                1e-2,
-                budget=IterationBudget(20, 2, 0),
-                options=steer,
-            )
+            rough = solve_springs(springs, tools, 1e-2, budget=IterationBudget(20, 2, 0))
         except SolveError as fault:
             return singular_answer(springs, linear_solver, fault)
         force = max(float(np.abs(f).max(initial=0.0)) for f in springs.forces(rough.increment))
@@ -82,28 +76,21 @@ class Barrier(IterativeEnforcement):
         if force > 0:  # blocks that fly do not yet say how hard they will meet
             memory.barrier_width = width
         well = Potential(problem, width, max(force, width / compliance) / width)
-        search = Search(
-            well,
-            memory.pattern_of(problem),
-            linear_solver,
-            self.tolerance,
-            steer.barrier,
-            steer.interior,
-        )
+        search = Search(well, tools, self.tolerance)
         found = search.run(rough, self.max_passes, memory.again(problem))
-        return _Outcome(self, well, linear_solver, found).answer(memory)
+        return _Outcome(well, tools, self.tolerance, found).answer()
 
 
 @dataclass(frozen=True)
 class _Outcome:
     """Where the search ended."""
 
-    options: Barrier
     well: Potential
-    linear: LinearSolver
+    tools: Tools
+    tolerance: float
     found: IterationResult
 
-    def answer(self, memory: Memory) -> StepAnswer:
+    def answer(self) -> StepAnswer:
         """Forces under the bound of their own normal force, and the verdict on them."""
         well, problem = self.well, self.well.problem
         gap, slip = problem.gaps(self.found.increment), problem.slips(self.found.increment)
@@ -121,26 +108,16 @@ class _Outcome:
             state=label(problem, is_open, np.abs(slip) > reach),
             passes=self.found.solves,
             residual=self.found.size,
-            verdict=self._verdict(memory),
+            verdict=self._verdict(),
             factorisations=self.found.factorisations,
-            solver=self.linear.name,
+            solver=self.tools.linear.name,
             stored=well.stored(gap, slip),
         )
 
-    def _verdict(self, memory: Memory) -> Verdict:
-        how = self.found.story
+    def _verdict(self) -> Verdict:
+        if not self.found.size <= self.tolerance:
+            return unsettled(self.found, self.tools, "widen the barrier")
         half = self.well.width / 2
-        if self.found.size <= self.options.tolerance:
-            deep = f"; {self.well.deep} contacts began deeper than that" if self.well.deep else ""
-            sentence = f"settled by {how}, gaps and slips within {half:.1e} m{deep}"
-            return Verdict(True, "converged", sentence)
-        free = free_part(self.found, self.linear, memory)
-        if free is not None:
-            return free
-        worst = worst_contacts(self.found.springs, self.found.increment)
-        named = ", ".join(str(i) for i in worst[:5])
-        sentence = (
-            f"out of balance by {self.found.size:.1e} after {how}, most at contacts {named}; "
-            "shorten the step or widen the barrier"
-        )
-        return Verdict(False, "stalled", sentence, worst)
+        deep = f"; {self.well.deep} contacts began deeper than that" if self.well.deep else ""
+        sentence = f"settled by {self.found.story}, gaps and slips within {half:.1e} m{deep}"
+        return Verdict(True, "converged", sentence)

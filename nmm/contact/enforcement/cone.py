@@ -6,11 +6,10 @@ from typing import ClassVar
 from nmm.contact.enforcement.iterative import ExactEnforcement
 from nmm.contact.iteration.exact import exact_round
 from nmm.contact.iteration.interior_point import Goal
-from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import MultiplierIterate
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.step_problem import StepProblem
 from nmm.registry import above_zero
-from nmm.solvers.linear import LinearSolver
 
 
 @dataclass(frozen=True)
@@ -34,8 +33,7 @@ class Cone(ExactEnforcement):
     max_factorisations: int = above_zero(100)
 
     def forces(
-        self, problem: StepProblem, linear: LinearSolver, memory: Memory, goal: Goal
+        self, problem: StepProblem, tools: Tools, goal: Goal
     ) -> tuple[MultiplierIterate, str]:
         """See `nmm.contact.iteration.exact`."""
-        budget = self.max_factorisations
-        return exact_round(problem, linear, memory, goal, budget, self.iterations)
+        return exact_round(problem, tools, goal, self.max_factorisations)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from nmm.contact.iteration.interior_point import Goal
     from nmm.contact.iteration.memory import Memory
     from nmm.contact.iteration.multiplier_rounds import MultiplierIterate
+    from nmm.contact.iteration.tools import Tools
     from nmm.contact.problem.step_problem import StepAnswer, StepProblem
     from nmm.solvers.linear import LinearSolver
 
@@ -36,6 +37,12 @@ class IterativeEnforcement(Enforcement):
 
         return Memory(options=self.iterations.memory)
 
+    def tools(self, linear: "LinearSolver", memory: "Memory | None") -> "Tools":
+        """Return the tools of its iterations, with an empty memory where none is given."""
+        from nmm.contact.iteration.tools import Tools
+
+        return Tools(linear, memory or self.memory(), self.iterations)
+
 
 @dataclass(frozen=True)
 class ExactEnforcement(IterativeEnforcement):
@@ -56,7 +63,7 @@ class ExactEnforcement(IterativeEnforcement):
 
     @abstractmethod
     def forces(
-        self, problem: "StepProblem", linear: "LinearSolver", memory: "Memory", goal: "Goal"
+        self, problem: "StepProblem", tools: "Tools", goal: "Goal"
     ) -> "tuple[MultiplierIterate, str]":
         """Forces within ``goal`` or the best found, and how they were found.
 
@@ -78,12 +85,12 @@ class ExactEnforcement(IterativeEnforcement):
         )
 
         problem.check()
-        memory = memory or self.memory()
+        tools = self.tools(linear_solver, memory)
         goal = exact_goal(problem, self.tolerance, self.gap_tolerance)
         try:
-            at, how = self.forces(problem, linear_solver, memory, goal)
+            at, how = self.forces(problem, tools, goal)
         except SolveError as fault:
             springs = stiff_springs(problem, self.iterations.rounds.start)
             return singular_answer(springs, linear_solver, fault)
-        verdict = rounds_verdict(at, linear_solver, memory, goal, how)
+        verdict = rounds_verdict(at, tools, goal, how)
         return answer(at.result, linear_solver, verdict)

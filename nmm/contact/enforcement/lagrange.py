@@ -10,7 +10,6 @@ from integration.arrays import Floats
 from nmm.contact.enforcement.iterative import ExactEnforcement
 from nmm.contact.iteration.exact import exact_round
 from nmm.contact.iteration.interior_point import Goal
-from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import (
     MultiplierIterate,
     compliances,
@@ -18,6 +17,7 @@ from nmm.contact.iteration.multiplier_rounds import (
     stiff_springs,
 )
 from nmm.contact.iteration.open_close import ActiveSet, changes, first_active_set
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.coulomb import frictionless, shear_bound
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.step_problem import StepProblem
@@ -58,12 +58,12 @@ class Lagrange(ExactEnforcement):
     rescue: int = 100
 
     def forces(
-        self, problem: StepProblem, linear: LinearSolver, memory: Memory, goal: Goal
+        self, problem: StepProblem, tools: Tools, goal: Goal
     ) -> tuple[MultiplierIterate, str]:
         """Correct the active set until it stands."""
-        at, how = self._active_set(stiff_springs(problem, 1.0), linear)
+        at, how = self._active_set(stiff_springs(problem, 1.0), tools.linear)
         if at is None or not at.meets(goal):
-            at, rest = exact_round(problem, linear, memory, goal, self.rescue, self.iterations)
+            at, rest = exact_round(problem, tools, goal, self.rescue)
             how = f"{how}, then {rest}"
         return at, how
 

@@ -53,14 +53,13 @@ class Penalty(IterativeEnforcement):
     ) -> "StepAnswer":
         """Find the forces of the springs."""
         problem.check()
-        memory = memory or self.memory()
+        tools = self.tools(linear_solver, memory)
         if self.iteration == "open_close":
             from nmm.contact.enforcement.open_close_passes import OpenClosePasses
 
-            limits, pattern = (self.max_passes, self.tolerance), memory.pattern_of(problem)
+            limits, pattern = (self.max_passes, self.tolerance), tools.pattern_of(problem)
             return OpenClosePasses(*limits, problem, linear_solver, pattern).run()
         from nmm.contact.iteration.answers import spring_answer
         from nmm.contact.problem.cut_springs import CutSprings
 
-        springs = CutSprings.of(problem)
-        return spring_answer(springs, linear_solver, memory, self.tolerance, self.iterations)
+        return spring_answer(CutSprings.of(problem), tools, self.tolerance)

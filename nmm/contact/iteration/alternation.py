@@ -13,30 +13,25 @@ is, and the later for each turn of the second that did not pay in this step and 
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.iteration.memory import KeptFactor, Memory
+from nmm.contact.iteration.memory import KeptFactor
 from nmm.contact.iteration.modified_newton import ModifiedNewton
-from nmm.contact.iteration.options import DEFAULT, IterationBudget, IterationOptions, Patience
+from nmm.contact.iteration.options import IterationBudget, Patience
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.errors import SolveError
-from nmm.solvers.linear import Factor, LinearSolver
+from nmm.solvers.linear import Factor
 
 
 class Alternation:
     """One search for unknowns at which cut springs balance the step."""
 
     def __init__(
-        self,
-        springs: CutSprings,
-        linear: LinearSolver,
-        memory: Memory,
-        tolerance: float,
-        increment: Floats,
-        options: IterationOptions = DEFAULT,
+        self, springs: CutSprings, tools: Tools, tolerance: float, increment: Floats
     ) -> None:
-        self.springs, self.linear, self.memory = springs, linear, memory
-        self.tolerance, self.options = tolerance, options.alternation
-        self._size = options.alternation.size(len(increment))
-        self._price = options.ways.acting
+        self.springs, self.linear, self.memory = springs, tools.linear, tools.memory
+        self.tolerance, self.options = tolerance, tools.options.alternation
+        self._size = self.options.size(len(increment))
+        self._price = tools.options.ways.acting
         self.increment, self.residual = increment, springs.residual(increment)
         self.solves = self.factorisations = 0
 

@@ -4,8 +4,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.iteration.cut_spring_solver import solve_springs
-from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.options import DEFAULT, IterationOptions
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.answer_kernel import ended
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.rounding import rounding
@@ -17,19 +16,13 @@ PASSES = 3
 """Open-close passes after a failure, to see whether a part came free."""
 
 
-def spring_answer(
-    springs: CutSprings,
-    linear: LinearSolver,
-    memory: Memory,
-    tolerance: float,
-    options: IterationOptions = DEFAULT,
-) -> StepAnswer:
+def spring_answer(springs: CutSprings, tools: Tools, tolerance: float) -> StepAnswer:
     """Settle ``springs`` and judge the outcome."""
     try:
-        found = solve_springs(springs, linear, memory, tolerance, options=options)
+        found = solve_springs(springs, tools, tolerance)
     except SolveError as fault:
-        return singular_answer(springs, linear, fault)
-    return answer(found, linear, judge(found, linear, memory, tolerance))
+        return singular_answer(springs, tools.linear, fault)
+    return answer(found, tools.linear, judge(found, tools, tolerance))
 
 
 def answer(found: IterationResult, linear: LinearSolver, verdict: Verdict) -> StepAnswer:
@@ -59,26 +52,28 @@ def answer(found: IterationResult, linear: LinearSolver, verdict: Verdict) -> St
     )
 
 
-def judge(
-    found: IterationResult, linear: LinearSolver, memory: Memory, tolerance: float
-) -> Verdict:
+def judge(found: IterationResult, tools: Tools, tolerance: float) -> Verdict:
     """Verdict on unknowns whose forces are admissible by construction."""
-    springs = found.springs
-    if found.size <= tolerance or found.size <= rounding(springs, found.increment):
+    if found.size <= tolerance or found.size <= rounding(found.springs, found.increment):
         return Verdict(True, "converged", f"settled by {found.story}")
-    free = free_part(found, linear, memory)
+    return unsettled(found, tools, "soften the contacts")
+
+
+def unsettled(found: IterationResult, tools: Tools, remedy: str) -> Verdict:
+    """Verdict on unknowns that are out of balance: a part is free, or the search has stalled."""
+    free = _free_part(found, tools)
     if free is not None:
         return free
-    worst = worst_contacts(springs, found.increment)
+    worst = _worst_contacts(found.springs, found.increment)
     named = ", ".join(str(i) for i in worst[:5])
     sentence = (
         f"out of balance by {found.size:.1e} after {found.story}, most at contacts {named}; "
-        "shorten the step or soften the contacts"
+        f"shorten the step or {remedy}"
     )
     return Verdict(False, "stalled", sentence, worst)
 
 
-def worst_contacts(springs: CutSprings, increment: Floats) -> tuple[int, ...]:
+def _worst_contacts(springs: CutSprings, increment: Floats) -> tuple[int, ...]:
     """Up to ten contacts on whose unknowns the out-of-balance force is largest."""
     problem = springs.problem
     rest = np.abs(springs.weight**2 * springs.residual(increment).force)
@@ -94,17 +89,17 @@ def singular_answer(springs: CutSprings, linear: LinearSolver, fault: SolveError
     return answer(found, linear, Verdict(False, "singular", sentence))
 
 
-def free_part(found: IterationResult, linear: LinearSolver, memory: Memory) -> Verdict | None:
+def _free_part(found: IterationResult, tools: Tools) -> Verdict | None:
     """Verdict "singular" when open-close passes from what was found set a part free."""
     springs, increment = found.springs, found.increment
     problem = springs.problem
-    pattern = memory.pattern_of(problem)
+    pattern = tools.pattern_of(problem)
     for _ in range(PASSES):
         is_open, sliding = springs.states(increment)
         normal = np.where(is_open, 0.0, springs.normal_stiffness)
         shear = np.where(is_open | sliding, 0.0, springs.shear_stiffness)
         try:
-            factor = linear.factorise(pattern.matrix(problem, normal, shear))
+            factor = tools.linear.factorise(pattern.matrix(problem, normal, shear))
             increment = increment - factor.solve(springs.residual(increment).force, problem.among)
         except SolveError as fault:
             sentence = (

@@ -14,36 +14,35 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.contact.islands.part import part_of
 from nmm.contact.islands.partition import Islands
-from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.options import SMALL, IslandOptions
+from nmm.contact.iteration.options import SMALL
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 
-Together = Callable[[CutSprings, Memory, Floats], IterationResult]
+Together = Callable[[CutSprings, Tools, Floats], IterationResult]
 """Solves springs from an increment with what is kept of them."""
 
 
-def apart_in(springs: CutSprings, memory: Memory, options: IslandOptions) -> Islands | None:
+def apart_in(springs: CutSprings, tools: Tools) -> Islands | None:
     """Return the islands of a problem; None where it is to be solved as one."""
-    if not options.rounds or len(springs.problem.force) <= SMALL:
+    if not tools.options.islands.rounds or len(springs.problem.force) <= SMALL:
         return None
-    found = memory.islands_of(springs)
+    found = tools.memory.islands_of(springs)
     return found if found.apart else None
 
 
 def solve_apart(
     springs: CutSprings,
     islands: Islands,
-    memory: Memory,
+    tools: Tools,
     tolerance: float,
     start: Floats,
     together: Together,
-    options: IslandOptions,
 ) -> IterationResult:
     """Balance each island from ``start`` (n,), and all together where that is not enough.
 
     Solves of a part count by its share of the unknowns.
     """
-    problem, at, n = springs.problem, start.copy(), len(start)
+    problem, at, n, options = springs.problem, start.copy(), len(start), tools.options.islands
     solves, factors, woken = 0.0, 0, np.zeros(islands.count, dtype=bool)
     scale = np.zeros(islands.count)
     for _ in range(options.rounds):
@@ -62,7 +61,7 @@ def solve_apart(
         for chosen in parts:
             unknowns, contacts = islands.around(problem, chosen)
             part = part_of(springs, unknowns, contacts, at)
-            found = together(part, memory.of_part(unknowns), at[unknowns])
+            found = together(part, tools.of_part(unknowns), at[unknowns])
             at[unknowns] = found.increment
             scale[chosen] = np.linalg.norm(scale[np.unique(islands.unknown[unknowns])])
             solves += found.solves * len(unknowns) / n
@@ -71,7 +70,7 @@ def solve_apart(
     quiet = f"{islands.count - int(woken.sum())} of {islands.count} islands left alone"
     spent = f"{ceil(solves)} solves with {factors or 'no'} new factors, {quiet}"
     found = IterationResult(springs, at, size, ceil(solves), factors, spent)
-    return found if size <= tolerance else found.then(together(springs, memory, at))
+    return found if size <= tolerance else found.then(together(springs, tools, at))
 
 
 def _parts(islands: Islands, busy: Bools, alone: int) -> list[Bools]:

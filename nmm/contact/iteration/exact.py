@@ -13,7 +13,6 @@ import numpy as np
 from nmm.contact.iteration.complementarity import Complementarity
 from nmm.contact.iteration.cut_spring_solver import inside_start
 from nmm.contact.iteration.interior_point import Goal, InteriorPoint
-from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.multiplier_rounds import (
     MultiplierIterate,
     compliances,
@@ -22,18 +21,13 @@ from nmm.contact.iteration.multiplier_rounds import (
     multiplier_round,
     stiff_springs,
 )
-from nmm.contact.iteration.options import DEFAULT, SMALL, IterationBudget, IterationOptions
+from nmm.contact.iteration.options import SMALL, IterationBudget
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.step_problem import StepProblem
-from nmm.solvers.linear import LinearSolver
 
 
 def exact_round(
-    problem: StepProblem,
-    linear: LinearSolver,
-    memory: Memory,
-    goal: Goal,
-    factorisations: int = 100,
-    options: IterationOptions = DEFAULT,
+    problem: StepProblem, tools: Tools, goal: Goal, factorisations: int
 ) -> tuple[MultiplierIterate, str]:
     """Forces within ``goal`` or the best found, and how they were found.
 
@@ -47,38 +41,29 @@ def exact_round(
     SolveError
         When even with all contacts acting the load moves a free part.
     """
-    rounds = options.rounds
-    small, again = len(problem.force) <= SMALL, memory.again(problem)
+    rounds = tools.options.rounds
+    small, again = len(problem.force) <= SMALL, tools.memory.again(problem)
     if again:
         problem = replace(problem, start=again[1].increment)
     at, how = None, ""
     if small or again:
         first = first_round(stiff_springs(problem, rounds.again if again else rounds.start))
-        at = _rounds(first, linear, memory, goal, options, rounds.most if small else rounds.few)
+        at = _rounds(first, tools, goal, rounds.most if small else rounds.few)
         if at.meets(goal):
             return at, f"{at.count} rounds"
         how = f"{at.count} rounds, then "
-    at = interior_round(at, problem, linear, memory, goal, factorisations, options)
+    at = _interior_round(at, problem, tools, goal, factorisations)
     how = f"{how}{at.result.story}"
     if at.meets(goal):
         return at, how
-    more = _rounds(_stiffer(at, rounds.stiff), linear, memory, goal, options, rounds.most)
+    more = _rounds(_stiffer(at, rounds.stiff), tools, goal, rounds.most)
     if more.meets(goal):
         return more, f"{how}, then {more.count - at.count} rounds"
     return at, f"{how}; {more.count - at.count} rounds from there did not help"
 
 
-def _rounds(
-    at: MultiplierIterate,
-    linear: LinearSolver,
-    memory: Memory,
-    goal: Goal,
-    options: IterationOptions,
-    count: int,
-) -> MultiplierIterate:
-    budget = IterationBudget(300, 12, 0)
-    most = at.count + count
-    return converged_rounds(at, linear, memory, goal, most, 10.0, budget, options)
+def _rounds(at: MultiplierIterate, tools: Tools, goal: Goal, count: int) -> MultiplierIterate:
+    return converged_rounds(at, tools, goal, at.count + count, 10.0, IterationBudget(300, 12, 0))
 
 
 def _stiffer(at: MultiplierIterate, scale: float) -> MultiplierIterate:
@@ -91,33 +76,18 @@ def _stiffer(at: MultiplierIterate, scale: float) -> MultiplierIterate:
     return replace(at, result=replace(at.result, springs=stiff))
 
 
-def interior_round(
-    at: MultiplierIterate | None,
-    problem: StepProblem,
-    linear: LinearSolver,
-    memory: Memory,
-    goal: Goal,
-    budget: int,
-    options: IterationOptions = DEFAULT,
+def _interior_round(
+    at: MultiplierIterate | None, problem: StepProblem, tools: Tools, goal: Goal, budget: int
 ) -> MultiplierIterate:
     """Exact forces by the interior point, at the cost of the rounds before it and its own.
 
     Small problems are finished to rounding by rounds of Newton's method.
     """
-    springs, compliance = (
-        stiff_springs(problem, options.rounds.slight),
-        np.stack(compliances(problem)),
-    )
+    rounds, compliance = tools.options.rounds, np.stack(compliances(problem))
+    springs = stiff_springs(problem, rounds.slight)
     sides = Complementarity.of(springs, ~problem.own_stiffness, compliance)
-    start, before = inside_start(sides, linear, memory, options), at or first_round(springs)
-    found = InteriorPoint(sides, memory.pattern_of(problem), linear, options.interior).run(
-        start, budget, goal
-    )
-    found = replace(
-        found,
-        solves=before.result.solves + found.solves,
-        factorisations=before.result.factorisations + found.factorisations,
-    )
+    start, before = inside_start(sides, tools), at or first_round(springs)
+    found = InteriorPoint(sides, tools).run(start, budget, goal).at_cost_of(before.result)
     forces = found.springs.forces(found.increment)
     largest = max(float(np.abs(force).max(initial=0.0)) for force in forces)
     gap = found.error * largest * float(compliance.max(initial=0.0))
@@ -125,14 +95,8 @@ def interior_round(
     if len(problem.force) > SMALL:
         return best
     for _ in range(2):
-        tried = multiplier_round(
-            _stiffer(best, options.rounds.stiff),
-            linear,
-            memory,
-            options.springs.fine,
-            IterationBudget(0, 0, 0),
-            options,
-        )
+        stiff, fine = _stiffer(best, rounds.stiff), tools.options.springs.fine
+        tried = multiplier_round(stiff, tools, fine, IterationBudget(0, 0, 0))
         if not max(tried.result.size, tried.error) < max(best.result.size, best.error):
             break
         best = tried

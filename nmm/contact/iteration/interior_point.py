@@ -16,12 +16,10 @@ import numpy as np
 
 from nmm.contact.iteration.complementarity import Complementarity, InteriorIterate
 from nmm.contact.iteration.interior_equations import Linearised
-from nmm.contact.iteration.options import DEFAULT, InteriorOptions
 from nmm.contact.iteration.semismooth_newton import polish
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import IterationResult
-from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.errors import SolveError
-from nmm.solvers.linear import LinearSolver
 
 
 @dataclass(frozen=True)
@@ -73,15 +71,9 @@ class InteriorPoint:
         So far.
     """
 
-    def __init__(
-        self,
-        sides: Complementarity,
-        pattern: SpringPattern,
-        linear: LinearSolver,
-        options: InteriorOptions = DEFAULT.interior,
-    ) -> None:
-        self.options = options
-        self.sides, self.pattern, self.linear = sides, pattern, linear.unsymmetric()
+    def __init__(self, sides: Complementarity, tools: Tools) -> None:
+        self.options, self.linear = tools.options.interior, tools.linear.unsymmetric()
+        self.sides, self.pattern = sides, tools.pattern_of(sides.springs.problem)
         self.factorisations = self.solves = 0
         self.reached: InteriorIterate
 

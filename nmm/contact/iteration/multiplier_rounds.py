@@ -9,12 +9,11 @@ from integration.arrays import Floats
 from nmm.contact.iteration.answers import judge
 from nmm.contact.iteration.cut_spring_solver import solve_springs
 from nmm.contact.iteration.interior_point import Goal
-from nmm.contact.iteration.memory import Memory
-from nmm.contact.iteration.options import DEFAULT, SMALL, IterationBudget, IterationOptions
+from nmm.contact.iteration.options import SMALL, IterationBudget
+from nmm.contact.iteration.tools import Tools
 from nmm.contact.problem.cut_springs import CutSprings, IterationResult
 from nmm.contact.problem.row_products import terms_of_stretches
 from nmm.contact.problem.step_problem import StepProblem, Verdict
-from nmm.solvers.linear import LinearSolver
 
 UNHELD = 1e13
 """Compliance times stiffness of a contact from which an unknown is held by rounding alone."""
@@ -116,23 +115,13 @@ def first_round(springs: CutSprings) -> MultiplierIterate:
 
 
 def multiplier_round(
-    last: MultiplierIterate,
-    linear: LinearSolver,
-    memory: Memory,
-    tolerance: float,
-    budget: IterationBudget | None = None,
-    options: IterationOptions = DEFAULT,
+    last: MultiplierIterate, tools: Tools, tolerance: float, budget: IterationBudget
 ) -> MultiplierIterate:
     """Settle the springs and measure by how much their forces differ from the multipliers."""
     before = last.result
     start = before.increment if last.count else None
-    found = solve_springs(before.springs, linear, memory, tolerance, start, budget, options)
-    total = replace(
-        found,
-        solves=before.solves + found.solves,
-        factorisations=before.factorisations + found.factorisations,
-    )
-    return measured(total, last.count + 1)
+    found = solve_springs(before.springs, tools, tolerance, start, budget)
+    return measured(found.at_cost_of(before), last.count + 1)
 
 
 def measured(found: IterationResult, count: int) -> MultiplierIterate:
@@ -153,7 +142,7 @@ def measured(found: IterationResult, count: int) -> MultiplierIterate:
     return MultiplierIterate(found, count, largest[0] * over, largest[1], largest[2] * over)
 
 
-def updated(last: MultiplierIterate, growth: float = 1.0) -> MultiplierIterate:
+def updated(last: MultiplierIterate, growth: float) -> MultiplierIterate:
     """Springs of the next round, ``growth`` times as stiff.
 
     ``lambda <- lambda + p d``, cut at the limits.
@@ -168,13 +157,11 @@ def updated(last: MultiplierIterate, growth: float = 1.0) -> MultiplierIterate:
 
 def converged_rounds(
     at: MultiplierIterate,
-    linear: LinearSolver,
-    memory: Memory,
+    tools: Tools,
     goal: Goal,
     max_rounds: int,
     growth: float,
-    budget: IterationBudget | None = None,
-    options: IterationOptions = DEFAULT,
+    budget: IterationBudget,
 ) -> MultiplierIterate:
     """Repeat rounds until balance and error meet their tolerances; return the last.
 
@@ -185,10 +172,10 @@ def converged_rounds(
     SolveError
         When even with all springs acting the load moves a free part.
     """
-    steer = options.rounds
+    steer = tools.options.rounds
     inner, stiffness, failures = max(1e-4, goal.balance), 1.0, 0
     while at.count < max_rounds:
-        last, at = at, multiplier_round(at, linear, memory, inner, budget, options)
+        last, at = at, multiplier_round(at, tools, inner, budget)
         failures += at.result.size > inner
         if at.meets(goal) or failures > steer.failures or at.count == max_rounds:
             break
@@ -204,16 +191,10 @@ def converged_rounds(
     return at
 
 
-def rounds_verdict(
-    at: MultiplierIterate,
-    linear: LinearSolver,
-    memory: Memory,
-    goal: Goal,
-    how: str,
-) -> Verdict:
+def rounds_verdict(at: MultiplierIterate, tools: Tools, goal: Goal, how: str) -> Verdict:
     """Verdict on balance and on what the multipliers still lack; ``how`` they were found."""
     found = replace(at.result, story=f"{how}, {at.result.solves} solves")
-    verdict = judge(found, linear, memory, goal.balance)
+    verdict = judge(found, tools, goal.balance)
     if not verdict.converged:
         return verdict
     if at.error > goal.error:

@@ -148,9 +148,13 @@ class IterationResult:
 
     def then(self, after: "IterationResult") -> "IterationResult":
         """The better of this and what was found ``after``, with the cost of both."""
+        better, other = (after, self) if after.size < self.size else (self, after)
+        return replace(better.at_cost_of(other), story=f"{self.story}, then {after.story}")
+
+    def at_cost_of(self, other: "IterationResult") -> "IterationResult":
+        """The same with the cost of another iteration besides."""
         return replace(
-            after if after.size < self.size else self,
-            solves=self.solves + after.solves,
-            factorisations=self.factorisations + after.factorisations,
-            story=f"{self.story}, then {after.story}",
+            self,
+            solves=self.solves + other.solves,
+            factorisations=self.factorisations + other.factorisations,
         )
