@@ -63,7 +63,7 @@ class Contact(Effect):
 
     def __init__(self, model: Model, parts: ContactParts, start: State) -> None:
         self.laws, self.partners, self._exact = parts.laws, parts.partners, parts.enforcement.exact
-        self._cracks, self._caution = parts.cracks, parts.caution
+        self._cracks = parts.cracks
         sides = self.partners.sides
         book = follow_joints(
             sides.surface(start.frames, start.deformation),
@@ -80,7 +80,7 @@ class Contact(Effect):
         self.record, self._unbonded = ContactRecord(book), book.broken
         self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.trace_space)
         self._model, self._parts = model, parts
-        self._candidates = Candidates(self.partners, self.laws, self.geometry)
+        self._candidates = Candidates(self.partners, self.laws, self.geometry, parts.keeps_energy)
         self._sought: tuple[Contacts | None, Crossed | None] = None, None
 
     @classmethod
@@ -227,11 +227,6 @@ class Contact(Effect):
         self.solver.forget()
         self.partners.forget()
         self._sought = None, None
-
-    @property
-    def caution(self) -> str:
-        """See `Effect.caution`."""
-        return self._caution
 
     def push(self, state: State) -> Floats:
         """Return the force (n,) of the contacts as they were left."""

@@ -16,7 +16,7 @@ from nmm.contact.mortar.segments import face_points
 from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.points.bonded_cracks import BondedCracks
 from nmm.effects.base import Setup
-from nmm.errors import SceneError
+from nmm.errors import Fault, FormulationError, SceneError
 from nmm.formulation import ContactMethod
 from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.integrators.base import make_integrator
@@ -26,12 +26,6 @@ from nmm.interfaces.from_scene import interface_law
 MOVED = 4.0
 # Points of a joint between cells that leave nothing of splines and moving least squares to see.
 MOST = 4
-
-
-FACES = (
-    "springs over faces have no potential: what slides on them makes or loses energy, which the "
-    'integrator keeps; use points = "vertices" in [contact] of the formulation'
-)
 
 
 @dataclass(frozen=True)
@@ -55,8 +49,8 @@ class ContactParts:
         Whether faces bend between their ends: contacts then act at points of the material.
     trace_space
         Where exact conditions on faces are held in the mean, None where none are.
-    caution
-        See `Effect.caution`.
+    keeps_energy
+        Whether springs are to give back what they store.
     """
 
     laws: ContactLaws
@@ -68,7 +62,7 @@ class ContactParts:
     held: Bools
     bends: bool
     trace_space: TraceSpace | None
-    caution: str = ""
+    keeps_energy: bool = False
 
 
 def contact_parts(setup: Setup) -> ContactParts:
@@ -93,10 +87,19 @@ def contact_parts(setup: Setup) -> ContactParts:
     joint_rule, cracks = _joint_rule(method, laws, manifold), _cracks(setup)
     held, bends = _held(setup), points > 2
     mixed = setup.scene.inertia is None and not enforcement.exact
-    caution = FACES if springs and points else ""
+    if springs and points:
+        raise _no_potential(setup)
     return ContactParts(
-        laws, partners, enforcement, joint_rule, cracks, mixed, held, bends, nodes, caution
+        laws, partners, enforcement, joint_rule, cracks, mixed, held, bends, nodes, springs
     )
+
+
+def _no_potential(setup: Setup) -> FormulationError:
+    """Springs over stretches of faces, whose stiffness changes as bodies slide, store no energy."""
+    place = setup.formulation.source.place("contact", "points")
+    expected = '"vertices" or "auto" under an integrator that keeps energy'
+    remedy = "springs over stretches of faces make or lose it as bodies slide, those at corners not"
+    return FormulationError(Fault(place, '"faces"', expected, remedy))
 
 
 def _conserves(setup: Setup) -> bool:

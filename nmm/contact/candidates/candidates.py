@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 
 from integration.arrays import Ints
 from nmm.assembly.motion import State
-from nmm.contact.candidates.held_back import Crossed, held_back, joined
+from nmm.contact.candidates.held_back import Crossed, held_back, joined, pushing
 from nmm.contact.candidates.partners import Partners
 from nmm.contact.detection.crossing import Motion, crossings_in, over_seams
 from nmm.contact.detection.narrow_phase import Contacts, follow
@@ -18,6 +18,7 @@ from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.failing_bonds import strength
 from nmm.contact.laws.found_contacts import sized
 from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.points.continued.kept_energy import kept_energy
 from nmm.contact.points.continued.reference_gap import counted, counted_on
 from nmm.contact.points.continued.tracking import (
     answered,
@@ -41,10 +42,19 @@ class Candidates:
         The search over steps.
     laws, geometry
         Of the points that are found.
+    keeps_energy
+        Whether contacts go on where search would leave them out while their springs push.
     """
 
-    def __init__(self, partners: Partners, laws: ContactLaws, geometry: ContactGeometry) -> None:
+    def __init__(
+        self,
+        partners: Partners,
+        laws: ContactLaws,
+        geometry: ContactGeometry,
+        keeps_energy: bool = False,
+    ) -> None:
         self.partners, self._laws, self._geometry = partners, laws, geometry
+        self._keeps_energy = keeps_energy
 
     def sought(
         self,
@@ -138,7 +148,7 @@ class Candidates:
             surface, joints = self.partners.surface(state), done.is_joint
             book = book.keep(done.take(joints), self._geometry.faces(state, surface))
             known = done.take(~joints)
-        crossed = joined(record.crossed, crossed)
+        crossed = pushing(solved) if self._keeps_energy else joined(record.crossed, crossed)
         if crossed is not None:
             crossed = held_back(crossed, solved, self.partners.surface(state))
         after = ContactRecord(book, found, known, solved.answer.stored, crossed)
@@ -153,4 +163,7 @@ class Candidates:
             before = follow(record.found, found)
             new = remember(new, record.known, before)
         stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
-        return counted(new, record.known, before, stiffness, body, record.book.left)
+        new = counted(new, record.known, before, stiffness, body, record.book.left)
+        if self._keeps_energy and record.known is not None:
+            return kept_energy(new, record.known, stiffness, body)
+        return new

@@ -28,10 +28,15 @@ def joined(one: Crossed | None, other: Crossed | None) -> Crossed | None:
 def held_back(pairs: Crossed, solved: ContactSolution, surface: Surface) -> Crossed | None:
     """Return those of the pairs that push over their edges, as ``surface`` stands; else None."""
     vertex, edge = pairs
-    pushes = (solved.answer.normal_force < 0) & ~solved.contacts.is_joint
-    contacts = solved.contacts.take(pushes)
-    standing = pair_key(surface, contacts.edge_a, contacts.edge_b)
+    standing = pair_key(surface, *pushing(solved))
     along, _ = measure(surface, vertex, edge)
     keep = (along >= 0) & (along <= surface.length[edge])
     keep &= np.isin(pair_key(surface, vertex, edge), standing)
     return (vertex[keep], edge[keep]) if keep.any() else None
+
+
+def pushing(solved: ContactSolution) -> Crossed:
+    """Return the pairs, those of joints apart, whose springs push at the end of the step."""
+    contacts = solved.contacts
+    contacts = contacts.take((solved.answer.normal_force < 0) & ~contacts.is_joint)
+    return contacts.edge_a, contacts.edge_b

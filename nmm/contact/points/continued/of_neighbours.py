@@ -31,7 +31,7 @@ def in_place_of(
     bodies hold no more energy than joints and faces did.
     """
     old = left if old is None else concatenate([left, old.take(old.length > 0)])
-    pair_old, pair_new = _matched(old, new, body)
+    pair_old, pair_new = matched(old, new, body)
     held, asked = (
         np.bincount(pair, stiffness(one) * np.minimum(one.gap, 0.0) ** 2, 1 + pair_old.max())
         for one, pair in ((old, pair_old), (new, pair_new))
@@ -53,13 +53,13 @@ def _mean_slip(new: ContactPoints, left: ContactPoints, body: Ints) -> Floats:
 def beside(born: ContactPoints, old: ContactPoints, body: Ints) -> Floats:
     """Stretch (m,) of the most pressed contact that the same two bodies had on faces."""
     faces = old.take(old.length > 0)
-    pair_old, pair_born = _matched(faces, born, body)
+    pair_old, pair_born = matched(faces, born, body)
     least = np.zeros(1 + int(max(pair_old.max(initial=0), pair_born.max(initial=0))))
     np.minimum.at(least, pair_old, faces.gap)
     return least[pair_born]
 
 
-def _matched(old: ContactPoints, new: ContactPoints, body: Ints) -> tuple[Ints, Ints]:
+def matched(old: ContactPoints, new: ContactPoints, body: Ints) -> tuple[Ints, Ints]:
     """Numbers of the two bodies of old and new points, the same for the same bodies."""
     pairs = np.concatenate([_pairs(old, body), _pairs(new, body)])
     which = np.unique(pairs, return_inverse=True)[1]

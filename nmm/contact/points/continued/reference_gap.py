@@ -51,8 +51,7 @@ def counted(
     if old is not None and len(old) and len(new):
         source = np.where(known, predecessor, 0)
         stays = known & (old.key[source] == new.key)
-        # An overlap that has become less is followed.
-        reference = np.where(stays, np.maximum(reference, old.reference[source]), reference)
+        reference = np.where(stays, _shrunk(new.gap, old.reference[source]), reference)
         handed = np.flatnonzero(known & ~stays & (new.gap < 0))
         if len(handed):
             giver, taker = old.take(source[handed]), new.take(handed)
@@ -75,8 +74,13 @@ def counted(
 
 def counted_on(points: ContactPoints) -> ContactPoints:
     """Return points that all go on, their gaps as measured (m), with gaps counted as they were."""
-    reference = np.maximum(np.minimum(points.gap, 0.0), points.reference)
+    reference = _shrunk(points.gap, points.reference)
     return with_parts(points, gap=points.gap - reference, reference=reference)
+
+
+def _shrunk(gap: Floats, reference: Floats) -> Floats:
+    """References (m,) of contacts that go on: an overlap that has become less is followed."""
+    return np.where(gap < reference, reference, np.minimum(gap, 0.0))
 
 
 def _from_stretch(gap: Floats, stretch: Floats) -> Floats:

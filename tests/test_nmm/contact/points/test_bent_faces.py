@@ -105,10 +105,10 @@ def test_a_beam_that_bends_on_two_edges_makes_no_energy(degree: int, edge: float
 
 @pytest.mark.parametrize("edge", [0.4, 0.41])
 def test_energy_momentum_keeps_the_energy_of_a_beam_on_two_edges(edge: float) -> None:
-    # What corners lose as they pass from edge to edge is left; 2e-3 came across chords.
+    # Springs at corners act across chords, by discrete slopes; 2e-3 came under Newmark's rule.
     net = NET.format(degree=1).replace("0.025", "0.05").replace("newmark", "energy_momentum")
-    more = '[rotation]\nupdate = "finite"\n[contact]\npoints = "faces"\n'
+    more = '[rotation]\nupdate = "finite"\n'
     run = nmm.run(parse_scene(DROP.format(edge=edge)), parse_formulation(net + more))
     assert run.summary.status == "converged"
-    assert run.summary.audits["energy_made_in_run"] < 1e-5
-    assert abs(run.summary.energy_balance) < 1e-5
+    assert run.summary.audits["energy_made_in_run"] < 1e-7
+    assert abs(run.summary.energy_balance) < 1e-7
