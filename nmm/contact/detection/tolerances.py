@@ -1,8 +1,4 @@
-"""All numbers that steer the geometry of contact, with their units and reasons.
-
-Compiled code keeps those that it imports until its own file changes: after an edit here
-the files of ``narrow`` and ``grid.py`` have to be touched.
-"""
+"""All numbers that steer the geometry of contact, with their units and reasons."""
 
 from typing import NamedTuple
 

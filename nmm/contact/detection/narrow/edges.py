@@ -4,41 +4,27 @@ import math
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
-from nmm.contact.detection.narrow.tables import (
-    BEFORE,
-    BODY,
-    EX,
-    EY,
-    LENGTH,
-    OWN,
-    PREVIOUS,
-    SX,
-    SY,
-    THICK,
-    TX,
-    TY,
-    Shape,
-)
+from nmm.contact.detection.narrow.tables import Shape
 from nmm.contact.detection.tolerances import Rules
 
 
 @compiled
 def thinner(shape: Shape, one: int, other: int) -> float:
     """Thickness (m) of the thinner of the bodies of two edges."""
-    return float(min(shape.real[one, THICK], shape.real[other, THICK]))
+    return float(min(shape[one].thick, shape[other].thick))
 
 
 @compiled
 def measure(shape: Shape, v: int, e: int) -> tuple[float, float]:
     """Foot along the edge and signed distance of its line, both from the nearer end."""
-    tx, ty = shape.real[e, TX], shape.real[e, TY]
-    px, py = shape.real[v, SX], shape.real[v, SY]
-    dx, dy = px - shape.real[e, SX], py - shape.real[e, SY]
+    tx, ty = shape[e].tx, shape[e].ty
+    px, py = shape[v].sx, shape[v].sy
+    dx, dy = px - shape[e].sx, py - shape[e].sy
     s = dx * tx + dy * ty
-    if s <= 0.5 * shape.real[e, LENGTH]:
+    if s <= 0.5 * shape[e].length:
         return s, -(tx * dy - ty * dx)
-    dx, dy = px - shape.real[e, EX], py - shape.real[e, EY]
-    return dx * tx + dy * ty + shape.real[e, LENGTH], -(tx * dy - ty * dx)
+    dx, dy = px - shape[e].ex, py - shape[e].ey
+    return dx * tx + dy * ty + shape[e].length, -(tx * dy - ty * dx)
 
 
 @compiled
@@ -50,21 +36,21 @@ def cover(
     best_own = best_before = 0.0
     for k in range(low, high):
         e = edge[k]
-        if shape.link[e, BODY] == shape.link[v, BODY]:
+        if shape[e].body == shape[v].body:
             continue
         flush = rules.flush * thinner(shape, v, e) + rules.rounding
-        length = shape.real[e, LENGTH]
+        length = shape[e].length
         if abs(gap[k]) > flush or s[k] < -flush or s[k] > length + flush:
             continue
-        p, back = shape.link[v, PREVIOUS], length - s[k]
+        p, back = shape[v].previous, length - s[k]
         if s[k] > max(best_own, flush) and dot(shape, v, e) <= -cosine:
-            shape.link[v, OWN], best_own = e, s[k]
+            shape[v].own, best_own = e, s[k]
         if back > max(best_before, flush) and dot(shape, p, e) <= -cosine:
-            shape.link[v, BEFORE], best_before = e, back
+            shape[v].before, best_before = e, back
 
 
 @compiled
 def dot(shape: Shape, one: int, other: int) -> float:
     """Cosine between the directions of two edges."""
-    ax, ay = shape.real[one, TX], shape.real[one, TY]
-    return float(ax * shape.real[other, TX] + ay * shape.real[other, TY])
+    ax, ay = shape[one].tx, shape[one].ty
+    return float(ax * shape[other].tx + ay * shape[other].ty)

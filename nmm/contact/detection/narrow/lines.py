@@ -6,23 +6,7 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import thinner
 from nmm.contact.detection.narrow.shields import leaves, rays, shielded
-from nmm.contact.detection.narrow.tables import (
-    BEFORE,
-    BODY,
-    CONVEX,
-    EX,
-    EY,
-    LENGTH,
-    NEXT,
-    OWN,
-    PREVIOUS,
-    SX,
-    SY,
-    TX,
-    TY,
-    Shape,
-    Small,
-)
+from nmm.contact.detection.narrow.tables import Shape, Small
 from nmm.contact.detection.tolerances import Rules
 
 INTERIOR, USABLE = 1, 2
@@ -35,10 +19,10 @@ def rank_of(
 ) -> float:
     """Smallest gap over the step in whole grains, so that rounding does not choose."""
     rank = gap
-    tx, ty = shape.real[e, TX], shape.real[e, TY]
+    tx, ty = shape[e].tx, shape[e].ty
     if len(motion) > 0:
-        length = shape.real[e, LENGTH] if shape.real[e, LENGTH] > 0.0 else 1.0
-        a, f = min(max(s / length, 0.0), 1.0), shape.link[e, NEXT]
+        length = shape[e].length if shape[e].length > 0.0 else 1.0
+        a, f = min(max(s / length, 0.0), 1.0), shape[e].next
         mx = motion[v, 0] - (motion[e, 0] + a * (motion[f, 0] - motion[e, 0]))
         my = motion[v, 1] - (motion[e, 1] + a * (motion[f, 1] - motion[e, 1]))
         rank = min(gap, gap + mx * ty - my * tx)
@@ -50,10 +34,10 @@ def rank_of(
 @compiled
 def _inside(shape: Shape, one: int, other: int, rules: Rules) -> bool:
     """Whether the middle of one edge is not outside the line of the other."""
-    mx = 0.5 * (shape.real[one, SX] + shape.real[one, EX]) - shape.real[other, SX]
-    my = 0.5 * (shape.real[one, SY] + shape.real[one, EY]) - shape.real[other, SY]
-    off = mx * shape.real[other, TY] - my * shape.real[other, TX]
-    both = shape.real[one, LENGTH] + shape.real[other, LENGTH]
+    mx = 0.5 * (shape[one].sx + shape[one].ex) - shape[other].sx
+    my = 0.5 * (shape[one].sy + shape[one].ey) - shape[other].sy
+    off = mx * shape[other].ty - my * shape[other].tx
+    both = shape[one].length + shape[other].length
     return bool(off <= 0.5 * rules.sine * both)
 
 
@@ -71,30 +55,28 @@ def judge(
     rules: Rules,
 ) -> None:
     """Enter for each row of a vertex whether the foot is inside and the edge can be entered."""
-    p = shape.link[v, PREVIOUS]
-    ox, oy = shape.real[v, TX], shape.real[v, TY]
-    bx, by = -shape.real[p, TX], -shape.real[p, TY]
-    covered = shape.link[v, OWN] >= 0 or shape.link[v, BEFORE] >= 0
+    p = shape[v].previous
+    ox, oy = shape[v].tx, shape[v].ty
+    bx, by = -shape[p].tx, -shape[p].ty
+    covered = shape[v].own >= 0 or shape[v].before >= 0
     for k in range(low, high):
         e = edge[k]
         # A contact stays a little beyond the end of its edge, lest two vertices take turns.
         slop = rules.rounding
-        slop += (
-            rules.flush * thinner(shape, v, e) if known[k] else rules.end * shape.real[e, LENGTH]
-        )
+        slop += rules.flush * thinner(shape, v, e) if known[k] else rules.end * shape[e].length
         state[k] = 0
-        if s[k] >= -slop and s[k] <= shape.real[e, LENGTH] + slop:
+        if s[k] >= -slop and s[k] <= shape[e].length + slop:
             state[k] = INTERIOR
-        if not shape.link[v, CONVEX] or gap[k] > rules.reach or shape.real[e, LENGTH] <= 0.0:
+        if not shape[v].convex or gap[k] > rules.reach or shape[e].length <= 0.0:
             continue
         # In one body the far face of a thin neck looks like a face that is overlapped.
-        trusted = known[k] or shape.link[v, BODY] != shape.link[e, BODY]
+        trusted = known[k] or shape[v].body != shape[e].body
         if gap[k] < -(rules.depth if trusted else rules.flush) * thinner(shape, v, e):
             continue
         if not leaves(shape, e, ox, oy, bx, by, rules):
             continue
         if covered:
-            ux, uy, wx, wy = rays(shape, v, shape.link[e, BODY], rules)
+            ux, uy, wx, wy = rays(shape, v, shape[e].body, rules)
             if not leaves(shape, e, ux, uy, wx, wy, rules):
                 continue
         if not shielded(shape, v, e, s[k], rules):
@@ -104,17 +86,17 @@ def judge(
 @compiled
 def _passes(shape: Shape, v: int, e: int, s: float, gap: float) -> bool:
     """Whether one of the edges at a vertex outside an edge passes through it."""
-    p = shape.link[v, PREVIOUS]
-    tx, ty = shape.real[e, TX], shape.real[e, TY]
+    p = shape[v].previous
+    tx, ty = shape[e].tx, shape[e].ty
     for side in range(2):
         if side == 0:
-            rx, ry, length = shape.real[v, TX], shape.real[v, TY], shape.real[v, LENGTH]
+            rx, ry, length = shape[v].tx, shape[v].ty, shape[v].length
         else:
-            rx, ry, length = -shape.real[p, TX], -shape.real[p, TY], shape.real[p, LENGTH]
+            rx, ry, length = -shape[p].tx, -shape[p].ty, shape[p].length
         down = ry * tx - rx * ty
         if down > 0.0 and gap <= down * length:
             at = s + gap / down * (rx * tx + ry * ty)
-            if at > 0.0 and at < shape.real[e, LENGTH]:
+            if at > 0.0 and at < shape[e].length:
                 return True
     return False
 
@@ -141,11 +123,7 @@ def dominate(
             continue
         kept[i] = 1
         for j in range(low, high):
-            if (
-                i == j
-                or not state[j] & INTERIOR
-                or shape.link[edge[i], BODY] != shape.link[edge[j], BODY]
-            ):
+            if i == j or not state[j] & INTERIOR or shape[edge[i]].body != shape[edge[j]].body:
                 continue
             if state[j] == both:
                 better = rank[j] > rank[i] or (rank[j] == rank[i] and j < i)

@@ -7,7 +7,7 @@ from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import dot, thinner
 from nmm.contact.detection.narrow.lines import USABLE
 from nmm.contact.detection.narrow.shields import rays
-from nmm.contact.detection.narrow.tables import BODY, LENGTH, PREVIOUS, SX, SY, TX, TY, Shape, Small
+from nmm.contact.detection.narrow.tables import Shape, Small
 from nmm.contact.detection.tolerances import Rules
 
 Four = tuple[int, int, int, int]
@@ -57,12 +57,12 @@ def pair(
     rules: Rules,
 ) -> None:
     """Judge the four lines at a pair of near vertices as a whole."""
-    dx = shape.real[v, SX] - shape.real[w, SX]
-    dy = shape.real[v, SY] - shape.real[w, SY]
+    dx = shape[v].sx - shape[w].sx
+    dy = shape[v].sy - shape[w].sy
     thin = thinner(shape, v, w)
     if math.sqrt(dx * dx + dy * dy) > max(rules.reach, rules.depth * thin):
         return
-    p, q = shape.link[v, PREVIOUS], shape.link[w, PREVIOUS]
+    p, q = shape[v].previous, shape[w].previous
     one, two = _find(edge, offset, v, w), _find(edge, offset, v, q)
     three, four = _find(edge, offset, w, v), _find(edge, offset, w, p)
     lines = one, two, three, four
@@ -76,12 +76,10 @@ def pair(
     best = _best(lines, free, rank)
     if best < 0:
         return
-    longest = max(
-        shape.real[v, LENGTH], shape.real[w, LENGTH], shape.real[p, LENGTH], shape.real[q, LENGTH]
-    )
+    longest = max(shape[v].length, shape[w].length, shape[p].length, shape[q].length)
     slop = rules.end * longest + rules.rounding
-    if _beyond(shape, w, shape.link[v, BODY], dx, dy, slop, rules) and _beyond(
-        shape, v, shape.link[w, BODY], -dx, -dy, slop, rules
+    if _beyond(shape, w, shape[v].body, dx, dy, slop, rules) and _beyond(
+        shape, v, shape[w].body, -dx, -dy, slop, rules
     ):
         final[lines[best]] = 2
 
@@ -119,7 +117,7 @@ def _thin_out(
     if best < 0:
         return
     # Contacts that are one above the other are one, however wide the gap.
-    tx, ty = shape.real[on[best], TX], shape.real[on[best], TY]
+    tx, ty = shape[on[best]].tx, shape[on[best]].ty
     merged = abs(apart[0] * tx + apart[1] * ty) <= rules.flush * thin + rules.rounding
     for i in range(4):
         if i == best or not standing[i]:

@@ -11,15 +11,7 @@ from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import cover, measure
 from nmm.contact.detection.narrow.lines import USABLE, dominate, judge, rank_of
 from nmm.contact.detection.narrow.pairs import pair
-from nmm.contact.detection.narrow.tables import (
-    CONVEX,
-    Columns,
-    Shape,
-    Small,
-    describe,
-    offsets,
-    shape_of,
-)
+from nmm.contact.detection.narrow.tables import Columns, Shape, Small, describe, offsets, shape_of
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import Rules
 
@@ -68,7 +60,7 @@ def select(
     final = kept.copy()
     for k in range(m):
         v, w = vertex[k], edge[k]
-        if v < w and shape.link[v, CONVEX] and shape.link[w, CONVEX]:
+        if v < w and shape[v].convex and shape[w].convex:
             pair(shape, v, w, edge, offset, state, rank, kept, final, rules)
     rows, count = np.empty(m, np.int64), 0
     for k in range(m):

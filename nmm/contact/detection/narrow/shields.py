@@ -4,23 +4,7 @@ import numpy as np
 
 from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import thinner
-from nmm.contact.detection.narrow.tables import (
-    BEFORE,
-    BODY,
-    CONVEX,
-    EX,
-    EY,
-    LENGTH,
-    NEXT,
-    OWN,
-    PREVIOUS,
-    SX,
-    SY,
-    THICK,
-    TX,
-    TY,
-    Shape,
-)
+from nmm.contact.detection.narrow.tables import Shape
 from nmm.contact.detection.tolerances import MERGED_BODIES, Rules
 
 Rays = tuple[float, float, float, float]
@@ -29,10 +13,10 @@ Rays = tuple[float, float, float, float]
 @compiled
 def rays(shape: Shape, v: int, partner: int, rules: Rules) -> Rays:
     """Rays of a vertex, merged with its flush neighbours as long as the union is convex."""
-    p = shape.link[v, PREVIOUS]
-    ox, oy = shape.real[v, TX], shape.real[v, TY]
-    bx, by = -shape.real[p, TX], -shape.real[p, TY]
-    if shape.link[v, OWN] < 0 and shape.link[v, BEFORE] < 0:
+    p = shape[v].previous
+    ox, oy = shape[v].tx, shape[v].ty
+    bx, by = -shape[p].tx, -shape[p].ty
+    if shape[v].own < 0 and shape[v].before < 0:
         return ox, oy, bx, by
     good, ux, uy = _walk(shape, v, partner, ox, oy, bx, by, 1.0, rules)
     if good:
@@ -45,7 +29,7 @@ def rays(shape: Shape, v: int, partner: int, rules: Rules) -> Rays:
 @compiled
 def leaves(shape: Shape, e: int, ox: float, oy: float, bx: float, by: float, rules: Rules) -> bool:
     """First-order entrance condition: both rays leave the edge's solid, and so does all between."""
-    tx, ty = shape.real[e, TX], shape.real[e, TY]
+    tx, ty = shape[e].tx, shape[e].ty
     own, before = ox * ty - oy * tx, bx * ty - by * tx
     flat = max(own, before) <= rules.sine
     return min(own, before) >= -rules.sine and not (flat and ox * tx + oy * ty > 0.0)
@@ -69,21 +53,21 @@ def _walk(
     """
     at, forward = v, sense > 0.0
     for _ in range(MERGED_BODIES):
-        x = shape.link[at, OWN] if forward else shape.link[at, BEFORE]
-        if x < 0 or shape.link[x, BODY] == partner or shape.link[x, BODY] == shape.link[v, BODY]:
+        x = shape[at].own if forward else shape[at].before
+        if x < 0 or shape[x].body == partner or shape[x].body == shape[v].body:
             break
-        corner = shape.link[x, NEXT] if forward else x
-        dx = shape.real[corner, SX] - shape.real[at, SX]
-        dy = shape.real[corner, SY] - shape.real[at, SY]
+        corner = shape[x].next if forward else x
+        dx = shape[corner].sx - shape[at].sx
+        dy = shape[corner].sy - shape[at].sy
         flush = 2.0 * (rules.flush * thinner(shape, at, x) + rules.rounding)
-        if dx * dx + dy * dy > flush * flush or not shape.link[corner, CONVEX]:
+        if dx * dx + dy * dy > flush * flush or not shape[corner].convex:
             return False, rx, ry
         if forward:
-            rx, ry = shape.real[corner, TX], shape.real[corner, TY]
+            rx, ry = shape[corner].tx, shape[corner].ty
             turn = rx * ay - ry * ax
         else:
-            p = shape.link[corner, PREVIOUS]
-            rx, ry = -shape.real[p, TX], -shape.real[p, TY]
+            p = shape[corner].previous
+            rx, ry = -shape[p].tx, -shape[p].ty
             turn = ax * ry - ay * rx
         if turn < -rules.sine or (turn <= rules.sine and rx * ax + ry * ay > 0.0):
             return False, rx, ry
@@ -94,17 +78,17 @@ def _walk(
 @compiled
 def _aside(shape: Shape, e: int, x: int, end: int) -> float:
     """Distance of the start (``end`` 0) or end of an edge from the line of another."""
-    px, py = (shape.real[e, SX], shape.real[e, SY])
+    px, py = (shape[e].sx, shape[e].sy)
     if end == 1:
-        px, py = (shape.real[e, EX], shape.real[e, EY])
-    dx, dy = px - shape.real[x, SX], py - shape.real[x, SY]
-    return float(shape.real[x, TX] * dy - shape.real[x, TY] * dx)
+        px, py = (shape[e].ex, shape[e].ey)
+    dx, dy = px - shape[x].sx, py - shape[x].sy
+    return float(shape[x].tx * dy - shape[x].ty * dx)
 
 
 @compiled
 def _closed(shape: Shape, e: int, x: int, end: int, aside: float, rules: Rules) -> float:
     """How far from the end of an edge another one beside it, that opens, is still flush."""
-    opening: float = shape.real[x, TX] * shape.real[e, TY] - shape.real[x, TY] * shape.real[e, TX]
+    opening: float = shape[x].tx * shape[e].ty - shape[x].ty * shape[e].tx
     if end == 0:
         opening = -opening
     if opening <= 0.0:
@@ -115,30 +99,30 @@ def _closed(shape: Shape, e: int, x: int, end: int, aside: float, rules: Rules) 
 @compiled
 def shielded(shape: Shape, v: int, e: int, s: float, rules: Rules) -> bool:
     """Whether the foot is on a stretch of edge, next to its end, that a third body covers."""
-    length, partner = shape.real[e, LENGTH], shape.link[v, BODY]
-    room = rules.depth * shape.real[v, THICK] + rules.rounding
+    length, partner = shape[e].length, shape[v].body
+    room = rules.depth * shape[v].thick + rules.rounding
     foot = min(max(s, 0.0), length)
     total = 0.0
     for end in range(2):
-        x = shape.link[e, OWN] if end == 0 else shape.link[shape.link[e, NEXT], BEFORE]
-        if x < 0 or shape.link[x, BODY] == partner:
+        x = shape[e].own if end == 0 else shape[shape[e].next].before
+        if x < 0 or shape[x].body == partner:
             continue
         if end == 0:
             distance = foot
-            dx = shape.real[x, SX] - shape.real[e, SX]
-            dy = shape.real[x, SY] - shape.real[e, SY]
+            dx = shape[x].sx - shape[e].sx
+            dy = shape[x].sy - shape[e].sy
         else:
             distance = length - foot
-            dx = shape.real[x, EX] - shape.real[e, EX]
-            dy = shape.real[x, EY] - shape.real[e, EY]
+            dx = shape[x].ex - shape[e].ex
+            dy = shape[x].ey - shape[e].ey
         aside, thin = abs(_aside(shape, e, x, end)), thinner(shape, e, x)
         if aside > room:
             continue
-        covered = abs(dx * shape.real[e, TX] + dy * shape.real[e, TY])
+        covered = abs(dx * shape[e].tx + dy * shape[e].ty)
         covered = min(covered, _closed(shape, e, x, end, aside, rules))
         if covered >= length - (rules.flush * thin + rules.rounding):
             return True
         if distance <= covered - min(rules.depth * thin, 0.5 * covered):
             return True
         total += covered
-    return bool(total >= length - rules.flush * shape.real[e, THICK])
+    return bool(total >= length - rules.flush * shape[e].thick)

@@ -1,7 +1,7 @@
 """Tables of the compiled narrow phase: edges as they go in, contacts as they come out."""
 
 import math
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -15,18 +15,13 @@ Small = npt.NDArray[np.int8]
 Columns = tuple[Ints, Ints, Floats, Floats, Floats, Ints, Ints, Ints, Ints]
 """Those of `narrow_phase.Contacts`."""
 
-# Columns of Shape.real: start, end and unit direction, length of the edge, thickness of its body.
-SX, SY, EX, EY, TX, TY, LENGTH, THICK = range(8)
-# Columns of Shape.link: body, neighbours in the ring, whether the vertex is convex, and the flush
-# covers of its two edges (`edges.cover`).
-BODY, NEXT, PREVIOUS, CONVEX, OWN, BEFORE = range(6)
-
-
-class Shape(NamedTuple):
-    """All that is known of an edge and its first vertex, side by side in memory."""
-
-    real: Floats  # (n, 8)
-    link: Ints  # (n, 6)
+# Of an edge start, end and unit direction, its length and the thickness of its body; that body,
+# neighbours in the ring, whether its first vertex is convex, and the flush covers of the two edges
+# there (`edges.cover`).
+REAL, LINK = "sx sy ex ey tx ty length thick", "body next previous convex own before"
+EDGE = np.dtype([(name, float) for name in REAL.split()] + [(name, int) for name in LINK.split()])
+Shape = npt.NDArray[Any]
+"""All that is known of edges (n,) and their first vertices, a record `EDGE` each."""
 
 
 @compiled
@@ -35,34 +30,35 @@ def shape_of(
 ) -> Shape:
     """Directions, lengths, convexity of vertices and thickness of bodies."""
     n = len(start)
-    real, link = np.zeros((n, 8)), np.empty((n, 6), np.int64)
+    shape = np.zeros(n, EDGE)
     top = -1
     for e in range(n):
-        real[e, SX], real[e, SY] = start[e, 0], start[e, 1]
-        real[e, EX], real[e, EY] = end[e, 0], end[e, 1]
+        edge = shape[e]
+        edge.sx, edge.sy = start[e, 0], start[e, 1]
+        edge.ex, edge.ey = end[e, 0], end[e, 1]
         dx, dy = end[e, 0] - start[e, 0], end[e, 1] - start[e, 1]
         size = math.sqrt(dx * dx + dy * dy)
-        real[e, LENGTH] = size
+        edge.length = size
         if size > 0.0:
-            real[e, TX], real[e, TY] = dx / size, dy / size
-        link[e, BODY], link[e, NEXT], link[e, PREVIOUS] = body[e], following[e], previous[e]
-        link[e, OWN], link[e, BEFORE] = -1, -1
+            edge.tx, edge.ty = dx / size, dy / size
+        edge.body, edge.next, edge.previous = body[e], following[e], previous[e]
+        edge.own, edge.before = -1, -1
         top = max(top, body[e])
     first, area, around = np.full(top + 1, -1), np.zeros(top + 1), np.zeros(top + 1)
     for e in range(n):
-        b, p = body[e], previous[e]
-        turn = real[p, TX] * real[e, TY] - real[p, TY] * real[e, TX]
-        link[e, CONVEX] = 1 if turn >= -sine else 0
+        b, edge, last = body[e], shape[e], shape[previous[e]]
+        turn = last.tx * edge.ty - last.ty * edge.tx
+        edge.convex = 1 if turn >= -sine else 0
         if first[b] < 0:
             first[b] = e
-        ox, oy = real[first[b], SX], real[first[b], SY]
-        area[b] += (real[e, SX] - ox) * (real[e, EY] - oy)
-        area[b] -= (real[e, SY] - oy) * (real[e, EX] - ox)
-        around[b] += real[e, LENGTH]
+        ox, oy = shape[first[b]].sx, shape[first[b]].sy
+        area[b] += (edge.sx - ox) * (edge.ey - oy)
+        area[b] -= (edge.sy - oy) * (edge.ex - ox)
+        around[b] += edge.length
     for e in range(n):
         if around[body[e]] > 0.0:
-            real[e, THICK] = abs(area[body[e]]) / around[body[e]]
-    return Shape(real, link)
+            shape[e].thick = abs(area[body[e]]) / around[body[e]]
+    return shape
 
 
 @compiled
@@ -92,7 +88,7 @@ def describe(
     rules: Rules,
 ) -> Columns:
     """Columns of `narrow_phase.Contacts` for the kept rows."""
-    m, n = len(rows), len(shape.link)
+    m, n = len(rows), len(shape)
     v, e, key = np.empty(m, np.int64), np.empty(m, np.int64), np.empty(m, np.int64)
     body, corner = np.empty(m, np.int64), np.empty(m, np.int64)
     kind = np.empty(m, np.int64)
@@ -101,12 +97,12 @@ def describe(
         k = rows[i]
         v[i], e[i], distance[i] = vertex[k], edge[k], gap[k]
         x = e[i]
-        key[i], body[i] = v[i] * n + x, shape.link[x, BODY]
-        parameter[i] = min(max(s[k] / shape.real[x, LENGTH], 0.0), 1.0)
-        normal[i, 0], normal[i, 1] = shape.real[x, TY], -shape.real[x, TX]
-        corner[i] = shape.link[x, NEXT] if parameter[i] > 0.5 else x
-        beside = min(abs(s[k]), abs(shape.real[x, LENGTH] - s[k]))
-        thin = min(shape.real[v[i], THICK], shape.real[x, THICK])
+        key[i], body[i] = v[i] * n + x, shape[x].body
+        parameter[i] = min(max(s[k] / shape[x].length, 0.0), 1.0)
+        normal[i, 0], normal[i, 1] = shape[x].ty, -shape[x].tx
+        corner[i] = shape[x].next if parameter[i] > 0.5 else x
+        beside = min(abs(s[k]), abs(shape[x].length - s[k]))
+        thin = min(shape[v[i]].thick, shape[x].thick)
         near = beside <= rules.flush * thin + rules.rounding
         kind[i] = 1 if near or final[k] == 2 else 0
     return v, e, parameter, normal, distance, kind, key, body, corner
