@@ -50,10 +50,22 @@ class Rows:
 
     def matrix(self, n_unknowns: int) -> csr_array:
         """Return the sparse matrix (2m, n_unknowns), component minor."""
-        m, _, length = self.values.shape
-        columns = np.repeat(self.unknowns[:, None, :], 2, axis=1)
-        offsets = np.arange(2 * m + 1) * length
-        return csr_array((self.values.ravel(), columns.ravel(), offsets), shape=(2 * m, n_unknowns))
+        m, components, length = self.values.shape
+        values = self.values.reshape(components * m, length)
+        return row_matrix(np.repeat(self.unknowns, components, axis=0), values, n_unknowns)
+
+
+def row_matrix(unknowns: Ints, values: Floats, n: int, merged: bool = False) -> csr_array:
+    """Matrix (m, n) of rows (m, L) of unknowns (m, L).
+
+    An unknown that a row names twice has two entries, or with ``merged`` one, their sum.
+    """
+    m, length = values.shape
+    # Columns of its own: to merge them sorts them in place.
+    found = csr_array((values.ravel(), unknowns.flatten(), np.arange(m + 1) * length), shape=(m, n))
+    if merged:
+        found.sum_duplicates()
+    return found
 
 
 def stack_groups(parts: list[tuple[Ints, Ints, Floats]], n_points: int) -> tuple[Ints, Floats]:

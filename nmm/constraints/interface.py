@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.sparse import csr_array
 
+from covers.approximation.rows import Rows
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import State, rotation_matrices
 from nmm.assembly.places import Place
@@ -99,10 +100,7 @@ class Interface:
 
 def sparse_rows(unknowns: Ints, values: Floats, n: int) -> csr_array:
     """Matrix (2m, n) of rows (m, 2, L) with unknowns (m, L), component minor."""
-    m, _, length = values.shape
-    columns = np.repeat(unknowns[:, None, :], 2, axis=1)
-    offsets = np.arange(2 * m + 1) * length
-    found = csr_array((values.ravel(), columns.ravel(), offsets), shape=(2 * m, n))
+    found = Rows(unknowns, values).matrix(n)
     found.sum_duplicates()
     return found
 

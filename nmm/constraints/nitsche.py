@@ -13,6 +13,7 @@ from typing import ClassVar, Self
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
+from covers.approximation.rows import row_matrix
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import contract
 from nmm.assembly.model import Model
@@ -160,8 +161,4 @@ class Nitsche(Imposition):
         """Rows (m, n) of the same."""
         unknowns, rows = self.interface.rows(state)
         along = contract("mcl,mc->ml", rows, self.interface.normal(state))
-        m, length = along.shape
-        entries = along.ravel(), unknowns.ravel(), np.arange(m + 1) * length
-        found = csr_array(entries, shape=(m, n))
-        found.sum_duplicates()
-        return found
+        return row_matrix(unknowns, along, n, merged=True)

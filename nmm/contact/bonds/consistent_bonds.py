@@ -13,6 +13,7 @@ from typing import Self
 import numpy as np
 from scipy.sparse import csr_array
 
+from covers.approximation.rows import row_matrix
 from integration.arrays import Bools, Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
@@ -123,7 +124,7 @@ class ConsistentBonds:
         turned = [frames.rotation[one.body[at]] @ one.values[at] for one in self.fluxes]
         values = np.concatenate(turned, axis=2)
         pull, shear = (
-            _rows(unknowns, -np.einsum("kc,kcl->kl", axis, values), self.n_unknowns)
+            row_matrix(unknowns, -np.einsum("kc,kcl->kl", axis, values), self.n_unknowns, True)
             for axis in (contacts.normal, tangents(contacts.normal))
         )
         return pull, shear
@@ -172,11 +173,3 @@ def _reach(model: Model, elements: Ints, points: ContactPoints, area: Floats) ->
     whole = np.bincount(elements, area)
     mean = np.bincount(elements, area * far) / np.where(whole > 0, whole, 1.0)
     return np.asarray(np.maximum(far, mean[elements] / 2))
-
-
-def _rows(unknowns: Ints, values: Floats, n: int) -> csr_array:
-    k, length = values.shape
-    offsets = np.arange(k + 1) * length
-    found = csr_array((values.ravel(), unknowns.flatten(), offsets), shape=(k, n))
-    found.sum_duplicates()
-    return found

@@ -19,7 +19,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.sparse import csr_array
 
-from covers.approximation.rows import Rows
+from covers.approximation.rows import Rows, row_matrix
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import MaterialPoints, State
 from nmm.contact.points.bent_faces import Line, face_lines
@@ -110,10 +110,7 @@ def _rows(
         for sign, point in zip((1.0, -1.0), ends, strict=True)
     ]
     columns, values = (np.hstack(one) for one in zip(*parts, strict=True))
-    offsets = np.arange(len(columns) + 1) * columns.shape[1]
-    found = csr_array((values.ravel(), columns.ravel(), offsets), shape=(len(columns), count))
-    found.sum_duplicates()
-    return found
+    return row_matrix(columns, values, count, merged=True)
 
 
 def _between(head: MaterialPoints, tail: MaterialPoints, states: tuple[State, State]) -> Pair:

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
+from covers.approximation.rows import row_matrix
 from integration.arrays import Floats, Ints
 from integration.contraction import contract
 from nmm.assembly.model import Model
@@ -162,7 +163,7 @@ def _turned_plainly(
     for side, factor, turn in zip(at.points, at.factors, at.turns, strict=True):
         local = half.frames.to_body(side.body, at.direction)
         along = factor[:, None] * contract("mcl,mc->ml", turn, local)
-        turning = turning + _sparse(side.rows.unknowns, along, model.manifold.n_unknowns)
+        turning = turning + row_matrix(side.rows.unknowns, along, model.manifold.n_unknowns)
     across, found = tangents(at.direction), []
     one, other = at.levers
     for part, axis, lever in zip(parts, (at.direction, across), (one, -other), strict=True):
@@ -181,13 +182,7 @@ def _rigid_shift(body: Ints, axis: Floats, bent: Floats, start: State, half: Sta
     now = half.frames.to_body(body, axis)
     turned = now[:, 1] * bent[:, 0] - now[:, 0] * bent[:, 1]
     values = np.column_stack([back - now, turned])
-    return _sparse(3 * body[:, None] + np.arange(3), values, 3 * len(half.frames.angle))
-
-
-def _sparse(columns: Ints, values: Floats, width: int) -> csr_array:
-    m, size = values.shape
-    offsets = np.arange(m + 1) * size
-    return csr_array((values.ravel(), columns.ravel(), offsets), shape=(m, width))
+    return row_matrix(3 * body[:, None] + np.arange(3), values, 3 * len(half.frames.angle))
 
 
 def missing_moments(
