@@ -8,6 +8,7 @@ from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.options import SMALL
 from nmm.contact.problem.balance import weights
 from nmm.contact.problem.residual_kernel import unevenness
+from nmm.contact.problem.row_products import compressed
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.frozen import with_parts
 from nmm.solvers.linear import LinearSolver
@@ -63,7 +64,6 @@ def imbalance_of_bodies(problem: StepProblem, answer: StepAnswer, body: Ints) ->
     brick that falls upright is not asked for rest aside. What is in balance beside the whole
     scene to `FLOOR` does not count.
     """
-    forces, matrix = (answer.normal_force, answer.shear_force), problem.matrix
-    compressed = matrix.indptr, matrix.indices, matrix.data
-    given = answer.increment, problem.force, weights(problem), forces, compressed
+    forces = answer.normal_force, answer.shear_force
+    given = answer.increment, problem.force, weights(problem), forces, compressed(problem.matrix)
     return float(unevenness(*given, problem.compressed_rows, body, FLOOR))

@@ -4,13 +4,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats, Index, Ints
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
-from nmm.contact.problem.row_products import Compressed, pushed
+from nmm.contact.problem.row_products import Compressed, compressed, pushed
 from nmm.solvers.unchecked import made_of
 
 
@@ -23,9 +22,9 @@ def part_of(springs: CutSprings, unknowns: Ints, contacts: Ints, increment: Floa
     p, n = springs.problem, len(unknowns)
     place = np.full(len(increment), -1)
     place[unknowns] = np.arange(n)
-    *matrix, pulled = _between(*_parts(p.matrix), unknowns, place, increment)
-    *normal_rows, opened = _between(*_parts(p.normal_rows), contacts, place, increment)
-    *tangent_rows, slid = _between(*_parts(p.tangent_rows), contacts, place, increment)
+    *matrix, pulled = _between(compressed(p.matrix), unknowns, place, increment)
+    *normal_rows, opened = _between(compressed(p.normal_rows), contacts, place, increment)
+    *tangent_rows, slid = _between(compressed(p.tangent_rows), contacts, place, increment)
     forces = np.stack(springs.forces(increment))
     forces[:, contacts] = 0.0
     pushes = pushed(p.normal_rows, p.tangent_rows, *forces)
@@ -51,10 +50,6 @@ def part_of(springs: CutSprings, unknowns: Ints, contacts: Ints, increment: Floa
     )
 
 
-def _parts(one: csr_array | csc_array) -> Compressed:
-    return one.indptr, one.indices, one.data
-
-
 def _matrix(kind: Any, parts: list[Any], shape: tuple[int, int]) -> Any:
     pointers, indices, data = parts
     return made_of(kind, data, indices, pointers, shape)
@@ -62,14 +57,10 @@ def _matrix(kind: Any, parts: list[Any], shape: tuple[int, int]) -> Any:
 
 @compiled
 def _between(
-    pointers: npt.NDArray[Any],
-    indices: npt.NDArray[Any],
-    data: Floats,
-    chosen: Ints,
-    place: Ints,
-    increment: Floats,
-) -> tuple[npt.NDArray[Any], npt.NDArray[Any], Floats, Floats]:
+    rows: Compressed, chosen: Ints, place: Ints, increment: Floats
+) -> tuple[Index, Index, Floats, Floats]:
     """Entries of ``chosen`` rows in columns that have a place; what the others make of unknowns."""
+    pointers, indices, data = rows
     most = 0
     for row in chosen:
         most += pointers[row + 1] - pointers[row]

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from integration.arrays import Bools, Floats, Index, Ints
+from integration.arrays import Bools, Floats, Ints
 from nmm.compiled import compiled
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.residual_kernel import SpringColumns
+from nmm.contact.problem.row_products import Compressed, compressed
 from nmm.contact.problem.step_problem import StepProblem
 
 STIFF = 0.05
@@ -42,10 +43,7 @@ class Islands:
         p = springs.problem
         diagonal = p.matrix.diagonal()
         stiff = springs.weight**-2 - diagonal <= STIFF * diagonal
-        rows = (p.normal_rows.indptr, p.normal_rows.indices)
-        more = (p.tangent_rows.indptr, p.tangent_rows.indices)
-        found = _labels(p.matrix.indptr, p.matrix.indices, *rows, *more, stiff)
-        return cls(*found)
+        return cls(*_labels(compressed(p.matrix), p.compressed_rows, stiff))
 
     @property
     def count(self) -> int:
@@ -78,8 +76,8 @@ class Islands:
         """Unknowns of ``chosen`` islands (I,) and of held bodies they touch, and their contacts."""
         within, contacts = chosen[self.unknown], np.flatnonzero(chosen[self.contact])
         also = np.zeros(self.count, dtype=bool)
-        for rows in (problem.normal_rows, problem.tangent_rows):
-            _touched(rows.indptr, rows.indices, contacts, self.unknown, also)
+        for rows in problem.compressed_rows:
+            _touched(rows, contacts, self.unknown, also)
         within |= (also & self.held)[self.unknown]
         return np.flatnonzero(within), contacts
 
@@ -111,7 +109,8 @@ def balances(
 
 
 @compiled
-def _touched(pointers: Index, columns: Index, contacts: Ints, island: Ints, also: Bools) -> None:
+def _touched(rows: Compressed, contacts: Ints, island: Ints, also: Bools) -> None:
+    pointers, columns, _ = rows
     for c in contacts:
         for k in range(pointers[c], pointers[c + 1]):
             also[island[columns[k]]] = True
@@ -127,16 +126,11 @@ def _root(parent: Ints, at: int) -> int:
 
 @compiled
 def _labels(
-    pointers: Index,
-    indices: Index,
-    normal_pointers: Index,
-    normal_columns: Index,
-    tangent_pointers: Index,
-    tangent_columns: Index,
-    stiff: Bools,
+    matrix: Compressed, rows: tuple[Compressed, Compressed], stiff: Bools
 ) -> tuple[Ints, Ints, Bools]:
     """Islands in the order of their first unknowns."""
-    n, m = len(stiff), len(normal_pointers) - 1
+    pointers, indices, _ = matrix
+    n, m = len(stiff), len(rows[0][0]) - 1
     parent = np.arange(n)
     for j in range(n):
         for k in range(pointers[j], pointers[j + 1]):
@@ -147,10 +141,7 @@ def _labels(
         fixed[_root(parent, j)] &= stiff[j]
     owner = np.full(m, -1)
     for c in range(m):
-        for pointer, column in (
-            (normal_pointers, normal_columns),
-            (tangent_pointers, tangent_columns),
-        ):
+        for pointer, column, _ in rows:
             for k in range(pointer[c], pointer[c + 1]):
                 owner[c] = _joined(parent, fixed, owner[c], _root(parent, column[k]))
     return _numbered(parent, fixed, owner)

@@ -27,16 +27,8 @@ def spring_answer(springs: CutSprings, tools: Tools, tolerance: float) -> StepAn
 
 def answer(found: IterationResult, linear: LinearSolver, verdict: Verdict) -> StepAnswer:
     """Answer with the forces of the springs at what was found."""
-    springs, p = found.springs, found.springs.problem
-    gap, slip, normal, shear, state = ended(
-        found.increment,
-        *p.compressed_rows,
-        (p.gap, p.slip),
-        (springs.normal_stiffness, springs.shear_stiffness),
-        (springs.normal_shift, springs.shear_shift),
-        (p.limits.tension, p.limits.cohesion, p.limits.friction),
-        p.state,
-    )
+    springs = found.springs
+    gap, slip, normal, shear, state = ended(found.increment, springs.columns, springs.problem.state)
     return StepAnswer(
         increment=found.increment,
         normal_force=normal,

@@ -8,7 +8,6 @@ import math
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from integration.arrays import Floats
 from nmm.compiled import compiled
@@ -18,7 +17,6 @@ from nmm.contact.problem.row_products import Compressed
 from nmm.solvers.factor import PIVOT
 from nmm.solvers.kernels.gauss import eliminated, substituted
 
-Index = npt.NDArray[Any]
 REFINED = 2
 """Most steps of iterative refinement of a Newton step."""
 

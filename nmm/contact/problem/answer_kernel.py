@@ -3,60 +3,39 @@
 `nmm.contact.problem.coulomb` says the same in whole arrays and is what this is tested against.
 """
 
-from typing import Any
-
 import numpy as np
-import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
-from nmm.contact.problem.residual_kernel import projected
+from nmm.contact.problem.residual_kernel import SpringColumns, projected
 from nmm.contact.problem.row_products import products_along
 from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN, SLIDE, STICK
 
-Index = npt.NDArray[Any]
 _OPEN, _STICK, _SLIDE, _BONDED, _BROKEN = map(int, (OPEN, STICK, SLIDE, BONDED, BROKEN))
 
 
 @compiled
 def ended(
-    increment: Floats,
-    normal_rows: tuple[Index, Index, Floats],
-    tangent_rows: tuple[Index, Index, Floats],
-    starts: tuple[Floats, Floats],
-    stiffness: tuple[Floats, Floats],
-    shift: tuple[Floats, Floats],
-    limits: tuple[Floats, Floats, Floats],
-    before: Ints,
+    increment: Floats, springs: SpringColumns, before: Ints
 ) -> tuple[Floats, Floats, Floats, Floats, Ints]:
-    """Gap, elastic slip, normal force, shear force and state (m,) at the end of a step.
+    """Gap, elastic slip, normal force, shear force and state (m,) at unknowns (n,).
 
-    Parameters
-    ----------
-    increment
-        (n,) unknowns.
-    normal_rows, tangent_rows
-        Pointers, columns and entries.
-    starts, stiffness, shift
-        Gap and slip (m) at the start, stiffness (N/m) and shift (N), each (m,).
-    limits
-        Tension, cohesion (N) and friction, each (m,).
-    before
-        (m,) states at the start.
+    ``before`` (m,) are the states at the start of the step.
     """
-    tension, cohesion, friction = limits
+    tension, cohesion, friction = springs.tension, springs.cohesion, springs.friction
+    stiff, hard, shift = springs.normal_stiffness, springs.shear_stiffness, springs.shear_shift
     m = len(tension)
     gap, slip = np.empty(m), np.empty(m)
-    products_along(*normal_rows, increment, gap)
-    products_along(*tangent_rows, increment, slip)
+    products_along(springs.normal_rows, increment, gap)
+    products_along(springs.tangent_rows, increment, slip)
     normal, shear = np.empty(m), np.empty(m)
     state = np.empty(m, dtype=np.int64)
     for c in range(m):
-        gap[c], slip[c] = gap[c] + starts[0][c], slip[c] + starts[1][c]
-        pull = stiffness[0][c] * gap[c] + shift[0][c]
-        drag = stiffness[1][c] * slip[c] + shift[1][c]
+        gap[c], slip[c] = gap[c] + springs.gap[c], slip[c] + springs.slip[c]
+        pull = stiff[c] * gap[c] + springs.normal_shift[c]
+        drag = hard[c] * slip[c] + shift[c]
         normal[c], shear[c] = projected(pull, drag, tension[c], cohesion[c], friction[c])
-        slip[c] = (shear[c] - shift[1][c]) / stiffness[1][c]
+        slip[c] = (shear[c] - shift[c]) / hard[c]
         if pull > tension[c]:
             gone = before[c] == _BROKEN or tension[c] > 0.0
             state[c] = _BROKEN if gone else _OPEN

@@ -8,6 +8,7 @@ from integration.arrays import Bools, Floats
 from nmm.contact.problem.balance import weights
 from nmm.contact.problem.coulomb import project, states, tangent
 from nmm.contact.problem.residual_kernel import SpringColumns, residual
+from nmm.contact.problem.row_products import compressed
 from nmm.contact.problem.step_problem import StepProblem
 from nmm.frozen import MadeOnce
 
@@ -97,7 +98,7 @@ class CutSprings:
         return SpringColumns(
             p.force,
             self.weight,
-            (p.matrix.indptr, p.matrix.indices, p.matrix.data),
+            compressed(p.matrix),
             *p.compressed_rows,
             *(p.gap, p.slip, self.normal_stiffness, self.shear_stiffness),
             *(self.normal_shift, self.shear_shift),

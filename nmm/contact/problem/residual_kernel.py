@@ -4,16 +4,13 @@
 is tested against.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled, place
 from nmm.contact.problem.row_products import Compressed
-
-Index = npt.NDArray[Any]
 
 
 @compiled
@@ -138,19 +135,16 @@ def _contact_forces(increment: Floats, springs: SpringColumns) -> Floats:
 
 @compiled
 def weighted(
-    pointers: Index,
-    rows: Index,
-    entries: Floats,
-    normal_pointers: Index,
-    normal_columns: Index,
-    normal_entries: Floats,
+    matrix: Compressed,
+    normal_rows: Compressed,
+    tangent_rows: Compressed,
     normal_stiffness: Floats,
-    tangent_pointers: Index,
-    tangent_columns: Index,
-    tangent_entries: Floats,
     shear_stiffness: Floats,
 ) -> Floats:
     """Inverse roots (n,) of the diagonal of matrix and springs; 1 where that is not positive."""
+    pointers, rows, entries = matrix
+    normal_pointers, normal_columns, normal_entries = normal_rows
+    tangent_pointers, tangent_columns, tangent_entries = tangent_rows
     found = np.zeros(len(pointers) - 1)
     for j in range(len(found)):
         for k in range(place(pointers[j]), place(pointers[j + 1])):
@@ -173,8 +167,8 @@ def unevenness(
     load: Floats,
     weight: Floats,
     forces: tuple[Floats, Floats],
-    matrix: tuple[Index, Index, Floats],
-    rows: tuple[tuple[Index, Index, Floats], tuple[Index, Index, Floats]],
+    matrix: Compressed,
+    rows: tuple[Compressed, Compressed],
     body: Ints,
     floor: float,
 ) -> float:
@@ -192,8 +186,8 @@ def unevenness(
             rest[place(numbers[k])] += part
             whole[place(numbers[k])] += abs(part)
     pressed = np.abs(forces[0]) + np.abs(forces[1])
-    _add_forces(*rows[0], forces[0], pressed, rest, whole)
-    _add_forces(*rows[1], forces[1], pressed, rest, whole)
+    _add_forces(rows[0], forces[0], pressed, rest, whole)
+    _add_forces(rows[1], forces[1], pressed, rest, whole)
     last, square = -1, 0.0
     for i in range(len(rest)):
         rest[i], whole[i] = weight[i] * abs(rest[i]), weight[i] * whole[i]
@@ -211,15 +205,10 @@ def unevenness(
 
 @compiled
 def _add_forces(
-    pointers: Index,
-    columns: Index,
-    entries: Floats,
-    force: Floats,
-    pressed: Floats,
-    rest: Floats,
-    whole: Floats,
+    rows: Compressed, force: Floats, pressed: Floats, rest: Floats, whole: Floats
 ) -> None:
     """Add forces (m,) through rows to ``rest`` (n,), and what is ``pressed`` by size to another."""
+    pointers, columns, entries = rows
     for c in range(len(force)):
         for k in range(place(pointers[c]), place(pointers[c + 1])):
             rest[place(columns[k])] += entries[k] * force[c]

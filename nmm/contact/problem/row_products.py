@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import csr_array
+from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from nmm.compiled import compiled, place
@@ -14,11 +14,16 @@ Compressed = tuple[Index, Index, Floats]
 """Pointers, numbers and entries of a compressed matrix."""
 
 
+def compressed(matrix: csr_array | csc_array) -> Compressed:
+    """Return a matrix as compiled code takes it."""
+    return matrix.indptr, matrix.indices, matrix.data
+
+
 def stretched(normal_rows: csr_array, tangent_rows: csr_array, increment: Floats) -> Floats:
     """(2, m) how far each contact opens and slips (m) under unknowns (n,)."""
     moved = np.empty((2, normal_rows.shape[0]))
     for rows, found in zip((normal_rows, tangent_rows), moved, strict=True):
-        products_along(rows.indptr, rows.indices, rows.data, increment, found)
+        products_along(compressed(rows), increment, found)
     return moved
 
 
@@ -29,14 +34,14 @@ def terms_of_stretches(
     sizes, found = np.abs(increment), np.empty((2, normal_rows.shape[0]))
     # Not abs(rows): scipy merges and sorts the entries of what it is asked of.
     for rows, one in zip((normal_rows, tangent_rows), found, strict=True):
-        products_along(rows.indptr, rows.indices, np.abs(rows.data), sizes, one)
+        products_along((rows.indptr, rows.indices, np.abs(rows.data)), sizes, one)
     return found
 
 
 def along(rows: csr_array, increment: Floats) -> Floats:
     """(m,) ``rows @ increment``."""
     found = np.empty(rows.shape[0])
-    products_along(rows.indptr, rows.indices, rows.data, increment, found)
+    products_along(compressed(rows), increment, found)
     return found
 
 
@@ -44,16 +49,14 @@ def pushed(
     normal_rows: csr_array, tangent_rows: csr_array, normal: Floats, shear: Floats
 ) -> Floats:
     """(n,) ``normal_rows.T @ normal + tangent_rows.T @ shear``: what forces (N) do on unknowns."""
-    n, t = normal_rows, tangent_rows
-    pointed = (n.indptr, n.indices, n.data, t.indptr, t.indices, t.data)
-    return np.asarray(_pushed(*pointed, normal, shear, n.shape[1]))
+    rows, n = (compressed(normal_rows), compressed(tangent_rows)), normal_rows.shape[1]
+    return np.asarray(_pushed(*rows, normal, shear, n))
 
 
 @compiled
-def products_along(
-    pointers: Index, columns: Index, entries: Floats, x: Floats, found: Floats
-) -> None:
+def products_along(rows: Compressed, x: Floats, found: Floats) -> None:
     """Write the products of compressed rows with ``x`` (n,) to ``found`` (m,)."""
+    pointers, columns, entries = rows
     for c in range(len(pointers) - 1):
         total = 0.0
         for k in range(place(pointers[c]), place(pointers[c + 1])):
@@ -63,16 +66,10 @@ def products_along(
 
 @compiled
 def _pushed(
-    normal_pointers: Index,
-    normal_columns: Index,
-    normal_entries: Floats,
-    tangent_pointers: Index,
-    tangent_columns: Index,
-    tangent_entries: Floats,
-    normal: Floats,
-    shear: Floats,
-    n: int,
+    normal_rows: Compressed, tangent_rows: Compressed, normal: Floats, shear: Floats, n: int
 ) -> Floats:
+    normal_pointers, normal_columns, normal_entries = normal_rows
+    tangent_pointers, tangent_columns, tangent_entries = tangent_rows
     found = np.zeros(n)
     for c in range(len(normal)):
         for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):

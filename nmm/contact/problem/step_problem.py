@@ -15,7 +15,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.problem.contact_state import ContactState
 from nmm.contact.problem.residual_kernel import weighted
-from nmm.contact.problem.row_products import Compressed, along
+from nmm.contact.problem.row_products import Compressed, along, compressed
 from nmm.frozen import MadeOnce
 from nmm.interfaces.limits import Limits as Limits
 from nmm.solvers.known import known_load
@@ -105,8 +105,7 @@ class StepProblem:
     @property
     def compressed_rows(self) -> tuple[Compressed, Compressed]:
         """Normal and tangent rows as compiled code takes them."""
-        n, t = self.normal_rows, self.tangent_rows
-        return (n.indptr, n.indices, n.data), (t.indptr, t.indices, t.data)
+        return compressed(self.normal_rows), compressed(self.tangent_rows)
 
     @MadeOnce
     def weight(self) -> Floats:
@@ -115,9 +114,7 @@ class StepProblem:
 
     def weight_with(self, normal: Floats, shear: Floats) -> Floats:
         """The same with other stiffnesses (m,) of the springs."""
-        matrix, rows = self.matrix, self.compressed_rows
-        own = matrix.indptr, matrix.indices, matrix.data
-        return np.asarray(weighted(*own, *rows[0], normal, *rows[1], shear))
+        return np.asarray(weighted(compressed(self.matrix), *self.compressed_rows, normal, shear))
 
     @MadeOnce
     def paired(self) -> bool:

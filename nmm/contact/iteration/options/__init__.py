@@ -5,6 +5,8 @@ tolerances of the enforcement. The defaults were measured on walls and piles of 
 blocks.
 """
 
+from dataclasses import dataclass, field
+
 from nmm.contact.iteration.options.barrier import BarrierOptions
 from nmm.contact.iteration.options.budgets import SMALL, IterationBudget, Patience
 from nmm.contact.iteration.options.exact import InteriorOptions, RoundOptions
@@ -15,7 +17,6 @@ from nmm.contact.iteration.options.springs import (
     SpringOptions,
     WayOptions,
 )
-from nmm.contact.iteration.options.tables import DEFAULT, IterationOptions
 
 __all__ = [
     "DEFAULT",
@@ -32,3 +33,20 @@ __all__ = [
     "SpringOptions",
     "WayOptions",
 ]
+
+
+@dataclass(frozen=True)
+class IterationOptions:
+    """Of all iterations an enforcement may call."""
+
+    alternation: AlternationOptions = field(default_factory=AlternationOptions)
+    springs: SpringOptions = field(default_factory=SpringOptions)
+    ways: WayOptions = field(default_factory=WayOptions)
+    interior: InteriorOptions = field(default_factory=InteriorOptions)
+    rounds: RoundOptions = field(default_factory=RoundOptions)
+    barrier: BarrierOptions = field(default_factory=BarrierOptions)
+    memory: MemoryOptions = field(default_factory=MemoryOptions)
+    islands: IslandOptions = field(default_factory=IslandOptions)
+
+
+DEFAULT = IterationOptions()
