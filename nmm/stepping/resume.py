@@ -12,6 +12,7 @@ from nmm.results.sink import MemorySink
 from nmm.results.storage import files
 from nmm.results.storage.history import read_history
 from nmm.results.storage.mark import Mark
+from nmm.results.storage.run_folder import RunFolder
 from nmm.results.storage.stored_run import StoredRun, read_run
 from nmm.results.summary import RUNNING, STOPPED, UNKNOWN
 from nmm.scene import read_scene
@@ -67,11 +68,20 @@ def resume(
 
 def _resumed(path: Path, progress: Progress, budget: float | None) -> Run:
     scene = read_scene(path / files.SCENE)
-    simulation = prepare(scene, read_formulation(path / files.FORMULATION))
+    formulation = read_formulation(path / files.FORMULATION)
+    folder: RunFolder | None
+    store = None
+    if scene.strength_reduction is None:
+        simulation = prepare(scene, formulation)
+        folder, stood = simulation.reopened(path)
+    else:
+        from nmm.stepping.safety_run import sought_on
+
+        found = sought_on(scene, formulation, path, progress)
+        simulation, folder, stood, store = found.simulation, found.folder, found.stood, found.store
     if budget is not None:
         simulation.stepper.budget.seconds = budget
-    folder, stood = simulation.reopened(path)
-    return finished(simulation, _read_before(path), folder, progress, stood)
+    return finished(simulation, _read_before(path), folder, progress, stood, store)
 
 
 def _read_before(path: Path) -> MemorySink:

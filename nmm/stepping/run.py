@@ -1,6 +1,6 @@
 """One scene under one formulation, from files to a finished run."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +12,7 @@ from nmm.progress import Progress
 from nmm.results.frame import Frame, Topology
 from nmm.results.sink import MemorySink, Sink
 from nmm.results.storage.run_folder import RunFolder
+from nmm.results.storage.values import Arrays
 from nmm.results.summary import Summary
 from nmm.solvers.threads import OneThread
 from nmm.stepping.prepare import prepare
@@ -135,20 +136,19 @@ def _run(
     progress: Progress,
     budget: float | None,
 ) -> Run:
-    simulation = _prepared(scene, formulation or scene.formulation or Formulation(), progress)
+    formulation = formulation or scene.formulation or Formulation()
+    store = None
+    if scene.strength_reduction is None:
+        simulation = prepare(scene, formulation)
+        folder = None if out is None else simulation.folder(Path(out))
+    else:
+        from nmm.stepping.safety_run import sought
+
+        found = sought(scene, formulation, out, progress)
+        simulation, folder, store = found.simulation, found.folder, found.store
     if budget is not None:
         simulation.stepper.budget.seconds = budget
-    folder = None if out is None else simulation.folder(Path(out))
-    return finished(simulation, MemorySink(), folder, progress)
-
-
-def _prepared(scene: "Scene", formulation: Formulation, progress: Progress) -> Simulation:
-    """Compile scene and formulation, at the factor of safety where the scene asks for it."""
-    if scene.strength_reduction is None:
-        return prepare(scene, formulation)
-    from nmm.stepping.strength_reduction import reduced
-
-    return reduced(scene, formulation, progress)
+    return finished(simulation, MemorySink(), folder, progress, store=store)
 
 
 def finished(
@@ -157,12 +157,17 @@ def finished(
     folder: RunFolder | None,
     progress: Progress,
     stood: RunState | None = None,
+    store: Callable[[Arrays], None] | None = None,
 ) -> Run:
-    """Run a simulation to its end, from its start or from where it ``stood``."""
+    """Run a simulation to its end, from its start or from where it ``stood``.
+
+    ``store`` takes checkpoints, in place of the ``folder``.
+    """
     sinks: list[Sink] = [memory] if folder is None else [memory, folder]
-    store = {} if folder is None else {"store": folder.checkpoint}
+    if store is None and folder is not None:
+        store = folder.checkpoint
     try:
-        state = simulation.run(sinks, progress, **store, stood=stood)
+        state = simulation.run(sinks, progress, store or (lambda arrays: None), stood)
     except BaseException as fault:
         if folder is not None:
             folder.stop(fault)

@@ -87,8 +87,12 @@ class Simulation(CompiledScene):
             summary=self.identity(),
         )
 
-    def reopened(self, path: Path) -> tuple[RunFolder, RunState]:
+    def reopened(
+        self, path: Path, begun: Callable[[Arrays], bool] = lambda arrays: True
+    ) -> tuple[RunFolder, RunState | None]:
         """Return the run folder at ``path`` as it was at its checkpoint, and where it stood.
+
+        ``begun`` says of what it stored whether the run had begun.
 
         Raises
         ------
@@ -98,6 +102,8 @@ class Simulation(CompiledScene):
         known = self.identity()
         folder, arrays = RunFolder.reopened(path, known, checkpoint_header(known))
         try:
+            if not begun(arrays):
+                return folder, None
             stood = RunState.from_arrays(arrays)
             return folder, stood.checked(self._model_of(stood))
         except ValueError as fault:

@@ -19,11 +19,14 @@ from nmm.stepping.bounds.safety_bound import FINE, safety_bound
 from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED
 from nmm.stepping.prepare import prepare
 from nmm.stepping.simulation import Simulation
+from nmm.stepping.tried_factors import TriedFactors
 
 if TYPE_CHECKING:
+    from nmm.assembly.motion import State
     from nmm.formulation import Formulation
     from nmm.scene.model import Scene
     from nmm.scene.tables.strength_reduction import StrengthReductionTable
+    from nmm.stepping.step.stepper import Stepper
 
 Bound = Callable[[float, float], float | None]
 """From the highest factor and the width of the bracket to one that fails; None is none shown."""
@@ -51,8 +54,12 @@ class FactorTried:
         return self.status == CONVERGED
 
 
-def reduced(scene: "Scene", formulation: "Formulation", progress: Progress) -> Simulation:
+def reduced(
+    scene: "Scene", formulation: "Formulation", progress: Progress, known: TriedFactors
+) -> Simulation:
     """Return the simulation of a scene at its factor of safety, which is sought first.
+
+    What is ``known`` of factors is not tried again.
 
     Raises
     ------
@@ -61,20 +68,32 @@ def reduced(scene: "Scene", formulation: "Formulation", progress: Progress) -> S
     """
     table = scene.strength_reduction
     assert table is not None
-    begun, tried, bounds = perf_counter(), list[FactorTried](), list[float]()
+    begun, tried = perf_counter(), list[FactorTried]()
     at_once = not _grows(scene)
+    stands: dict[float, tuple[Stepper, State]] = {}
+
+    def solved(factor: float) -> tuple[str, str]:
+        made, memory = prepare(_unstored(weakened(scene, factor)), formulation), MemorySink()
+        state = replace(made, at_once=at_once).run([memory], lambda share, text: None)
+        stands[factor] = made.stepper, state
+        return memory.summary.status, memory.summary.sentence
+
+    def bound(factor: float, highest: float, width: float) -> float | None:
+        if factor not in stands:
+            solved(factor)
+        return safety_bound(*stands[factor], factor, highest, width)
 
     def run(factor: float) -> FactorTried:
-        made, memory = prepare(weakened(scene, factor), formulation), MemorySink()
-        state = replace(made, at_once=at_once).run([memory], lambda share, text: None)
-        found, reached = memory.summary, partial(safety_bound, made.stepper, state, factor)
-
-        def bound(highest: float, width: float) -> float | None:
-            shown = reached(highest, width)
-            bounds.extend([] if shown is None else [shown])
-            return shown
-
-        tried.append(FactorTried(factor, found.status, found.sentence, bound))
+        stands.clear()
+        status, sentence = known.tried(factor, solved)
+        tried.append(
+            FactorTried(
+                factor,
+                status,
+                sentence,
+                lambda highest, width: known.bounded(partial(bound, factor, highest, width)),
+            )
+        )
         says = "equilibrium" if tried[-1].holds else "none"
         progress(min(len(tried) / 12, 1.0), f"strength / {factor:.5g}: {says}")
         return tried[-1]
@@ -87,13 +106,21 @@ def reduced(scene: "Scene", formulation: "Formulation", progress: Progress) -> S
         shown,
         "" if high is None else high.sentence,
         len(tried),
-        min(bounds, default=None),
+        min((one for one in known.bounds if one is not None), default=None),
     )
     at = prepare(weakened(scene, tried[-1].factor if low is None else low.factor), formulation)
     at.stepper.seconds["strength reduction"] = (
         perf_counter() - begun - sum(at.stepper.seconds.values())
     )
     return replace(at, scene=scene, begun=begun, safety=safety, at_once=at_once)
+
+
+def _unstored(scene: "Scene") -> "Scene":
+    """Return a scene whose run stores nothing to go on from."""
+    output = scene.output
+    if output is None or output.checkpoint is None:
+        return scene
+    return scene.model_copy(update={"output": output.model_copy(update={"checkpoint": None})})
 
 
 def bracket(

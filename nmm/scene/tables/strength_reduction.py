@@ -54,10 +54,6 @@ def reduction_contradictions(data: Mapping[str, Any]) -> Iterator[Finding]:
     for key in [*named, *(key for key in SEVERAL if data.get(key))]:
         remedy = f"remove {key}, or [strength_reduction]"
         yield place, f"[strength_reduction] with {key}", "statics under full load", remedy
-    output = data.get("output")
-    if isinstance(output, Mapping) and "checkpoint" in output:
-        remedy = "remove it: its runs are not stored"
-        yield ("output", "checkpoint"), "checkpoint with [strength_reduction]", "none", remedy
     tables = [data.get(key) for key in ("materials", "interfaces")]
     rows = [row for table in tables if isinstance(table, Mapping) for row in table.values()]
     if not any(isinstance(row, Mapping) and any(key in row for key in STRENGTHS) for row in rows):

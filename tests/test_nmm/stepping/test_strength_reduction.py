@@ -135,7 +135,6 @@ def test_strengths_are_divided_and_angles_by_their_tangents():
     [
         ("lowest = 0.5", "lowest = 5.0", "less than 4"),
         ("[gravity]", "[gravity]\n[inertia]", "with inertia"),
-        ("[gravity]", "[gravity]\n[output]\ncheckpoint.every_steps = 1", "runs are not stored"),
         ("[strength_reduction]", "[strength_reduction]\nfactor = 1", "factor"),
     ],
 )
