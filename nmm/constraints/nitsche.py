@@ -19,7 +19,7 @@ from integration.contraction import contract
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
-from nmm.assembly.tractions.donors import Flux
+from nmm.assembly.tractions.donors import Flux, added_traction, in_global_axes
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, Triplets, joined, product
 from nmm.constraints.linear_matter import check_linear
@@ -64,7 +64,7 @@ class Nitsche(Imposition):
         """See `Imposition.matrix`."""
         area, n = self.interface.area[:, None, None], len(state.deformation)
         unknowns, rows = self.interface.rows(state)
-        flux = self._flux(state)
+        flux = in_global_axes(self.fluxes, state.frames)
         row, column, value = product((unknowns, -area * rows), flux)
         square = product((unknowns, rows), (unknowns, area * self.penalty[:, None, None] * rows))
         parts: list[Triplets] = [(row, column, value), (column, row, value), square]
@@ -79,7 +79,7 @@ class Nitsche(Imposition):
 
     def force(self, state: State, jump: Floats) -> Floats:
         """See `Imposition.force`."""
-        unknowns, flux = self._flux(state)
+        unknowns, flux = in_global_axes(self.fluxes, state.frames)
         back = contract("mcl,mc->ml", flux, self.interface.area[:, None] * jump)
         total = self.interface.spread(state, self._consistent(state, jump))
         total += np.bincount(unknowns.ravel(), back.ravel(), minlength=len(total))
@@ -100,11 +100,7 @@ class Nitsche(Imposition):
 
     def added(self, state: State, stresses: Sequence[StressAt], time: float) -> Floats:
         """See `Imposition.added`."""
-        total = np.zeros((len(self.interface), 2))
-        for one in self.fluxes:  # at most two sides
-            for stress in stresses:  # a handful of effects
-                pull = one.of_stress(stress(one.elements, one.points, time))
-                total += state.frames.to_global(one.body, pull)
+        total = added_traction(self.fluxes, state.frames, stresses, time)
         return self.interface.area[:, None] * total
 
     def energy(self, state: State, jump: Floats) -> float:
@@ -136,16 +132,9 @@ class Nitsche(Imposition):
             return np.empty(0, dtype=np.int64)
         return np.unique(self.ghost.nonzero()[0])
 
-    def _flux(self, state: State) -> tuple[Ints, Floats]:
-        """Unknowns (m, L) and rows (m, 2, L) of the average traction, in global axes."""
-        turn = state.frames.rotation
-        values = [turn[one.body] @ one.values for one in self.fluxes]
-        unknowns = [one.unknowns for one in self.fluxes]
-        return np.concatenate(unknowns, axis=1), np.concatenate(values, axis=2)
-
     def _traction(self, state: State) -> Floats:
         """Average traction (m, 2) on the first side (Pa)."""
-        unknowns, flux = self._flux(state)
+        unknowns, flux = in_global_axes(self.fluxes, state.frames)
         return np.asarray(contract("mcl,ml->mc", flux, state.deformation[unknowns]))
 
     def _consistent(self, state: State, jump: Floats) -> Floats:

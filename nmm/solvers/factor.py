@@ -97,17 +97,15 @@ class Factor:
         try:
             return cls(solver, matrix, scale, solver.decompose(unit))
         except RankDeficientError:
-            shifted = solver.deflated()
             try:
-                parts = shifted.decompose(scaled(matrix, scale, shifted.shift))
+                return cls._shifted(solver, matrix, scale)
             except RankDeficientError as fault:
                 raise SolveError(
                     f"linear system of {len(scale)} unknowns: {fault}, though shifted by "
-                    f"{shifted.shift:.0e}: expected a supported system: add supports, contacts or "
-                    "inertia",
+                    f"{solver.deflated().shift:.0e}: expected a supported system: add supports, "
+                    "contacts or inertia",
                     singular=True,
                 ) from fault
-            return cls(shifted, matrix, scale, parts, deflated=True)
 
     def solve(self, rhs: Floats, among: Floats | None = None) -> Floats:
         """Solve ``matrix @ x = rhs`` with refinement.
@@ -126,7 +124,7 @@ class Factor:
             return x
         if not self.deflated:
             if self._fallback is None:
-                self._fallback = self._shifted()
+                self._fallback = self._shifted(self.solver, self.matrix, self.scale)
             return self._fallback.solve(rhs, among)
         if residual <= max(_limit(growth), TOLD):
             return x
@@ -223,10 +221,11 @@ class Factor:
         rest = float(np.linalg.norm(load - product(x))) / size
         return self.scale * x, rest
 
-    def _shifted(self) -> "Factor":
-        shifted = self.solver.deflated()
-        parts = shifted.decompose(scaled(self.matrix, self.scale, shifted.shift))
-        return Factor(shifted, self.matrix, self.scale, parts, deflated=True)
+    @classmethod
+    def _shifted(cls, solver: "LinearSolver", matrix: csc_array, scale: Floats) -> "Factor":
+        shifted = solver.deflated()
+        parts = shifted.decompose(scaled(matrix, scale, shifted.shift))
+        return cls(shifted, matrix, scale, parts, deflated=True)
 
 
 def _length(vector: Floats) -> float:

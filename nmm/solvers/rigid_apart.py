@@ -98,7 +98,7 @@ def solve_apart(
     border
         (k, n) conditions.
     """
-    n, scale, modes = len(load) - _count(border), factor.scale, bodies.modes
+    n, scale, modes = bodies.elastic.shape[0], factor.scale, bodies.modes
     k, r = len(load) - n, modes.shape[1]
     stiff = csr_array(bodies.elastic + held)
     carried = csr_array(held @ modes)
@@ -149,7 +149,3 @@ def _seen(factor: Factor, measure: csc_array | None) -> Callable[[Floats], Float
         return w
 
     return leave
-
-
-def _count(border: csr_array | None) -> int:
-    return 0 if border is None else int(border.shape[0])

@@ -6,6 +6,7 @@ cell is left of it, else a larger neighbour whose polynomials are continued to t
 and Renard 2009). The bound of traction by energy then knows nothing of the cut.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,8 @@ from covers.approximation.ghost import neighbours
 from integration.arrays import Floats, Ints
 from integration.polygons import centroids
 from nmm.assembly.model import Model
+from nmm.assembly.motion import Frames
+from nmm.assembly.stress_points import StressAt
 
 # Share of its largest neighbour below which an element is no donor, and how many neighbours on
 # the way to one.
@@ -48,6 +51,31 @@ class Flux:
     def of_stress(self, stress: Floats) -> Floats:
         """Weighted traction (m, 2) in body axes of stresses (m, 3) at the points."""
         return across(stress, self.normal)
+
+
+def in_global_axes(
+    fluxes: Sequence[Flux], frames: Frames, at: Ints | slice = slice(None)
+) -> tuple[Ints, Floats]:
+    """Unknowns (k, L) and rows (k, 2, L) of the average traction at some of the points."""
+    unknowns = np.concatenate([one.unknowns[at] for one in fluxes], axis=1)
+    turned = [frames.rotation[one.body[at]] @ one.values[at] for one in fluxes]
+    return unknowns, np.concatenate(turned, axis=2)
+
+
+def added_traction(
+    fluxes: Sequence[Flux],
+    frames: Frames,
+    stresses: Sequence[StressAt],
+    time: float,
+    at: Ints | slice = slice(None),
+) -> Floats:
+    """Average traction (k, 2) of stresses that effects add to those of the strain (Pa)."""
+    total = np.zeros_like(fluxes[0].normal[at])
+    for one in fluxes:  # at most two sides
+        for stress in stresses:  # a handful of effects
+            pull = one.of_stress(stress(one.elements, one.points, time))
+            total += frames.to_global(one.body[at], pull[at])
+    return total
 
 
 def donors(model: Model, elements: Ints) -> Ints:

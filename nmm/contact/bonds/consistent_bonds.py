@@ -20,7 +20,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames
 from nmm.assembly.stress_points import StressAt
 from nmm.assembly.tractions.average import AverageTraction
-from nmm.assembly.tractions.donors import Flux
+from nmm.assembly.tractions.donors import Flux, added_traction, in_global_axes
 from nmm.contact.bonds.turning import turning_share
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.boundary_points import tangents
@@ -119,10 +119,7 @@ class ConsistentBonds:
 
     def stress_rows(self, contacts: ContactPoints, frames: Frames) -> tuple[csr_array, csr_array]:
         """Rows (k, n) of the average pull and shear at joint points (Pa), as gaps and slips go."""
-        at = self.row(contacts)
-        unknowns = np.concatenate([one.unknowns[at] for one in self.fluxes], axis=1)
-        turned = [frames.rotation[one.body[at]] @ one.values[at] for one in self.fluxes]
-        values = np.concatenate(turned, axis=2)
+        unknowns, values = in_global_axes(self.fluxes, frames, self.row(contacts))
         pull, shear = (
             row_matrix(unknowns, -np.einsum("kc,kcl->kl", axis, values), self.n_unknowns, True)
             for axis in (contacts.normal, tangents(contacts.normal))
@@ -133,12 +130,7 @@ class ConsistentBonds:
         self, contacts: ContactPoints, frames: Frames, stresses: Sequence[StressAt], time: float
     ) -> tuple[Floats, Floats]:
         """Return pull and shear (k,) in Pa of stresses that effects add to those of the strain."""
-        at = self.row(contacts)
-        total = np.zeros((len(at), 2))
-        for one in self.fluxes:  # two sides
-            for stress in stresses:  # a handful of effects
-                pull = one.of_stress(stress(one.elements, one.points, time))[at]
-                total -= frames.to_global(one.body[at], pull)
+        total = -added_traction(self.fluxes, frames, stresses, time, self.row(contacts))
         axes = contacts.normal, tangents(contacts.normal)
         normal, shear = (np.einsum("kc,kc->k", axis, total) for axis in axes)
         return normal, shear

@@ -13,6 +13,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.contact.bonds.turning import beside, counted
+from nmm.contact.laws.contact_laws import Springs
 from nmm.contact.points.contact_points import TIED, ContactPoints
 from nmm.contact.problem.step_problem import StepAnswer
 from nmm.interfaces.limits import Limits
@@ -22,8 +23,6 @@ from nmm.interfaces.limits import Limits
 # is missing in the energy that they take.
 FIRM, RIGID = 100.0, 1e4
 
-# Normal and shear stiffness (m,) in N/m, and which are a law's own.
-Springs = tuple[Floats, Floats, Bools]
 # Contacts with forces and jumps (m,) at an instant: as they stand, or as an answer leaves them.
 LoadedContacts = ContactPoints | StepAnswer
 

@@ -41,31 +41,40 @@ class Direction:
         (k,) average traction (Pa).
     gaps, stresses
         (k, n) rows of both.
+    area
+        (k,) in m2.
+    held
+        (k, k) penalty times area on the jumps that it counts (N/m).
     """
 
     gap: Floats
     stress: Floats
     gaps: csr_array
     stresses: csr_array
+    area: Floats
+    held: csr_array
 
-    def matrix(self, area: Floats, held: csr_array) -> csc_array:
-        """Return the matrix (n, n) of the terms."""
-        across = self.gaps.T @ (diags_array(area) @ self.stresses)
-        return csc_array(across + across.T + self.gaps.T @ (held @ self.gaps))
+    @property
+    def matrix(self) -> csc_array:
+        """The matrix (n, n) of the terms."""
+        across = self.gaps.T @ (diags_array(self.area) @ self.stresses)
+        return csc_array(across + across.T + self.gaps.T @ (self.held @ self.gaps))
 
-    def push(self, area: Floats, held: csr_array) -> Floats:
-        """Return what the forces at the start are on the unknowns (n,), with the sign changed."""
-        force = area * self.stress + held @ self.gap
-        return np.asarray(self.gaps.T @ force + self.stresses.T @ (area * self.gap))
+    @property
+    def push(self) -> Floats:
+        """What the forces at the start are on the unknowns (n,), with the sign changed."""
+        force = self.area * self.stress + self.held @ self.gap
+        return np.asarray(self.gaps.T @ force + self.stresses.T @ (self.area * self.gap))
 
-    def force(self, area: Floats, held: csr_array, increment: Floats) -> Floats:
+    def force(self, increment: Floats) -> Floats:
         """Return the forces (k,) in N after an increment (n,)."""
         stress, gap = self.stress + self.stresses @ increment, self.gap + self.gaps @ increment
-        return np.asarray(area * stress + held @ gap)
+        return np.asarray(self.area * stress + self.held @ gap)
 
-    def energy(self, area: Floats, held: csr_array) -> Floats:
-        """Return the energies (k,) at the start (J); they may be negative."""
-        return np.asarray(self.gap * (area * self.stress + held @ self.gap / 2))
+    @property
+    def energy(self) -> Floats:
+        """The energies (k,) at the start (J); they may be negative."""
+        return np.asarray(self.gap * (self.area * self.stress + self.held @ self.gap / 2))
 
 
 @dataclass(frozen=True)
@@ -78,10 +87,6 @@ class TiedBonds(Transform):
         (k,) the contacts, rising.
     normal, tangent
         The two directions.
-    area
-        (k,) in m2.
-    held
-        (k, k) penalty times area on the jumps that it counts (N/m).
     weight
         Share of the end of the step in what forces hang on.
     """
@@ -89,9 +94,7 @@ class TiedBonds(Transform):
     index: Ints
     normal: Direction
     tangent: Direction
-    area: Floats
-    held: csr_array
-    weight: float = 1.0
+    weight: float
 
     @classmethod
     def of(
@@ -100,9 +103,9 @@ class TiedBonds(Transform):
         contacts: ContactPoints,
         state: State,
         rows: ContactRows,
-        weight: float = 1.0,
-        stresses: Sequence[StressAt] = (),
-        time: float | None = None,
+        weight: float,
+        stresses: Sequence[StressAt],
+        time: float | None,
     ) -> "TiedBonds":
         """Take the whole bonds of the contacts of a step that starts at ``state``.
 
@@ -113,42 +116,36 @@ class TiedBonds(Transform):
         pull, shear = bonds.stress_rows(tied, state.frames)
         q, at = state.deformation, bonds.row(tied)
         more = bonds.added(tied, state.frames, stresses, state.time if time is None else time)
+        area = bonds.area[at]
+        held = csr_array(diags_array(area * bonds.penalty[at]) @ counting(tied))
         normal, tangent = (
-            Direction(gap, stress @ q + known, csr_array(gaps[index]), stress)
+            Direction(gap, stress @ q + known, csr_array(gaps[index]), stress, area, held)
             for gap, stress, known, gaps in (
                 (tied.gap, pull, more[0], rows.normal),
                 (tied.slip, shear, more[1], rows.tangent),
             )
         )
-        area = bonds.area[at]
-        held = csr_array(diags_array(area * bonds.penalty[at]) @ counting(tied))
-        return cls(index, normal, tangent, area, held, weight)
+        return cls(index, normal, tangent, weight)
 
     @cached_property
     def matrix(self) -> csc_array:
         """The matrix (n, n) of all terms."""
-        area, held = self.area, self.held
-        return csc_array(self.normal.matrix(area, held) + self.tangent.matrix(area, held))
+        return csc_array(self.normal.matrix + self.tangent.matrix)
 
     @cached_property
     def energy(self) -> float:
         """Energy (J) at the start of the step."""
-        both = (self.normal, self.tangent)
-        return float(sum(one.energy(self.area, self.held).sum() for one in both))
+        return float(sum(one.energy.sum() for one in (self.normal, self.tangent)))
 
     @cached_property
     def push(self) -> Floats:
         """What the forces at the start are on the unknowns (n,), with the sign changed."""
-        both = (self.normal, self.tangent)
-        return np.asarray(sum(one.push(self.area, self.held) for one in both))
+        return np.asarray(sum(one.push for one in (self.normal, self.tangent)))
 
     def forces(self, increment: Floats) -> tuple[Floats, Floats]:
         """Return pull and shear (k,) in N after an increment (n,)."""
         mean = self.weight * increment
-        normal, shear = (
-            one.force(self.area, self.held, mean) for one in (self.normal, self.tangent)
-        )
-        return normal, shear
+        return self.normal.force(mean), self.tangent.force(mean)
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """See `Transform.apply`."""

@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from covers.change.parentage import Parentage
-from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
 from nmm.contact.candidates.candidates import Candidates
+from nmm.contact.laws.contact_laws import Springs
 from nmm.contact.points.bonded_cracks import BondedCracks
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.inheritance import (
@@ -32,7 +32,7 @@ def succeeding(
     kin: Parentage,
     state: State,
     cracks: BondedCracks,
-    springs: Callable[[ContactPoints], tuple[Floats, Floats, Bools]] | None,
+    springs: Callable[[ContactPoints], Springs] | None,
 ) -> ContactRecord:
     """Return the record of the new model that goes on from that of the old one.
 

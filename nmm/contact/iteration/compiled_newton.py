@@ -13,7 +13,7 @@ from nmm.contact.problem.residual_kernel import SpringColumns, residual
 from nmm.solvers.anderson import add_step, mixed_step
 from nmm.solvers.frontal.frontal_factor import FrontalFactor
 from nmm.solvers.frontal.numbers import substitution
-from nmm.solvers.frontal.numbers.blas import Outside
+from nmm.solvers.frontal.numbers.blas import Inside, Outside
 from nmm.solvers.linear import Factor
 from nmm.solvers.threads import OneThread
 
@@ -72,7 +72,7 @@ def loop(
     steer: tuple[int, float],
     scale: Floats,
     outside: Outside,
-    plan: substitution.Inside,
+    plan: Inside,
     springs: SpringColumns,
 ) -> tuple[Floats, Floats, float, int]:
     """See `run`; ``outside``, ``plan`` and ``scale`` are those of the factor."""

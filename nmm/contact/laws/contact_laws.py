@@ -15,6 +15,9 @@ from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import KEPT, History, HistoryColumn
 from nmm.interfaces.response import InterfaceResponse
 
+Springs = tuple[Floats, Floats, Bools]
+"""Normal and shear stiffness (m,) in N/m, and which are a law's own."""
+
 
 @dataclass(frozen=True)
 class ContactLaws:
@@ -126,15 +129,15 @@ class ContactLaws:
         """(n,) which laws have a column."""
         return np.array([name in law.columns for law in self.laws], dtype=bool)
 
-    def springs(self, contacts: ContactPoints) -> tuple[Floats, Floats, Bools]:
-        """Return normal and shear stiffness (N/m) of whole bonds, and which are a law's own."""
+    def springs(self, contacts: ContactPoints) -> Springs:
+        """Return the springs of whole bonds."""
         return self._springs.of(contacts)
 
     @cached_property
-    def _springs(self) -> KeptOfPairs[tuple[Floats, Floats, Bools]]:
+    def _springs(self) -> KeptOfPairs[Springs]:
         return KeptOfPairs(self._springs_of)
 
-    def _springs_of(self, contacts: ContactPoints) -> tuple[Floats, Floats, Bools]:
+    def _springs_of(self, contacts: ContactPoints) -> Springs:
         own = contacts.is_joint.copy()
         normal = np.where(own, self.normal_bond, self.normal_penalty) * contacts.spring_factor
         shear = np.where(own, self.shear_bond, self.shear_penalty) * contacts.spring_factor
@@ -219,11 +222,7 @@ class ContactLaws:
 
     def stiff_laws(self, contacts: ContactPoints) -> list[tuple[InterfaceLaw, Ints]]:
         """Return the laws that have a stiffness of their own, each with its contacts."""
-        return [
-            (law, np.flatnonzero(contacts.interface == number))
-            for number, law in enumerate(self.laws)
-            if law.normal_stiffness is not None
-        ]
+        return [one for one in self._members.of(contacts) if one[0].normal_stiffness is not None]
 
     def by_law(self, contacts: ContactPoints) -> Iterator[tuple[InterfaceLaw, Ints, History]]:
         """Yield each law with its contacts and their history, columns of its own alone."""

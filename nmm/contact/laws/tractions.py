@@ -7,14 +7,11 @@ from functools import cached_property
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.contact_laws import ContactLaws, Springs
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import History
 from nmm.interfaces.response import Traction
-
-# Normal and shear stiffness (m,) in N/m, and which are a law's own.
-Springs = tuple[Floats, Floats, Bools]
 
 
 @dataclass(frozen=True)

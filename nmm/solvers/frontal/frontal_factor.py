@@ -13,7 +13,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Floats, Index, Ints
 from nmm.solvers.frontal.elimination import Fronts
 from nmm.solvers.frontal.numbers import fronts, inverted, substitution
-from nmm.solvers.frontal.numbers.blas import Outside, addresses, words
+from nmm.solvers.frontal.numbers.blas import Inside, Outside, addresses, words
 from nmm.solvers.frontal.numbers.workspace import Loan
 from nmm.solvers.threads import OneThread
 
@@ -28,7 +28,7 @@ piles and slopes with springs of 10 E have 2e-3 and more, and keep six digits of
 LARGE = 200_000
 """Numbers of a factor from which reading half of them is quicker: about a core's own cache. Walls
 of 100 blocks have a quarter of it, of 1 000 five times as many."""
-ForLoops = tuple[Outside, substitution.Inside]
+ForLoops = tuple[Outside, Inside]
 """What compiled loops hand to `substitution.solve` before and after the right-hand side."""
 NO_SWAPS = np.empty(0, dtype=np.int32)
 

@@ -17,6 +17,8 @@ ARGUMENTS = 5, 6, 8, 10, 11, 13
 SINGLES = SCALARS.astype(np.float32)
 Outside = tuple[Ints, npt.NDArray[np.uint8], Index, npt.NDArray[Any]]
 """Addresses of kernels, and room for the letters, sizes and numbers they take."""
+Inside = tuple[Ints, Ints, Ints, Ints, Ints, Ints, npt.NDArray[Any], Index, bool]
+"""A plan and the numbers of a factor on it, as solutions take them; whether pivots are inverted."""
 
 
 @cache

@@ -5,10 +5,11 @@ from nmm.compiled import compiled
 
 
 @compiled
-def runs(rows: Ints, local: Ints, c: int, start: Ints, shift: Ints) -> int:
+def runs(rows: Ints, local: Ints, c: int, start: Ints, shift: Ints) -> tuple[Ints, Ints]:
     """Stretches of rows that stay neighbours in a front, none across its pivot block's end.
 
-    Row ``i`` of a stretch goes to ``i + shift``. Returns their number; one more start ends them.
+    Their starts, ended by the number of rows, and shifts: row ``i`` of one goes to ``i + shift``.
+    ``start`` and ``shift`` are room for them.
     """
     count = 0
     for i in range(len(rows)):
@@ -17,24 +18,17 @@ def runs(rows: Ints, local: Ints, c: int, start: Ints, shift: Ints) -> int:
             start[count], shift[count] = i, at - i
             count += 1
     start[count] = len(rows)
-    return count
+    return start[: count + 1], shift[:count]
 
 
 @compiled
 def collect_lower(
-    panel: Floats,
-    update: Floats,
-    child: Floats,
-    c: int,
-    r: int,
-    size: int,
-    start: Ints,
-    shift: Ints,
-    n_runs: int,
+    panel: Floats, update: Floats, child: Floats, c: int, r: int, start: Ints, shift: Ints
 ) -> None:
-    """Add the lower triangle of a child's update (size, size) to panel and update of a front."""
-    for q in range(n_runs):
-        rows, moves = start[q : n_runs + 1], shift[q:n_runs]
+    """Add the lower triangle of a child's update to panel and update of a front."""
+    size = start[-1]
+    for q in range(len(shift)):
+        rows, moves = start[q:], shift[q:]
         for j in range(start[q], start[q + 1]):
             column = j + shift[q]
             if column < c:
@@ -51,21 +45,18 @@ def collect_whole(
     child: Floats,
     c: int,
     r: int,
-    size: int,
     start: Ints,
     shift: Ints,
-    n_runs: int,
 ) -> None:
-    """Add a child's update (size, size) to a front, what stands right of its pivots ``beside``."""
-    inner = 0
-    while inner < n_runs and start[inner] + shift[inner] < c:
+    """Add a child's update to a front, what stands right of its pivots ``beside``."""
+    inner, size = 0, start[-1]
+    while inner < len(shift) and start[inner] + shift[inner] < c:
         inner += 1
-    rows, moves = start[: n_runs + 1], shift[:n_runs]
     for q in range(inner):
         for j in range(start[q], start[q + 1]):
-            _add(panel, (j + shift[q]) * (c + r), child[j * size :], start[0], rows, moves)
-    rows, moves = start[inner : n_runs + 1], shift[inner:n_runs]
-    for q in range(inner, n_runs):
+            _add(panel, (j + shift[q]) * (c + r), child[j * size :], start[0], start, shift)
+    rows, moves = start[inner:], shift[inner:]
+    for q in range(inner, len(shift)):
         for j in range(start[q], start[q + 1]):
             column = j + shift[q] - c
             _add(update, column * r - c, child[j * size :], start[inner], rows, moves)

@@ -57,13 +57,13 @@ def factorise(
         for _ in range(n_children[s]):
             child = held[n_held - 1]
             n_held -= 1
-            size = row_start[child + 1] - row_start[child]
-            n_runs = runs(rows[row_start[child] : row_start[child + 1]], local, c, start, shift)
+            joining = rows[row_start[child] : row_start[child + 1]]
+            starts, moves = runs(joining, local, c, start, shift)
             part = stack[base[n_held] : base[n_held + 1]]
             if symmetric:
-                collect_lower(panel, update, part, c, r, size, start, shift, n_runs)
+                collect_lower(panel, update, part, c, r, starts, moves)
             else:
-                collect_whole(panel, beside, update, part, c, r, size, start, shift, n_runs)
+                collect_whole(panel, beside, update, part, c, r, starts, moves)
         if symmetric:
             bad = _cholesky(outside, c, r, panel, update)
         else:

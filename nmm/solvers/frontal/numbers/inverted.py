@@ -14,7 +14,7 @@ import numpy.typing as npt
 from integration.arrays import Ints
 from nmm.compiled import compiled, place
 from nmm.solvers.frontal.numbers import blas
-from nmm.solvers.frontal.numbers.blas import Outside
+from nmm.solvers.frontal.numbers.blas import Inside, Outside
 
 
 @compiled
@@ -46,17 +46,10 @@ def invert(
 
 
 @compiled
-def multiply(
-    outside: Outside,
-    first: Ints,
-    row_start: Ints,
-    rows: Ints,
-    panel_start: Ints,
-    panels: npt.NDArray[Any],
-    x: npt.NDArray[Any],
-) -> None:
+def multiply(outside: Outside, inside: Inside, x: npt.NDArray[Any]) -> None:
     """Turn an ordered load ``x`` (n,) into its solution."""
     kernels, letters, sizes, scalars = outside
+    _, first, row_start, rows, panel_start, _, panels, _, _ = inside
     work = np.empty(len(x), dtype=panels.dtype)
     at, n_c, one = letters.ctypes.data, sizes.ctypes.data, scalars.ctypes.data
     plain, turned, n_h, step = at + 1, at + 3, n_c + 8, n_c + 12

@@ -5,14 +5,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from integration.arrays import Floats, Index, Ints
+from integration.arrays import Floats
 from nmm.compiled import compiled, place
 from nmm.solvers.frontal.numbers import blas
-from nmm.solvers.frontal.numbers.blas import Outside
+from nmm.solvers.frontal.numbers.blas import Inside, Outside
 from nmm.solvers.frontal.numbers.inverted import multiply
-
-Inside = tuple[Ints, Ints, Ints, Ints, Ints, Ints, npt.NDArray[Any], Index, bool]
-"""A plan and the numbers of a factor on it, as `solve` takes them; whether pivots are inverted."""
 
 
 @compiled
@@ -22,7 +19,7 @@ def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> No
     It is found in the precision of the panels. The load is scaled to about one, by a power of two
     which changes no digit: single precision has no small numbers.
     """
-    order, first, row_start, rows, panel_start, _, panels, _, inverted = inside
+    order, _, _, _, _, _, panels, _, inverted = inside
     n, top = len(rhs), 0.0
     for k in range(n):
         top = max(top, abs(rhs[k]))
@@ -31,7 +28,7 @@ def solve(outside: Outside, rhs: Floats, inside: Inside, solution: Floats) -> No
     for k in range(n):
         x[k] = rhs[place(order[k])] / unit
     if inverted:
-        multiply(outside, first, row_start, rows, panel_start, panels, x)
+        multiply(outside, inside, x)
     else:
         substitute(outside, inside, x)
     for k in range(n):
