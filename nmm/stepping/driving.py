@@ -5,23 +5,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nmm.assembly.motion import State
 from nmm.progress import Progress
 from nmm.stepping.after_failure import show_failure
 from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled import CompiledScene
-from nmm.stepping.drive.dynamics import run_in_time
-from nmm.stepping.drive.in_time import InTime, Schedule
-from nmm.stepping.drive.statics import run_load, with_neutral
+from nmm.stepping.drive.in_time import Schedule
+from nmm.stepping.drive.phases import Ended, Phases
+from nmm.stepping.drive.statics import with_neutral
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, UnderLoad, unseen
-from nmm.stepping.drive.verdict import CONVERGED, FAILURE, RunVerdict
+from nmm.stepping.drive.verdict import CONVERGED, FAILURE
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.run_state import RunPosition, RunState
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.control import ControlTable
-
-Ended = tuple[State, RunVerdict]
 
 
 @dataclass(frozen=True)
@@ -47,40 +44,26 @@ class Drive:
         at = None if stood is None else self.checkpoints.go_on(stood)
         self.made.stepper.budget.taken = self.recorder.steps
         if self.made.scene.inertia is not None:
-            return self._in_time(at)
+            return self._phases.in_time(self.made.start, self._times(), at)
         if self.made.scene.in_time:
             return self._creep(at)
         scene, loads = self.made.scene, self._load_schedule()
         control = None if scene.loading is None else scene.loading.control
         if control is not None:
             return self._along_path(at, control, loads)
-        under = at or self.checkpoints.begin(UnderLoad.at_start(self.made.start, loads))
-        assert isinstance(under, UnderLoad)
         if scene.fracture is not None and scene.fracture.control == "toughness":
-            return self._at_toughness(under, loads)
-        return self._under_loads(under, loads)
+            return self._at_toughness(at, loads)
+        return self._under_loads(at, loads)
 
-    def _in_time(self, at: "RunPosition | None") -> Ended:
-        times = self._times()
-        begun = at or self.checkpoints.begin(InTime.at_start(self.made.start, times))
-        assert isinstance(begun, InTime)
-        return self._let_pass(begun, times)
+    @property
+    def _phases(self) -> Phases:
+        names, stepper = self.made.regions.name, self.made.stepper
+        return Phases(stepper, self.recorder, self.progress, names, self.checkpoints)
 
     def _creep(self, at: "RunPosition | None") -> Ended:
-        """Bring the loads on while the clock stands; then let time pass, in equilibrium."""
-        asked, times = self.made.formulation.loading, self._times("creep")
-        if not isinstance(at, InTime):
-            increment = asked.increment if "increment" in asked.model_fields_set else 1.0
-            begin = self.made.start.time
-            loads = LoadSchedule(1.0, False, increment, asked.tolerance, begin, stops=True)
-            under = at or self.checkpoints.begin(UnderLoad.at_start(self.made.start, loads))
-            assert isinstance(under, UnderLoad)
-            state, verdict = self._raised(under, loads)
-            if verdict.code != CONVERGED:
-                return state, verdict
-            at = self.checkpoints.begin(InTime.at_start(state, times))
-            assert isinstance(at, InTime)
-        state, verdict = self._let_pass(at, times)
+        start, times = self.made.start, self._times("creep")
+        loads = LoadSchedule.brought_on(self.made.formulation.loading, start.time, stops=True)
+        state, verdict = self._phases.in_balance(start, loads, times, at)
         if verdict.code == CONVERGED:  # as where loads alone grow: some place may be any
             names = self.made.regions.name
             verdict = with_neutral(verdict, self.made.stepper, state, names)
@@ -101,29 +84,22 @@ class Drive:
         keep = self.checkpoints.keep
         return run_path(stepper, self.recorder, begun, control, end, self.progress, keep)
 
-    def _at_toughness(self, under: UnderLoad, loads: LoadSchedule) -> Ended:
+    def _at_toughness(self, at: "RunPosition | None", loads: LoadSchedule) -> Ended:
         from nmm.stepping.drive.growth import run_growth
 
+        under = at or self.checkpoints.begin(UnderLoad.at_start(self.made.start, loads))
+        assert isinstance(under, UnderLoad)
         keep = self.checkpoints.keep
         return run_growth(self.made.stepper, self.recorder, under, loads, self.progress, keep)
 
-    def _under_loads(self, under: UnderLoad, loads: LoadSchedule) -> Ended:
-        state, verdict = self._raised(under, loads, self._beyond())
+    def _under_loads(self, at: "RunPosition | None", loads: LoadSchedule) -> Ended:
+        state, verdict = self._phases.under_loads(self.made.start, loads, at, self._beyond())
         scene = self.made.scene
         asked = None if scene.loading is None else scene.loading.motion_after_failure
         if verdict.code == FAILURE and asked:
             formulation = self.made.formulation
             show_failure(self.recorder, scene, formulation, state, verdict, asked, self.progress)
         return state, verdict
-
-    def _raised(self, under: UnderLoad, loads: LoadSchedule, beyond: Beyond = unseen) -> Ended:
-        names, keep = self.made.regions.name, self.checkpoints.keep
-        ahead = under, loads, self.progress, names, keep, beyond
-        return run_load(self.made.stepper, self.recorder, *ahead)
-
-    def _let_pass(self, begun: InTime, times: Schedule) -> Ended:
-        keep = self.checkpoints.keep
-        return run_in_time(self.made.stepper, self.recorder, begun, times, self.progress, keep)
 
     def _times(self, stage: str = "dynamic") -> Schedule:
         made, duration = self.made, self.made.scene.duration

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,9 +12,8 @@ from nmm.geometry.geometry import Geometry
 from nmm.model.stage_geometry import begun_with
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import difference, follow
-from nmm.stepping.drive.dynamics import run_in_time
 from nmm.stepping.drive.in_time import InTime, Schedule
-from nmm.stepping.drive.statics import run_load
+from nmm.stepping.drive.phases import Ended, Keeps, Phases
 from nmm.stepping.drive.under_load import LoadSchedule, UnderLoad
 from nmm.stepping.drive.verdict import CONVERGED, RunVerdict
 from nmm.stepping.reports.output import choice_in_time, choice_under_loads
@@ -25,18 +24,6 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.integrators.base import Integrator
     from nmm.model.stages import Stage, Staged
-
-At = TypeVar("At", InTime, UnderLoad)
-
-
-class Keeps(Protocol):
-    """What is shown where a run stands, and says from where it goes on."""
-
-    def begin(self, at: At) -> At:
-        """Take the start of a stage."""
-
-    def keep(self, at: At) -> At:
-        """Take the end of a step."""
 
 
 @dataclass(frozen=True)
@@ -155,44 +142,20 @@ def _solved(
     state: State,
     staged: "Staged",
     progress: Progress,
-    keeps: "Keeps",
+    keeps: Keeps,
     at: InTime | UnderLoad | None,
-) -> tuple[State, RunVerdict]:
+) -> Ended:
     """Solve one stage, in time or to rest, from its start or from where it stands."""
     stage, output, steps = staged.stage, staged.stage.scene.output, staged.stage.formulation
-    if stage.duration is not None:
-        recorder.choice = choice_in_time(output, state.time, stage.duration)
-        times = Schedule.of(stepper, steps, stage.duration)
-        if not stage.dynamic and not isinstance(at, InTime):
-            # Time passes once what is new has come on while the clock stands.
-            state, verdict = _to_rest(stepper, recorder, state, staged, progress, keeps, at)
-            if verdict.code != CONVERGED:
-                return state, verdict
-            at = None
-        moving = at or keeps.begin(InTime.at_start(state, times))
-        assert isinstance(moving, InTime)
-        return run_in_time(stepper, recorder, moving, times, progress, keeps.keep)
-    recorder.choice = choice_under_loads(output)
-    return _to_rest(stepper, recorder, state, staged, progress, keeps, at)
-
-
-def _to_rest(
-    stepper: Stepper,
-    recorder: Recorder,
-    state: State,
-    staged: "Staged",
-    progress: Progress,
-    keeps: "Keeps",
-    at: InTime | UnderLoad | None,
-) -> tuple[State, RunVerdict]:
-    """Bring a stage to rest under its loads, from its start or from where it stands."""
-    stage, steps = staged.stage, staged.stage.formulation
-    asked = steps.loading
-    # What is new is brought on at once unless increments are asked for, or a field is followed.
-    stepped = "increment" in asked.model_fields_set or stage.scene.followed
-    increment = asked.increment if stepped else 1.0
-    loads = LoadSchedule(1.0, False, increment, asked.tolerance, state.time, staged.clock)
-    under = at or keeps.begin(UnderLoad.at_start(state, loads))
-    assert isinstance(under, UnderLoad)
-    names = staged.setup.region_name
-    return run_load(stepper, recorder, under, loads, progress, names, keeps.keep)
+    phases = Phases(stepper, recorder, progress, staged.setup.region_name, keeps)
+    begin, followed = state.time, stage.scene.followed
+    # What is new comes on, where a clock runs, while it stands.
+    loads = LoadSchedule.brought_on(steps.loading, begin, staged.clock, followed)
+    if stage.duration is None:
+        recorder.choice = choice_under_loads(output)
+        return phases.under_loads(state, loads, at)
+    recorder.choice = choice_in_time(output, begin, stage.duration)
+    times = Schedule.of(stepper, steps, stage.duration)
+    if stage.dynamic:
+        return phases.in_time(state, times, at)
+    return phases.in_balance(state, loads, times, at)

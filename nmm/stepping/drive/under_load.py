@@ -12,6 +12,7 @@ from nmm.stepping.drive.verdict import LimitPoint
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
+    from nmm.scene.methods.step_tables import LoadSteps
 
 # From a state and a load factor to the limit point between, if one is seen.
 Beyond = Callable[[State, float], LimitPoint | None]
@@ -51,6 +52,18 @@ class LoadSchedule:
     begin: float = 0.0
     stops: bool = False
     at_once: bool = False
+
+    @classmethod
+    def brought_on(
+        cls, steps: "LoadSteps", begin: float, stops: bool, followed: bool = False
+    ) -> "LoadSchedule":
+        """Return how loads come on in full: at once, unless increments are asked for.
+
+        So they are where a field is ``followed``.
+        """
+        stepped = followed or "increment" in steps.model_fields_set
+        increment = steps.increment if stepped else 1.0
+        return cls(1.0, False, increment, steps.tolerance, begin, stops)
 
     def instant(self, factor: float) -> Instant:
         """Return the end of a step to a load factor."""

@@ -37,7 +37,7 @@ class FreeSquare(ContinuumCase):
 
     def checks(self, formulation: str) -> Checks:
         """Compare the lowest nine frequencies, and that modes are orthonormal in the mass."""
-        from nmm.stepping.drive.modes import lowest_modes
+        from nmm.verification.free_modes import lowest_modes
 
         model = self.problem(on_mesh(formulation, self.size)).model
         modes = lowest_modes(model, 9)

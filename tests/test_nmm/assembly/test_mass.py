@@ -10,8 +10,8 @@ from nmm.formulation import CoverTable, EnrichmentTable, parse_formulation
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene import parse_scene
-from nmm.stepping.drive.modes import lowest_modes
 from nmm.stepping.run import run
+from nmm.verification.free_modes import lowest_modes
 from nmm.verification.problems.waves import BarWave
 
 SQUARE = Polygons.from_vertices([np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])])
