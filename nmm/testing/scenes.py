@@ -1,6 +1,6 @@
 """Texts of small scenes that several tests share: bars, a block on a slab, a pile with water."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from nmm.verification import text
 
@@ -158,6 +158,36 @@ def floor_and_pin(width: float = 1.0) -> str:
     """Return tables that hold what stands on the x axis: its foot upright, its corner along it."""
     return edge_support("base", (0, 0), (width, 0), ("y",)) + (
         '[[supports]]\nname = "pin"\npoint = [0, 0]\nfix = ["x"]\n'
+    )
+
+
+def salt_block(law: str, constants: str, loads: Mapping[str, float], head: str = "") -> str:
+    """Return a block of 1 m by 1 m that creeps, on a floor, with monitors at its top and foot.
+
+    Parameters
+    ----------
+    law, constants
+        Of its matter, besides 10 GPa and 0.25.
+    loads
+        Tractions on its top (MPa) by name.
+    head
+        Keys of the scene.
+    """
+    return text.scene(
+        f'plane = "strain"\n{head}',
+        [
+            f'[materials.salt]\nlaw = "{law}"\nyoung_modulus = "10 GPa"\npoisson_ratio = 0.25\n'
+            f"{constants}\n",
+            text.box("block", (0, 0), (1, 1), "salt"),
+            floor_and_pin(),
+            *(
+                f'[[loads]]\nname = "{name}"\nkind = "edge"\nsegment = [[0, 1], [1, 1]]\n'
+                f'traction = [0, "{pull} MPa"]\n'
+                for name, pull in loads.items()
+            ),
+            text.monitor("top", (0.5, 1), "block"),
+            text.monitor("foot", (0.5, 0), "block"),
+        ],
     )
 
 

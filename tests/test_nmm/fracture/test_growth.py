@@ -17,6 +17,7 @@ from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
 from nmm.testing.scenes import PULLED, notched_plate, turned_net
+from nmm.testing.stopping import check_goes_on
 from nmm.verification.continuum import polygon
 
 DRIVEN = """
@@ -28,10 +29,6 @@ displacement = [0.0, 1.0]
 """
 NET = turned_net(0.125)
 FOLLOW = 'toughness = 1.0\nincrement = 0.1\nmax_growth = 0.2\ncontrol = "toughness"'
-
-
-class StoppedError(Exception):
-    """Raised in the middle of a run."""
 
 
 def plate(fracture: str = FOLLOW, pulled: str = PULLED, tip: float = 0.3) -> Scene:
@@ -91,20 +88,7 @@ def test_growth_to_the_far_side_frees_a_piece_and_ends() -> None:
 def test_a_run_that_is_stopped_goes_on_to_the_same_cracks(tmp_path: Path) -> None:
     text = notched_plate(FOLLOW)
     scene = parse_scene(text + "[output]\ncheckpoint = { every_steps = 1 }\n")
-    whole, folder, left = nmm.run(scene, net(), out=tmp_path / "whole"), tmp_path / "half", [2]
-
-    def progress(share: float, said: str) -> None:
-        left[0] -= 1
-        if not left[0]:
-            raise StoppedError
-
-    with pytest.raises(StoppedError):
-        nmm.run(scene, net(), out=folder, progress=progress)
-    half = nmm.resume(folder)
-    assert half.summary.sentence == whole.summary.sentence
-    for name, column in whole.history.items():
-        assert np.array_equal(half.history[name], column, equal_nan=True), name
-    assert half.summary.changes == whole.summary.changes
+    assert check_goes_on(scene, tmp_path, 1, net()).summary.changes
 
 
 def test_the_critical_one_of_two_cracks_grows_first() -> None:

@@ -9,6 +9,7 @@ import pytest
 import nmm
 from nmm.errors import SceneError
 from nmm.testing import check_effect_of
+from nmm.testing.stopping import check_goes_on
 
 WALL = """
 title = "wall"
@@ -200,20 +201,8 @@ def test_a_run_goes_on_from_a_checkpoint_to_the_same_bytes(tmp_path):
     text = wall('conductance = "perfect"', heat=TRANSIENT, more=MESH)
     # Which solver "auto" takes depends on what the process has imported before.
     text += "[formulation.solver]\ntype = 'superlu'\n[output]\ncheckpoint = { every_steps = 4 }\n"
-    scene = nmm.parse_scene(text)
-    whole = nmm.run(scene, out=tmp_path / "whole")
-
-    def stop(share, said):
-        if share > 0.65:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        nmm.run(scene, out=tmp_path / "half", progress=stop)
-    resumed = nmm.resume(tmp_path / "half")
-    for name, column in whole.history.items():
-        assert np.array_equal(column, resumed.history[name], equal_nan=True), name
-    ends = [run.frames[-1].fields["heat:temperature"].values for run in (whole, resumed)]
-    assert np.array_equal(*ends)
+    whole = check_goes_on(nmm.parse_scene(text), tmp_path)
+    assert "heat:temperature" in whole.frames[-1].fields
 
 
 SQUARE = """

@@ -5,35 +5,12 @@ import pytest
 
 import nmm
 from nmm.scene import parse_scene
-from nmm.testing.scenes import floor_and_pin
+from nmm.testing.scenes import salt_block
+from nmm.testing.stopping import check_goes_on
 
 SCENE = (
-    """
-plane = "strain"
-duration = "{duration}"
-[materials.salt]
-law = "maxwell"
-young_modulus = "10 GPa"
-poisson_ratio = 0.25
-viscosity = "4e14 Pa s"
-[[blocks]]
-name = "block"
-material = "salt"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-"""
-    + floor_and_pin()
-    + """[[loads]]
-name = "press"
-kind = "edge"
-segment = [[0, 1], [1, 1]]
-traction = [0, "-1 MPa"]
-[[monitors]]
-name = "top"
-point = [0.5, 1]
-[[monitors]]
-name = "foot"
-point = [0.5, 0]
-[output]
+    salt_block("maxwell", 'viscosity = "4e14 Pa s"', {"press": -1}, 'duration = "{duration}"')
+    + """[output]
 checkpoint.every_steps = 3
 [formulation.integrator]
 step = {step}
@@ -76,19 +53,8 @@ def test_one_long_step_is_stable():
 @pytest.mark.parametrize("law", ["maxwell", "kelvin"])
 def test_a_run_goes_on_bit_by_bit(tmp_path, law):
     text = SCENE.format(duration="9000 s", step="1000").replace("maxwell", law)
-    whole, left = nmm.run(parse_scene(text, "creep"), out=tmp_path / "whole"), [6]
-
-    def progress(share, said):
-        left[0] -= 1
-        if left[0] < 0:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        nmm.run(parse_scene(text, "creep"), out=tmp_path / "half", progress=progress)
-    resumed = nmm.resume(tmp_path / "half")
-    assert resumed.history["time"][-1] == pytest.approx(9000)
-    for name, column in whole.history.items():
-        assert np.array_equal(column, resumed.history[name], equal_nan=True), name
+    whole = check_goes_on(parse_scene(text, "creep"), tmp_path, 6)
+    assert whole.history["time"][-1] == pytest.approx(9000)
 
 
 @pytest.mark.parametrize(

@@ -5,43 +5,15 @@ import pytest
 
 import nmm
 from nmm.errors import SceneError
-from nmm.testing.scenes import floor_and_pin
+from nmm.testing.scenes import salt_block
 from nmm.testing.stopping import check_goes_on
 
 G_K, ETA_K = 2e9, 2e14
 BULK, SHEAR = 20e9 / 3, 4e9
 
 SALT = (
-    """
-plane = "strain"
-[materials.salt]
-law = "{law}"
-young_modulus = "10 GPa"
-poisson_ratio = 0.25
-{constants}
-[[blocks]]
-name = "block"
-material = "salt"
-vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
-"""
-    + floor_and_pin()
-    + """[[loads]]
-name = "first"
-kind = "edge"
-segment = [[0, 1], [1, 1]]
-traction = [0, "-1 MPa"]
-[[loads]]
-name = "second"
-kind = "edge"
-segment = [[0, 1], [1, 1]]
-traction = [0, "-2 MPa"]
-[[monitors]]
-name = "top"
-point = [0.5, 1]
-[[monitors]]
-name = "foot"
-point = [0.5, 0]
-[[stages]]
+    salt_block("{law}", "{constants}", {"first": -1, "second": -2})
+    + """[[stages]]
 name = "pressed"
 loads = ["first"]
 duration = 1e5

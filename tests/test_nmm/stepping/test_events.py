@@ -110,7 +110,7 @@ def test_two_halves_are_the_whole_before_and_after_an_event(steps, tmp_path):
     kept = SEAM.replace(asked, asked + "\ncheckpoint = { every_steps = 4 }")
     whole = run(kept, out=tmp_path / "whole")
     scene, trust = nmm.parse_scene(kept, "scene"), ["seam"]
-    folder = resumed.stopping.stopped_after(scene, tmp_path / "half", steps, trust)
+    folder = resumed.stopping.stopped_after(scene, tmp_path / "half", steps, allow_code=trust)
     half = nmm.resume(folder, allow_code=trust)
     resumed.check_same(whole, half, (tmp_path / "whole", folder))
 

@@ -124,15 +124,8 @@ def test_a_run_stopped_twice_goes_on_twice(tmp_path):
     text = scenes.scene_of("wall", CHECKPOINT)
     whole = nmm.run(nmm.parse_scene(text, "scene"), out=tmp_path / "whole")
     stopped_after(text, tmp_path / "half", 6)
-    left = [5]
-
-    def progress(share, said):
-        left[0] -= 1
-        if left[0] < 0:
-            raise stopping.StoppedError
-
     with pytest.raises(stopping.StoppedError):
-        nmm.resume(tmp_path / "half", progress=progress)
+        nmm.resume(tmp_path / "half", progress=stopping.interrupting(5))
     resumed = nmm.resume(tmp_path / "half")
     check_same(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
 

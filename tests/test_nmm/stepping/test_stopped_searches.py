@@ -11,6 +11,7 @@ import pytest
 
 import nmm
 from nmm.stepping import strength_reduction
+from nmm.testing.stopping import stopped_after
 
 HERE = Path(__file__)
 SPEC = importlib.util.spec_from_file_location("resumed", HERE.with_name("test_resume.py"))
@@ -76,16 +77,7 @@ def test_a_killed_search_goes_on_to_the_same_bytes(what, count, whole, tmp_path)
 
 
 def test_factors_that_were_tried_are_not_tried_again(whole, tmp_path, monkeypatch):
-    left = [3]
-
-    def progress(share, said):
-        left[0] -= 1
-        if left[0] == 0:
-            raise KeyboardInterrupt
-
-    scene = nmm.parse_scene(INCLINE, "scene")
-    with pytest.raises(KeyboardInterrupt):
-        nmm.run(scene, out=tmp_path / "half", progress=progress)
+    stopped_after(nmm.parse_scene(INCLINE, "scene"), tmp_path / "half", 2)
     tried, weaken = [], strength_reduction.weakened
     monkeypatch.setattr(
         strength_reduction,

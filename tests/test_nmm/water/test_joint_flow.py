@@ -7,6 +7,7 @@ import nmm
 from nmm.errors import SceneError
 from nmm.testing import check_effect_of
 from nmm.testing.scenes import wet_pile
+from nmm.testing.stopping import check_goes_on
 
 PILE = (
     """
@@ -59,18 +60,7 @@ def test_a_pile_with_water_goes_on_from_a_checkpoint(tmp_path):
         "kind = 'edge'\nsegment = [[0, 1], [4, 1]]\ntraction = [0, -1e4]\n"
         "[formulation.loading]\nincrement = 0.1\n[output]\ncheckpoint = { every_steps = 3 }\n"
     )
-    scene = nmm.parse_scene(text)
-    whole = nmm.run(scene, out=tmp_path / "whole")
-
-    def stop(share, said):
-        if share > 0.65:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        nmm.run(scene, out=tmp_path / "half", progress=stop)
-    resumed = nmm.resume(tmp_path / "half")
-    for name, column in whole.history.items():
-        assert np.array_equal(column, resumed.history[name], equal_nan=True), name
+    check_goes_on(nmm.parse_scene(text), tmp_path)
 
 
 def test_joints_are_found_again_when_a_block_leaves():

@@ -10,6 +10,7 @@ import nmm
 from nmm.contact.iteration import apart
 from nmm.formulation import Formulation
 from nmm.scene.model import Scene
+from nmm.testing.stopping import check_goes_on
 
 STEP = 1e-3
 NEAR = 2e-7
@@ -177,23 +178,7 @@ def test_what_is_kept_of_islands_is_dropped_with_the_workspace() -> None:
     assert not memory.apart
 
 
-class StoppedError(Exception):
-    """Stands for a user's Ctrl-C."""
-
-
 def test_a_run_of_islands_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
     often = {"output": {"checkpoint": {"every_steps": 3}}}
     given = scene(SHARED, steps=8, **DOWN, **often)
-    whole = nmm.run(given, formulation(), out=tmp_path / "whole")
-    left = iter(range(5))
-
-    def stop(share: float, said: str) -> None:
-        if next(left, None) is None:
-            raise StoppedError
-
-    with pytest.raises(StoppedError):
-        nmm.run(given, formulation(), out=tmp_path / "half", progress=stop)
-    resumed = nmm.resume(tmp_path / "half")
-    assert np.array_equal(whole.displacement, resumed.displacement)
-    for name, column in whole.history.items():
-        assert np.array_equal(column, resumed.history[name], equal_nan=True), name
+    check_goes_on(given, tmp_path, 5, formulation())

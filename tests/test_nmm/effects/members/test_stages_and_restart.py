@@ -8,6 +8,7 @@ from nmm import plots
 from nmm.errors import NmmError
 from nmm.quantity import MemberSegments
 from nmm.results.viewing.paraview import write_paraview
+from nmm.testing.stopping import check_goes_on
 
 PULLED = """
 plane = "stress"
@@ -61,22 +62,9 @@ HEAD = 'duration = "1.6 ms"\n'
 
 def test_a_run_with_bond_that_slides_goes_on_from_a_checkpoint_bit_by_bit(tmp_path):
     text = HEAD + PULLED + "checkpoint = { every_steps = 4 }\n"
-    whole = nmm.run(nmm.parse_scene(text), out=tmp_path / "whole")
+    whole = check_goes_on(nmm.parse_scene(text), tmp_path, 6)
     assert whole.summary.status == "converged", whole.summary.sentence
     assert whole.history["loss:bars"][-1] > 0
-    steps = [6]
-
-    def progress(share, said):
-        steps[0] -= 1
-        if steps[0] < 0:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        nmm.run(nmm.parse_scene(text), out=tmp_path / "half", progress=progress)
-    resumed = nmm.resume(tmp_path / "half")
-    assert list(whole.history) == list(resumed.history)
-    for name, column in whole.history.items():
-        assert np.array_equal(column, resumed.history[name]), name
 
 
 def test_members_are_in_frames_run_folders_paraview_and_pictures(tmp_path):

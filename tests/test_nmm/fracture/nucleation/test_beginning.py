@@ -14,6 +14,7 @@ from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
 from nmm.stepping.run import Run
 from nmm.testing.scenes import edge_support, turned_net
+from nmm.testing.stopping import check_resumed, stopped_after
 from nmm.verification.problems.nucleation import led
 
 from .nucleating_scenes import body, plate
@@ -25,10 +26,6 @@ FOLLOW = 'control = "toughness"\n'
 NET = turned_net(0.1)
 LOADS = "[loading]\nuntil = {until}\n"
 STEPS = "[loading]\nincrement = 1.0\ntolerance = 1e-3\n"
-
-
-class StoppedError(Exception):
-    """Raised in the middle of a run."""
 
 
 def bar(rule: str = FOLLOW, nucleation: str = STRONG, more: str = "") -> Scene:
@@ -125,20 +122,9 @@ def test_a_run_that_is_stopped_goes_on_to_the_same_cracks(tmp_path: Path) -> Non
     scene = bar(rule, STRONG + "\nnumber = 1", "[output]\ncheckpoint = { every_steps = 1 }\n")
     net, folder = parse_formulation(turned_net(0.15)), tmp_path / "half"
     whole = nmm.run(scene, net, out=tmp_path / "whole")
-    for stop in (2, 3):
-        left = [stop]
-
-        def progress(share: float, said: str, left: list[int] = left) -> None:
-            left[0] -= 1
-            if not left[0]:
-                raise StoppedError
-
-        with pytest.raises(StoppedError):
-            nmm.run(scene, net, out=folder / str(stop), progress=progress)
-        half = nmm.resume(folder / str(stop))
-        assert half.summary.changes == whole.summary.changes
-        for name, column in whole.history.items():
-            assert np.array_equal(half.history[name], column, equal_nan=True), name
+    for steps in (1, 2):
+        half = stopped_after(scene, folder / str(steps), steps, net)
+        check_resumed(whole, nmm.resume(half))
 
 
 def test_a_crack_that_has_begun_is_in_frames_paraview_and_pictures(tmp_path: Path) -> None:
