@@ -1,4 +1,4 @@
-"""Contact rows at the middle of a step, and the moments of contact forces about it.
+"""Contact rows at the middle of a step.
 
 The exact rotation of a step moves a point of a body from ``x0`` to ``x1`` with
 
@@ -25,7 +25,6 @@ from nmm.contact.points.between_faces import EdgeShares
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints, rows
 from nmm.contact.points.midpoint_kernel import add_turns
-from nmm.contact.points.moments import moments
 from nmm.contact.problem.row_products import pushed
 from nmm.frozen import with_parts
 
@@ -183,40 +182,3 @@ def _rigid_shift(body: Ints, axis: Floats, bent: Floats, start: State, half: Sta
     turned = now[:, 1] * bent[:, 0] - now[:, 0] * bent[:, 1]
     values = np.column_stack([back - now, turned])
     return row_matrix(3 * body[:, None] + np.arange(3), values, 3 * len(half.frames.angle))
-
-
-def missing_moments(
-    made: ContactRows,
-    forces: tuple[Floats, Floats],
-    contacts: ContactPoints,
-    sides: Sides,
-    half: State,
-    acted: Floats,
-) -> Floats:
-    """Moments (B,) in N m about the bodies' centres half way that contact forces still owe.
-
-    A force of the step, on two bodies at one point half way, changes the angular momentum of both
-    together by nothing, as the place of a centre changes by the mean of its velocities. What the
-    rows have made of the forces differs by the turn and the strain of the bodies in the step.
-
-    Parameters
-    ----------
-    forces
-        (m,) mean normal and shear forces (N), tension positive.
-    acted
-        (3 B,) what the rows have made of them: forces and moments on the bodies.
-    """
-    half_way = sides.moved(half.frames, half.deformation)
-    owed = moments(
-        half_way.start,
-        half_way.end,
-        half_way.body,
-        half.frames.centre,
-        (contacts.edge_a, contacts.edge_b),
-        (contacts.parameter_a, contacts.parameter_b),
-        np.where(contacts.is_joint, 0.5, 0.0),
-        made.direction,
-        *forces,
-    )
-    # Forces of the rows act on the bodies with the sign changed.
-    return np.asarray(acted.reshape(-1, 3)[:, 2] - owed)

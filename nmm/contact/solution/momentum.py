@@ -3,19 +3,18 @@
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.momenta import rigid_masses
 from nmm.assembly.motion import State, middle
+from nmm.assembly.moved_bodies import entries
 from nmm.contact.detection.tolerances import MIDPOINT_GAPS
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.midpoint import missing_moments
 from nmm.contact.problem.step_problem import StepAnswer
 from nmm.contact.solution.record import ContactSolution
-from nmm.solvers.unchecked import product
+from nmm.contact.solution.turning import Pressing, foreseen, matters, owed
 
 
 class Momentum:
@@ -50,36 +49,58 @@ class Momentum:
         if used is not None:
             turned, moved = _motion(used, middle(before, after))
         motions = turn, way + turn * self._across, turned, moved
-        if not _matters(solved.contacts, solved.answer, motions, self._bodies):
+        pressing = _pressing(solved.contacts, solved.answer)
+        if not matters(pressing, self._bodies, motions, MIDPOINT_GAPS):
             return None
         return middle(before, after)
 
-    def turns(self, contacts: ContactPoints, way: Floats) -> bool:
-        """Whether a step of ``way`` (n,) turns bodies so far that forces should act half way."""
+    def foreseen(
+        self, contacts: ContactPoints, flight: Floats, acceleration: Floats, half: float
+    ) -> Floats | None:
+        """Return the way (n,) of a step that turns bodies so far that forces should act half way.
+
+        None of one that does not. ``flight`` (n,) is a step's way at the velocity now, ``half``
+        half the square of the step (s2).
+        """
         if not self._of_blocks or self._curved:
-            return False
-        whole = product(self._model.rigid_projection, way).reshape(-1, 3)
-        turn, moved = np.abs(whole[:, 2]) / 2, np.hypot(whole[:, 0], whole[:, 1]) / 2
-        motions = turn, moved + turn * self._across, turn, moved
-        return _matters(contacts, contacts, motions, self._bodies)
+            return None
+        turns, way = foreseen(
+            # That of the last step, had its acceleration not changed.
+            (flight, flight - half * acceleration),
+            entries(self._model.rigid_projection),
+            _pressing(contacts, contacts),
+            (self._bodies, self._across),
+            MIDPOINT_GAPS,
+        )
+        return way if turns else None
 
     def kept(
         self, solved: ContactSolution, before: State, after: State, step: float, balance: Floats
     ) -> Floats:
         """Velocity (n,) that a step lacks of what keeps momentum and angular momentum.
 
-        The moments that contact forces owe (`midpoint.missing_moments`), and the sum of what is
-        left of the forces ``balance`` (n,), load less inner forces, when contact has taken its own.
+        The moments that contact forces owe, and the sum of what is left of the forces ``balance``
+        (n,), load less inner forces, when contact has taken its own. A force of the step, on two
+        bodies at one point half way, changes the angular momentum of both together by nothing, as
+        the place of a centre changes by the mean of its velocities. What the rows have made of the
+        forces differs by the turn and the strain of the bodies in the step.
         """
         assert solved.rows is not None
-        through, modes = solved.rows, self._model.manifold.rigid_modes
-        forces = solved.answer.normal_force, solved.answer.shear_force
-        half = middle(before, after)
-        push = solved.push
-        owed = product(self._modes_turned, balance - push).reshape(-1, 3)
-        acted = product(self._modes_turned, push)
-        owed[:, 2] += missing_moments(through, forces, solved.contacts, self._sides, half, acted)
-        return product(modes, step * self._compliance_of_all * owed.ravel())
+        contacts, answer, half = solved.contacts, solved.answer, middle(before, after)
+        edges = self._model.manifold.boundary
+        return owed(
+            balance,
+            solved.push,
+            entries(self._model.manifold.rigid_modes),
+            (self._sides.places(half.frames, half.deformation), edges.next, edges.body),
+            half.frames.centre,
+            (
+                *(contacts.edge_a, contacts.edge_b, contacts.parameter_a, contacts.parameter_b),
+                contacts.key,
+            ),
+            (solved.rows.direction, answer.normal_force, answer.shear_force),
+            step * self._compliance_of_all,
+        )
 
     @property
     def _bodies(self) -> Ints:
@@ -98,11 +119,6 @@ class Momentum:
         return len(manifold.elements) == manifold.n_bodies == manifold.n_covers
 
     @cached_property
-    def _modes_turned(self) -> csr_array:
-        """(3 B, n) forces and moments on the bodies from forces on the unknowns."""
-        return csr_array(self._model.manifold.rigid_modes.T)
-
-    @cached_property
     def _compliance_of_all(self) -> Floats:
         """(3 B,) inverse of mass and moment of inertia of the bodies; 0 of those without mass."""
         rigid = rigid_masses(self._model).ravel()
@@ -114,30 +130,9 @@ class Momentum:
         return np.where(np.repeat(self._held, 3), 0.0, self._compliance_of_all)
 
 
-largest = np.maximum.reduce  # an array's own `max` is three calls
-
-
-def _matters(
-    contacts: ContactPoints,
-    found: ContactPoints | StepAnswer,
-    motions: tuple[Floats, Floats, Floats, Floats],
-    body: Ints,
-) -> bool:
-    """Whether gaps are off, with forces not half way, by what counts beside those ``found``.
-
-    ``motions`` of bodies (B,): turns (rad) and ways (m) to half way and to there from where forces
-    act.
-    """
-    acts = found.normal_force != 0
-    deepest = largest(np.abs(found.gap[acts]), initial=0.0)
-    turn, way, turned, moved = motions
-    # Most steps turn no body by as much as would matter to any.
-    most = largest(turned) * largest(way) + largest(moved) * largest(turn)
-    if not 2 * most > MIDPOINT_GAPS * deepest > 0:
-        return False
-    a, b = body[contacts.edge_a[acts]], body[contacts.edge_b[acts]]
-    turn, way, turned, moved = (np.maximum(one[a], one[b]) for one in motions)
-    return bool(2 * (turned * way + moved * turn).max() > MIDPOINT_GAPS * deepest)
+def _pressing(contacts: ContactPoints, found: ContactPoints | StepAnswer) -> Pressing:
+    """Return edges of contacts with forces and gaps that were found."""
+    return contacts.edge_a, contacts.edge_b, found.normal_force, found.gap
 
 
 def _motion(one: State, other: State) -> tuple[Floats, Floats]:

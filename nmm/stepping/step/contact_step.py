@@ -147,15 +147,11 @@ class Touching:
         state, step = equations.state, equations.step
         if step is None or not self._mover.kinematics.turns:
             return None
-        flight = step * state.velocity
-        # That of the last step, had its acceleration not changed.
-        last = flight - 0.5 * step**2 * state.acceleration
-        # What rattles neither goes on nor flies: as far as both agree.
-        least = np.minimum(np.abs(last), np.abs(flight))
-        way = np.where(last * flight > 0, np.copysign(least, flight), 0.0)
-        if not momentum.turns(contacts, way):
+        flight, half = step * state.velocity, 0.5 * step**2
+        way = momentum.foreseen(contacts, flight, state.acceleration, half)
+        if way is None:
             return None
-        return middle(state, self._mover.kinematics.move(self._current.model, state, way))
+        return middle(state, self._mover.moved(state, way))
 
     def along(self, equations: Equations, path: "PathEquation", reach: float) -> Attempt:
         """Solve a step of statics whose load factor is found with the unknowns.

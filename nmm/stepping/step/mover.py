@@ -6,10 +6,12 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
+from integration.contraction import contract
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, vertex_points
+from nmm.assembly.motion import move as plainly
 from nmm.frozen import with_parts
 from nmm.model.discretisation import Current
 from nmm.solvers.linear import Factor, LinearSolver
@@ -62,10 +64,10 @@ class Mover:
         """Move by ``increment``; ``push`` (n,) is the contact force if its acceleration counts."""
         with self._clock.phase("update"):
             state, end = equations.state, equations.end
-            moved = self._moved(self._faster(equations, increment, push), increment)
+            moved = self.moved(self._faster(equations, increment, push), increment)
             moved = with_parts(moved, time=end.time, load_factor=end.load_factor)
             way = self.place(moved) - self.place(state)
-            motion = float(np.sqrt((way**2).sum(axis=1).max()))
+            motion = float(np.sqrt(np.maximum.reduce(contract("ij,ij->i", way, way))))
         return Attempt(True, "converged", moved, increment, motion, 0.0, 1)
 
     def place(self, state: State) -> Floats:
@@ -79,8 +81,12 @@ class Mover:
             return contact.partners.surface(state).start
         return self.vertices.place(state.frames, state.deformation)
 
-    def _moved(self, state: State, increment: Floats) -> State:
-        return self.kinematics.move(self._current.model, state, increment)
+    def moved(self, state: State, increment: Floats) -> State:
+        """Return a state moved by ``increment`` (n,), by compiled code where bodies may touch."""
+        move, frames = self.kinematics.move, state.frames
+        if move is plainly and self._current.plan.contact is not None and frames.way is not None:
+            from nmm.assembly.moved_bodies import move
+        return move(self._current.model, state, increment)
 
     def _faster(self, equations: Equations, increment: Floats, push: Floats | None) -> State:
         """Return the state at the start with the rates of the end."""

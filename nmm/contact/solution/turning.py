@@ -1,0 +1,111 @@
+"""Turning bodies as contact sees them, compiled: where forces should act, and what they owe."""
+
+import numpy as np
+
+from integration.arrays import Floats, Ints
+from nmm.assembly.moved_bodies import Entries, mean, spread
+from nmm.compiled import compiled
+from nmm.contact.points.moments import moments
+
+Pressing = tuple[Ints, Ints, Floats, Floats]
+"""Edges of sides a and b, normal force and gap (m,) of contacts."""
+
+
+@compiled
+def matters(
+    contacts: Pressing,
+    body: Ints,
+    motions: tuple[Floats, Floats, Floats, Floats],
+    share: float,
+) -> bool:
+    """Whether gaps are off, with forces not half way, by a ``share`` of the deepest.
+
+    ``motions`` of bodies (B,): turns (rad) and ways (m) to half way and to there from where forces
+    act; ``body`` (n,) of the edges.
+    """
+    edge_a, edge_b, force, gap = contacts
+    deepest = 0.0
+    for c in range(len(gap)):
+        if force[c] != 0.0:
+            deepest = max(deepest, abs(gap[c]))
+    turn, way, turned, moved = motions
+    # Most steps turn no body by as much as would matter to any.
+    most = turned.max() * way.max() + moved.max() * turn.max()
+    if not 2 * most > share * deepest > 0:
+        return False
+    off = 0.0
+    for c in range(len(gap)):
+        if force[c] != 0.0:
+            a, b = body[edge_a[c]], body[edge_b[c]]
+            one = max(turned[a], turned[b]) * max(way[a], way[b])
+            off = max(off, one + max(moved[a], moved[b]) * max(turn[a], turn[b]))
+    return 2 * off > share * deepest
+
+
+@compiled
+def foreseen(
+    flights: tuple[Floats, Floats],
+    projection: Entries,
+    contacts: Pressing,
+    bodies: tuple[Ints, Floats],
+    share: float,
+) -> tuple[bool, Floats]:
+    """Whether bodies turn so far in a step that its forces should act half way, and its way (n,).
+
+    ``flights`` (n,) are ways at the velocity now and, had its acceleration not changed, in the last
+    step: what rattles neither goes on nor flies, so bodies go as far as both agree. ``bodies`` are
+    those of the edges, and how wide they are (m).
+    """
+    flight, last = flights
+    way = np.zeros(len(flight))
+    for k in range(len(way)):
+        if last[k] * flight[k] > 0:
+            way[k] = np.copysign(min(abs(last[k]), abs(flight[k])), flight[k])
+    whole = mean(projection, way)
+    body, across = bodies
+    turn, moved = np.empty(len(across)), np.empty(len(across))
+    for b in range(len(across)):
+        turn[b] = abs(whole[3 * b + 2]) / 2
+        moved[b] = np.hypot(whole[3 * b], whole[3 * b + 1]) / 2
+    return matters(contacts, body, (turn, moved + turn * across, turn, moved), share), way
+
+
+@compiled
+def owed(
+    rest: Floats,
+    push: Floats,
+    modes: Entries,
+    edges: tuple[Floats, Ints, Ints],
+    centre: Floats,
+    contacts: tuple[Ints, Ints, Floats, Floats, Ints],
+    through: tuple[Floats, Floats, Floats],
+    gain: Floats,
+) -> Floats:
+    """Return the velocity (n,) that keeps momentum and angular momentum.
+
+    Parameters
+    ----------
+    rest, push
+        (n,) what is left of the forces, and those of contact (N).
+    modes
+        Columns (n, 3 B) of rigid motions.
+    edges
+        Where their starts are half way (k, 2), the edge that follows each, and their bodies.
+    contacts
+        Edges and parameters (m,) of both sides, and keys.
+    through
+        Normals (m, 2), and forces (m,) along them and across.
+    gain
+        (3 B,) velocity by force (s / kg).
+    """
+    start, following, body = edges
+    edge_a, edge_b, parameter_a, parameter_b, key = contacts
+    end = start[following]
+    shares = np.where(key < 0, 0.5, 0.0)
+    pairs, parameters = (edge_a, edge_b), (parameter_a, parameter_b)
+    acting = moments(start, end, body, centre, pairs, parameters, shares, *through)
+    left, acted = mean(modes, rest - push), mean(modes, push)
+    for b in range(len(acting)):
+        left[3 * b + 2] += acted[3 * b + 2] - acting[b]
+    found: Floats = spread(modes, gain * left, len(rest))
+    return found
