@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from nmm.stepping.run import Run
 
 lean.without_plugins()
+lean.late_methods()
 app = typer.Typer(
     help="Numerical manifold method in 2D: blocks, joints, contact and fracture.",
     no_args_is_help=True,

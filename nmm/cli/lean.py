@@ -1,14 +1,47 @@
 """What is done at a start and an end that no verb needs is left out: a start is mostly imports."""
 
 import atexit
+import dataclasses
 import gc
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
+from typing import Any
 
 UNUSED = frozenset({"ctypeslib", "f2py", "testing"})
 """Parts of numpy that are imported when they are asked for, as scipy asks for all that it finds."""
+
+SELDOM = frozenset({"__eq__", "__hash__", "__repr__", "__setattr__", "__delattr__"})
+"""Methods of frozen dataclasses that few of them are ever asked for."""
+
+
+def late_methods() -> None:
+    """Let dataclasses write their methods that are `SELDOM` called when they are first called.
+
+    The library compiles the text of six methods a class as it is made; a check makes 237 classes.
+    Versions of Python whose library writes them otherwise are left alone.
+    """
+    library = vars(dataclasses)
+    written = library.get("_create_fn")
+    if written is None:
+        return
+
+    def create(name: str, *given: Any, **options: Any) -> Any:
+        if name not in SELDOM:
+            return written(name, *given, **options)
+        method = None
+
+        def late(*arguments: Any) -> Any:
+            nonlocal method
+            if method is None:
+                method = written(name, *given, **options)
+            return method(*arguments)
+
+        late.__name__ = name
+        return late
+
+    library["_create_fn"] = create
 
 
 def without_plugins() -> None:
