@@ -1,4 +1,4 @@
-"""One step: assemble what is constant in it, solve, judge. Nothing is kept unless accepted."""
+"""From accepted step to accepted step: what is carried on, and how changes are followed."""
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -8,25 +8,18 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.motion import MaterialPoints, State
-from nmm.effects.base import Instant, Span
-from nmm.errors import SolveError
-from nmm.frozen import with_parts
+from nmm.effects.base import Instant
 from nmm.integrators.base import Integrator
 from nmm.integrators.starting import rule_of
 from nmm.model.build import reshaped
 from nmm.model.discretisation import Current, Discretisation
 from nmm.model.solver_settings import solver_for
 from nmm.solvers.linear import Factor, LinearSolver
-from nmm.stepping.step.booking import booked
 from nmm.stepping.step.budget import Budget
 from nmm.stepping.step.carried import CarriedOver, LaidAnew
 from nmm.stepping.step.clock import Clock
-from nmm.stepping.step.equations import Assembly, Equations, Linearisation
-from nmm.stepping.step.free_step import Alone
-from nmm.stepping.step.inner import Inner
-from nmm.stepping.step.mover import Mover
-from nmm.stepping.step.newton import Solution, Solve, newton
 from nmm.stepping.step.remap import Lay, laid_as, laid_here
+from nmm.stepping.step.step_solver import StepSolver
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
@@ -37,11 +30,10 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.geometry.geometry import Geometry
     from nmm.model.planning.plan import Plan
-    from nmm.stepping.step.contact_step import Touching
 
 
 class Stepper:
-    """Solves steps of one plan; owns the workspace that may be dropped at any time.
+    """Takes steps of one plan: nothing of an attempt is kept unless it is accepted.
 
     Attributes
     ----------
@@ -71,35 +63,15 @@ class Stepper:
         self.reference = discretisation.model.manifold.elements.points
         self.size = float(np.hypot(*np.ptp(self.reference, axis=0)))
         self._current, self._lay, self.clock = Current(discretisation), lay, clock
-        among = discretisation.plan.contact is not None
-        self._among = among
+        self._among = discretisation.plan.contact is not None
         self._geometry: Geometry | None = None
         self._integrator = self._ruling(integrator)
-        self._assembly = Assembly(self._current)
-        self._mover = Mover(self._current, solver, kinematics, clock)
-        self._alone = Alone(self._current, self._mover, solver, self.small, clock)
-        self._touching = self._contact_step() if among else None
-        self._carried = CarriedOver(self._reach())
+        carries = self._integrator.carries
+        self._steps = StepSolver(self._current, solver, kinematics, self.size, carries, clock)
+        self._carried = CarriedOver(self._steps.reach())
 
     def _ruling(self, integrator: Integrator) -> Integrator:
         return integrator.among_contacts if self._among else integrator
-
-    def _contact_step(self) -> "Touching":
-        """Return what solves steps with contact; not imported where nothing may touch."""
-        from nmm.stepping.step.contact_step import Touching
-
-        carries = self._integrator.carries
-        return Touching(self._current, self._mover, self.solver, self.size, carries, self.clock)
-
-    def _reach(self, motion: float = 0.0) -> float:
-        """Return how far contacts are sought after a step that moved by ``motion`` (m)."""
-        return 0.0 if self._touching is None else self._touching.reach(motion)
-
-    @property
-    def _solvers(self) -> "tuple[Mover | Alone | Touching, ...]":
-        """What solves a step and keeps factors for it."""
-        always = self._mover, self._alone
-        return always if self._touching is None else (*always, self._touching)
 
     @property
     def carried(self) -> CarriedOver:
@@ -129,8 +101,8 @@ class Stepper:
 
     def forget(self) -> None:
         """Drop the workspace: factors, patterns, lists and starts that are kept for speed alone."""
-        for part in (self._assembly, *self._solvers, self.plan):
-            part.forget()
+        self._steps.forget()
+        self.plan.forget()
 
     @property
     def small(self) -> bool:
@@ -174,12 +146,12 @@ class Stepper:
     @property
     def vertices(self) -> MaterialPoints:
         """The elements' vertices, which are followed."""
-        return self._mover.vertices
+        return self._steps.mover.vertices
 
     @property
     def factor(self) -> Factor | None:
         """The last factor of a system without contacts."""
-        return self._alone.factor
+        return self._steps.factor
 
     def attempt(
         self, state: State, end: Instant, step: float | None, breaking: "Breaking" = "all"
@@ -192,50 +164,7 @@ class Stepper:
             When the run may cost no more.
         """
         self.budget.check()
-
-        def solve(matter: Linearisation | None, before: Attempt | None = None) -> Solution:
-            with self.clock.phase("assembly"):
-                rule = self._rule
-                equations = self._assembly.of(state, end, step, rule, self.anchored, matter)
-            return equations, self._solved(equations, breaking, before)
-
-        if self.model.matter is None and not self.plan.bent:
-            equations, found = solve(None)
-        else:
-            try:
-                equations, found = self._bent(state, end, step, solve)
-            except SolveError as fault:
-                return Attempt.failed(state, fault)
-        if not found.converged or equations.inertia is None:
-            return found
-        conserves = equations.rule.conserves
-        missed = 0.0 if conserves else self.model.missed_work(state, found.state)
-        off = 0.0
-        if equations.inertia.weight != 0.5:
-            span = Span(step, equations.inertia.weight, half=not equations.rule.carries)
-            off = self.plan.off_line(state, found.state, found.increment, span)
-        work = booked(equations, found.increment, found.solved, missed, off)
-        return with_parts(found, booked=work)
-
-    def _bent(
-        self,
-        state: State,
-        end: Instant,
-        step: float | None,
-        solve: Solve,
-    ) -> Solution:
-        """Solve a step whose internal forces are not linear."""
-        current, moves, clock = self._current, self.kinematics, self.clock
-        # Methods of contact are for symmetric matrices.
-        symmetric = self.plan.contact is not None
-        inner = Inner(current, state, end, step, self._rule, moves, symmetric, clock)
-        equations, found = newton(inner, state, solve, clock)
-        factor, matter = self._alone.factor, self.model.matter
-        if not moves.finite or factor is None or matter is None:
-            return equations, found
-        from nmm.stepping.step.stability import unless_unstable
-
-        return equations, unless_unstable(found, equations, factor, matter.elastic_stiffness)
+        return self._steps.attempt(state, end, step, self._rule, self._carried, breaking)
 
     def along(self, state: State, path: "PathEquation") -> Attempt:
         """Solve a step of statics along a path (`nmm.contact.following`).
@@ -246,29 +175,11 @@ class Stepper:
             When the run may cost no more.
         """
         self.budget.check()
-        assert self._touching is not None
-        with self.clock.phase("path"):
-            still = Instant.of(state)
-            equations = self._assembly.of(state, still, None, self._rule, anchored=False)
-            try:
-                return self._touching.along(equations, path, self._carried.reach)
-            except SolveError as fault:
-                return Attempt.failed(equations.state, fault)
-
-    def _solved(
-        self, equations: Equations, breaking: "Breaking", before: Attempt | None
-    ) -> Attempt:
-        """Solve equations, with contact where the scene has it, near an answer ``before``."""
-        try:
-            if self._touching is None:
-                return self._alone.attempt(equations)
-            return self._touching.attempt(equations, breaking, self._carried.reach, before)
-        except SolveError as fault:
-            return Attempt.failed(equations.state, fault)
+        return self._steps.along(state, path, self._rule, self._carried.reach)
 
     def accept(self, attempt: Attempt) -> tuple[State, "ContactPoints | None"]:
         """Make an attempt the start of the next step; return it with its contacts as left."""
-        reach, restarts = self._reach(attempt.motion), self._integrator.restarts_at_impact
+        reach, restarts = self._steps.reach(attempt.motion), self._integrator.restarts_at_impact
         self._carried = self._carried.after(attempt, reach, restarts)
         state, contact, contacts = attempt.state, self.plan.contact, None
         if contact is not None and attempt.solved is not None:
@@ -292,9 +203,7 @@ class Stepper:
         """Solve ``new`` from now on, which is what a change has made of what was solved."""
         self._current.discretisation = new
         self.reference = change.new.manifold.elements.points
-        self._mover.follow(change)
-        if self._touching is not None:
-            self._touching.follow(change)
+        self._steps.follow(change)
 
     def reshape(self, geometry: "Geometry", state: State, held: bool = False) -> "Change":
         """Solve the same blocks in another geometry; ``state`` is carried over to it.
@@ -322,8 +231,7 @@ class Stepper:
         if integrator is not None:
             self._integrator = self._ruling(integrator)
         self.solver = solver
-        for part in self._solvers:
-            part.solver = solver
+        self._steps.solve_by(solver)
         self.size = max(self.size, float(np.hypot(*np.ptp(self.reference, axis=0))))
         self._geometry = None
         self._carried = CarriedOver(self._carried.reach)
@@ -331,8 +239,7 @@ class Stepper:
 
     def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
-        assert self._touching is not None
-        return self._touching.candidates(state, reach, step)
+        return self._steps.candidates(state, reach, step)
 
     def remember(self) -> "ContactRecord | None":
         """Return what contact knows now, for `restore`."""
@@ -350,7 +257,7 @@ class Stepper:
 
     def place(self, state: State) -> Floats:
         """Return where the elements' vertices are (P, 2)."""
-        return self._mover.place(state)
+        return self._steps.mover.place(state)
 
     def condition(self, state: State) -> float | None:
         """Estimate the condition number of the last system, springs of contact included."""
@@ -361,7 +268,7 @@ class Stepper:
 
     def rounding_changes(self) -> list[Floats]:
         """Changes (n,) that rounding may have made of the last static step without contact."""
-        return self._alone.rounding_changes()
+        return self._steps.rounding_changes()
 
     @property
     def _rule(self) -> Integrator:

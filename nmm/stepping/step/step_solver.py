@@ -1,0 +1,186 @@
+"""One step from a state: assemble what is constant in it, solve, and say what came of it.
+
+Only what may be dropped at any time is kept: factors, patterns and lists.
+"""
+
+from typing import TYPE_CHECKING
+
+from integration.arrays import Floats
+from nmm.assembly.kinematics import Kinematics
+from nmm.assembly.motion import State
+from nmm.effects.base import Instant, Span
+from nmm.errors import SolveError
+from nmm.frozen import with_parts
+from nmm.integrators.base import Integrator
+from nmm.model.discretisation import Current
+from nmm.solvers.linear import Factor, LinearSolver
+from nmm.stepping.step.booking import booked
+from nmm.stepping.step.carried import CarriedOver
+from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.equations import Assembly, Equations, Linearisation
+from nmm.stepping.step.free_step import Alone
+from nmm.stepping.step.inner import Inner
+from nmm.stepping.step.mover import Mover
+from nmm.stepping.step.newton import Solution, Solve, newton
+from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.contact.following.path_equation import PathEquation
+    from nmm.contact.points.contact_points import ContactPoints
+    from nmm.contact.solution.record import Breaking
+    from nmm.effects.change import Change
+    from nmm.stepping.step.contact_step import Touching
+
+
+class StepSolver:
+    """Solves steps of what is solved now.
+
+    Parameters
+    ----------
+    solver, kinematics
+        The linear solver, and how bodies move.
+    size
+        Diagonal of the domain (m).
+    carries
+        Whether accelerations count (`Integrator.carries`).
+
+    Attributes
+    ----------
+    mover
+        Moves the bodies.
+    """
+
+    def __init__(
+        self,
+        current: Current,
+        solver: LinearSolver,
+        kinematics: Kinematics,
+        size: float,
+        carries: bool,
+        clock: Clock,
+    ) -> None:
+        self._current, self._kinematics, self._clock = current, kinematics, clock
+        self._assembly = Assembly(current)
+        self.mover = Mover(current, solver, kinematics, clock)
+        self._alone = Alone(current, self.mover, solver, kinematics.small, clock)
+        touches = current.plan.contact is not None
+        self._touching = self._contact_step(solver, size, carries) if touches else None
+
+    def _contact_step(self, solver: LinearSolver, size: float, carries: bool) -> "Touching":
+        """Return what solves steps with contact; not imported where nothing may touch."""
+        from nmm.stepping.step.contact_step import Touching
+
+        return Touching(self._current, self.mover, solver, size, carries, self._clock)
+
+    @property
+    def _solvers(self) -> "tuple[Mover | Alone | Touching, ...]":
+        """What solves a step and keeps factors for it."""
+        always = self.mover, self._alone
+        return always if self._touching is None else (*always, self._touching)
+
+    def solve_by(self, solver: LinearSolver) -> None:
+        """Take another linear solver."""
+        for part in self._solvers:
+            part.solver = solver
+
+    def follow(self, change: "Change") -> None:
+        """Solve what a change has made of what was solved."""
+        self.mover.follow(change)
+        if self._touching is not None:
+            self._touching.follow(change)
+
+    def forget(self) -> None:
+        """Drop factors, patterns and lists."""
+        for part in (self._assembly, *self._solvers):
+            part.forget()
+
+    @property
+    def factor(self) -> Factor | None:
+        """The last factor of a system without contacts."""
+        return self._alone.factor
+
+    def reach(self, motion: float = 0.0) -> float:
+        """Return how far contacts are sought after a step that moved by ``motion`` (m)."""
+        return 0.0 if self._touching is None else self._touching.reach(motion)
+
+    def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
+        """Return the contact points of a step in which no point moves further than ``reach``."""
+        assert self._touching is not None
+        return self._touching.candidates(state, reach, step)
+
+    def attempt(
+        self,
+        state: State,
+        end: Instant,
+        step: float | None,
+        rule: Integrator,
+        carried: CarriedOver,
+        breaking: "Breaking",
+    ) -> Attempt:
+        """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics."""
+
+        def solve(matter: Linearisation | None, before: Attempt | None = None) -> Solution:
+            with self._clock.phase("assembly"):
+                given = state, end, step, rule, carried.anchored, matter
+                equations = self._assembly.of(*given)
+            return equations, self._solved(equations, breaking, carried.reach, before)
+
+        model, plan = self._current.model, self._current.plan
+        if model.matter is None and not plan.bent:
+            equations, found = solve(None)
+        else:
+            try:
+                equations, found = self._bent(state, end, step, rule, solve)
+            except SolveError as fault:
+                return Attempt.failed(state, fault)
+        if not found.converged or equations.inertia is None:
+            return found
+        missed = 0.0 if equations.rule.conserves else model.missed_work(state, found.state)
+        off = 0.0
+        if equations.inertia.weight != 0.5:
+            span = Span(step, equations.inertia.weight, half=not equations.rule.carries)
+            off = plan.off_line(state, found.state, found.increment, span)
+        work = booked(equations, found.increment, found.solved, missed, off)
+        return with_parts(found, booked=work)
+
+    def _bent(
+        self, state: State, end: Instant, step: float | None, rule: Integrator, solve: Solve
+    ) -> Solution:
+        """Solve a step whose internal forces are not linear."""
+        current, moves, clock = self._current, self._kinematics, self._clock
+        # Methods of contact are for symmetric matrices.
+        symmetric = current.plan.contact is not None
+        inner = Inner(current, state, end, step, rule, moves, symmetric, clock)
+        equations, found = newton(inner, state, solve, clock)
+        factor, matter = self._alone.factor, current.model.matter
+        if not moves.finite or factor is None or matter is None:
+            return equations, found
+        from nmm.stepping.step.stability import unless_unstable
+
+        return equations, unless_unstable(found, equations, factor, matter.elastic_stiffness)
+
+    def along(self, state: State, path: "PathEquation", rule: Integrator, reach: float) -> Attempt:
+        """Solve a step of statics along a path (`nmm.contact.following`)."""
+        assert self._touching is not None
+        with self._clock.phase("path"):
+            still = Instant.of(state)
+            equations = self._assembly.of(state, still, None, rule, anchored=False)
+            try:
+                return self._touching.along(equations, path, reach)
+            except SolveError as fault:
+                return Attempt.failed(equations.state, fault)
+
+    def _solved(
+        self, equations: Equations, breaking: "Breaking", reach: float, before: Attempt | None
+    ) -> Attempt:
+        """Solve equations, with contact where the scene has it, near an answer ``before``."""
+        try:
+            if self._touching is None:
+                return self._alone.attempt(equations)
+            return self._touching.attempt(equations, breaking, reach, before)
+        except SolveError as fault:
+            return Attempt.failed(equations.state, fault)
+
+    def rounding_changes(self) -> list[Floats]:
+        """Changes (n,) that rounding may have made of the last static step without contact."""
+        return self._alone.rounding_changes()
