@@ -3,7 +3,7 @@
 from typing import Any
 
 from nmm.errors import FormulationError
-from nmm.formulation import Formulation
+from nmm.formulation import CoverTable, Formulation
 
 _POLYNOMIALS = {"functions": "monomials"}
 
@@ -63,4 +63,10 @@ def chosen(name: str, base: Formulation | None = None) -> Formulation:
 def with_cover(formulation: Formulation, **keys: Any) -> Formulation:
     """Return a formulation with other values of its ``[cover]``."""
     cover = formulation.cover.model_copy(update=keys)
+    return formulation.model_copy(update={"cover": cover})
+
+
+def with_cover_keys(formulation: Formulation, **keys: Any) -> Formulation:
+    """Return a formulation with keys of its ``[cover]`` as a file gives them, tables among them."""
+    cover = CoverTable.model_validate(formulation.cover.model_dump(mode="json") | keys)
     return formulation.model_copy(update={"cover": cover})

@@ -63,6 +63,15 @@ def monitor(name: str, point: Corner | Floats, block: str) -> str:
     return f'[[monitors]]\nname = "{name}"\npoint = {where}\nblock = "{block}"\n'
 
 
+def pins(places: Mapping[str, Corner], name: str = "pin") -> list[str]:
+    """Tables of supports that keep points of blocks from moving sideways."""
+    return [
+        f'[[supports]]\nname = "{name} {block}"\npoint = {list(point)}\nblock = "{block}"\n'
+        'fix = ["x"]\n'
+        for block, point in places.items()
+    ]
+
+
 def scene(head: str, tables: Iterable[str]) -> str:
     """Return a whole scene file."""
     return "\n".join([head, *tables])

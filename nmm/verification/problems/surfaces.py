@@ -1,4 +1,4 @@
-"""Pressure between surfaces: the contact patch test, Hertz's cylinder and the flat punch."""
+"""Pressure between surfaces in closed form: Hertz's cylinder and the flat punch."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,123 +7,14 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.geometry.tessellation.cover_types import block_cover
 from nmm.verification import text
-from nmm.verification.base import Check, Checks, SceneCase, holds, limit
-from nmm.verification.reading import converged
+from nmm.verification.base import Check, Checks, SceneCase, limit
+from nmm.verification.formulations import with_cover_keys
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation
     from nmm.scene import Scene
     from nmm.stepping.run import Run
-
-
-@dataclass(frozen=True)
-class ContactPatch(SceneCase):
-    """A uniform pressure passes from one block to another, whatever the covers of either.
-
-    The tops of both blocks carry the pressure, but for the part of the lower that the upper covers.
-    """
-
-    name: ClassVar[str] = "B20"
-    title: ClassVar[str] = "Contact patch test, 1 x 1 on 3 x 1 with covers that do not match"
-    source: ClassVar[str] = "Uniform stress -1 (Taylor and Papadopoulos 1991)"
-    formulations: ClassVar[tuple[str, ...]] = (
-        "dda",
-        "degree 2",
-        "degree 3",
-        "finite elements",
-        "manifold",
-        "manifold degree 2",
-        "bilinear quads",
-        "quads",
-        "quads degree 2",
-    )
-    points: ClassVar[str] = "faces"
-    enforcement: str = "penalty"
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return the enforcements."""
-        return [cls(name) for name in ("penalty", "lagrange", "augmented", "cone")]
-
-    @property
-    def variant(self) -> str:
-        """The enforcement."""
-        return self.enforcement
-
-    def scene(self) -> str:
-        """Return both blocks, free to widen."""
-        loads = [
-            ("middle", "upper", -0.5, 0.5, 1.0),
-            ("left", "lower", -1.5, -0.5, 0.0),
-            ("right", "lower", 0.5, 1.5, 0.0),
-        ]
-        return text.scene(
-            'title = "Contact patch test"\nplane = "stress"\n[contact]\n'
-            f'[formulation.contact]\nenforcement = "{self.enforcement}"\n'
-            f'points = "{self.points}"\n',
-            [
-                text.material("soft", modulus=1000.0, poisson=0.3, density=None),
-                text.interface("smooth", 0.0),
-                text.block("lower", "soft", text.rectangle((-1.5, -1), (1.5, 0))),
-                text.block("upper", "soft", text.rectangle((-0.5, 0), (0.5, 1))),
-                '[[supports]]\nname = "foot"\nsegment = [[-1.5, -1], [1.5, -1]]\nfix = ["y"]\n',
-                *_pins({"lower": (0.0, -1.0), "upper": (0.0, 1.0)}),
-                *(
-                    f'[[loads]]\nname = "press {side}"\nkind = "edge"\nblock = "{block}"\n'
-                    f"segment = [[{low}, {height}], [{high}, {height}]]\ntraction = [0, -1]\n"
-                    for side, block, low, high, height in loads
-                ),
-            ],
-        )
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return meshes with a net of its own for the upper block."""
-        found = super().formulation(scene, name)
-        if block_cover(found.cover) is not None:
-            return found
-        return _covered(
-            found,
-            angle=np.radians(17),
-            shift=(0.3, 0.2),
-            nets=[{"block": "upper", "size": 0.23, "angle": -np.radians(11)}],
-        )
-
-    def measure(self, run: "Run") -> Checks:
-        """Compare the stress everywhere."""
-        miss = float(np.abs(run.stress - [0.0, -1.0, 0.0]).max())
-        if not converged(run):
-            return {"in equilibrium": holds(False, run.summary.sentence)}
-        most = 1e-8
-        reason = "the springs give way evenly; turn of covers by 1e-3 of the strain squared"
-        if self.enforcement != "penalty":
-            reason = "residual 1e-8 of the load"
-        if self.enforcement in ("augmented", "cone"):
-            # They reach the stress through points that stand for little.
-            most, reason = 5e-7, "gaps within 1e-7 of what forces press in; small cut cells"
-        return {"largest error of stress (Pa)": limit(miss, most, reason)}
-
-
-@dataclass(frozen=True)
-class NodeToSegment(ContactPatch):
-    """Springs of one stiffness at all corners: no uniform stress but by chance."""
-
-    name: ClassVar[str] = "B20 corners"
-    title: ClassVar[str] = "The contact patch test fails with contact at corners alone"
-    points: ClassVar[str] = "vertices"
-    formulations: ClassVar[tuple[str, ...]] = ("finite elements", "manifold", "quads")
-
-    @classmethod
-    def variants(cls) -> Sequence[Self]:
-        """Return springs."""
-        return [cls("penalty")]
-
-    def measure(self, run: "Run") -> Checks:
-        """Say by how much the stress is off."""
-        miss = float(np.abs(run.stress - [0.0, -1.0, 0.0]).max())
-        reason = "known fault of contact at corners; 0.2 to 1.1 measured"
-        return {"largest error of stress (Pa)": Check(miss, 0.1, 0.0, reason, bound="at_least")}
 
 
 @dataclass(frozen=True)
@@ -186,8 +77,8 @@ class Hertz(Pressure):
                 text.block("plane", "rigid", text.rectangle((-r, -r), (r, 0))),
                 text.block("cylinder", "steel", self._arc()),
                 text.held("plane"),
-                *_pins({"cylinder": (0.0, r)}),
-                *_pins({"cylinder": (0.0, r / 2)}, "axis"),
+                *text.pins({"cylinder": (0.0, r)}),
+                *text.pins({"cylinder": (0.0, r / 2)}, "axis"),
                 f'[[loads]]\nname = "press"\nkind = "edge"\nblock = "cylinder"\n'
                 f"segment = [[{-r}, {r}], [{r}, {r}]]\ntraction = [0, {-self.load / (2 * r)!r}]\n",
             ],
@@ -303,8 +194,8 @@ class Punch(Pressure):
                 text.block("punch", "rigid", text.rectangle((-1, 0), (1, 1))),
                 f'[[supports]]\nname = "foot"\nsegment = [[{-w}, {-w}], [{w}, {-w}]]\n'
                 'fix = ["x", "y"]\n',
-                *_pins({"punch": (0.0, 1.0)}),
-                *_pins({"punch": (0.0, 0.5)}, "axis"),
+                *text.pins({"punch": (0.0, 1.0)}),
+                *text.pins({"punch": (0.0, 0.5)}, "axis"),
                 '[[loads]]\nname = "press"\nkind = "edge"\nblock = "punch"\n'
                 "segment = [[-1, 1], [1, 1]]\ntraction = [0, -1e3]\n",
             ],
@@ -361,25 +252,8 @@ class FinePunch(ExactPunch):
         return True
 
 
-def _pins(places: dict[str, tuple[float, float]], name: str = "pin") -> list[str]:
-    """Tables of supports that keep points of blocks from moving sideways."""
-    return [
-        f'[[supports]]\nname = "{name} {block}"\npoint = {list(point)}\nblock = "{block}"\n'
-        'fix = ["x"]\n'
-        for block, point in places.items()
-    ]
-
-
 def _graded(formulation: "Formulation", **changes: Any) -> "Formulation":
     """Return a formulation with nets of triangles or quads that grow away from foci."""
     quads = formulation.cover.type == "quads"
     kind = "nmm.verification.graded_quads:GradedQuads" if quads else "graded"
-    return _covered(formulation, type=kind, **changes)
-
-
-def _covered(formulation: "Formulation", **changes: Any) -> "Formulation":
-    """Return a formulation with other keys of its cover."""
-    from nmm.formulation import CoverTable
-
-    cover = CoverTable.model_validate(formulation.cover.model_dump(mode="json") | changes)
-    return formulation.model_copy(update={"cover": cover})
+    return with_cover_keys(formulation, type=kind, **changes)
