@@ -12,15 +12,13 @@ from typing import Any
 UNUSED = frozenset({"ctypeslib", "f2py", "testing"})
 """Parts of numpy that are imported when they are asked for, as scipy asks for all that it finds."""
 
-SELDOM = frozenset({"__eq__", "__hash__", "__repr__", "__setattr__", "__delattr__"})
-"""Methods of frozen dataclasses that few of them are ever asked for."""
-
 
 def late_methods() -> None:
-    """Let dataclasses write their methods that are `SELDOM` called when they are first called.
+    """Let dataclasses write their methods when they are first called.
 
-    The library compiles the text of six methods a class as it is made; a check makes 237 classes.
-    Versions of Python whose library writes them otherwise are left alone.
+    The library compiles the text of six methods a class as it is made; a check makes 237 classes,
+    few of which it makes objects of. Versions of Python whose library writes them otherwise are
+    left alone.
     """
     library = vars(dataclasses)
     written = library.get("_create_fn")
@@ -28,15 +26,16 @@ def late_methods() -> None:
         return
 
     def create(name: str, *given: Any, **options: Any) -> Any:
-        if name not in SELDOM:
-            return written(name, *given, **options)
         method = None
 
-        def late(*arguments: Any) -> Any:
+        def late(self: Any, *arguments: Any, **named: Any) -> Any:
             nonlocal method
             if method is None:
                 method = written(name, *given, **options)
-            return method(*arguments)
+                for owner in type(self).__mro__:
+                    if vars(owner).get(name) is late:
+                        setattr(owner, name, method)
+            return method(self, *arguments, **named)
 
         late.__name__ = name
         return late
