@@ -60,7 +60,7 @@ def with_events(recorder: Recorder, at: Stands, events: Asked, stage: str) -> St
         if now is None:
             continue
         change = stepper.reshape(now.geometry, at.state, now.held)
-        follow(recorder, change)
+        follow(recorder, change, name)
         contact = stepper.plan.contact
         at = Stands(change.state, None if contact is None else contact.standing)
         said.append(now.what)
@@ -72,15 +72,16 @@ def with_events(recorder: Recorder, at: Stands, events: Asked, stage: str) -> St
     return Stands(at.state, at.contacts, what, tuple(changes))
 
 
-def follow(recorder: Recorder, change: "Change", reset: bool = False) -> None:
+def follow(recorder: Recorder, change: "Change", cause: str = "", reset: bool = False) -> None:
     """Record the new model from now on: monitors, elements, and what it did to the energies.
 
-    ``reset`` lets displacements count from here.
+    ``cause`` is the effect that asked for it, none of a stage; ``reset`` lets displacements count
+    from here.
     """
     recorder.zero = recorder.zero.followed(change, reset)
     recorder.monitors = monitors(change.setup, all_there=False, zero=recorder.zero.state)
     stepper, totals = recorder.stepper, recorder.totals
-    ledger = totals.ledger.changed(stepper.plan, stepper.model, change.state)
+    ledger = totals.ledger.changed(stepper.plan, stepper.model, change.state, cause)
     recorder.totals = with_parts(totals, ledger=ledger, since=change.state)
     if not same_elements(change.old.manifold, change.new.manifold):
         recorder.sink.begin(topology(change.setup))

@@ -102,7 +102,7 @@ def enter(
     """Solve what the stage has from now on, tell what changed; return the state carried over."""
     change = _entered(stepper, state, staged, integrator)
     before = recorder.ledger.change_energy
-    follow(recorder, change, staged.stage.reset)
+    follow(recorder, change, reset=staged.stage.reset)
     added = recorder.ledger.change_energy - before
     said = f"stage {staged.stage.name} at {state.time:.6g}: {difference(change)}, {added:.6g} J"
     changes = (*recorder.totals.changes, said)

@@ -69,8 +69,12 @@ class Ledger:
         What changes of what is solved have added to the stored energies, the energy shed in the
         first step of statics after one included: with all that is new acting at once, more work is
         done than a slow change needs.
+    changed_by
+        The same by the effect that asked for the changes; "" is a stage, or rest that was sought.
     settling
         Whether that step is the next one.
+    cause
+        What asked for the last change.
     lowest, last
         Energy from nowhere and what the integrator had given of it: where the first was least,
         and after the last step.
@@ -91,7 +95,9 @@ class Ledger:
     in_run: Rise = field(default_factory=Rise)
     given: float = 0.0
     change_energy: float = 0.0
+    changed_by: Mapping[str, float] = field(default_factory=dict)
     settling: bool = False
+    cause: str = ""
     lowest: tuple[float, float] = (0.0, 0.0)
     last: tuple[float, float] = (0.0, 0.0)
 
@@ -127,26 +133,36 @@ class Ledger:
             settling=False,
         )
         if self.settling and plan.inertia is None:
-            shed = min(found._made - self._made, 0.0)
-            found = replace(found, change_energy=found.change_energy + shed)
+            found = found._changed_by(min(found._made - self._made, 0.0), self.cause)
         if attempt.booked is not None:
             found = found._lost_in_time(attempt.booked, earlier, loss)
         return found.weighed(after.time, audited=attempt.booked is not None)
 
-    def along(self, more: float) -> "Ledger":
+    def along(self, more: float, cause: str) -> "Ledger":
         """Return the totals where changes free ``more`` (J) on the way of loads than along chords.
 
-        Work does what is freed beyond the chord.
+        Work does what is freed beyond the chord. ``cause`` is the effect that asked for them.
         """
-        return replace(self, work=self.work + more, change_energy=self.change_energy - more)
+        return replace(self, work=self.work + more)._changed_by(-more, cause)
 
-    def changed(self, plan: "Plan", model: "Model", state: State) -> "Ledger":
-        """Return the totals with a change of what is solved, on which ``state`` is now."""
+    def changed(
+        self, plan: "Plan", model: "Model", state: State, cause: str | None = None
+    ) -> "Ledger":
+        """Return the totals with a change of what is solved, on which ``state`` is now.
+
+        ``cause`` is the effect that asked for it, "" a stage, None what did so last.
+        """
         energies = stored(plan, model, state)
         added = sum(energies.values()) - self.in_store
-        return replace(
-            self, energies=energies, change_energy=self.change_energy + added, settling=True
+        cause = self.cause if cause is None else cause
+        return replace(self, energies=energies, settling=True, cause=cause)._changed_by(
+            added, cause
         )
+
+    def _changed_by(self, added: float, cause: str) -> "Ledger":
+        """Return the totals with energy (J) that changes added to what is stored."""
+        by = {**self.changed_by, cause: self.changed_by.get(cause, 0.0) + added}
+        return replace(self, change_energy=self.change_energy + added, changed_by=by)
 
     def _lost_in_time(self, step: "Booked", earlier: Mapping[str, float], loss: float) -> "Ledger":
         """Return the totals with what a step in time lost that began with ``earlier`` energies."""
@@ -185,7 +201,8 @@ class Ledger:
 
     def freed(self, effect: str) -> float:
         """Energy (J) that work and stores say went where ``effect`` changed what is solved."""
-        gained = self.in_store - self.stored_first
+        apart = sum(added for cause, added in self.changed_by.items() if cause != effect)
+        gained = self.in_store - self.stored_first - apart
         others = self.dissipated - self.effect_loss.get(effect, 0.0)
         return self.work - gained - others
 

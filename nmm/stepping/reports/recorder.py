@@ -91,7 +91,8 @@ class Recorder:
         plan, after, totals = self.stepper.plan, attempt.state, self.totals
         ledger = self.ledger.booked(plan, self.stepper.model, before, attempt, stands or after)
         if plan.fracture is not None:
-            ledger = ledger.along(plan.fracture.arrived(after.load_factor, ledger.in_store))
+            more = plan.fracture.arrived(after.load_factor, ledger.in_store)
+            ledger = ledger.along(more, plan.fracture.name)
         self.totals = with_parts(
             totals,
             ledger=ledger,

@@ -196,6 +196,77 @@ def test_a_crack_grows_in_time_and_rests_in_a_stage_after():
     assert grown.history["reaction:held:y"][-1] == pytest.approx(-4e4, rel=1e-6)
 
 
+SOFT = """
+[materials.soft]
+young_modulus = 5e8
+poisson_ratio = 0.2
+density = 2000
+"""
+SIDE = """
+[[blocks]]
+name = "side"
+material = "rock"
+vertices = [[1, 0], [1.5, 0], [1.5, 1], [1, 1]]
+[interfaces.glue]
+bonded = true
+friction_angle = 0.5
+[contact]
+"""
+HEAT = """
+[heat]
+[[temperatures]]
+name = "cool"
+block = "plate"
+temperature = 0.0
+[[temperatures]]
+name = "warm"
+block = "plate"
+temperature = 100.0
+"""
+EXPANDS = "density = 2000\nthermal_expansion = 1e-5\nconductivity = 1.0"
+OTHERWISE = 'name = "otherwise"\n'
+
+
+def otherwise(text: str, keys: str, more: str = "", first: str = "") -> nmm.stepping.run.Run:
+    """Run stages of which the second has other keys, the first as well."""
+    text = text.replace(OTHERWISE, OTHERWISE + keys).replace(
+        'name = "pulled"\n', f'name = "pulled"\n{first}'
+    )
+    return nmm.run(nmm.parse_scene(text.replace("[[cracks]]", f"{more}[[cracks]]", 1)))
+
+
+@pytest.mark.parametrize(
+    ("keys", "more", "first"),
+    [
+        ('materials = {plate = "soft"}\n', SOFT, ""),
+        ('remove = ["side"]\n', SIDE, ""),
+        ('heat = ["warm"]\n', HEAT, 'heat = ["cool"]\n'),
+    ],
+)
+def test_what_a_stage_changes_is_not_freed_by_a_crack_that_stays(keys, more, first):
+    text = NOTCHED.format(notch=STRAIGHT, growth=1e-9, times="").replace("100.0", "1e9")
+    run = otherwise(text.replace("density = 2000", EXPANDS, 1), keys, more, first)
+    changed = abs(run.summary.change_energy)
+    assert changed > 500.0
+    # No crack grows; energies of a run are found to 1e-4 of what changed.
+    assert abs(run.summary.freed_energy) < 2e-4 * changed
+
+
+def test_a_crack_frees_as_much_in_a_body_that_has_expanded_freely():
+    text = NOTCHED.format(notch=STRAIGHT, growth=0.2, times="")
+    text = text.replace("density = 2000", EXPANDS).replace(
+        'segment = [[0, 0], [1, 0]]\nfix = ["x", "y"]',
+        'segment = [[0, 0], [1, 0]]\nfix = ["y"]\n[[supports]]\nname = "foot"\npoint = [0, 0]\n'
+        'fix = ["x"]',
+    )
+    last = text.replace('loads = ["pull"]', "loads = []").replace('["other"]', '["pull"]')
+    cold = otherwise(last, "")
+    warm = otherwise(last, 'heat = ["warm"]\n', HEAT, 'heat = ["warm"]\n')
+    assert cold.summary.fracture_energy == pytest.approx(20.0, rel=1e-12)
+    # Intensities beside heat are found to 1e-4, and the way of the crack to 1e-5 m with them.
+    assert warm.summary.freed_energy == pytest.approx(cold.summary.freed_energy, rel=2e-4)
+
+
 def test_shares_of_forces_and_events_are_refused_together():
     text = CRUSHED.replace('name = "unloaded"', 'name = "unloaded"\nrelease = 0.5')
     text = text.replace('add = ["late"]', 'remove = ["right"]')
