@@ -283,6 +283,7 @@ def _draw(
     from nmm.plots import draw_all
     from nmm.results.storage.files import PICTURES
 
+    lean.pictures()
     return draw_all(
         run,
         folder / PICTURES,

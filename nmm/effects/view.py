@@ -6,10 +6,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from integration.arrays import Floats
-from nmm.assembly.model import Model
-from nmm.assembly.motion import State
 
 if TYPE_CHECKING:
+    from nmm.assembly.model import Model
+    from nmm.assembly.motion import State
     from nmm.contact.points.contact_points import ContactPoints
 
 
@@ -25,10 +25,10 @@ class View:
         Its C contact points; None without contact.
     """
 
-    model: Model
-    state: State
+    model: "Model"
+    state: "State"
     contacts: "ContactPoints | None"
-    stress_of: Callable[[State], Floats]
+    stress_of: "Callable[[State], Floats]"
 
     @cached_property
     def stress(self) -> Floats:

@@ -175,4 +175,5 @@ def _draw_once(figure: "Figure", picture: io.BytesIO) -> None:
     figure.set_layout_engine(layout)
     pixels = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
     shown = Image.fromarray(pixels[..., :3])
-    shown.save(picture, format="png", dpi=(RESOLUTION, RESOLUTION))
+    # Harder pressed they are a fifth smaller and take half as long again.
+    shown.save(picture, format="png", dpi=(RESOLUTION, RESOLUTION), compress_level=3)

@@ -48,3 +48,24 @@ def test_frozen_dataclasses_are_the_same_when_their_methods_are_written_late(mon
     with pytest.raises(dataclasses.FrozenInstanceError, match="x"):
         del one.x
     assert dataclasses.replace(one, y=3.0) == other
+
+
+PICTURED = """
+import sys, nmm.cli.lean as lean
+lean.pictures()
+from matplotlib.artist import kwdoc
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+print("mpl_toolkits.mplot3d" in sys.modules, "alpha" in kwdoc(Patch))
+figure = Figure(); figure.subplots().set(title="once")
+figure.axes[0].grid(True, color="red"); figure.draw_without_rendering()
+print(figure.axes[0].get_title())
+import mpl_toolkits.mplot3d
+print("Axes3D" in vars(mpl_toolkits.mplot3d))
+"""
+
+
+def test_matplotlib_is_imported_without_axes_in_space_and_is_whole_afterwards():
+    code = [sys.executable, "-W", "error", "-c", PICTURED]
+    ended = subprocess.run(code, capture_output=True, text=True, check=True)
+    assert ended.stdout.splitlines() == ["False True", "once", "True"]
