@@ -1,10 +1,10 @@
 """Lagrange multipliers on an active set."""
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
-from scipy.sparse import block_array, csc_array, diags_array
+from scipy.sparse import block_array, csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
 from nmm.contact.enforcement.iterative import ExactEnforcement
@@ -125,27 +125,31 @@ def _saddle(
     constant = active.sign * np.where(active.sliding, bound, 0.0)
     load = problem.force - problem.normal_rows.T @ pull - problem.tangent_rows.T @ constant
     rhs = np.concatenate([load, -problem.gap[closed], -problem.slip[stuck]])
-
-    def matrix(block: Floats) -> csc_array:
-        n, s = len(closed), len(stuck)
-        corner = diags_array(-block)
-        return csc_array(
-            block_array(
-                [
-                    [problem.matrix, pressing, shear_rows.T],
-                    [normal_rows, corner.tocsr()[:n, :n], None],
-                    [shear_rows, None, corner.tocsr()[n : n + s, n:]],
-                ]
-            )
-        )
-
-    x = _refined(linear, matrix(regular), matrix(compliance), rhs)
+    given = problem, pressing, normal_rows, shear_rows
+    x = _refined(linear, _matrix(*given, regular), _matrix(*given, compliance), rhs)
     size = len(problem.force)
     normal, shear = pull.copy(), constant.copy()
     normal[closed] = x[size : size + len(closed)]
     shear[closed] -= drag * normal[closed]
     shear[stuck] = x[size + len(closed) :]
     return x[:size], normal, shear
+
+
+def _matrix(
+    problem: StepProblem,
+    pressing: csc_array,
+    normal_rows: csr_array,
+    shear_rows: csr_array,
+    compliance: Floats,
+) -> csc_array:
+    """Matrix of unknowns and forces; ``pressing`` is what normal forces do, with their friction."""
+    n, corner = normal_rows.shape[0], diags_array(-compliance).tocsr()
+    parts: list[list[Any]] = [
+        [problem.matrix, pressing, shear_rows.T],
+        [normal_rows, corner[:n, :n], None],
+        [shear_rows, None, corner[n:, n:]],
+    ]
+    return csc_array(block_array(parts))
 
 
 def _refined(linear: LinearSolver, regular: csc_array, exact: csc_array, rhs: Floats) -> Floats:

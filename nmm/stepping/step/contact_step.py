@@ -128,14 +128,8 @@ class Touching:
             if good and near is not None and solved.rows is not None:
                 result = with_parts(result, missed=self._missed(state, solved, result.state))
             passage = "" if motion is None else contact.partners.passage(motion)
-            return with_parts(
-                result,
-                converged=good and not passage,
-                sentence=passage or self._why(verdict.sentence, result, solved),
-                residual=solved.answer.residual,
-                passes=passes,
-                solved=solved,
-            )
+            sentence = passage or self._why(verdict.sentence, result, solved)
+            return _told(result, good and not passage, sentence, solved, passes)
 
     def _ahead(
         self, equations: Equations, contacts: "ContactPoints", momentum: "Momentum"
@@ -175,14 +169,7 @@ class Touching:
                 break
             reach = FURTHER * result.motion
         verdict = solved.answer.verdict
-        return replace(
-            result,
-            converged=verdict.converged,
-            sentence=verdict.sentence,
-            residual=solved.answer.residual,
-            passes=solved.passes,
-            solved=solved,
-        )
+        return _told(result, verdict.converged, verdict.sentence, solved, solved.passes)
 
     def _why(self, solution: str, result: Attempt, solved: "ContactSolution") -> str:
         """Say why a solution is no step, though it be one of its equations."""
@@ -283,3 +270,17 @@ class Touching:
         state = result.state
         change = self.contact.momentum.kept(solved, equations.state, state, equations.step, rest)
         return with_parts(result, state=with_parts(state, velocity=state.velocity + change))
+
+
+def _told(
+    moved: Attempt, converged: bool, sentence: str, solved: "ContactSolution", passes: int
+) -> Attempt:
+    """Return where bodies are moved with how their contacts were solved."""
+    return with_parts(
+        moved,
+        converged=converged,
+        sentence=sentence,
+        residual=solved.answer.residual,
+        passes=passes,
+        solved=solved,
+    )

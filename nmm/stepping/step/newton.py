@@ -67,9 +67,7 @@ def newton(
         equations, found = solve(line, found)
         passes += found.passes
         if not found.converged and not _goes_on(found):
-            flows = _flow(elastic, line, way)
-            said = f"{flows}; {found.sentence}" if flows else found.sentence
-            found = replace(found, sentence=said, singular=found.singular or bool(flows))
+            found = _failed(found, found.sentence, _flow(elastic, line, way))
             return equations, replace(found, passes=passes, imbalances=tuple(imbalances))
         then = at(found.increment, now)
         imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
@@ -81,22 +79,22 @@ def newton(
             )
         way = then.increment - now.increment
         if _hopeless(imbalances):
-            flows = _flow(elastic, line, way)
             said = (
                 f"internal forces are {imbalances[-1]:.1e} of all out of balance after "
                 f"{len(imbalances)} iterations"
             )
-            return equations, replace(
-                found,
-                converged=False,
-                state=state,
-                sentence=f"{flows}; {said}" if flows else said,
-                singular=bool(flows),
-            )
+            lost = replace(found, converged=False, state=state, singular=False)
+            return equations, _failed(lost, said, _flow(elastic, line, way))
         before = now
         now = _searched(equations, line, now, then, at) if inner.searches else then
         if inner.searches and not inner.flows and _falls(imbalances):
             now = now.with_tangent_of(before)
+
+
+def _failed(found: Attempt, said: str, flows: str) -> Attempt:
+    """Return an attempt that is no step, with why; matter that ``flows`` is a mechanism."""
+    sentence = f"{flows}; {said}" if flows else said
+    return replace(found, sentence=sentence, singular=found.singular or bool(flows))
 
 
 def _goes_on(found: Attempt) -> bool:
