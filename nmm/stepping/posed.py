@@ -27,7 +27,7 @@ from nmm.model.parts import check_parts
 from nmm.model.planning.making import compile_plan
 from nmm.model.planning.plan import Plan
 from nmm.model.solver_settings import solver_for
-from nmm.model.stages import Stage, Staged, stages_of
+from nmm.model.staging.stages import Stage, Staged, stages_of
 from nmm.solvers.linear import LinearSolver
 from nmm.stepping.reports.monitors import Monitor, monitors
 from nmm.stepping.step.remap import Lay, check_remap

@@ -16,7 +16,7 @@ from nmm.integrators.base import make_integrator
 from nmm.model.build import reshaped
 from nmm.model.origin import MovedBack
 from nmm.model.solver_settings import cures, warnings
-from nmm.model.stage_geometry import present_setup
+from nmm.model.staging.stage_geometry import present_setup
 from nmm.progress import Progress
 from nmm.results.frame import Topology
 from nmm.results.safety import Safety
@@ -48,7 +48,7 @@ from nmm.stepping.run_state import RunState
 from nmm.stepping.summing_up import summed_up
 
 if TYPE_CHECKING:
-    from nmm.model.stages import Staged
+    from nmm.model.staging.stages import Staged
     from nmm.scene.model import Scene
     from nmm.stepping.drive.in_time import InTime
     from nmm.stepping.drive.under_load import UnderLoad

@@ -11,7 +11,7 @@ from nmm.model.build import setup_of
 
 if TYPE_CHECKING:
     from nmm.effects.base import Setup
-    from nmm.model.stages import Staged
+    from nmm.model.staging.stages import Staged
 
 
 def begun_with(staged: "Staged", now: Geometry) -> "Setup":

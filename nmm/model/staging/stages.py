@@ -11,9 +11,9 @@ from integration.arrays import Bools, Floats, Ints
 from nmm.effects.base import Acting
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.model.origin import shifted
+from nmm.model.staging.acting import blocks_named, keys_of_stage, named_in
 from nmm.scene.methods.cover_tables import CoverTable
 from nmm.scene.stages import KINDS
-from nmm.scene.tables.members import MEMBERS
 
 if TYPE_CHECKING:
     from nmm.effects.base import Setup
@@ -21,10 +21,6 @@ if TYPE_CHECKING:
     from nmm.geometry.blocks import Regions
     from nmm.scene.model import Scene
     from nmm.scene.stages import StageTable
-    from nmm.scene.tables.loading.loads import LoadTable
-
-# Tables of forces: what is new grows with the load factor, what is listed no more fades with it.
-PUSHING = ("loads", "water_pressures")
 
 
 @dataclass(frozen=True)
@@ -112,63 +108,21 @@ def _resolved(
         formulation = _formulation(table, formulation, place)
         listed |= {kind: table.lists(kind) for kind in KINDS if table.lists(kind) is not None}
         members = members if table.members is None else table.members
-        there = {one for one in _names(scene, formulation) if present[regions.select(one)].any()}
-        acting = {
-            key: [one for one in getattr(scene, key) if _acts(one, listed[kind], there)]
-            for kind, keys in KINDS.items()
-            for key in keys
+        there = {
+            one for one in blocks_named(scene, formulation) if present[regions.select(one)].any()
         }
-        names = frozenset(one.name for key in PUSHING for one in acting[key])
-        moves = table.duration is not None and scene.inertia is not None
-        fading = frozenset() if moves else before - names
-        leaving = {
-            key: [o for o in getattr(scene, key) if o.name in fading and _acts(o, None, there)]
-            for key in PUSHING
-        }
-        named = {key: (*items, *leaving.get(key, ())) for key, items in acting.items()}
-        whole = {
-            # What names no effect of its own is resolved here.
-            "stages": _naming(scene, table),
-            **named,
-            **_members(scene, members, dynamic=table.duration is not None),
-            "loads": _standing(scene, table, named["loads"]),
-            "monitors": tuple(one for one in scene.monitors if _acts(one, None, there)),
-            "duration": table.duration,
-            "inertia": scene.inertia if table.duration else None,
-            "damping": scene.damping if table.duration else None,
-            "viscous_boundaries": _edges(scene.viscous_boundaries, table, there),
-            "free_fields": _edges(scene.free_fields, table, there),
-            "initial_velocities": scene.initial_velocities if table.duration else (),
-        }
+        named, names, faded = named_in(scene, table, listed, there, before)
         yield Stage(
             table.name,
-            scene.model_copy(update=whole),
+            scene.model_copy(update=named | keys_of_stage(scene, table, named, members, there)),
             _of_present(formulation, there),
             present,
             table.duration,
-            Acting(
-                names - before,
-                frozenset(o.name for one in leaving.values() for o in one),
-                table.release,
-            ),
+            Acting(names - before, faded, table.release),
             table.reset_displacements,
             material,
         )
         before = names
-
-
-def _standing(
-    scene: "Scene", table: "StageTable", loads: tuple["LoadTable", ...]
-) -> tuple["LoadTable", ...]:
-    """Return the loads of a stage; those that travel in motion are gone while it comes to rest."""
-    rests = scene.inertia is not None and table.duration is None
-    return tuple(one for one in loads if not (rests and one.kind == "moving"))
-
-
-def _naming(scene: "Scene", table: "StageTable") -> tuple["StageTable", ...]:
-    """Return what of the stages names effects: release in this one, materials in any."""
-    changing = [one.model_copy(update={"release": None}) for one in scene.stages if one.materials]
-    return (*changing, table) if table.release is not None else tuple(changing)
 
 
 def _materials(table: "StageTable", before: Ints, regions: "Regions", place: "_Place") -> Ints:
@@ -177,20 +131,6 @@ def _materials(table: "StageTable", before: Ints, regions: "Regions", place: "_P
     for block, name in table.materials.items():
         found[_chosen(block, regions, place, "materials")] = known.index(name)
     return found
-
-
-def _members(
-    scene: "Scene", listed: tuple[str, ...] | None, dynamic: bool
-) -> dict[str, tuple[Any, ...]]:
-    """Return the members that are listed, or all, by table; dashpots act in time alone."""
-    return {
-        key: tuple(
-            one
-            for one in getattr(scene, key)
-            if (listed is None or one.name in listed) and (dynamic or key != "dashpots")
-        )
-        for key in MEMBERS
-    }
 
 
 @dataclass(frozen=True)
@@ -258,25 +198,3 @@ def _of_present(formulation: "Formulation", there: set[str]) -> "Formulation":
     regions = tuple(one for one in cover.regions or () if one.block is None or one.block in there)
     changes = {"nets": nets or None, "regions": regions or None}
     return formulation.model_copy(update={"cover": cover.model_copy(update=changes)})
-
-
-def _acts(item: Any, listed: tuple[str, ...] | None, there: set[str]) -> bool:
-    """Whether something is listed, or all are, and its block is there if it names one."""
-    if item.block is not None and item.block not in there:
-        return False
-    return listed is None or item.name in listed
-
-
-def _edges(items: tuple[Any, ...], table: "StageTable", there: set[str]) -> tuple[Any, ...]:
-    """Return the boundaries of blocks that are there, which act in time alone."""
-    return tuple(one for one in items if table.duration and _acts(one, None, there))
-
-
-def _names(scene: "Scene", formulation: "Formulation") -> set[str]:
-    """Names of blocks that anything refers to."""
-    cover = formulation.cover
-    placed = tuple(item for keys in KINDS.values() for key in keys for item in getattr(scene, key))
-    placed += scene.monitors
-    placed += (*scene.viscous_boundaries, *scene.free_fields)
-    items: tuple[Any, ...] = (*placed, *(cover.nets or ()), *(cover.regions or ()))
-    return {item.block for item in items if item.block is not None}

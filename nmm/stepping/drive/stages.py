@@ -9,7 +9,7 @@ import numpy as np
 from nmm.assembly.motion import State
 from nmm.frozen import with_parts
 from nmm.geometry.geometry import Geometry
-from nmm.model.stage_geometry import begun_with
+from nmm.model.staging.stage_geometry import begun_with
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import difference, follow
 from nmm.stepping.drive.in_time import InTime, Schedule
@@ -23,7 +23,7 @@ from nmm.stepping.step.stepper import Stepper
 if TYPE_CHECKING:
     from nmm.effects.change import Change
     from nmm.integrators.base import Integrator
-    from nmm.model.stages import Stage, Staged
+    from nmm.model.staging.stages import Stage, Staged
 
 
 @dataclass(frozen=True)
