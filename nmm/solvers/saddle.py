@@ -1,7 +1,7 @@
-"""Scaling of systems with conditions held by multipliers: zeros on the diagonal."""
+"""Systems with conditions held by multipliers, zeros on the diagonal, and their scaling."""
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array, hstack, vstack
 
 from integration.arrays import Floats
 from nmm.solvers.scaling import ruiz_scale
@@ -10,6 +10,14 @@ from nmm.solvers.scaling import ruiz_scale
 LINKS = 20
 # An entry below this share of the largest of its column is rounding and no link.
 ROUNDED = 1e-12
+
+
+def bordered(matrix: csc_array, rows: csr_array) -> csc_array:
+    """Return ``[[A, C^T], [C, 0]]`` of a matrix (n, n) and the rows ``C`` (k, n) of conditions."""
+    k = rows.shape[0]
+    upper = hstack([matrix, csr_array(rows.T)])
+    lower = hstack([rows, csr_array((k, k))])
+    return csc_array(vstack([upper, lower]))
 
 
 def saddle_scale(matrix: csc_array) -> Floats:

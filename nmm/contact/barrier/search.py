@@ -89,8 +89,7 @@ def _sides(well: Potential) -> Complementarity:
     """The exact problem, its walls where those of the barrier are but for their width."""
     problem = well.shifted
     springs = CutSprings.of(problem)
-    stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
-    compliance = np.where(well.spring, 1 / stiffness, np.stack(compliances(problem)))
+    compliance = np.where(well.spring, 1 / springs.stiffness, compliances(problem))
     return Complementarity.of(springs, ~well.spring, compliance)
 
 
@@ -114,6 +113,6 @@ def _cut(newton: Newton, rough: IterationResult) -> Start:
     springs, increment = rough.springs, rough.increment
     normal, shear = springs.forces(increment)
     trial_n, trial_t = springs.trial(increment)
-    gap = (trial_n - normal) / springs.normal_stiffness
-    slip = (trial_t - shear) / springs.shear_stiffness
+    gap = (trial_n - normal) / springs.stiffness[0]
+    slip = (trial_t - shear) / springs.stiffness[1]
     return Start(increment, newton.curves.trials(gap, slip, normal, shear))

@@ -6,29 +6,10 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
+from nmm.contact.detection.narrow.tables import thickness_of
 
 ROUNDING = 1e-9
 """Share of an area by which it may be off, with much to spare."""
-
-
-@compiled
-def _thickness(start: Floats, end: Floats, body: Ints) -> Floats:
-    """Twice the area over the perimeter (B,) of bodies, as `Surface.thickness`."""
-    count = 0
-    for e in range(len(body)):
-        count = max(count, body[e] + 1)
-    first = np.full(count, -1)
-    twice, around = np.zeros(count), np.zeros(count)
-    for e in range(len(body)):
-        b = body[e]
-        if first[b] < 0:
-            first[b] = e
-        x, y = start[first[b], 0], start[first[b], 1]
-        twice[b] += (start[e, 0] - x) * (end[e, 1] - y) - (start[e, 1] - y) * (end[e, 0] - x)
-        around[b] += math.hypot(end[e, 0] - start[e, 0], end[e, 1] - start[e, 1])
-    for b in range(count):
-        twice[b] = abs(twice[b]) / around[b] if around[b] > 0.0 else 0.0
-    return twice
 
 
 @compiled
@@ -59,7 +40,7 @@ def can_meet(
     depth
         Share of the thickness of the thinner body that is too deep.
     """
-    thickness = _thickness(start, end, body)
+    thickness = thickness_of(start, end, body)
     moved = np.empty(len(start))
     for v in range(len(start)):
         moved[v] = math.hypot(after[v, 0] - start[v, 0], after[v, 1] - start[v, 1])

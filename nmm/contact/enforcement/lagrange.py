@@ -85,10 +85,8 @@ class Lagrange(ExactEnforcement):
                 return None, f"a singular active set in pass {passes}"
             found = _corrected(problem, active, increment, normal, shear)
             if not changes(problem, active, found).any():
-                shifted = springs.shifted(
-                    np.where(problem.own_stiffness, 0.0, normal),
-                    np.where(problem.own_stiffness, 0.0, shear),
-                )
+                forces = np.stack([normal, shear])
+                shifted = springs.shifted(np.where(problem.own_stiffness, 0.0, forces))
                 size = shifted.residual(increment).size
                 result = IterationResult(shifted, increment, size, passes, passes, "")
                 return measured(result, passes), f"{passes} active sets"
@@ -114,7 +112,7 @@ def _saddle(
     normal_rows, shear_rows = problem.normal_rows[closed], problem.tangent_rows[stuck]
     drag = np.where(active.sliding, active.sign * limits.friction, 0.0)[closed]
     pressing = normal_rows.T - problem.tangent_rows[closed].T @ diags_array(drag)
-    soft = [np.where(own, 1 / k, 0.0) for k in (problem.normal_stiffness, problem.shear_stiffness)]
+    soft = np.where(own, 1 / problem.stiffness, 0.0)
     compliance = np.concatenate([soft[0][closed], soft[1][stuck]])
     normal_part, shear_part = compliances(problem)
     regular = compliance + SOFT * np.concatenate([normal_part[closed], shear_part[stuck]])

@@ -1,6 +1,7 @@
 """Part of a problem: some unknowns and contacts, the rest held where it is."""
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -41,13 +42,8 @@ def part_of(springs: CutSprings, unknowns: Ints, contacts: Ints, increment: Floa
         start=None,
         among=None if p.among is None else (p.among + np.abs(pushes))[unknowns] + np.abs(pulled),
     )
-    return CutSprings(
-        problem,
-        springs.normal_stiffness[contacts],
-        springs.shear_stiffness[contacts],
-        springs.normal_shift[contacts],
-        springs.shear_shift[contacts],
-    )
+    columns_of = partial(np.take, indices=contacts, axis=1)
+    return CutSprings(problem, columns_of(springs.stiffness), columns_of(springs.shift))
 
 
 def _matrix(kind: Any, parts: list[Any], shape: tuple[int, int]) -> Any:

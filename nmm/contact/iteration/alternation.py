@@ -97,9 +97,9 @@ class Alternation:
         pattern = self.memory.pattern_of(springs.problem)
         is_open, sliding = springs.states(self.increment)
         loose = is_open & (springs.problem.limits.tension <= 0)
-        normal = np.where(is_open, rest, 1.0) * springs.normal_stiffness
+        normal = np.where(is_open, rest, 1.0) * springs.stiffness[0]
         left = np.where(loose, rest, np.where(sliding, self.options.drag, 1.0))
-        shear = left * springs.shear_stiffness
+        shear = left * springs.stiffness[1]
         self.factorisations += 1
         try:
             return self.linear.factorise(pattern.matrix(springs.problem, normal, shear))

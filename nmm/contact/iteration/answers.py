@@ -88,8 +88,8 @@ def _free_part(found: IterationResult, tools: Tools) -> Verdict | None:
     pattern = tools.pattern_of(problem)
     for _ in range(PASSES):
         is_open, sliding = springs.states(increment)
-        normal = np.where(is_open, 0.0, springs.normal_stiffness)
-        shear = np.where(is_open | sliding, 0.0, springs.shear_stiffness)
+        normal = np.where(is_open, 0.0, springs.stiffness[0])
+        shear = np.where(is_open | sliding, 0.0, springs.stiffness[1])
         try:
             factor = tools.linear.factorise(pattern.matrix(problem, normal, shear))
             increment = increment - factor.solve(springs.residual(increment).force, problem.among)

@@ -130,13 +130,13 @@ class Complementarity:
         typical = next((size for size in sizes if size > 0), 1.0)
         pull = np.where(self.active[0], limits.tension, 0.0)
         p = np.maximum(pull - normal, typical)
-        stretch = (normal - springs.normal_shift) * self.give[0]
+        stretch = (normal - springs.shift[0]) * self.give[0]
         w = np.maximum(springs.problem.gaps(increment) - stretch, typical**2 * scale[0] / p)
         normal = np.where(self.active[0], pull - p, normal)
         bound = self.bound(normal, p, w)
         shear = np.where(self.active[1], np.clip(shear, -within * bound, within * bound), shear)
         shear = np.where(self.smooth, 0.0, shear)
-        stretch = (shear - springs.shear_shift) * self.give[1]
+        stretch = (shear - springs.shift[1]) * self.give[1]
         slip = springs.problem.slips(increment) - stretch
         a, b = (np.maximum(bound - side * shear, 1e-3 * typical) for side in (1, -1))
         u = np.maximum(slip, 0) + typical**2 * scale[1] / a
@@ -155,8 +155,7 @@ class Complementarity:
         meant = np.stack(springs.cut(*(forces + moved / self.compliance)))
         largest = float(np.abs(forces).max(initial=0.0))
         lacks = float(np.abs(np.where(self.exact, meant - forces, 0.0)).max(initial=0.0))
-        shifts = np.stack([springs.normal_shift, springs.shear_shift])
-        carried = springs.shifted(*np.where(self.exact, forces, shifts))
+        carried = springs.shifted(np.where(self.exact, forces, springs.shift))
         error = lacks / largest if largest > 0 else 0.0
         return IterationResult(
             carried, increment, carried.residual(increment).size, 0, 0, "", error

@@ -118,9 +118,8 @@ class _WaysToForces:
     ) -> IterationResult:
         """Best of the interior point; at each of the ``goals`` alternation may spend ``rest``."""
         springs, tools, best = self.springs, self.tools, found
-        stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
         exact = np.zeros(springs.problem.n_contacts, dtype=bool)
-        sides = Complementarity.of(springs, exact, 1 / stiffness)
+        sides = Complementarity.of(springs, exact, 1 / springs.stiffness)
         start = inside_start(sides, tools)
         for balance in goals:
             method = InteriorPoint(sides, tools)
@@ -150,12 +149,8 @@ def inside_start(sides: Complementarity, tools: Tools) -> InteriorIterate:
     free part even so.
     """
     springs, exact = sides.springs, sides.exact
-    stiffness = np.stack([springs.normal_stiffness, springs.shear_stiffness])
-    normal, shear = np.where(exact, 1 / sides.compliance, stiffness)
-    shifts = np.stack([springs.normal_shift, springs.shear_shift])
-    alike = replace(springs, normal_stiffness=normal, shear_stiffness=shear).shifted(
-        *np.where(exact, 0.0, shifts)
-    )
+    stiffness = np.where(exact, 1 / sides.compliance, springs.stiffness)
+    alike = replace(springs, stiffness=stiffness, shift=np.where(exact, 0.0, springs.shift))
     kept, _ = tools.memory.factor_of(alike, tools.linear)
     problem, within = springs.problem, tools.options.interior.within
     increment = kept.factor.solve(problem.force, problem.among)

@@ -70,9 +70,8 @@ def _stiffer(at: MultiplierIterate, scale: float) -> MultiplierIterate:
     """The same forces as multipliers of stiff springs."""
     springs = at.result.springs
     exact = ~springs.problem.own_stiffness
-    forces = springs.forces(at.result.increment)
-    shifts = (np.where(exact, force, 0.0) for force in forces)
-    stiff = stiff_springs(springs.problem, scale).shifted(*shifts)
+    forces = np.stack(springs.forces(at.result.increment))
+    stiff = stiff_springs(springs.problem, scale).shifted(np.where(exact, forces, 0.0))
     return replace(at, result=replace(at.result, springs=stiff))
 
 
@@ -83,7 +82,7 @@ def _interior_round(
 
     Small problems are finished to rounding by rounds of Newton's method.
     """
-    rounds, compliance = tools.options.rounds, np.stack(compliances(problem))
+    rounds, compliance = tools.options.rounds, compliances(problem)
     springs = stiff_springs(problem, rounds.slight)
     sides = Complementarity.of(springs, ~problem.own_stiffness, compliance)
     start, before = inside_start(sides, tools), at or first_round(springs)

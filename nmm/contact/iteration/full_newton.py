@@ -53,7 +53,7 @@ def _newton(increment: Floats, springs: SpringColumns, tolerance: float, budget:
 def _matrix(increment: Floats, springs: SpringColumns) -> Floats:
     """Matrix (n, n) of the step and of the tangents of its springs (Alart, Curnier 1991)."""
     pointers, rows, entries = springs.matrix
-    stiff, hard = springs.normal_stiffness, springs.shear_stiffness
+    stiff, hard = springs.stiffness
     n, m = len(increment), len(springs.gap)
     found = np.zeros((n, n))
     for j in range(n):
@@ -64,8 +64,8 @@ def _matrix(increment: Floats, springs: SpringColumns) -> Floats:
         opening = springs.gap[c] + _row(c, springs.normal_rows, increment, normal)
         sliding = springs.slip[c] + _row(c, springs.tangent_rows, increment, tangent)
         along, across, mixed = _slopes(
-            stiff[c] * opening + springs.normal_shift[c],
-            hard[c] * sliding + springs.shear_shift[c],
+            stiff[c] * opening + springs.shift[0, c],
+            hard[c] * sliding + springs.shift[1, c],
             springs.tension[c],
             springs.cohesion[c],
             springs.friction[c],

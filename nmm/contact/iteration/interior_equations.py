@@ -53,8 +53,8 @@ class Linearised:
         carried = pushed(*rows, at.normal, at.shear)
         self.rest = problem.matrix @ at.increment - problem.force + carried
         gap, slip = np.array([problem.gap, problem.slip]) + stretched(*rows, at.increment)
-        self.rest_gap = gap - flow[0] - (at.normal - springs.normal_shift) * give[0]
-        self.rest_slip = slip - flow[1] + flow[2] - (at.shear - springs.shear_shift) * give[1]
+        self.rest_gap = gap - flow[0] - (at.normal - springs.shift[0]) * give[0]
+        self.rest_slip = slip - flow[1] + flow[2] - (at.shear - springs.shift[1]) * give[1]
         self.rest_slack = np.where(sides.active, at.slack - np.where(sides.active, held, 0), 0.0)
 
     def step(self, targets: Floats) -> InteriorIterate:

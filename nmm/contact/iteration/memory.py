@@ -142,8 +142,7 @@ class Memory:
             if kept.serves(springs, solver):
                 return kept, False
         pattern = self.pattern_of(springs.problem)
-        normal, shear = springs.normal_stiffness, springs.shear_stiffness
-        factor = solver.factorise(pattern.matrix(springs.problem, normal, shear))
+        factor = solver.factorise(pattern.matrix(springs.problem, *springs.stiffness))
         kept = KeptFactor(factor, solver, springs, springs.weight**-2, self.options)
         self.kept = [kept, *self.kept[: self.options.factors - 1]]
         return kept, True

@@ -51,8 +51,8 @@ class MultiplierIterate:
         return self.result.size <= goal.balance and self.error <= goal.error
 
 
-def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
-    """(m,) compliance ``c = g^T diag(K)^-1 g`` (m/N) of normal and tangent rows ``g``.
+def compliances(problem: StepProblem) -> Floats:
+    """(2, m) compliance ``c = g^T diag(K)^-1 g`` (m/N) of normal and tangent rows ``g``.
 
     Only unknowns that the matrix holds count, against the problem's stiffness ``k`` at the contact.
     Where there are none or their hold is weak ``k`` stands in, so that ``c <= 1e4 / k``; where that
@@ -69,9 +69,11 @@ def compliances(problem: StepProblem) -> tuple[Floats, Floats]:
         held = (found > 0) & ~problem.own_stiffness
         return np.where(held, np.minimum(found, 1e4 / stiffness), 1 / stiffness)
 
-    return (
-        of(problem.normal_rows, problem.normal_stiffness),
-        of(problem.tangent_rows, problem.shear_stiffness),
+    return np.stack(
+        [
+            of(problem.normal_rows, problem.normal_stiffness),
+            of(problem.tangent_rows, problem.shear_stiffness),
+        ]
     )
 
 
@@ -81,24 +83,17 @@ def stiff_springs(problem: StepProblem, scale: float | None) -> CutSprings:
     Contacts whose stiffness is the joint's own keep it, without shift. With ``scale`` None all
     stiffnesses are the problem's.
     """
-    exact = ~problem.own_stiffness
-    normal, shear = problem.normal_stiffness, problem.shear_stiffness
+    exact, stiffness = ~problem.own_stiffness, problem.stiffness
     if scale is not None:
-        c_normal, c_shear = compliances(problem)
-        normal = np.where(exact, scale / c_normal, normal)
-        shear = np.where(exact, scale / c_shear, shear)
-    shifts = (np.where(exact, f, 0.0) for f in (problem.normal_force, problem.shear_force))
-    return CutSprings(problem, normal, shear, *shifts)
+        stiffness = np.where(exact, scale / compliances(problem), stiffness)
+    forces = np.stack([problem.normal_force, problem.shear_force])
+    return CutSprings(problem, stiffness, np.where(exact, forces, 0.0))
 
 
 def stiffened(springs: CutSprings, factor: float) -> CutSprings:
     """The same springs, ``factor`` times as stiff where stiffness is not the joint's own."""
     times = np.where(springs.problem.own_stiffness, 1.0, factor)
-    return replace(
-        springs,
-        normal_stiffness=times * springs.normal_stiffness,
-        shear_stiffness=times * springs.shear_stiffness,
-    )
+    return replace(springs, stiffness=times * springs.stiffness)
 
 
 def exact_goal(problem: StepProblem, tolerance: float, gap_tolerance: float) -> Goal:
@@ -128,14 +123,13 @@ def measured(found: IterationResult, count: int) -> MultiplierIterate:
     """Iterate whose springs are in balance, with what its multipliers lack beyond rounding."""
     springs = found.springs
     forces = np.stack(springs.forces(found.increment))
-    shifts = np.stack([springs.normal_shift, springs.shear_shift])
-    jump = np.abs(np.where(springs.problem.own_stiffness, 0.0, forces - shifts))
-    gap = jump / np.stack([springs.normal_stiffness, springs.shear_stiffness])
+    jump = np.abs(np.where(springs.problem.own_stiffness, 0.0, forces - springs.shift))
+    gap = jump / springs.stiffness
     problem = springs.problem
     rows = problem.normal_rows, problem.tangent_rows
     counts = gap > UNKNOWN * terms_of_stretches(*rows, found.increment)
     jump, gap = np.where(counts, jump, 0.0), np.where(counts, gap, 0.0)
-    part = gap / np.stack(compliances(springs.problem))
+    part = gap / compliances(springs.problem)
     size = float(np.abs(forces).max(initial=0.0))
     largest = [float(quantity.max(initial=0.0)) for quantity in (jump, gap, part)]
     over = 1.0 / size if size > 0 else 0.0
@@ -148,8 +142,8 @@ def updated(last: MultiplierIterate, growth: float) -> MultiplierIterate:
     ``lambda <- lambda + p d``, cut at the limits.
     """
     exact = ~last.result.springs.problem.own_stiffness
-    normal, shear = last.result.springs.forces(last.result.increment)
-    springs = last.result.springs.shifted(np.where(exact, normal, 0), np.where(exact, shear, 0))
+    forces = np.stack(last.result.springs.forces(last.result.increment))
+    springs = last.result.springs.shifted(np.where(exact, forces, 0))
     if growth != 1.0:
         springs = stiffened(springs, growth)
     return replace(last, result=replace(last.result, springs=springs))

@@ -23,7 +23,7 @@ def ended(
     ``before`` (m,) are the states at the start of the step.
     """
     tension, cohesion, friction = springs.tension, springs.cohesion, springs.friction
-    stiff, hard, shift = springs.normal_stiffness, springs.shear_stiffness, springs.shear_shift
+    stiffness, shift = springs.stiffness, springs.shift
     m = len(tension)
     gap, slip = np.empty(m), np.empty(m)
     products_along(springs.normal_rows, increment, gap)
@@ -32,10 +32,10 @@ def ended(
     state = np.empty(m, dtype=np.int64)
     for c in range(m):
         gap[c], slip[c] = gap[c] + springs.gap[c], slip[c] + springs.slip[c]
-        pull = stiff[c] * gap[c] + springs.normal_shift[c]
-        drag = hard[c] * slip[c] + shift[c]
+        pull = stiffness[0, c] * gap[c] + shift[0, c]
+        drag = stiffness[1, c] * slip[c] + shift[1, c]
         normal[c], shear[c] = projected(pull, drag, tension[c], cohesion[c], friction[c])
-        slip[c] = (shear[c] - shift[c]) / hard[c]
+        slip[c] = (shear[c] - shift[1, c]) / stiffness[1, c]
         if pull > tension[c]:
             gone = before[c] == _BROKEN or tension[c] > 0.0
             state[c] = _BROKEN if gone else _OPEN

@@ -7,19 +7,16 @@ from integration.arrays import Floats
 from nmm.contact.problem.step_problem import StepProblem
 
 
-def weights(
-    problem: StepProblem, normal: Floats | None = None, shear: Floats | None = None
-) -> Floats:
+def weights(problem: StepProblem, stiffness: Floats | None = None) -> Floats:
     """(n,) inverse roots of the diagonal of matrix plus all contact springs.
 
     Forces on translations, rotations and strains become comparable: ``|weights * r|`` is
-    invariant under a change of the units of single unknowns. ``normal`` and ``shear`` (m,) stand
-    in for the problem's stiffnesses.
+    invariant under a change of the units of single unknowns. ``stiffness`` (2, m) stands in for
+    that of the problem.
     """
-    own = problem.normal_stiffness, problem.shear_stiffness
-    normal, shear = own[0] if normal is None else normal, own[1] if shear is None else shear
-    kept = normal is own[0] and shear is own[1]
-    return problem.weight if kept else problem.weight_with(normal, shear)
+    if stiffness is None or stiffness is problem.stiffness:
+        return problem.weight
+    return problem.weight_with(stiffness)
 
 
 def relative_residual(

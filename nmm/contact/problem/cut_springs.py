@@ -24,32 +24,29 @@ class CutSprings:
     ----------
     problem
         The step.
-    normal_stiffness, shear_stiffness
-        (m,) N/m.
-    normal_shift, shear_shift
-        (m,) N.
+    stiffness
+        (2, m) of normal and shear springs (N/m).
+    shift
+        (2, m) of their forces (N).
     """
 
     problem: StepProblem
-    normal_stiffness: Floats
-    shear_stiffness: Floats
-    normal_shift: Floats
-    shear_shift: Floats
+    stiffness: Floats
+    shift: Floats
 
     @classmethod
     def of(cls, problem: StepProblem) -> "CutSprings":
         """Springs with the problem's own stiffnesses."""
-        zero = np.zeros(problem.n_contacts)
-        return cls(problem, problem.normal_stiffness, problem.shear_stiffness, zero, zero)
+        return cls(problem, problem.stiffness, np.zeros_like(problem.stiffness))
 
-    def shifted(self, normal: Floats, shear: Floats) -> "CutSprings":
-        """Springs with other shifts."""
-        return replace(self, normal_shift=normal, shear_shift=shear)
+    def shifted(self, shift: Floats) -> "CutSprings":
+        """Springs with other shifts (2, m)."""
+        return replace(self, shift=shift)
 
     @MadeOnce
     def weight(self) -> Floats:
         """(n,) weights of out-of-balance forces."""
-        return weights(self.problem, self.normal_stiffness, self.shear_stiffness)
+        return weights(self.problem, self.stiffness)
 
     def trial(self, increment: Floats) -> tuple[Floats, Floats]:
         """Normal and shear force of uncut springs."""
@@ -57,8 +54,8 @@ class CutSprings:
 
     def stretched(self, gap: Floats, slip: Floats) -> tuple[Floats, Floats]:
         """The same at gaps and slips (m,) in m."""
-        normal = self.normal_stiffness * gap + self.normal_shift
-        return normal, self.shear_stiffness * slip + self.shear_shift
+        normal = self.stiffness[0] * gap + self.shift[0]
+        return normal, self.stiffness[1] * slip + self.shift[1]
 
     def forces(self, increment: Floats) -> tuple[Floats, Floats]:
         """Admissible forces."""
@@ -80,11 +77,8 @@ class CutSprings:
     def tangent(self, increment: Floats) -> tuple[Floats, Floats, Floats]:
         """(m,) normal, shear and mixed stiffness (N/m) of the cut springs."""
         acts, held, mixed = tangent(*self.trial(increment), self.problem.limits)
-        return (
-            acts * self.normal_stiffness,
-            held * self.shear_stiffness,
-            mixed * self.normal_stiffness,
-        )
+        normal, shear = self.stiffness
+        return acts * normal, held * shear, mixed * normal
 
     def residual(self, increment: Floats) -> "Residual":
         """Out-of-balance force of ``increment``."""
@@ -100,8 +94,7 @@ class CutSprings:
             self.weight,
             compressed(p.matrix),
             *p.compressed_rows,
-            *(p.gap, p.slip, self.normal_stiffness, self.shear_stiffness),
-            *(self.normal_shift, self.shear_shift),
+            *(p.gap, p.slip, self.stiffness, self.shift),
             *(p.limits.tension, p.limits.cohesion, p.limits.friction),
             p.least(self.weight),
             p.paired,

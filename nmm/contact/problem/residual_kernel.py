@@ -39,8 +39,10 @@ class SpringColumns(NamedTuple):
         Compressed columns, of a symmetric one rows as well.
     normal_rows, tangent_rows
         Compressed rows of gaps and slips.
-    gap, slip, normal_stiffness, shear_stiffness, normal_shift, shear_shift
+    gap, slip
         (m,) of the contacts.
+    stiffness, shift
+        (2, m) of normal and shear springs.
     tension, cohesion, friction
         (m,) limits.
     least
@@ -56,10 +58,8 @@ class SpringColumns(NamedTuple):
     tangent_rows: Compressed
     gap: Floats
     slip: Floats
-    normal_stiffness: Floats
-    shear_stiffness: Floats
-    normal_shift: Floats
-    shear_shift: Floats
+    stiffness: Floats
+    shift: Floats
     tension: Floats
     cohesion: Floats
     friction: Floats
@@ -100,8 +100,7 @@ def _contact_forces(increment: Floats, springs: SpringColumns) -> Floats:
     """
     normal_pointers, normal_columns, normal_entries = springs.normal_rows
     tangent_pointers, tangent_columns, tangent_entries = springs.tangent_rows
-    normal_stiffness, shear_stiffness = springs.normal_stiffness, springs.shear_stiffness
-    normal_shift, shear_shift = springs.normal_shift, springs.shear_shift
+    stiffness, shift = springs.stiffness, springs.shift
     tension, cohesion, friction = springs.tension, springs.cohesion, springs.friction
     gap, slip, paired = springs.gap, springs.slip, springs.paired
     contact = np.zeros(len(increment))
@@ -117,8 +116,8 @@ def _contact_forces(increment: Floats, springs: SpringColumns) -> Floats:
                 opening += normal_entries[k] * increment[place(normal_columns[k])]
             for k in range(place(tangent_pointers[c]), place(tangent_pointers[c + 1])):
                 sliding += tangent_entries[k] * increment[place(tangent_columns[k])]
-        normal = normal_stiffness[c] * opening + normal_shift[c]
-        shear = shear_stiffness[c] * sliding + shear_shift[c]
+        normal = stiffness[0, c] * opening + shift[0, c]
+        shear = stiffness[1, c] * sliding + shift[1, c]
         normal, shear = projected(normal, shear, tension[c], cohesion[c], friction[c])
         if paired and (normal != 0.0 or shear != 0.0):
             for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):
@@ -138,8 +137,7 @@ def weighted(
     matrix: Compressed,
     normal_rows: Compressed,
     tangent_rows: Compressed,
-    normal_stiffness: Floats,
-    shear_stiffness: Floats,
+    stiffness: Floats,
 ) -> Floats:
     """Inverse roots (n,) of the diagonal of matrix and springs; 1 where that is not positive."""
     pointers, rows, entries = matrix
@@ -150,12 +148,12 @@ def weighted(
         for k in range(place(pointers[j]), place(pointers[j + 1])):
             if rows[k] == j:
                 found[j] += entries[k]
-    for c in range(len(normal_stiffness)):
+    for c in range(stiffness.shape[1]):
         for k in range(place(normal_pointers[c]), place(normal_pointers[c + 1])):
-            found[place(normal_columns[k])] += normal_entries[k] ** 2 * normal_stiffness[c]
-    for c in range(len(shear_stiffness)):
+            found[place(normal_columns[k])] += normal_entries[k] ** 2 * stiffness[0, c]
+    for c in range(stiffness.shape[1]):
         for k in range(place(tangent_pointers[c]), place(tangent_pointers[c + 1])):
-            found[place(tangent_columns[k])] += tangent_entries[k] ** 2 * shear_stiffness[c]
+            found[place(tangent_columns[k])] += tangent_entries[k] ** 2 * stiffness[1, c]
     for j in range(len(found)):
         found[j] = 1.0 / np.sqrt(found[j]) if found[j] > 0.0 else 1.0
     return found

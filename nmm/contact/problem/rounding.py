@@ -22,8 +22,8 @@ def rounding(springs: CutSprings, increment: Floats) -> float:
     problem, grain = springs.problem, ROUNDINGS * float(np.finfo(float).eps)
     moved = np.abs(increment)
     parts = (
-        (problem.normal_rows, problem.gap, springs.normal_stiffness),
-        (problem.tangent_rows, problem.slip, springs.shear_stiffness),
+        (problem.normal_rows, problem.gap, springs.stiffness[0]),
+        (problem.tangent_rows, problem.slip, springs.stiffness[1]),
     )
     normal, shear = springs.forces(increment)
     left = np.zeros_like(increment)

@@ -110,11 +110,16 @@ class StepProblem:
     @MadeOnce
     def weight(self) -> Floats:
         """(n,) weights of out-of-balance forces: see `nmm.contact.problem.balance.weights`."""
-        return self.weight_with(self.normal_stiffness, self.shear_stiffness)
+        return self.weight_with(self.stiffness)
 
-    def weight_with(self, normal: Floats, shear: Floats) -> Floats:
-        """The same with other stiffnesses (m,) of the springs."""
-        return np.asarray(weighted(compressed(self.matrix), *self.compressed_rows, normal, shear))
+    @MadeOnce
+    def stiffness(self) -> Floats:
+        """(2, m) normal and shear stiffness (N/m)."""
+        return np.stack([self.normal_stiffness, self.shear_stiffness])
+
+    def weight_with(self, stiffness: Floats) -> Floats:
+        """The same with another stiffness (2, m) of the springs."""
+        return np.asarray(weighted(compressed(self.matrix), *self.compressed_rows, stiffness))
 
     @MadeOnce
     def paired(self) -> bool:

@@ -9,10 +9,10 @@ from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, strain_only
 from nmm.model.discretisation import ModelWithEffects
-from nmm.solvers.bordered import bordered
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.solvers.rigid_apart import ROUNDED, Apart, Bodies, rounding, solve_apart
 from nmm.solvers.rounding_error import rounding_changes
+from nmm.solvers.saddle import bordered
 from nmm.stepping.step.equations import Equations
 
 

@@ -5,8 +5,7 @@ import pytest
 from scipy.sparse import csc_array, csr_array
 
 from nmm.constraints.multipliers import independent
-from nmm.solvers.bordered import bordered
-from nmm.solvers.saddle import saddle_scale
+from nmm.solvers.saddle import bordered, saddle_scale
 
 
 def chain(stiff: float, n: int) -> csc_array:

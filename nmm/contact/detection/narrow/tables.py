@@ -25,39 +25,47 @@ Shape = npt.NDArray[Any]
 
 
 @compiled
+def thickness_of(start: Floats, end: Floats, body: Ints) -> Floats:
+    """Twice the area over the perimeter (B,) of bodies, as `Surface.thickness`."""
+    count = 0
+    for e in range(len(body)):
+        count = max(count, body[e] + 1)
+    first, area, around = np.full(count, -1), np.zeros(count), np.zeros(count)
+    for e in range(len(body)):
+        b = body[e]
+        if first[b] < 0:
+            first[b] = e
+        x, y = start[first[b], 0], start[first[b], 1]
+        area[b] += (start[e, 0] - x) * (end[e, 1] - y)
+        area[b] -= (start[e, 1] - y) * (end[e, 0] - x)
+        dx, dy = end[e, 0] - start[e, 0], end[e, 1] - start[e, 1]
+        around[b] += math.sqrt(dx * dx + dy * dy)
+    for b in range(count):
+        area[b] = abs(area[b]) / around[b] if around[b] > 0.0 else 0.0
+    return area
+
+
+@compiled
 def shape_of(
     start: Floats, end: Floats, body: Ints, following: Ints, previous: Ints, sine: float
 ) -> Shape:
     """Directions, lengths, convexity of vertices and thickness of bodies."""
-    n = len(start)
-    shape = np.zeros(n, EDGE)
-    top = -1
-    for e in range(n):
+    shape, thickness = np.zeros(len(start), EDGE), thickness_of(start, end, body)
+    for e in range(len(start)):
         edge = shape[e]
         edge.sx, edge.sy = start[e, 0], start[e, 1]
         edge.ex, edge.ey = end[e, 0], end[e, 1]
         dx, dy = end[e, 0] - start[e, 0], end[e, 1] - start[e, 1]
         size = math.sqrt(dx * dx + dy * dy)
-        edge.length = size
+        edge.length, edge.thick = size, thickness[body[e]]
         if size > 0.0:
             edge.tx, edge.ty = dx / size, dy / size
         edge.body, edge.next, edge.previous = body[e], following[e], previous[e]
         edge.own, edge.before = -1, -1
-        top = max(top, body[e])
-    first, area, around = np.full(top + 1, -1), np.zeros(top + 1), np.zeros(top + 1)
-    for e in range(n):
-        b, edge, last = body[e], shape[e], shape[previous[e]]
+    for e in range(len(start)):
+        edge, last = shape[e], shape[previous[e]]
         turn = last.tx * edge.ty - last.ty * edge.tx
         edge.convex = 1 if turn >= -sine else 0
-        if first[b] < 0:
-            first[b] = e
-        ox, oy = shape[first[b]].sx, shape[first[b]].sy
-        area[b] += (edge.sx - ox) * (edge.ey - oy)
-        area[b] -= (edge.sy - oy) * (edge.ex - ox)
-        around[b] += edge.length
-    for e in range(n):
-        if around[body[e]] > 0.0:
-            shape[e].thick = abs(area[body[e]]) / around[body[e]]
     return shape
 
 

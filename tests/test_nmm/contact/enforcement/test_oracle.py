@@ -44,7 +44,7 @@ def test_open_close_iteration_never_claims_a_state_that_is_not_one(seed: int) ->
 def test_compiled_defect_equals_the_whole_array_form(seed: int) -> None:
     problem, rng = random_problem(seed, bonded=True), np.random.default_rng(seed)
     shifts = rng.normal(size=(2, problem.n_contacts))
-    springs = CutSprings.of(problem).shifted(*shifts)
+    springs = CutSprings.of(problem).shifted(shifts)
     increment = rng.normal(size=len(problem.force))
     forces = springs.forces(increment)
     expected = problem.out_of_balance(increment, *forces)
