@@ -54,7 +54,6 @@ def enrichments(
         Points with different numbers of singular functions.
     """
     from covers.local_functions.corner_functions import corner_functions
-    from covers.local_functions.crack_tip_functions import crack_tip_functions
     from nmm.fracture.corners import corner_at
 
     table = cover.enrichment
@@ -62,12 +61,7 @@ def enrichments(
     assert size is not None
     constant = np.full(int(cut.element_region.max()) + 1, 2.0) if kappa is None else kappa
     radius = 0.0 if table is None else table.radius
-    found = []
-    for number in tips:  # a handful of tips
-        element = cut.tips.element[number]
-        functions = crack_tip_functions(float(constant[cut.element_region[element]]), size)
-        point, ahead = cut.tips.point[number], cut.tips.direction[number]
-        found.append(Enrichment(functions, point, ahead, radius, int(cut.element_body[element])))
+    found = _about_tips(cut, tips, constant, size, radius)
 
     def about(corner: "Corner", reach: float, both: bool = False) -> Enrichment:
         modulus = float(constant[cut.element_region[corner.element]])
@@ -84,6 +78,21 @@ def enrichments(
             "[cover.enrichment]: points with different numbers of singular modes: expected one "
             "number: enrich crack tips, or corners of one angle"
         )
+    return found
+
+
+def _about_tips(
+    cut: "CutCells", tips: Ints, constant: Floats, size: float, radius: float
+) -> list[Enrichment]:
+    """Return the functions of crack tips; ``constant`` (N,) is Kolosov's of the regions."""
+    from covers.local_functions.crack_tip_functions import crack_tip_functions
+
+    found = []
+    for number in tips:  # a handful of tips
+        element = cut.tips.element[number]
+        functions = crack_tip_functions(float(constant[cut.element_region[element]]), size)
+        point, ahead = cut.tips.point[number], cut.tips.direction[number]
+        found.append(Enrichment(functions, point, ahead, radius, int(cut.element_body[element])))
     return found
 
 

@@ -6,7 +6,7 @@ blocks which factors cannot, in a few linear programmes; the next run is one jus
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from math import atan, tan
 from time import perf_counter
@@ -54,6 +54,54 @@ class FactorTried:
         return self.status == CONVERGED
 
 
+@dataclass
+class _Factors:
+    """Runs of a scene over factors, one after the other.
+
+    Attributes
+    ----------
+    at_once
+        Whether all loads are there from the start of each.
+    tried
+        What was found of each.
+    """
+
+    scene: "Scene"
+    formulation: "Formulation"
+    progress: Progress
+    known: TriedFactors
+    at_once: bool
+    tried: list[FactorTried] = field(default_factory=list)
+    _stands: dict[float, "tuple[Stepper, State]"] = field(default_factory=dict)
+
+    def run(self, factor: float) -> FactorTried:
+        """Try a factor."""
+        self._stands.clear()
+        answer = self.known.tried(factor, self._solved)
+        found = FactorTried(factor, *answer, partial(self._bound, factor))
+        self.tried.append(found)
+        says = "equilibrium" if found.holds else "none"
+        self.progress(min(len(self.tried) / 12, 1.0), f"strength / {factor:.5g}: {says}")
+        return found
+
+    def _solved(self, factor: float) -> tuple[str, str]:
+        made = prepare(_unstored(weakened(self.scene, factor)), self.formulation)
+        memory = MemorySink()
+        state = replace(made, at_once=self.at_once).run([memory], lambda share, text: None)
+        self._stands[factor] = made.stepper, state
+        return memory.summary.status, memory.summary.sentence
+
+    def _bound(self, factor: float, highest: float, width: float) -> float | None:
+        """See `FactorTried.bound`."""
+
+        def sought() -> float | None:
+            if factor not in self._stands:
+                self._solved(factor)
+            return safety_bound(*self._stands[factor], factor, highest, width)
+
+        return self.known.bounded(sought)
+
+
 def reduced(
     scene: "Scene", formulation: "Formulation", progress: Progress, known: TriedFactors
 ) -> Simulation:
@@ -66,53 +114,25 @@ def reduced(
     NmmError
         When the scene cannot be run at all.
     """
-    table = scene.strength_reduction
+    table, begun = scene.strength_reduction, perf_counter()
     assert table is not None
-    begun, tried = perf_counter(), list[FactorTried]()
-    at_once = not _grows(scene)
-    stands: dict[float, tuple[Stepper, State]] = {}
-
-    def solved(factor: float) -> tuple[str, str]:
-        made, memory = prepare(_unstored(weakened(scene, factor)), formulation), MemorySink()
-        state = replace(made, at_once=at_once).run([memory], lambda share, text: None)
-        stands[factor] = made.stepper, state
-        return memory.summary.status, memory.summary.sentence
-
-    def bound(factor: float, highest: float, width: float) -> float | None:
-        if factor not in stands:
-            solved(factor)
-        return safety_bound(*stands[factor], factor, highest, width)
-
-    def run(factor: float) -> FactorTried:
-        stands.clear()
-        status, sentence = known.tried(factor, solved)
-        tried.append(
-            FactorTried(
-                factor,
-                status,
-                sentence,
-                lambda highest, width: known.bounded(partial(bound, factor, highest, width)),
-            )
-        )
-        says = "equilibrium" if tried[-1].holds else "none"
-        progress(min(len(tried) / 12, 1.0), f"strength / {factor:.5g}: {says}")
-        return tried[-1]
-
-    low, high = bracket(run, table)
+    factors = _Factors(scene, formulation, progress, known, at_once=not _grows(scene))
+    low, high = bracket(factors.run, table)
     shown = high is None or high.status == COLLAPSED
     safety = Safety(
         None if low is None else low.factor,
         None if high is None else high.factor,
         shown,
         "" if high is None else high.sentence,
-        len(tried),
+        len(factors.tried),
         min((one for one in known.bounds if one is not None), default=None),
     )
-    at = prepare(weakened(scene, tried[-1].factor if low is None else low.factor), formulation)
+    last = factors.tried[-1].factor if low is None else low.factor
+    at = prepare(weakened(scene, last), formulation)
     at.stepper.seconds["strength reduction"] = (
         perf_counter() - begun - sum(at.stepper.seconds.values())
     )
-    return replace(at, scene=scene, begun=begun, safety=safety, at_once=at_once)
+    return replace(at, scene=scene, begun=begun, safety=safety, at_once=factors.at_once)
 
 
 def _unstored(scene: "Scene") -> "Scene":

@@ -102,38 +102,18 @@ def _largest_share(
 
     It is not known where members have limits of their own, which no condition here says.
     """
-    # The one place that asks for it; its many signatures know no sparse conditions.
-    from scipy import optimize
-
-    linprog: Any = optimize.linprog
     plan, contact = stepper.plan, stepper.plan.contact
     if contact is None or any(effect.limited for effect in plan.effects.values()):
         return None
     (normal, tangent), limits = contact.near(state, NEAR * stepper.size)
-    tension = limits.tension / weaker
     balance = _directions(stepper, state)
     fixed, whole = (plan.force(state, Instant(at, at)) for at in (0.0, asked))
     fixed, gain = balance @ fixed, balance @ (whole - fixed)
     size = max(float(np.abs(fixed).max(initial=0.0)), float(np.abs(gain).max(initial=0.0)))
     if not balance.shape[0] or size == 0:
         return None
-    m = len(limits.friction)
     equal = hstack([balance @ normal.T, balance @ tangent.T, csc_array(gain[:, None] / size)])
-    bounds = np.full((2 * m + 1, 2), np.inf)
-    bounds[:m, 0], bounds[m : 2 * m, 0] = -tension / size, -np.inf
-    bounds[-1] = 0.0, most
-    cost = np.zeros(2 * m + 1)
-    cost[-1] = -1.0
-    rough, strength = _friction(limits, weaker)
-    found = linprog(
-        cost,
-        A_ub=rough,
-        b_ub=strength / size,
-        A_eq=csr_array(equal),
-        b_eq=-fixed / size,
-        bounds=bounds,
-        method="highs-ipm",  # a fifth of the simplex method's seconds on 455 bonded blocks
-    )
+    found = _programme(csr_array(equal), -fixed / size, limits, weaker, size, most)
     still = np.zeros(balance.shape[1])
     if found.status == INFEASIBLE:
         return LoadBound(None, still)
@@ -143,6 +123,32 @@ def _largest_share(
         return None
     motion = balance.T @ found.eqlin.marginals
     return LoadBound(float(found.x[-1]), -motion if motion @ whole < 0 else motion)
+
+
+def _programme(
+    equal: csr_array, sides: Floats, limits: "Limits", weaker: float, size: float, most: float
+) -> Any:
+    """Maximise the share under balance and the limits of contacts, forces over ``size`` (N)."""
+    # The one place that asks for it; its many signatures know no sparse conditions.
+    from scipy import optimize
+
+    linprog: Any = optimize.linprog
+    m, tension = len(limits.friction), limits.tension / weaker
+    bounds = np.full((2 * m + 1, 2), np.inf)
+    bounds[:m, 0], bounds[m : 2 * m, 0] = -tension / size, -np.inf
+    bounds[-1] = 0.0, most
+    cost = np.zeros(2 * m + 1)
+    cost[-1] = -1.0
+    rough, strength = _friction(limits, weaker)
+    return linprog(
+        cost,
+        A_ub=rough,
+        b_ub=strength / size,
+        A_eq=equal,
+        b_eq=sides,
+        bounds=bounds,
+        method="highs-ipm",  # a fifth of the simplex method's seconds on 455 bonded blocks
+    )
 
 
 def _friction(limits: "Limits", weaker: float) -> tuple[csr_array, Floats]:
