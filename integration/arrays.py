@@ -1,5 +1,7 @@
 """Names of the array types that the three packages share."""
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
@@ -7,3 +9,8 @@ Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
 Bools = npt.NDArray[np.bool_]
 Index = npt.NDArray[np.int32]  # patterns of sparse matrices
+
+
+def same(one: npt.NDArray[Any], other: npt.NDArray[Any]) -> bool:
+    """Whether two arrays are one object, or as long as each other with the same entries."""
+    return one is other or (len(one) == len(other) and bool((one == other).all()))

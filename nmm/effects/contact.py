@@ -51,6 +51,8 @@ class Contact(Effect):
         What the last accepted step left.
     laws, partners
         Which laws act, and which points may meet.
+    exact
+        Whether nothing penetrates, so that speeds jump at an impact.
     geometry, momentum, solver
         Rows of contact points, what keeps momentum, and the solver of a problem;
         what solves is made in the first step.
@@ -62,8 +64,7 @@ class Contact(Effect):
     external = False
 
     def __init__(self, model: Model, parts: ContactParts, start: State) -> None:
-        self.laws, self.partners, self._exact = parts.laws, parts.partners, parts.enforcement.exact
-        self._cracks = parts.cracks
+        self.laws, self.partners, self.exact = parts.laws, parts.partners, parts.enforcement.exact
         sides = self.partners.sides
         book = follow_joints(
             sides.surface(start.frames, start.deformation),
@@ -123,8 +124,8 @@ class Contact(Effect):
             new._candidates,
             change.parentage,
             change.state,
-            new._cracks,
-            None if new._exact else new.laws.springs,
+            new._parts.cracks,
+            None if new.exact else new.laws.springs,
         )
         new._unbonded = new.record.book.broken - self.broken_bonds
         return new
@@ -235,11 +236,6 @@ class Contact(Effect):
         return rows.push(points.normal_force, points.shear_force)
 
     @property
-    def exact(self) -> bool:
-        """Whether nothing penetrates, so that speeds jump at an impact."""
-        return self._exact
-
-    @property
     def standing(self) -> ContactPoints:
         """The contact points that are known between two steps."""
         book, known = self.record.book, self.record.known
@@ -258,7 +254,7 @@ class Contact(Effect):
         """Energy of contacts as last committed (J); see `ContactSteps.energy`."""
         record = self.record
         joints = partial(self._candidates.joints, record.book, state)
-        return self.steps.energy(record, state, joints, self._exact)
+        return self.steps.energy(record, state, joints, self.exact)
 
     def pushes(self, state: State) -> Pushes:
         """See `Effect.pushes`: those on faces of cracks, as last committed."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats, Ints, same
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import DEPTH
 
@@ -71,9 +71,5 @@ class NeighbourList:
         """Whether the bodies are the same and no two points can have met by their motion."""
         from nmm.contact.detection.grid import spread
 
-        same = _equal(built.body, now.body) and _equal(built.next, now.next)
-        return same and spread(now.start, built.start) <= 0.5 * self.skin
-
-
-def _equal(one: Ints, other: Ints) -> bool:
-    return one is other or np.array_equal(one, other)
+        alike = same(built.body, now.body) and same(built.next, now.next)
+        return alike and spread(now.start, built.start) <= 0.5 * self.skin

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Floats, Ints
-from nmm.contact.problem.row_products import pushed
+from integration.arrays import Floats, Ints, same
+from nmm.contact.problem.row_products import compressed, pushed
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
 
@@ -135,9 +135,4 @@ class NullSpace(Transform):
 
 
 def _same(a: csr_array, b: csr_array) -> bool:
-    return (
-        a.shape == b.shape
-        and np.array_equal(a.data, b.data)
-        and np.array_equal(a.indices, b.indices)
-        and np.array_equal(a.indptr, b.indptr)
-    )
+    return a.shape == b.shape and all(map(same, compressed(a), compressed(b)))

@@ -5,13 +5,14 @@ from typing import Any
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Floats, Ints, same
 from integration.contraction import contract, every
 from nmm.contact.islands.partition import Islands
 from nmm.contact.iteration.options import MemoryOptions
 from nmm.contact.iteration.ways import Ways
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.matrix_pattern import SpringPattern
+from nmm.contact.problem.row_products import compressed
 from nmm.contact.problem.step_problem import Limits, StepAnswer, StepProblem
 from nmm.solvers.linear import Factor, LinearSolver
 
@@ -207,6 +208,5 @@ def _equal(a: Any, b: Any) -> bool:
     if isinstance(a, Limits):
         return all(_equal(x, getattr(b, name)) for name, x in vars(a).items())
     if isinstance(a, np.ndarray):
-        return len(a) == len(b) and bool((a == b).all())
-    parts = ("data", "indices", "indptr")
-    return all(np.array_equal(getattr(a, part), getattr(b, part)) for part in parts)
+        return same(a, b)
+    return all(map(same, compressed(a), compressed(b)))

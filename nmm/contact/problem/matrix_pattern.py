@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Floats, Index
+from integration.arrays import Floats, Index, same
 from nmm.compiled import compiled, place
 from nmm.contact.problem.step_problem import StepProblem
 from nmm.solvers.kernels.ascending import ascend, extended, place_of
@@ -78,8 +78,7 @@ class SpringPattern:
 
     def fits(self, problem: StepProblem) -> bool:
         """Whether ``problem`` has the matrix and row patterns this one was built from."""
-        pairs = zip(self.sources, _sources(problem), strict=True)
-        return all(old is new or _equal(old, new) for old, new in pairs)
+        return all(map(same, self.sources, _sources(problem)))
 
     def matrix(
         self, problem: StepProblem, normal: Floats, shear: Floats, mixed: Floats | None = None
@@ -109,10 +108,6 @@ class SpringPattern:
         ascending = np.arange(self.unknowns.size)
         pairs = self.normal_place, self.tangent_place
         return all(np.array_equal(places, ascending) for places in pairs)
-
-
-def _equal(old: npt.NDArray[Any], new: npt.NDArray[Any]) -> bool:
-    return len(old) == len(new) and bool((old == new).all())
 
 
 def _sources(problem: StepProblem) -> tuple[npt.NDArray[Any], ...]:

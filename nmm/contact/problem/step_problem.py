@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Bools, Floats, Ints, same
 from nmm.contact.problem.contact_state import ContactState
 from nmm.contact.problem.residual_kernel import weighted
 from nmm.contact.problem.row_products import Compressed, along, compressed
@@ -125,8 +125,7 @@ class StepProblem:
     def paired(self) -> bool:
         """Whether normal and tangent rows hold the same unknowns, entry by entry."""
         normal, tangent = self.normal_rows, self.tangent_rows
-        pairs = (normal.indptr, tangent.indptr), (normal.indices, tangent.indices)
-        return all(a is b or (len(a) == len(b) and bool((a == b).all())) for a, b in pairs)
+        return same(normal.indptr, tangent.indptr) and same(normal.indices, tangent.indices)
 
     def gaps(self, increment: Floats) -> Floats:
         """(m,) gaps at the end of the step."""
