@@ -61,7 +61,10 @@ class UnreleasedForces(Effect):
         self._points = forces.points(self._setup.model)
 
     def follow(self, change: "Change") -> "UnreleasedForces":
-        """Return the forces on the new model, on their way to the share of the new stage."""
+        """Return the forces on the new model, on their way to the share of the new stage.
+
+        What an event changes within a stage goes on on its way.
+        """
         new, known = UnreleasedForces(change.setup), self.forces
         elements = np.full(len(known), -1)
         for one in np.unique(self.region):  # blocks with faces that were laid bare
@@ -72,8 +75,10 @@ class UnreleasedForces(Effect):
         moved = Reactions(
             elements[stay], known.position[stay], known.force[stay], new.forces.beside
         )
-        begin, released = self.last[stay], _released(change.setup)
-        goal = begin if released is None else np.full(len(begin), 1.0 - released)
+        begin, goal, released = self.first[stay], self.last[stay], _released(change.setup)
+        if change.setup.acting is not change.before.acting:
+            begin = goal
+            goal = begin if released is None else np.full(len(begin), 1.0 - released)
         new._take(moved, self.region[stay], begin, goal)
         return new
 

@@ -154,23 +154,15 @@ def _lay(formulation: Formulation, model: Model, plan: Plan) -> Lay | None:
 
 
 def _refuse_events(scene: "Scene", plan: "Plan") -> None:
-    """Refuse effects that may change a geometry which shares of forces or a control are of.
+    """Refuse effects that may change a geometry which a control is of.
 
     Raises
     ------
     SceneError
         Naming the effects.
     """
-    controlled = scene.loading is not None and scene.loading.control is not None
     off_path = [name for name in plan.askers if not plan.effects[name].on_paths]
-    released = [number for number, one in enumerate(scene.stages) if one.release is not None]
-    beside: dict[tuple[str | int, ...], list[str]] = {
-        ("stages", *released[:1], "release"): list(plan.askers) if released else [],
-        ("loading", "control"): off_path if controlled else [],
-    }
-    for key, askers in beside.items():
-        if askers:
-            place, names = scene.source.place(*key), ", ".join(askers)
-            word = key[-1] if released else ".".join(map(str, key))
-            expected = "blocks and cracks that no event changes"
-            raise SceneError(Fault(place, names, expected, f"remove it, or {word}"))
+    if off_path and scene.loading is not None and scene.loading.control is not None:
+        place, names = scene.source.place("loading", "control"), ", ".join(off_path)
+        expected = "blocks and cracks that no event changes"
+        raise SceneError(Fault(place, names, expected, "remove it, or loading.control"))

@@ -26,5 +26,5 @@ def out_of_balance(plan: Plan, change: "Change") -> Floats:
     else:
         found -= product(model.stiffness, state.deformation)
     if plan.contact is not None:
-        found += plan.contact.push(state)
+        found -= plan.contact.push(state)
     return found
