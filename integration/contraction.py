@@ -11,3 +11,5 @@ contract = c_einsum
 """`numpy.einsum` without choices: ``contract("mij,mj->mi", matrices, vectors)``."""
 some, every = np.logical_or.reduce, np.logical_and.reduce
 """`any` and `all` along the first axis: of vectors, what their methods say by three calls."""
+largest, least = np.maximum.reduce, np.minimum.reduce
+"""`max` and `min` of vectors, likewise."""

@@ -82,10 +82,10 @@ class Interface:
 
     def spread(self, state: State, forces: Floats) -> Floats:
         """Return what forces (m, 2) in N on the first side, against the second, do on unknowns."""
-        total = np.zeros(len(state.deformation))
-        for sign, side in zip((1.0, -1.0), self.sides, strict=False):
-            total += side.points.push(state, sign * self.held * forces)
-        return total
+        pushed = self.first.points.push(state, self.held * forces)
+        if self.second is None:
+            return pushed
+        return pushed - self.second.points.push(state, self.held * forces)
 
     def turned(self, state: State) -> Floats:
         """Rotations (m, 2, 2) from the reference place: half way between those of both sides."""

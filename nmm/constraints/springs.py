@@ -63,6 +63,8 @@ class Springs(Imposition):
 
     def point_forces(self, state: State, jump: Floats) -> Floats:
         """See `Imposition.point_forces`."""
+        if self.stiffness.ndim == 1:
+            return np.asarray(-(self.stiffness[:, None] * jump))
         return -self._pulled(state, jump[:, :, None])[:, :, 0]
 
     def energy(self, state: State, jump: Floats) -> float:

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from integration.contraction import some
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Instant, Setup
@@ -37,7 +38,7 @@ class Inertia(Effect):
     def force(self, state: State, end: Instant) -> Floats:
         """Return the centrifugal force of the rotation at the start of the step."""
         spin = self.spin(state)
-        if not (self._axes_turn and spin.any()):
+        if not (self._axes_turn and some(spin)):
             return np.zeros(self._model.manifold.n_unknowns)
         return product(self.mass, product(self._model.manifold.stretch_modes, spin**2))
 

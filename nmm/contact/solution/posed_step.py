@@ -91,7 +91,7 @@ class Posing:
         springs = _weighted(weight, iteration.before.rise, problem, contacts, request.foreseen)
         late = None if request.step is None else LateCohesion.of(problem.limits, contacts)
         dashpots = self._dashpots(contacts, problem, request.step)
-        raised = RaisedFaces(response.rise) if response.rise.any() else None
+        raised = RaisedFaces(response.rise) if some(response.rise) else None
         transforms = [late, springs, dashpots, raised, iteration.asymmetric]
         given = [one for one in transforms if one is not None]
         return PosedStep(problem, [*given, *more], springs, dashpots, weight)

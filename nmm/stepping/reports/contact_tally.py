@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from integration.contraction import largest, least
 from nmm.assembly.motion import State
 from nmm.frozen import with_parts
 from nmm.stepping.reports.totals import Totals
@@ -25,11 +26,11 @@ def tallied(
     contact, deepest, after = stepper.plan.contact, totals.deepest, attempt.state
     assert contact is not None
     gap = contacts.distance
-    overlap = -float(gap.min(initial=0.0))
-    turned = float(np.abs(after.frames.angle - before.frames.angle).max(initial=0.0))
+    overlap = ends = -float(least(gap, initial=0.0))
+    turned = float(largest(np.abs(after.frames.angle - before.frames.angle), initial=0.0))
     if turned * attempt.motion > MIDPOINT_GAPS * overlap:  # gaps are solved along straight ways
         gap = contact.gaps(contacts, before, after)
-    ends = -float(gap.min(initial=0.0))
+        ends = -float(least(gap, initial=0.0))
     if ends > totals.overlap:
         deepest = _pair(stepper, contacts, int(gap.argmin()), after.time)
     tally = np.bincount(contacts.state, minlength=len(NAMES)).tolist()

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
-from integration.contraction import contract
+from integration.contraction import contract, largest
 from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.kinematics import Kinematics
 from nmm.assembly.model import Model
@@ -67,7 +67,7 @@ class Mover:
             moved = self.moved(self._faster(equations, increment, push), increment)
             moved = with_parts(moved, time=end.time, load_factor=end.load_factor)
             way = self.place(moved) - self.place(state)
-            motion = float(np.sqrt(np.maximum.reduce(contract("ij,ij->i", way, way))))
+            motion = float(np.sqrt(largest(contract("ij,ij->i", way, way))))
         return Attempt(True, "converged", moved, increment, motion, 0.0, 1)
 
     def place(self, state: State) -> Floats:
