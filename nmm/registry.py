@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
 from difflib import get_close_matches
 from importlib import import_module
-from importlib.metadata import entry_points
 from inspect import isabstract
 from pathlib import Path
 from types import ModuleType
@@ -145,9 +144,11 @@ class Registry(Generic[Part]):
 
     def installed(self) -> dict[str, str]:
         """Return the names that installed packages offer, and what they stand for."""
+        from importlib import metadata  # which most scenes need not wait for
+
         return {
             entry.name: entry.value
-            for entry in entry_points(group=f"nmm.{self.kind.replace(' ', '_')}")
+            for entry in metadata.entry_points(group=f"nmm.{self.kind.replace(' ', '_')}")
         }
 
 

@@ -9,9 +9,10 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
+from types import ModuleType
 from typing import Any
 
-UNUSED = frozenset({"ctypeslib", "f2py", "testing"})
+UNUSED = frozenset({"char", "core", "ctypeslib", "f2py", "rec", "strings", "testing"})
 """Parts of numpy that are imported when they are asked for, as scipy asks for all that it finds."""
 
 
@@ -46,8 +47,15 @@ def late_methods() -> None:
 
 
 def without_plugins() -> None:
-    """Keep pydantic from looking for plugins in all packages that are installed."""
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    """Keep pydantic from looking for plugins in all packages that are installed.
+
+    It would import what reads their metadata before it asks whether it may look.
+    """
+    name = "pydantic.plugin._loader"
+    if os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__") == "__all__":
+        loader = ModuleType(name)
+        loader.get_plugins = tuple  # type: ignore[attr-defined]  # none
+        sys.modules.setdefault(name, loader)
 
 
 @contextmanager

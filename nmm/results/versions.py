@@ -3,7 +3,6 @@
 import platform
 from contextlib import suppress
 from functools import cache
-from importlib import metadata
 
 PACKAGES = ("nmm-framework", "numpy", "scipy", "scikit-fem", "shapely", "numba")
 # Those that change an answer by rounding where they are installed.
@@ -18,6 +17,8 @@ def installed_versions() -> dict[str, str]:
 @cache
 def _installed_versions() -> dict[str, str]:
     """Return them as read from the files of all packages, once."""
+    from importlib import metadata  # a check asks for no versions
+
     found = {"python": platform.python_version()}
     for name in PACKAGES:
         try:

@@ -4,6 +4,7 @@ import base64
 import re
 import sys
 import tomllib
+from importlib import metadata
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
@@ -12,7 +13,6 @@ import pytest
 from typer.testing import CliRunner
 
 import nmm
-from nmm import registry
 from nmm.cli.app import app
 from nmm.results import read_run
 from nmm.results.viewing.paraview import write_paraview
@@ -210,7 +210,7 @@ def test_an_installed_package_offers_an_effect_by_name(done, monkeypatch):
         entry = EntryPoint("winkler", "foundation:Winkler", group)
         return [entry] if group == "nmm.effect" else []
 
-    monkeypatch.setattr(registry, "entry_points", offered)
+    monkeypatch.setattr(metadata, "entry_points", offered)
     monkeypatch.syspath_prepend(str(RAFT.parent))
     text = RAFT.read_text().replace("foundation:Winkler", "winkler")
     run = nmm.run(nmm.parse_scene(text.replace(', "steepness:Tilt"', "")))

@@ -3,6 +3,7 @@
 import dataclasses
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -69,3 +70,22 @@ def test_matplotlib_is_imported_without_axes_in_space_and_is_whole_afterwards():
     code = [sys.executable, "-W", "error", "-c", PICTURED]
     ended = subprocess.run(code, capture_output=True, text=True, check=True)
     assert ended.stdout.splitlines() == ["False True", "once", "True"]
+
+
+LOOKED = """
+import sys
+from pathlib import Path
+from nmm.cli.app import app
+try:
+    app(["check", sys.argv[1]])
+except SystemExit as ended:
+    print(ended.code, "importlib.metadata" in sys.modules)
+"""
+
+
+def test_a_check_reads_no_metadata_of_packages():
+    scene = Path(__file__).parents[3] / "examples/incline/slide.toml"
+    ended = subprocess.run(
+        [sys.executable, "-c", LOOKED, str(scene)], capture_output=True, text=True, check=True
+    )
+    assert ended.stdout.splitlines()[-1] == "0 False"

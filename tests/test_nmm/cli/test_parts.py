@@ -1,12 +1,12 @@
 """`nmm parts`: all that can be exchanged, from whom it comes, in a line each."""
 
+from importlib import metadata
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
-from nmm import registry
 from nmm.catalogue import REGISTRIES, parts
 from nmm.cli.app import app
 
@@ -62,7 +62,7 @@ def test_parts_of_installed_packages_are_listed(monkeypatch, target):
     def offered(group):
         return [EntryPoint("offered", target, group)] if group == "nmm.output" else []
 
-    monkeypatch.setattr(registry, "entry_points", offered)
+    monkeypatch.setattr(metadata, "entry_points", offered)
     (one,) = [item for item in parts() if item.origin == "entry point"]
     assert (one.kind, one.name) == ("output", "offered")
     assert one.says == (
