@@ -120,9 +120,9 @@ class Matter:
         strain, initial = self.points.strain(deformation), history.get(INITIAL)
         whole = strain if initial is None else strain + initial
         stress, tangent = np.empty_like(strain), np.empty((len(strain), 3, 3))
-        after = {name: value.copy() for name, value in history.items() if name != INITIAL}
-        for number, law in enumerate(self.laws):  # a handful of laws
-            at = np.flatnonzero(self.law == number)
+        # All but the stress, which is given anew.
+        after = {name: history[name].copy() for name in history if name not in (INITIAL, STRESS)}
+        for law, at in self._points:
             answer = law.update(whole[at], self._own(law, history, at), self.plane, step)
             stress[at], tangent[at] = answer.stress, answer.tangent
             for name, value in answer.history.items():
@@ -177,8 +177,7 @@ class Matter:
         if initial is not None:
             whole = whole + self._initial(initial)
         density = np.zeros(len(whole))
-        for number, law in enumerate(self.laws):
-            at = np.flatnonzero(self.law == number)
+        for law, at in self._points:
             density[at] = law.energy(whole[at], self._own(law, history, at), self.plane)
         if initial is not None:
             strain = self.points.strain(deformation) + initial / 2
@@ -207,10 +206,17 @@ class Matter:
         at = nearest(self.points.rule, elements, points)
         return np.where(at[:, None] < 0, np.nan, history[STRESS][at])
 
-    def _own(self, law: Law, history: History, at: Ints) -> dict[str, Floats]:
-        """Return the variables of a law at its points."""
+    @cached_property
+    def _points(self) -> list[tuple[Law, Ints | slice]]:
+        """The laws and their points: of one law all of them, which copies nothing."""
+        if len(self.laws) == 1:
+            return [(self.laws[0], slice(None))]
+        return [(law, np.flatnonzero(self.law == k)) for k, law in enumerate(self.laws)]
+
+    def _own(self, law: Law, history: History, at: Ints | slice) -> dict[str, Floats]:
+        """Return the variables of a law at its points, for it to change as it likes."""
         widths = law.variables(self.plane)
-        return {name: history[name][at, : len(value)] for name, value in widths.items()}
+        return {name: np.array(history[name][at, : len(value)]) for name, value in widths.items()}
 
     def _initial(self, strain: Floats) -> Floats:
         return np.asarray(np.einsum("qij,qj->qi", self.elastic, strain))

@@ -53,6 +53,11 @@ def radial_return(
     size = np.sqrt(1.5) * norm
     limit = yields + hardens * accumulated
     flows = size > limit * (1 + BEYOND)
+    elastic_tangent = bulk * np.outer(VOLUME, VOLUME) + 2 * shear * DEVIATOR
+    if not flows.any():
+        stress = trial + bulk * volume[:, None] * np.array([1, 1, 0, 1])
+        tangent = np.broadcast_to(elastic_tangent, (len(strain), 3, 3))
+        return Returned(stress, tangent, plastic, accumulated)
     more = np.where(flows, (size - limit) / (3 * shear + hardens), 0.0)
     way = trial / np.where(norm > 0, norm, 1.0)[:, None]
     left = 1 - 3 * shear * more / np.where(flows, size, 1.0)
