@@ -18,9 +18,20 @@ def rigid_masses(model: Model) -> Floats:
 def rigid_momenta(model: Model, state: State) -> Floats:
     """Momentum x, y (N s) of each body (B, 3) in its axes, and angular momentum (N m s).
 
-    About the centroid where it was laid: of bodies that bend by any angle see `momenta`.
+    About the centroid where it was laid: of bodies that bend by any angle see `own_momenta`.
     """
     return np.asarray(model.manifold.rigid_modes.T @ (model.mass @ state.velocity)).reshape(-1, 3)
+
+
+def own_momenta(model: Model, state: State, finite: bool) -> Floats:
+    """Momentum x, y (N s) of each body (B, 3) in its axes, and angular momentum (N m s).
+
+    About where the frames' centres are; ``finite`` says whether bodies bend by any angle, so that
+    it counts where their deformation has brought them.
+    """
+    if not finite:
+        return rigid_momenta(model, state)
+    return np.asarray(momenta(model, state.deformation) @ state.velocity).reshape(-1, 3)
 
 
 def momenta_about(state: State, own: Floats, about: Floats) -> tuple[Floats, Floats]:
@@ -33,9 +44,9 @@ def momenta_about(state: State, own: Floats, about: Floats) -> tuple[Floats, Flo
     return pushed, arm[:, 0] * pushed[:, 1] - arm[:, 1] * pushed[:, 0] + own[:, 2]
 
 
-def whole_momentum(model: Model, state: State, about: Floats) -> Floats:
+def whole_momentum(model: Model, state: State, about: Floats, finite: bool = False) -> Floats:
     """Momentum x, y (N s) and angular momentum about a point (N m s) of all bodies (3,)."""
-    linear, angular = momenta_about(state, rigid_momenta(model, state), about)
+    linear, angular = momenta_about(state, own_momenta(model, state, finite), about)
     return np.array([*linear.sum(axis=0), angular.sum()])
 
 

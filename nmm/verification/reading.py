@@ -31,7 +31,8 @@ def rates(run: "Run") -> Floats:
 
 def momentum(run: "Run") -> Floats:
     """Momentum x, y (N s) and angular momentum about the origin (N m s) of all bodies (3,)."""
-    return whole_momentum(run.stepper.model, run.state, np.zeros(2))
+    stepper = run.stepper
+    return whole_momentum(stepper.model, run.state, np.zeros(2), stepper.kinematics.finite)
 
 
 def masses(run: "Run") -> Floats:

@@ -4,7 +4,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.polygons import areas
-from nmm.assembly.momenta import momenta, momenta_about, rigid_masses, rigid_momenta
+from nmm.assembly.momenta import momenta_about, own_momenta, rigid_masses
 from nmm.assembly.motion import State
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.step.stepper import Stepper
@@ -79,9 +79,5 @@ def _typical(stepper: Stepper, state: State) -> Floats:
 
 def _of_bodies(stepper: Stepper, state: State) -> tuple[Floats, Floats]:
     """Momentum (B, 2) and angular momentum (B,) about the middle of the domain."""
-    model = stepper.model
-    if stepper.kinematics.finite:
-        own = np.asarray(momenta(model, state.deformation) @ state.velocity).reshape(-1, 3)
-    else:
-        own = rigid_momenta(model, state)
+    own = own_momenta(stepper.model, state, stepper.kinematics.finite)
     return momenta_about(state, own, stepper.reference.mean(axis=0))
