@@ -24,6 +24,7 @@ from nmm.contact.points.continued.tracking import (
     answered,
     continued,
     continues,
+    pushing_on,
     remember,
     searched_points,
 )
@@ -77,11 +78,11 @@ class Candidates:
             points = continued(record.known, found)
             points = counted_on(self._geometry.measured(points, state))
         else:
-            found, points = self._anew(record, state, found)
+            found, points = self._anew(record, state, found, step is not None)
         return found, concatenate([joints, points])
 
     def _anew(
-        self, record: ContactRecord, state: State, found: Contacts
+        self, record: ContactRecord, state: State, found: Contacts, in_time: bool
     ) -> tuple[Contacts, ContactPoints]:
         """Return those of the found contacts that may be, and their points."""
         surface = self.partners.surface(state)
@@ -92,8 +93,13 @@ class Candidates:
         new = searched_points(found, interface, self._laws.initial(interface, loose), surface)
         if self._laws.stiff:
             new = sized(self._laws, new, surface)
+        before = np.full(len(new), -1, dtype=np.int64)
+        if record.found is not None and record.known is not None:
+            before = follow(record.found, found)
+            if in_time and len(record.known):
+                new, before = pushing_on(new, record.known, before, surface)
         new = self._geometry.measured(new, state)
-        return found, self._followed(record, new, found)
+        return found, self._followed(record, new, before, in_time)
 
     def joints(self, book: JointBook, state: State) -> ContactPoints:
         """Return the contact points of joints as they stand."""
@@ -155,15 +161,14 @@ class Candidates:
         return after, concatenate([done, book.lost])
 
     def _followed(
-        self, record: ContactRecord, new: ContactPoints, found: Contacts
+        self, record: ContactRecord, new: ContactPoints, before: Ints, in_time: bool
     ) -> ContactPoints:
-        """Return found points with what the last accepted step left, and gaps as they count."""
-        before = np.full(len(new), -1, dtype=np.int64)
-        if record.found is not None and record.known is not None:
-            before = follow(record.found, found)
+        """Return points with what the ones ``before`` (m,) them left, and gaps as they count."""
+        if record.known is not None:
             new = remember(new, record.known, before)
         stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
-        new = counted(new, record.known, before, stiffness, body, record.book.left)
+        left = record.book.left
+        new = counted(new, record.known, before, stiffness, body, left, in_time)
         if self._keeps_energy and record.known is not None:
             return kept_energy(new, record.known, stiffness, body)
         return new
