@@ -208,15 +208,22 @@ def _measured(
     key: Ints,
     length: Floats,
 ) -> FaceContacts:
-    """Contacts of two places, with normal and gap where the surface is."""
+    """Contacts of two places, with normal and gap where the surface is.
+
+    Inside an overlap the normal is the mean of both edges': neither is the first.
+    """
     (v, s), (e, t) = side_a, side_b
     apart = surface.at(v, s) - surface.at(e, t)
+    normal = surface.normal[e]
+    if (kind == FACE).all():
+        normal = normal - surface.normal[v]
+        normal = normal / np.hypot(*normal.T)[:, None]
     return FaceContacts(
         vertex=v,
         edge=e,
         parameter=t,
-        normal=surface.normal[e],
-        gap=dot(apart, surface.normal[e]),
+        normal=normal,
+        gap=dot(apart, normal),
         kind=kind,
         key=key,
         body=surface.body[e],

@@ -8,7 +8,7 @@ are.
 import numpy as np
 
 from covers.approximation.rows import Rows
-from integration.arrays import Floats
+from integration.arrays import Floats, Ints
 from integration.contraction import contract
 from nmm.assembly.motion import MaterialPoints, State
 from nmm.contact.points.boundary_points import Sides
@@ -18,10 +18,10 @@ Line = tuple[MaterialPoints, MaterialPoints]
 """Head and tail of vectors that move with the material."""
 
 
-def face_lines(sides: Sides, points: ContactPoints) -> Line:
-    """Return the lines (m,) along side b at the points; as long as their edges where drawn."""
-    boundary, edge = sides.manifold.boundary, points.edge_b
-    place, body = boundary.at(edge, points.parameter_b), sides.start.body[edge]
+def face_lines(sides: Sides, edge: Ints, parameter: Floats) -> Line:
+    """Return the lines (m,) along faces at points of edges; as long as their edges where drawn."""
+    boundary = sides.manifold.boundary
+    place, body = boundary.at(edge, parameter), sides.start.body[edge]
     along = boundary.end[edge] - boundary.start[edge]
     unknowns, slopes = sides.manifold.gradient_rows(boundary.element[edge], place)
     values = contract("mcjl,mj->mcl", slopes, along)
@@ -33,13 +33,25 @@ def face_lines(sides: Sides, points: ContactPoints) -> Line:
 def bent_normals(sides: Sides, points: ContactPoints, state: State) -> Floats:
     """Return the normals (m, 2) of points, turned by as much as side b is bent from its chord.
 
-    At the tip of a crack strain has no bound and no direction: where it would turn them by more
-    than 45 degrees they stay across the chord.
+    Inside a stretch of two faces by the mean of both sides': neither is the first. At the tip of
+    a crack strain has no bound and no direction: where it would turn them by more than 45 degrees
+    they stay across the chord.
     """
-    edge, place = points.edge_b, (state.frames, state.deformation)
-    lines = (sides.end.take(edge), sides.start.take(edge)), face_lines(sides, points)
+    normal = _bent(sides, points.normal, (points.edge_b, points.parameter_b), state)
+    (inside,) = (points.parameter_a > 0).nonzero()
+    if len(inside):
+        at = points.edge_a[inside], points.parameter_a[inside]
+        mean = normal[inside] + _bent(sides, points.normal[inside], at, state)
+        normal[inside] = mean / np.hypot(*mean.T)[:, None]
+    return normal
+
+
+def _bent(sides: Sides, normal: Floats, side: tuple[Ints, Floats], state: State) -> Floats:
+    """Normals (m, 2) turned by as much as faces are bent from their chords at points of edges."""
+    place = state.frames, state.deformation
+    lines = (sides.end.take(side[0]), sides.start.take(side[0])), face_lines(sides, *side)
     chord, line = (head.place(*place) - tail.place(*place) for head, tail in lines)
-    return turned(points.normal, chord, line)
+    return turned(normal, chord, line)
 
 
 def turned(vectors: Floats, start: Floats, end: Floats) -> Floats:

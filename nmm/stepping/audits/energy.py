@@ -113,7 +113,11 @@ def _cause(run: Ended) -> str:
             f'it came from the integrator "{run.formulation.integrator.type}": take smaller steps, '
             "or one without gain"
         )
-    return "take smaller steps and compare"
+    smaller = "take smaller steps and compare"
+    if run.stepper.kinematics.finite:
+        return smaller
+    # Supports and loads act on the body as it was laid: an exchange that no step makes smaller.
+    return f'{smaller}; if they change nothing, bodies bend too far: [rotation] update = "finite"'
 
 
 def _lost(run: Ended) -> Findings:
