@@ -6,7 +6,7 @@ Joints (shared edges whose interface has strength or stiffness) are followed fro
 import numpy as np
 from scipy.sparse import csr_array
 
-from integration.arrays import Ints
+from integration.arrays import Bools, Ints
 from nmm.assembly.motion import State
 from nmm.contact.candidates.held_back import Crossed, held_back, joined, pushing
 from nmm.contact.candidates.partners import Partners
@@ -18,7 +18,7 @@ from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.failing_bonds import strength
 from nmm.contact.laws.found_contacts import sized
 from nmm.contact.points.contact_points import ContactPoints, concatenate
-from nmm.contact.points.continued.kept_energy import kept_energy
+from nmm.contact.points.continued.kept_energy import kept_energy, no_more_energy
 from nmm.contact.points.continued.reference_gap import counted, counted_on
 from nmm.contact.points.continued.tracking import (
     answered,
@@ -93,13 +93,30 @@ class Candidates:
         new = searched_points(found, interface, self._laws.initial(interface, loose), surface)
         if self._laws.stiff:
             new = sized(self._laws, new, surface)
-        before = np.full(len(new), -1, dtype=np.int64)
+        before, lasting = np.full(len(new), -1, dtype=np.int64), self._lasting(new, in_time)
         if record.found is not None and record.known is not None:
             before = follow(record.found, found)
             if in_time and len(record.known):
-                new, before = pushing_on(new, record.known, before, surface)
+                new, before = pushing_on(new, record.known, before, surface, lasting)
         new = self._geometry.measured(new, state)
-        return found, self._followed(record, new, before, in_time)
+        new = self._followed(record, new, before, lasting)
+        if in_time and self._laws.stiff and record.known is not None:
+            new = self._without_gain(record, new)
+        return found, new
+
+    def _without_gain(self, record: ContactRecord, new: ContactPoints) -> ContactPoints:
+        """Return points that hold no more than those of the record, joints that were left too."""
+        assert record.known is not None
+        stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
+        return no_more_energy(new, concatenate([record.book.left, record.known]), stiffness, body)
+
+    def _lasting(self, points: ContactPoints, in_time: bool) -> Bools:
+        """Which springs (m,) are to stay as they are while they push: those in time hold energy.
+
+        Stretches of faces that have a stiffness by area keep to their area.
+        """
+        by_area = self._laws.has_stiffness[points.interface] & (points.length > 0)
+        return np.asarray(in_time & ~by_area)
 
     def joints(self, book: JointBook, state: State) -> ContactPoints:
         """Return the contact points of joints as they stand."""
@@ -161,14 +178,14 @@ class Candidates:
         return after, concatenate([done, book.lost])
 
     def _followed(
-        self, record: ContactRecord, new: ContactPoints, before: Ints, in_time: bool
+        self, record: ContactRecord, new: ContactPoints, before: Ints, lasting: Bools
     ) -> ContactPoints:
         """Return points with what the ones ``before`` (m,) them left, and gaps as they count."""
         if record.known is not None:
             new = remember(new, record.known, before)
         stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
         left = record.book.left
-        new = counted(new, record.known, before, stiffness, body, left, in_time)
+        new = counted(new, record.known, before, stiffness, body, left, lasting)
         if self._keeps_energy and record.known is not None:
             return kept_energy(new, record.known, stiffness, body)
         return new

@@ -157,7 +157,12 @@ class ContactLaws:
     @cached_property
     def stiff(self) -> bool:
         """Whether any law has a stiffness of its own."""
-        return any(law.normal_stiffness is not None for law in self.laws)
+        return bool(self.has_stiffness.any())
+
+    @cached_property
+    def has_stiffness(self) -> Bools:
+        """(n,) whether each law has a stiffness of its own."""
+        return np.array([law.normal_stiffness is not None for law in self.laws], dtype=bool)
 
     def energy(self, contacts: ContactPoints, own_only: bool = False) -> float:
         """Energy (J) that comes back when the contacts are unloaded, but for bonds that are tied.

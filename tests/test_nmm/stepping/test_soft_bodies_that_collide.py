@@ -40,7 +40,7 @@ def turned_square(degrees):
     angle = np.radians(degrees)
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     corners = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]]) @ turn.T
-    return (corners + [0.749 - corners[:, 0].max(), 0.0]).tolist()
+    return (corners + np.array([0.749 - corners[:, 0].max(), 0.0])).tolist()
 
 
 @pytest.mark.parametrize(
@@ -53,8 +53,20 @@ def turned_square(degrees):
     ],
 )
 def test_springs_over_faces_make_no_energy_at_any_angle(degrees, cover):
+    collide(degrees, cover)
+
+
+@pytest.mark.parametrize("degrees", [3, 10])
+def test_joints_stiff_by_area_make_no_energy_as_the_area_grows(degrees):
+    law = 'friction_angle = "20 deg"\nnormal_stiffness = 2e7\nshear_stiffness = 1e7'
+    scene = SCENE.replace('friction_angle = "20 deg"', law)
+    collide(degrees, 'type = "triangles"\nsize = 0.25\ndegree = 1', scene)
+
+
+def collide(degrees, cover, text=SCENE):
+    """Check that a collision makes no energy beyond what the integrator exchanges."""
     formulation = f'[cover]\n{cover}\n[integrator]\ntype = "newmark"\nstep = 1e-3\n'
-    scene = parse_scene(SCENE.format(flying=turned_square(degrees)))
+    scene = parse_scene(text.format(flying=turned_square(degrees)))
     run = nmm.run(scene, parse_formulation(formulation))
     kinds = ("kinetic_energy", "strain_energy", "contact_energy")
     energy = sum(run.history[kind] for kind in kinds)

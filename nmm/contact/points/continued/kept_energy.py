@@ -1,4 +1,4 @@
-"""What springs store goes on in those beside them where contacts end: none is lost with a corner.
+"""What springs store goes on in those beside them where contacts end or become others.
 
 A corner that leaves the end of an edge, or that becomes one with another corner, takes its spring
 with it. The springs that still push between the same two bodies are stretched by one factor, so
@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.of_neighbours import matched
 from nmm.frozen import with_parts
@@ -26,13 +26,49 @@ def kept_energy(
 
     Gaps of both are counted from their references; ``body`` (E,) is of the boundary edges.
     """
+    held, left, pair = _energies(new, old, stiffness, body)
+    return _stretched(new, _ratio(held, left, (left > 0) & (left < held))[pair])
+
+
+def no_more_energy(
+    new: ContactPoints,
+    old: ContactPoints,
+    stiffness: Callable[[ContactPoints], Floats],
+    body: Ints,
+) -> ContactPoints:
+    """Return new points that hold no more than the old ones between every two bodies.
+
+    Springs whose stiffness is one by area grow with the area, with no work that pays for it: what
+    they hold of slip falls by the same factor.
+    """
+    held, left, pair = _energies(new, old, stiffness, body)
+    factor = _ratio(held, left, left > held)[pair]
+    return with_parts(_stretched(new, factor), slip=factor * new.slip)
+
+
+def _energies(
+    new: ContactPoints,
+    old: ContactPoints,
+    stiffness: Callable[[ContactPoints], Floats],
+    body: Ints,
+) -> tuple[Floats, Floats, Ints]:
+    """Energy (J) of old and of new springs between two bodies, and whose (m,) the new ones are."""
     parts, pairs = (old, new), matched(old, new, body)
     count = 1 + int(max(pair.max(initial=0) for pair in pairs))
+    energies = (stiffness(part) / 2 * np.minimum(part.gap, 0.0) ** 2 for part in parts)
     held, left = (
-        np.bincount(pair, stiffness(part) / 2 * np.minimum(part.gap, 0.0) ** 2, count)
-        for part, pair in zip(parts, pairs, strict=True)
+        np.bincount(pair, energy, count).astype(float)
+        for pair, energy in zip(pairs, energies, strict=True)
     )
-    lost = (left > 0) & (left < held)
-    factor = np.sqrt(np.divide(held, left, out=np.ones(count), where=lost))[pairs[1]]
-    more = (factor - 1) * np.minimum(new.gap, 0.0)
-    return with_parts(new, gap=new.gap + more, reference=new.reference - more)
+    return held, left, pairs[1]
+
+
+def _ratio(held: Floats, left: Floats, chosen: Bools) -> Floats:
+    """Factor of stretches with which chosen springs hold as much as was held; else 1."""
+    return np.asarray(np.sqrt(np.divide(held, left, out=np.ones(len(held)), where=chosen)))
+
+
+def _stretched(points: ContactPoints, factor: Floats) -> ContactPoints:
+    """Return points whose springs are stretched by a factor (m,) of what they are."""
+    more = (factor - 1) * np.minimum(points.gap, 0.0)
+    return with_parts(points, gap=points.gap + more, reference=points.reference - more)

@@ -3,9 +3,9 @@
 Search may find a vertex already inside a body: two corners have passed each other, or the scene
 began so. A spring that entered loaded would push with energy from nowhere. Such a contact counts
 its gap from what it was when it appeared, its *reference*. A contact that continues another one, at
-the corner of a body or on the next body, takes over the stretch of that one's spring, and in statics
-a stretch of two faces that are pressed together already is pressed like its neighbours. What is
-found in place of a joint that has slid apart is pressed as the joint was.
+the corner of a body or on the next body, takes over the stretch of that one's spring, and unless
+springs are lasting a stretch of two faces that are pressed together already is pressed like its
+neighbours. What is found in place of a joint that has slid apart is pressed as the joint was.
 
 The reference recovers without work: when the contact opens, what is left of the overlap becomes the
 new reference, and it never grows again.
@@ -15,7 +15,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.of_neighbours import beside, found_for, in_place_of
 from nmm.frozen import with_parts
@@ -28,7 +28,7 @@ def counted(
     stiffness: Callable[[ContactPoints], Floats],
     body: Ints,
     left: ContactPoints,
-    in_time: bool = False,
+    lasting: Bools,
 ) -> ContactPoints:
     """Return new points with gaps counted from their references.
 
@@ -46,8 +46,8 @@ def counted(
         (E,) of the boundary edges.
     left
         Points of joints that the last step gave up, with gap and slip as it left them (m).
-    in_time
-        Whether energy counts: then a new stretch is not pressed.
+    lasting
+        (m,) springs that stay as they are while they push: a new stretch of these is not pressed.
     """
     reference = np.minimum(new.gap, 0.0)
     known, on_face = predecessor >= 0, new.length > 0
@@ -60,8 +60,8 @@ def counted(
             giver, taker = old.take(source[handed]), new.take(handed)
             stretch = _passed_on(giver.gap, stiffness(giver) / stiffness(taker))
             reference[handed] = _from_stretch(taker.gap, stretch)
-        born = np.flatnonzero(~known & on_face & (new.gap < 0))
-        if len(born) and not in_time:
+        born = np.flatnonzero(~known & on_face & (new.gap < 0) & ~lasting)
+        if len(born):
             taker = new.take(born)
             reference[born] = _from_stretch(taker.gap, beside(taker, old, body))
     if len(left):

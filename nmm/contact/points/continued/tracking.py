@@ -73,33 +73,33 @@ def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> Conta
 
 
 def pushing_on(
-    new: ContactPoints, old: ContactPoints, predecessor: Ints, surface: Surface
+    new: ContactPoints, old: ContactPoints, predecessor: Ints, surface: Surface, lasting: Bools
 ) -> tuple[ContactPoints, Ints]:
     """Return new points with those that push as stiff as they were, inside faces also in place.
 
     Springs of stretches are as stiff as these are long, and points inside a stretch move with its
-    ends. Both change as bodies turn and slide, with no work that pays for it. So in time a spring
-    that pushes is one of the material until it opens, and inside a face it continues (m,) nothing
-    that was open.
+    ends. Both change as bodies turn and slide, with no work that pays for it. So a spring that
+    pushes and is ``lasting`` (m,) is one of the material until it opens, and inside a face it
+    continues (m,) nothing that was open.
     """
     source = np.where(predecessor >= 0, predecessor, 0)
-    pushes = (predecessor >= 0) & ((old.gap < 0) | (old.normal_force != 0))[source]
+    pushes = (predecessor >= 0) & ((old.gap < 0) | (old.normal_force != 0))[source] & lasting
     factor = np.where(pushes, old.spring_factor[source], new.spring_factor)
     if not np.array_equal(factor, new.spring_factor):
         new = with_parts(new, spring_factor=factor)
-    inside = new.parameter_a > 0
-    predecessor = np.where(inside & ~pushes, -1, predecessor)
-    inside = np.flatnonzero(inside & pushes & (old.key[source] == new.key))
+    within = new.parameter_a > 0
+    predecessor = np.where(within & ~pushes & lasting, -1, predecessor)
+    inside = np.flatnonzero(within & pushes & (old.key[source] == new.key))
     if not len(inside):
         return new, predecessor
     edge, place = new.edge_b[inside], old.parameter_a[source[inside]]
     apart = surface.at(new.edge_a[inside], place) - surface.start[edge]
     foot = contract("mi,mi->m", apart, surface.direction[edge]) / surface.length[edge]
-    before = (foot >= 0) & (foot <= 1)
-    inside, edge = inside[before], edge[before]
+    over = (foot >= 0) & (foot <= 1)
+    inside, edge = inside[over], edge[over]
     on_a, on_b, gap = new.parameter_a.copy(), new.parameter_b.copy(), new.gap.copy()
-    on_a[inside], on_b[inside] = place[before], foot[before]
-    gap[inside] = contract("mi,mi->m", apart[before], surface.normal[edge])
+    on_a[inside], on_b[inside] = place[over], foot[over]
+    gap[inside] = contract("mi,mi->m", apart[over], surface.normal[edge])
     return with_parts(new, parameter_a=on_a, parameter_b=on_b, gap=gap), predecessor
 
 

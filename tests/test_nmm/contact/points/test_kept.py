@@ -36,7 +36,8 @@ def test_points_that_go_on_are_those_that_are_remembered_and_counted_anew() -> N
     same = np.arange(3)
     left = old.take(np.zeros(0, dtype=int))
     one, body = (lambda p: np.ones(len(p))), np.zeros(9, int)
-    long = counted(remember(points(found), old, same), old, same, one, body, left)
+    none = np.zeros(len(same), dtype=bool)
+    long = counted(remember(points(found), old, same), old, same, one, body, left, none)
     for name in ("gap", "reference", "slip", "edge_a", "parameter_b", "normal", "state", "key"):
         np.testing.assert_array_equal(getattr(quick, name), getattr(long, name))
     assert quick.key is old.key

@@ -32,6 +32,7 @@ def follow(new, old=None, continues=False, stiffness=(1.0, 1.0), left=None):
         lambda part: np.where(part.key == 0, old_stiffness, new_stiffness),
         BODY,
         points(0.0).take(np.zeros(0, dtype=int)) if left is None else left,
+        np.zeros(1, dtype=bool),
     )
 
 
