@@ -207,8 +207,11 @@ def _pairs(surface: Surface, tolerance: float) -> tuple[Ints, Ints]:
 def interval(surface: Surface, a: Ints, b: Ints, tolerance: float) -> tuple[Floats, Floats]:
     """Parameters (m, 2) of the overlap's ends on a and on b; those on b fall as those on a rise.
 
-    Ends of the two edges within the tolerance (m) of each other are one point.
+    Ends of the two edges within the tolerance (m) of each other are one point. What lies before
+    what is seen along the direction half way between both: neither edge is the first.
     """
+    middle = surface.direction[a] - surface.direction[b]
+    middle /= np.hypot(*middle.T)[:, None]
     on_a = np.empty((len(a), 2))
     on_b = np.empty((len(a), 2))
     for k, (near_b, near_a) in enumerate(
@@ -217,11 +220,10 @@ def interval(surface: Surface, a: Ints, b: Ints, tolerance: float) -> tuple[Floa
         # End k of the overlap is the end of b that faces end k of a, or else the end of a itself.
         inward = 1.0 - 2.0 * k
         offset = near_b[b] - near_a[a]
-        along = inward * np.einsum("ij,ij->i", offset, surface.direction[a])
-        back = inward * np.einsum("ij,ij->i", offset, surface.direction[b])
+        along = inward * np.einsum("ij,ij->i", offset, middle)
         same = np.abs(along) <= tolerance
         from_b = np.where(same | (along < 0.0), 0.0, along) / surface.length[a]
-        from_a = np.where(same | (along > 0.0), 0.0, back) / surface.length[b]
+        from_a = np.where(same | (along > 0.0), 0.0, -along) / surface.length[b]
         on_a[:, k] = from_b if k == 0 else 1.0 - from_b
         on_b[:, k] = 1.0 - from_a if k == 0 else from_a
     return on_a, on_b

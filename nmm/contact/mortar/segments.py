@@ -149,6 +149,7 @@ def _overlaps(surface: Surface, a: Ints, b: Ints, joints: Ints | None) -> tuple[
     a, b = np.where(swap, b, a), np.where(swap, a, b)
     on_a, on_b = interval(surface, a[rows], b[rows], size)
     length = (on_a[:, 1] - on_a[:, 0]) * surface.length[a[rows]]
+    length = (length + (on_b[:, 0] - on_b[:, 1]) * surface.length[b[rows]]) / 2
     long = length > size
     rows = rows[long]
     has = np.zeros(len(a), dtype=bool)

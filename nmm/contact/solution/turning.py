@@ -101,7 +101,8 @@ def owed(
     start, following, body = edges
     edge_a, edge_b, parameter_a, parameter_b, key = contacts
     end = start[following]
-    shares = np.where(key < 0, 0.5, 0.0)
+    # Between two faces, in joints and inside stretches, neither side is the first.
+    shares = np.where((key < 0) | (parameter_a > 0), 0.5, 0.0)
     pairs, parameters = (edge_a, edge_b), (parameter_a, parameter_b)
     acting = moments(start, end, body, centre, pairs, parameters, shares, *through)
     left, acted = mean(modes, rest - push), mean(modes, push)

@@ -92,15 +92,31 @@ def pushing_on(
     inside = np.flatnonzero(within & pushes & (old.key[source] == new.key))
     if not len(inside):
         return new, predecessor
-    edge, place = new.edge_b[inside], old.parameter_a[source[inside]]
-    apart = surface.at(new.edge_a[inside], place) - surface.start[edge]
-    foot = contract("mi,mi->m", apart, surface.direction[edge]) / surface.length[edge]
-    over = (foot >= 0) & (foot <= 1)
-    inside, edge = inside[over], edge[over]
-    on_a, on_b, gap = new.parameter_a.copy(), new.parameter_b.copy(), new.gap.copy()
-    on_a[inside], on_b[inside] = place[over], foot[over]
-    gap[inside] = contract("mi,mi->m", apart[over], surface.normal[edge])
-    return with_parts(new, parameter_a=on_a, parameter_b=on_b, gap=gap), predecessor
+    edges = new.edge_a[inside], new.edge_b[inside]
+    last = old.parameter_a[source[inside]], old.parameter_b[source[inside]]
+    # Both sides go half of the way that they have slid, and the gap is across the line between.
+    middle = (surface.at(edges[0], last[0]) + surface.at(edges[1], last[1])) / 2
+    on_a, on_b = (_foot(surface, edge, middle) for edge in edges)
+    over = (np.minimum(on_a, on_b) >= 0) & (np.maximum(on_a, on_b) <= 1)
+    return _placed(new, surface, inside[over], (on_a[over], on_b[over])), predecessor
+
+
+def _foot(surface: Surface, edge: Ints, place: Floats) -> Floats:
+    """Parameters (m,) on edges of the points nearest to places (m, 2)."""
+    along = contract("mi,mi->m", place - surface.start[edge], surface.direction[edge])
+    return np.asarray(along / surface.length[edge])
+
+
+def _placed(
+    points: ContactPoints, surface: Surface, which: Ints, parameters: tuple[Floats, Floats]
+) -> ContactPoints:
+    """Return points of which some are at other parameters on both sides."""
+    on_a, on_b, gap = points.parameter_a.copy(), points.parameter_b.copy(), points.gap.copy()
+    on_a[which], on_b[which] = parameters
+    apart = surface.at(points.edge_a[which], on_a[which])
+    apart -= surface.at(points.edge_b[which], on_b[which])
+    gap[which] = contract("mi,mi->m", apart, points.normal[which])
+    return with_parts(points, parameter_a=on_a, parameter_b=on_b, gap=gap)
 
 
 def continues(old: Contacts | None, new: Contacts) -> bool:
