@@ -19,12 +19,12 @@ from nmm.contact.laws.failing_bonds import strength
 from nmm.contact.laws.found_contacts import sized
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.continued.kept_energy import kept_energy, no_more_energy
+from nmm.contact.points.continued.lasting_springs import pushing_on
 from nmm.contact.points.continued.reference_gap import counted, counted_on
 from nmm.contact.points.continued.tracking import (
     answered,
     continued,
     continues,
-    pushing_on,
     remember,
     searched_points,
 )

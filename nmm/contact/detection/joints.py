@@ -120,7 +120,7 @@ def find_joints(surface: Surface, within_bodies: bool = False) -> Joints:
     keep = long & (apart <= tolerance)
     a, b, on_a, on_b = a[keep], b[keep], on_a[keep], on_b[keep]
     middle = 0.5 * (at_a[keep] + at_b[keep])
-    return Joints(a, b, middle[:, 0], middle[:, 1], on_a, on_b, _between(surface, a, b))
+    return Joints(a, b, middle[:, 0], middle[:, 1], on_a, on_b, between(surface, a, b))
 
 
 def joint_points(
@@ -152,7 +152,7 @@ def joint_points(
         for p in (joints.parameter_a, joints.parameter_b)
     )
     side_a, side_b = _at(surface, a, s[:, None])[:, 0], _at(surface, b, t[:, None])[:, 0]
-    normal = _between(surface, a, b)
+    normal = between(surface, a, b)
     return JointPoints(
         joint=joint,
         edge_a=a,
@@ -229,7 +229,7 @@ def interval(surface: Surface, a: Ints, b: Ints, tolerance: float) -> tuple[Floa
     return on_a, on_b
 
 
-def _between(surface: Surface, a: Ints, b: Ints) -> Floats:
+def between(surface: Surface, a: Ints, b: Ints) -> Floats:
     """Unit normals (m, 2) half way between those of two edges, out of b."""
     normal = surface.normal[b] - surface.normal[a]
     return np.asarray(normal / np.hypot(*normal.T)[:, None])

@@ -19,7 +19,7 @@ import numpy as np
 from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.face_contacts import FaceContacts
-from nmm.contact.detection.joints import interval
+from nmm.contact.detection.joints import between, interval
 from nmm.contact.detection.measures import dot, rules_of
 from nmm.contact.detection.narrow_phase import FACE, VERTEX_EDGE, VERTEX_VERTEX, Contacts, joined
 from nmm.contact.detection.pair_keys import pair_key, unordered_key
@@ -177,7 +177,9 @@ def _ends(surface: Surface, overlaps: Overlaps, points: int) -> FaceContacts:
     key, first, which = np.unique(keys, return_index=True, return_inverse=True)
     length = np.asarray(np.bincount(which, share, len(first)), dtype=float)
     v, e, t = vertex[first], edge[first], parameter[first]
-    return _measured(surface, (v, np.zeros(len(v))), (e, t), kind[first], key, length)
+    return _measured(
+        surface, (v, np.zeros(len(v))), (e, t), surface.normal[e], kind[first], key, length
+    )
 
 
 def _even(surface: Surface, corner: Ints) -> Bools:
@@ -198,27 +200,22 @@ def _inside(surface: Surface, overlaps: Overlaps, points: int) -> FaceContacts:
     which = np.tile(np.arange(inner), len(overlaps.a))
     key = n * n + (a * n + b) * 2 + which
     length = (weights * overlaps.length[:, None]).ravel()
-    return _measured(surface, (a, s), (b, t), np.full(len(a), FACE), key, length)
+    normal = between(surface, a, b)
+    return _measured(surface, (a, s), (b, t), normal, np.full(len(a), FACE), key, length)
 
 
 def _measured(
     surface: Surface,
     side_a: tuple[Ints, Floats],
     side_b: tuple[Ints, Floats],
+    normal: Floats,
     kind: Ints,
     key: Ints,
     length: Floats,
 ) -> FaceContacts:
-    """Contacts of two places, with normal and gap where the surface is.
-
-    Inside an overlap the normal is the mean of both edges': neither is the first.
-    """
+    """Contacts of two places, with gaps where the surface is."""
     (v, s), (e, t) = side_a, side_b
     apart = surface.at(v, s) - surface.at(e, t)
-    normal = surface.normal[e]
-    if (kind == FACE).all():
-        normal = normal - surface.normal[v]
-        normal = normal / np.hypot(*normal.T)[:, None]
     return FaceContacts(
         vertex=v,
         edge=e,

@@ -49,9 +49,8 @@ def conserving_rows(
     vectors = [(sides.end.take(edge), sides.start.take(edge)) for edge in edges]
     if sites is not None:
         point, foot = sites.a, sites.b
-        vectors[1] = _but_for(
-            joint, vectors[1], face_lines(sides, contacts.edge_b, contacts.parameter_b)
-        )
+        bent = face_lines(sides, contacts.edge_b, contacts.parameter_b)
+        vectors[1] = _but_for(joint, vectors[1], bent)
     shares = EdgeShares.of(contacts, sides.length)
     along_a, along_b = (_between(*vector, states) for vector in vectors)
     along = _each(lambda a, b: shares.a * a + shares.b * b, along_a, along_b)

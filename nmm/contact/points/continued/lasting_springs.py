@@ -1,0 +1,65 @@
+"""Springs of stretches of faces that push: in time they are as they were when they began.
+
+Springs of stretches are as stiff as these are long, and points inside a stretch move with its ends.
+Both change as bodies turn and slide, with no work that pays for it. So a spring that pushes is one
+of the material until it opens, and inside a face it continues nothing that was open.
+"""
+
+import numpy as np
+
+from integration.arrays import Bools, Floats, Ints
+from integration.contraction import contract
+from nmm.contact.detection.surface import Surface
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.frozen import with_parts
+
+
+def pushing_on(
+    new: ContactPoints, old: ContactPoints, predecessor: Ints, surface: Surface, lasting: Bools
+) -> tuple[ContactPoints, Ints]:
+    """Return new points, and which they continue (m,), with springs that push as they were.
+
+    Parameters
+    ----------
+    new, old
+        As found, and of the last accepted step.
+    predecessor
+        (m,) which of the old points each new one continues, -1 where it is new.
+    lasting
+        (m,) springs that stay as they are while they push.
+    """
+    source = np.where(predecessor >= 0, predecessor, 0)
+    pushes = (predecessor >= 0) & ((old.gap < 0) | (old.normal_force != 0))[source] & lasting
+    factor = np.where(pushes, old.spring_factor[source], new.spring_factor)
+    if not np.array_equal(factor, new.spring_factor):
+        new = with_parts(new, spring_factor=factor)
+    within = new.parameter_a > 0
+    predecessor = np.where(within & ~pushes & lasting, -1, predecessor)
+    inside = np.flatnonzero(within & pushes & (old.key[source] == new.key))
+    if not len(inside):
+        return new, predecessor
+    edges = new.edge_a[inside], new.edge_b[inside]
+    last = old.parameter_a[source[inside]], old.parameter_b[source[inside]]
+    # Both sides go half of the way that they have slid, and the gap is across the line between.
+    middle = (surface.at(edges[0], last[0]) + surface.at(edges[1], last[1])) / 2
+    on_a, on_b = (_foot(surface, edge, middle) for edge in edges)
+    over = (np.minimum(on_a, on_b) >= 0) & (np.maximum(on_a, on_b) <= 1)
+    return _placed(new, surface, inside[over], (on_a[over], on_b[over])), predecessor
+
+
+def _foot(surface: Surface, edge: Ints, place: Floats) -> Floats:
+    """Parameters (m,) on edges of the points nearest to places (m, 2)."""
+    along = contract("mi,mi->m", place - surface.start[edge], surface.direction[edge])
+    return np.asarray(along / surface.length[edge])
+
+
+def _placed(
+    points: ContactPoints, surface: Surface, which: Ints, parameters: tuple[Floats, Floats]
+) -> ContactPoints:
+    """Return points of which some are at other parameters on both sides."""
+    on_a, on_b, gap = points.parameter_a.copy(), points.parameter_b.copy(), points.gap.copy()
+    on_a[which], on_b[which] = parameters
+    apart = surface.at(points.edge_a[which], on_a[which])
+    apart -= surface.at(points.edge_b[which], on_b[which])
+    gap[which] = contract("mi,mi->m", apart, points.normal[which])
+    return with_parts(points, parameter_a=on_a, parameter_b=on_b, gap=gap)
