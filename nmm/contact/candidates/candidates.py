@@ -19,7 +19,7 @@ from nmm.contact.laws.failing_bonds import strength
 from nmm.contact.laws.found_contacts import sized
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.continued.kept_energy import kept_energy, no_more_energy
-from nmm.contact.points.continued.lasting_springs import pushing_on
+from nmm.contact.points.continued.lasting_springs import as_stretched, pushing_on
 from nmm.contact.points.continued.reference_gap import counted, counted_on
 from nmm.contact.points.continued.tracking import (
     answered,
@@ -186,6 +186,8 @@ class Candidates:
         stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
         left = record.book.left
         new = counted(new, record.known, before, stiffness, body, left, lasting)
+        if record.known is not None and len(record.known):
+            new = as_stretched(new, record.known, before, lasting)
         if self._keeps_energy and record.known is not None:
             return kept_energy(new, record.known, stiffness, body)
         return new

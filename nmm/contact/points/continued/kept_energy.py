@@ -27,7 +27,7 @@ def kept_energy(
     Gaps of both are counted from their references; ``body`` (E,) is of the boundary edges.
     """
     held, left, pair = _energies(new, old, stiffness, body)
-    return _stretched(new, _ratio(held, left, (left > 0) & (left < held))[pair])
+    return stretched(new, _ratio(held, left, (left > 0) & (left < held))[pair])
 
 
 def no_more_energy(
@@ -43,7 +43,7 @@ def no_more_energy(
     """
     held, left, pair = _energies(new, old, stiffness, body)
     factor = _ratio(held, left, left > held)[pair]
-    return with_parts(_stretched(new, factor), slip=factor * new.slip)
+    return stretched(new, factor, slip=True)
 
 
 def _energies(
@@ -68,7 +68,8 @@ def _ratio(held: Floats, left: Floats, chosen: Bools) -> Floats:
     return np.asarray(np.sqrt(np.divide(held, left, out=np.ones(len(held)), where=chosen)))
 
 
-def _stretched(points: ContactPoints, factor: Floats) -> ContactPoints:
-    """Return points whose springs are stretched by a factor (m,) of what they are."""
+def stretched(points: ContactPoints, factor: Floats, slip: bool = False) -> ContactPoints:
+    """Return points whose springs, those of ``slip`` too, are stretched by a factor (m,)."""
     more = (factor - 1) * np.minimum(points.gap, 0.0)
-    return with_parts(points, gap=points.gap + more, reference=points.reference - more)
+    slid = factor * points.slip if slip else points.slip
+    return with_parts(points, gap=points.gap + more, reference=points.reference - more, slip=slid)

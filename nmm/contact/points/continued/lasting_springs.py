@@ -2,7 +2,9 @@
 
 Springs of stretches are as stiff as these are long, and points inside a stretch move with its ends.
 Both change as bodies turn and slide, with no work that pays for it. So a spring that pushes is one
-of the material until it opens, and inside a face it continues nothing that was open.
+of the material until it opens, and inside a face it continues nothing that was open. One that began
+on a short stretch grows stiffer with it, less stretched by ``sqrt(k_0 / k_1)``: it holds what it
+held.
 """
 
 import numpy as np
@@ -11,6 +13,7 @@ from integration.arrays import Bools, Floats, Ints
 from integration.contraction import contract
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.continued.kept_energy import stretched
 from nmm.frozen import with_parts
 
 
@@ -30,7 +33,8 @@ def pushing_on(
     """
     source = np.where(predecessor >= 0, predecessor, 0)
     pushes = (predecessor >= 0) & ((old.gap < 0) | (old.normal_force != 0))[source] & lasting
-    factor = np.where(pushes, old.spring_factor[source], new.spring_factor)
+    least = np.where(pushes, old.spring_factor[source], 0.0)
+    factor = np.maximum(least, new.spring_factor)
     if not np.array_equal(factor, new.spring_factor):
         new = with_parts(new, spring_factor=factor)
     within = new.parameter_a > 0
@@ -45,6 +49,19 @@ def pushing_on(
     on_a, on_b = (_foot(surface, edge, middle) for edge in edges)
     over = (np.minimum(on_a, on_b) >= 0) & (np.maximum(on_a, on_b) <= 1)
     return _placed(new, surface, inside[over], (on_a[over], on_b[over])), predecessor
+
+
+def as_stretched(
+    new: ContactPoints, old: ContactPoints, predecessor: Ints, lasting: Bools
+) -> ContactPoints:
+    """Return points that hold what they held where they are stiffer than they were."""
+    source = np.where(predecessor >= 0, predecessor, 0)
+    goes_on = lasting & (predecessor >= 0) & (old.key[source] == new.key)
+    before = old.spring_factor[source]
+    stiffer = goes_on & (new.spring_factor > before)
+    if not stiffer.any():
+        return new
+    return stretched(new, np.where(stiffer, np.sqrt(before / new.spring_factor), 1.0), slip=True)
 
 
 def _foot(surface: Surface, edge: Ints, place: Floats) -> Floats:
