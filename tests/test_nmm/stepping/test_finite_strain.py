@@ -235,7 +235,9 @@ CLAMP = (
 @pytest.mark.slow
 def test_lips_of_one_body_close_and_press_on_each_other():
     cover = 'type = "bspline"\nsize = 0.25\ndegree = 0'
-    found = run(CLAMP, cover, more="[loading]\nincrement = 0.25\n")
+    # Springs over faces find no equilibrium beyond 0.70 of the load.
+    corners = '[contact]\npoints = "vertices"\n'
+    found = run(CLAMP, cover, more="[loading]\nincrement = 0.25\n" + corners)
     assert found.summary.status == "converged", found.summary.sentence
     upper, lower = (found.history[f"monitor:{lip}:uy"][-1] for lip in ("upper", "lower"))
     # They meet half way, but for springs that give by some 1e-3 of the opening of 0.4.
