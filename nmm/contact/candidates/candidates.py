@@ -99,16 +99,7 @@ class Candidates:
             if in_time and len(record.known):
                 new, before = pushing_on(new, record.known, before, surface, lasting)
         new = self._geometry.measured(new, state)
-        new = self._followed(record, new, before, lasting)
-        if in_time and self._laws.stiff and record.known is not None:
-            new = self._without_gain(record, new)
-        return found, new
-
-    def _without_gain(self, record: ContactRecord, new: ContactPoints) -> ContactPoints:
-        """Return points that hold no more than those of the record, joints that were left too."""
-        assert record.known is not None
-        stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
-        return no_more_energy(new, concatenate([record.book.left, record.known]), stiffness, body)
+        return found, self._followed(record, new, before, lasting, in_time)
 
     def _lasting(self, points: ContactPoints, in_time: bool) -> Bools:
         """Which springs (m,) are to stay as they are while they push: those in time hold energy.
@@ -178,16 +169,24 @@ class Candidates:
         return after, concatenate([done, book.lost])
 
     def _followed(
-        self, record: ContactRecord, new: ContactPoints, before: Ints, lasting: Bools
+        self,
+        record: ContactRecord,
+        new: ContactPoints,
+        before: Ints,
+        lasting: Bools,
+        in_time: bool,
     ) -> ContactPoints:
         """Return points with what the ones ``before`` (m,) them left, and gaps as they count."""
-        if record.known is not None:
-            new = remember(new, record.known, before)
+        old, left = record.known, record.book.left
         stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
-        left = record.book.left
-        new = counted(new, record.known, before, stiffness, body, left, lasting)
-        if record.known is not None and len(record.known):
-            new = as_stretched(new, record.known, before, lasting)
-        if self._keeps_energy and record.known is not None:
-            return kept_energy(new, record.known, stiffness, body)
+        if old is None:
+            return counted(new, None, before, stiffness, body, left, lasting)
+        new = remember(new, old, before)
+        new = counted(new, old, before, stiffness, body, left, lasting)
+        if len(old):
+            new = as_stretched(new, old, before, lasting)
+        if self._keeps_energy:
+            new = kept_energy(new, old, stiffness, body)
+        if in_time and self._laws.stiff:
+            new = no_more_energy(new, concatenate([left, old]), stiffness, body)
         return new
