@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from nmm.verification import text
 
 # A block of 1 m by 1 m on a floor, and one of 1 m by 2 m on it; loads and stages follow.
@@ -259,5 +261,37 @@ def wet_pile(aperture: str = "0.2 mm") -> str:
             *(text.box(name, *place) for name, place in blocks.items()),
             text.held("base"),
             '[[joint_heads]]\nname = "in"\npoint = [0, 0]\nhead = 1.5\n',
+        ],
+    )
+
+
+def block_on_incline(slope: float, friction: float, cohesion: float = 0.0, search: str = "") -> str:
+    """Return a block of 1 m by 0.5 m on an incline, whose factor of safety is sought.
+
+    Without cohesion it is ``tan(friction) / tan(slope)``.
+
+    Parameters
+    ----------
+    slope, friction
+        In degrees.
+    cohesion
+        Pa.
+    search
+        Keys of ``[strength_reduction]``.
+    """
+    angle = np.radians(slope)
+    along = np.array([np.cos(angle), np.sin(angle)])
+    off = 0.5 * np.array([-along[1], along[0]])
+    above = 3 * along + off, 2 * along + off
+    ground = 6 * np.array([[0.0, 0.0], [along[0], 0.0], along])
+    return text.scene(
+        'plane = "strain"\n[gravity]\n[contact]',
+        [
+            text.material("rock", 1e9, 0.2, 2000.0),
+            text.interface("joint", friction, more={"cohesion": cohesion}),
+            text.block("slope", "rock", ground),
+            text.block("block", "rock", np.array([2 * along, 3 * along, *above])),
+            text.held("slope"),
+            f"[strength_reduction]\n{search}\n",
         ],
     )

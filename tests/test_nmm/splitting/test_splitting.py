@@ -1,6 +1,5 @@
 """Runs in which blocks split by their stress: at the right load, along the right plane, by rule."""
 
-import importlib.util
 from pathlib import Path
 
 import numpy as np
@@ -9,12 +8,8 @@ import pytest
 import nmm
 from nmm.errors import NmmError
 from nmm.splitting.strength import Principal
-
-SPEC = importlib.util.spec_from_file_location(
-    "resume_checks", Path(__file__).parents[1] / "stepping" / "test_resume.py"
-)
-resumed = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(resumed)
+from nmm.testing.killing import check_same_bytes
+from nmm.testing.stopping import stopped_after
 
 COLUMN = """
 title = "column"
@@ -209,8 +204,8 @@ def test_the_order_of_blocks_in_the_scene_does_not_matter(dropped):
 def test_two_halves_of_a_run_with_splits_are_the_whole(steps, tmp_path):
     text = DROP.format(checkpoint="checkpoint = { every_steps = 3 }")
     whole = run(text, out=tmp_path / "whole")
-    folder = resumed.stopped_after(text, tmp_path / "half", steps)
-    resumed.check_same(whole, nmm.resume(folder), (tmp_path / "whole", folder))
+    folder = stopped_after(nmm.parse_scene(text, "scene"), tmp_path / "half", steps)
+    check_same_bytes(whole, nmm.resume(folder), (tmp_path / "whole", folder))
 
 
 def test_no_more_blocks_than_the_rule_says_and_the_history_counts_those_kept_whole():

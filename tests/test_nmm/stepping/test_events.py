@@ -1,6 +1,5 @@
 """An effect asks for another shape in mid-run: seams that open, in time and under loads."""
 
-import importlib.util
 from pathlib import Path
 
 import numpy as np
@@ -10,12 +9,8 @@ import nmm
 from nmm.errors import SceneError
 from nmm.results.storage.stored_run import read_run
 from nmm.results.viewing.paraview import write_paraview
-
-SPEC = importlib.util.spec_from_file_location(
-    "resume_checks", Path(__file__).with_name("test_resume.py")
-)
-resumed = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(resumed)
+from nmm.testing.killing import check_same_bytes
+from nmm.testing.stopping import stopped_after
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "own_effect" / "seam.toml"
 SEAM = EXAMPLE.read_text()
@@ -110,9 +105,9 @@ def test_two_halves_are_the_whole_before_and_after_an_event(steps, tmp_path):
     kept = SEAM.replace(asked, asked + "\ncheckpoint = { every_steps = 4 }")
     whole = run(kept, out=tmp_path / "whole")
     scene, trust = nmm.parse_scene(kept, "scene"), ["seam"]
-    folder = resumed.stopping.stopped_after(scene, tmp_path / "half", steps, allow_code=trust)
+    folder = stopped_after(scene, tmp_path / "half", steps, allow_code=trust)
     half = nmm.resume(folder, allow_code=trust)
-    resumed.check_same(whole, half, (tmp_path / "whole", folder))
+    check_same_bytes(whole, half, (tmp_path / "whole", folder))
 
 
 def test_a_cracked_bar_comes_to_where_one_cracked_from_the_start_comes():

@@ -2,10 +2,6 @@
 
 import importlib.util
 import json
-import os
-import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +10,7 @@ import pytest
 import nmm
 from nmm.errors import DamageError, StorageError
 from nmm.testing import stopping
+from nmm.testing.killing import check_same_bytes, killed_and_gone_on
 
 SPEC = importlib.util.spec_from_file_location(
     "restart_scenes", Path(__file__).with_name("restart_scenes.py")
@@ -21,53 +18,12 @@ SPEC = importlib.util.spec_from_file_location(
 scenes = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(scenes)
 
-ROOT = Path(__file__).resolve().parents[3]
 CHECKPOINT = "checkpoint = { every_steps = 4 }"
-
-# Runs a scene and is killed in place of putting the n-th file in its place, or after step n.
-KILLED = """
-import os, signal, sys
-import nmm
-scene, folder, what, count = sys.argv[1:]
-left, replace = [int(count)], os.replace
-def die():
-    left[0] -= 1
-    if left[0] < 0:
-        os.kill(os.getpid(), signal.SIGKILL)
-def dying(*places):
-    die()
-    replace(*places)
-if what == "write":
-    os.replace = dying
-nmm.run(nmm.read_scene(scene), out=folder,
-        progress=(lambda share, text: die()) if what == "step" else None)
-"""
-
-
-def content(folder):
-    """Bytes of the files of a run by name, and its summary but for seconds and memory."""
-    files = {str(path.relative_to(folder)): path for path in folder.rglob("*") if path.is_file()}
-    summary = json.loads(files.pop("summary.json").read_text())
-    for name in ("seconds", "effect_seconds", "peak_memory"):
-        summary.pop(name)
-    return {name: path.read_bytes() for name, path in files.items()} | {"summary.json": summary}
 
 
 def stopped_after(text, folder, steps):
     """Run the text of a scene until an exception ends it after so many steps."""
     return stopping.stopped_after(nmm.parse_scene(text, "scene"), folder, steps)
-
-
-def check_same(whole, resumed, folders):
-    """Two runs are the same in memory and on disk."""
-    one, other = (content(folder) for folder in folders)
-    assert len(one) > 6
-    assert one == other
-    assert list(whole.history) == list(resumed.history)
-    for name, column in whole.history.items():
-        assert np.array_equal(column, resumed.history[name], equal_nan=True), name
-    assert [frame.index for frame in resumed.frames] == [*range(len(whole.frames))]
-    assert np.array_equal(whole.displacement, resumed.displacement)
 
 
 @pytest.mark.parametrize("steps", [5, pytest.param(1, marks=pytest.mark.slow)])
@@ -78,7 +34,7 @@ def test_two_halves_are_the_whole_bit_by_bit(name, steps, tmp_path):
     assert whole.summary.steps > steps
     stopped_after(text, tmp_path / "half", steps)
     resumed = nmm.resume(tmp_path / "half")
-    check_same(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
+    check_same_bytes(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
 
 
 @pytest.mark.parametrize(
@@ -98,26 +54,8 @@ def test_a_run_killed_at_any_moment_goes_on_to_the_same_bytes(name, what, count,
     text = scenes.scene_of(name, CHECKPOINT)
     (tmp_path / "scene.toml").write_text(text)
     whole = nmm.run(nmm.read_scene(tmp_path / "scene.toml"), out=tmp_path / "whole")
-    done = subprocess.run(
-        [
-            sys.executable,
-            "-c",
-            KILLED,
-            tmp_path / "scene.toml",
-            tmp_path / "half",
-            what,
-            str(count),
-        ],
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        timeout=600,
-    )
-    assert done.returncode == -signal.SIGKILL, done.stderr
-    resumed = nmm.resume(tmp_path / "half")
-    # What a killed write leaves beside its place is no part of the run.
-    for scratch in (tmp_path / "half").rglob(".*.tmp"):
-        scratch.unlink()
-    check_same(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
+    resumed = killed_and_gone_on(tmp_path / "scene.toml", tmp_path / "half", what, count)
+    check_same_bytes(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
 
 
 def test_a_run_stopped_twice_goes_on_twice(tmp_path):
@@ -127,7 +65,7 @@ def test_a_run_stopped_twice_goes_on_twice(tmp_path):
     with pytest.raises(stopping.StoppedError):
         nmm.resume(tmp_path / "half", progress=stopping.interrupting(5))
     resumed = nmm.resume(tmp_path / "half")
-    check_same(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
+    check_same_bytes(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
 
 
 def test_a_run_in_memory_gives_what_it_gives_in_a_folder(tmp_path):
@@ -142,7 +80,7 @@ def test_a_run_whose_budget_was_spent_goes_on(tmp_path):
     spent = nmm.run(nmm.parse_scene(text, "scene"), out=tmp_path / "half", budget=0.0)
     assert spent.summary.status == "budget_spent"
     resumed = nmm.resume(tmp_path / "half")
-    check_same(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
+    check_same_bytes(whole, resumed, (tmp_path / "whole", tmp_path / "half"))
 
 
 OWN_EFFECT = """

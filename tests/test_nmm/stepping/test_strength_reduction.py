@@ -10,52 +10,13 @@ from nmm.errors import SceneError
 from nmm.scene import parse_scene
 from nmm.scene.tables.strength_reduction import StrengthReductionTable
 from nmm.stepping.strength_reduction import FactorTried, bracket, weakened
-
-SCENE = """
-plane = "strain"
-[materials.rock]
-young_modulus = "1 GPa"
-poisson_ratio = 0.2
-density = "2000 kg/m^3"
-[interfaces.joint]
-friction_angle = "{friction} deg"
-cohesion = {cohesion}
-[[blocks]]
-name = "slope"
-material = "rock"
-vertices = [[0, 0], {foot}, {top}]
-[[blocks]]
-name = "block"
-material = "rock"
-vertices = {block}
-[[supports]]
-name = "ground"
-block = "slope"
-fix = ["x", "y"]
-[gravity]
-[contact]
-[strength_reduction]
-lowest = {lowest}
-highest = {highest}
-"""
+from nmm.testing.scenes import block_on_incline
 
 
 def incline(slope, friction, cohesion=0.0, lowest=0.5, highest=4.0):
     """A block of 1 m by 0.5 m on an incline of so many degrees."""
-    angle = np.radians(slope)
-    along = np.array([np.cos(angle), np.sin(angle)])
-    off = 0.5 * np.array([-along[1], along[0]])
-    block = [2 * along, 3 * along, 3 * along + off, 2 * along + off]
-    text = SCENE.format(
-        friction=friction,
-        cohesion=cohesion,
-        foot=[float(6 * along[0]), 0.0],
-        top=(6 * along).tolist(),
-        block=[point.tolist() for point in block],
-        lowest=lowest,
-        highest=highest,
-    )
-    return parse_scene(text, "incline.toml")
+    search = f"lowest = {lowest}\nhighest = {highest}"
+    return parse_scene(block_on_incline(slope, friction, cohesion, search), "incline.toml")
 
 
 @pytest.mark.parametrize(
@@ -139,15 +100,7 @@ def test_strengths_are_divided_and_angles_by_their_tangents():
     ],
 )
 def test_what_contradicts_it_is_refused_by_line(old, new, said):
-    text = SCENE.format(
-        friction=30,
-        cohesion=0,
-        foot=[1, 0],
-        top=[1, 1],
-        block=[[2, 0], [3, 0], [2, 1]],
-        lowest=0.5,
-        highest=4.0,
-    )
+    text = block_on_incline(45, 30, search="lowest = 0.5\nhighest = 4.0")
     assert old in text
     with pytest.raises(SceneError, match=rf"slope\.toml:\d+.*{said}"):
         parse_scene(text.replace(old, new), "slope.toml")
