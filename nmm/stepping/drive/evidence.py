@@ -24,7 +24,8 @@ def evidence(
     proof = carried(stepper, state, factor)
     said = [proof.sentence] if proof is not None and proof.fails else []
     far = too_far(stepper)
-    moves = attempt.motion > far
+    # Where bodies bend by any angle a tangent may lead far away from an equilibrium that is near.
+    moves = attempt.motion > far and not stepper.kinematics.finite
     if (found.mechanism or moves) and np.isfinite(attempt.increment).all():
         body, how = largest_mover(stepper.model, state, attempt.increment)
         name = block_name(stepper.model, body, names)

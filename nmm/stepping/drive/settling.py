@@ -66,7 +66,8 @@ def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -
     while count < CORRECTIONS or (count < PATIENCE and not steady):
         far = not stepper.small and total.motion > too_far(stepper)
         if far or not attempt.converged:
-            return Settled(replace(total, converged=False), contacts, far)
+            mechanism = far and not stepper.kinematics.finite
+            return Settled(replace(total, converged=False), contacts, mechanism)
         _, contacts = stepper.accept(attempt)
         if not stepper.anchored and stepper.small:
             return Settled(total, contacts)

@@ -14,6 +14,8 @@ from nmm.effects.base import Instant, Span
 from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
+from nmm.stepping.drive.evidence import evidence
+from nmm.stepping.drive.settling import Settled
 from nmm.stepping.prepare import prepare
 
 COVERS = {
@@ -374,6 +376,17 @@ def test_matter_that_is_turned_inside_out_is_no_solution():
     found = run(bar("elastic", -1.0), "block", more="[loading]\nincrement = 0.25\n")
     assert found.summary.status in ("failed", "collapsed")
     assert found.state.load_factor < 0.4
+
+
+@pytest.mark.parametrize(("update", "shown"), [("finite", False), ("exact", True)])
+def test_an_iterate_far_away_is_no_proof_where_bodies_bend_by_any_angle(update, shown):
+    scene = parse_scene(bar("elastic", 0.01) + "[contact]\n[interfaces.skin]\nfriction_angle = 0\n")
+    formulation = parse_formulation(f'[cover]\ntype = "block"\n[rotation]\nupdate = "{update}"\n')
+    made = prepare(scene, formulation)
+    found = made.stepper.attempt(made.start, Instant(0.0, 0.1), None)
+    far = replace(found, converged=False, motion=10 * made.stepper.size)
+    told = evidence(made.stepper, made.start, 0.1, Settled(far, None), ["bar"])
+    assert (told is not None) == shown
 
 
 def test_nothing_of_it_is_imported_where_no_formulation_names_it():
