@@ -35,6 +35,35 @@ nmm.run(nmm.read_scene(scene), out=folder,
 LONGEST = 600.0  # s
 
 
+def apart(script: str, *words: object, **variables: str) -> subprocess.CompletedProcess[str]:
+    """Run a script with words behind it in a process of its own, with variables of environment.
+
+    It finds this project, and what ``PYTHONPATH`` names among the variables.
+    """
+    project = str(Path(nmm.__file__).resolve().parents[1])
+    path = os.pathsep.join([project, *variables.pop("PYTHONPATH", "").split(os.pathsep)])
+    return subprocess.run(
+        [sys.executable, "-c", script, *map(str, words)],
+        env={**os.environ, **variables, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        timeout=LONGEST,
+        check=False,
+    )
+
+
+def killed(script: str, *words: object, **variables: str) -> None:
+    """Run a script, see `apart`, that is to kill its own process.
+
+    Raises
+    ------
+    AssertionError
+        When it has ended before.
+    """
+    done = apart(script, *words, **variables)
+    claim(done.returncode == -signal.SIGKILL, f"{words}: not killed: {done.stderr}")
+
+
 def killed_and_gone_on(scene: Path, folder: Path, what: str, count: int) -> Run:
     """Run a scene file into a folder, kill it, and go on with it.
 
@@ -46,12 +75,7 @@ def killed_and_gone_on(scene: Path, folder: Path, what: str, count: int) -> Run:
     AssertionError
         When the run has ended before.
     """
-    command = [sys.executable, "-c", KILLED, str(scene), str(folder), what, str(count)]
-    path = {"PYTHONPATH": str(Path(nmm.__file__).resolve().parents[1])}
-    done = subprocess.run(
-        command, env={**os.environ, **path}, capture_output=True, timeout=LONGEST, check=False
-    )
-    claim(done.returncode == -signal.SIGKILL, f"{folder}: not killed: {done.stderr.decode()}")
+    killed(KILLED, scene, folder, what, count)
     resumed = nmm.resume(folder)
     # What a killed write leaves beside its place is no part of the run.
     for scratch in folder.rglob(".*.tmp"):
@@ -67,11 +91,7 @@ def check_same_bytes(whole: Run, resumed: Run, folders: tuple[Path, Path]) -> No
     AssertionError
         Naming what differs.
     """
-    one, other = (_content(folder) for folder in folders)
-    claim(len(one) > 6, f"{folders[0]}: too few files")
-    claim(one.keys() == other.keys(), "resumed: other files")
-    for name, content in one.items():
-        claim(content == other[name], f"resumed: another {name}")
+    check_same_files(*folders)
     claim(list(whole.history) == list(resumed.history), "resumed: other columns of the history")
     for name, column in whole.history.items():
         same = np.array_equal(column, resumed.history[name], equal_nan=True)
@@ -79,6 +99,21 @@ def check_same_bytes(whole: Run, resumed: Run, folders: tuple[Path, Path]) -> No
     numbers = [frame.index for frame in resumed.frames]
     claim(numbers == [*range(len(whole.frames))], "resumed: other frames")
     claim(np.array_equal(whole.displacement, resumed.displacement), "resumed: other displacements")
+
+
+def check_same_files(folder: Path, other: Path) -> None:
+    """Check that two run folders are the same byte by byte, but for seconds and memory.
+
+    Raises
+    ------
+    AssertionError
+        Naming what differs.
+    """
+    one, two = _content(folder), _content(other)
+    claim(len(one) > 6, f"{folder}: too few files")
+    claim(one.keys() == two.keys(), f"{other}: other files")
+    for name, content in one.items():
+        claim(content == two[name], f"{other}: another {name}")
 
 
 def _content(folder: Path) -> dict[str, Any]:

@@ -10,7 +10,6 @@ import os
 import random
 import resource
 import shutil
-import signal
 import subprocess
 import sys
 import warnings
@@ -24,6 +23,7 @@ from nmm.errors import DamageError, NmmWarning, StorageError
 from nmm.plots import draw_all
 from nmm.results import Frame, MemorySink, RunFolder, read_run
 from nmm.results.viewing.paraview import write_paraview
+from nmm.testing.killing import killed
 from nmm.verification import text
 
 TESTS = Path(__file__).resolve().parents[1]
@@ -283,7 +283,7 @@ def test_the_lock_of_a_killed_run_is_told_and_taken_over(tmp_path):
         "import os, sys; from nmm.results import RunFolder; folder = RunFolder(sys.argv[1]);"
         "folder.row({'step': 1}); os.kill(os.getpid(), 9)"
     )
-    assert process(script, tmp_path / "run").returncode == -signal.SIGKILL
+    killed(script, tmp_path / "run")
     assert (tmp_path / "run/.lock").exists()
     assert read_run(tmp_path / "run").summary.status == "stopped"
     with pytest.warns(NmmWarning, match=r"process \d+ on .* was stopped here before its run"):

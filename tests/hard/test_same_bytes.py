@@ -5,17 +5,10 @@ seconds and memory, and its other fields are compared. Each run is a process of 
 seed and threads are read at its start.
 """
 
-import json
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
 
 from nmm.shipped import example
-
-ROOT = Path(__file__).resolve().parents[2]
+from nmm.testing.killing import apart, check_same_files
 
 RUN = "import sys, nmm; nmm.run(nmm.read_scene(sys.argv[1]), out=sys.argv[2])"
 
@@ -114,41 +107,20 @@ SLOW = {
 }
 ALL = [*SCENES, *(pytest.param(name, marks=pytest.mark.slow) for name in SLOW)]
 
-UNEQUAL = {"seconds", "effect_seconds", "peak_memory"}
-
 
 def write(folder, scene, seed, threads):
     """Run a scene in a process of its own."""
     counts = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
-    paths = {"PYTHONPATH": str(ROOT), "PYTHONHASHSEED": seed}
-    done = subprocess.run(
-        [sys.executable, "-c", RUN, str(scene), str(folder)],
-        env={**os.environ, **paths, **dict.fromkeys(counts, threads)},
-        capture_output=True,
-        text=True,
-        timeout=600,
-    )
+    done = apart(RUN, scene, folder, PYTHONHASHSEED=seed, **dict.fromkeys(counts, threads))
     assert done.returncode == 0, done.stderr
     return folder
-
-
-def content(folder):
-    """Bytes of the files of a run by name, and what of its summary must not differ."""
-    files = {str(path.relative_to(folder)): path for path in folder.rglob("*") if path.is_file()}
-    summary = json.loads(files.pop("summary.json").read_text())
-    assert {"history.csv", "topology.npz"} < files.keys()
-    return {name: path.read_bytes() for name, path in files.items()} | {
-        key: value for key, value in summary.items() if key not in UNEQUAL
-    }
 
 
 @pytest.mark.parametrize("name", ALL)
 def test_a_run_is_the_same_bytes_for_any_hash_seed_and_threads(tmp_path, name):
     scene = tmp_path / "scene.toml"
     scene.write_text((SCENES | SLOW)[name])
-    first = content(write(tmp_path / "first", scene, *PLAIN))
+    first = write(tmp_path / "first", scene, *PLAIN)
     for seed, threads in OTHERS:
-        other = content(write(tmp_path / f"{seed}_{threads}", scene, seed, threads))
-        assert other.keys() == first.keys()
-        differ = [key for key in first if first[key] != other[key]]
-        assert not differ, f"hash seed {seed}, {threads} threads: {differ[:5]} of {len(first)}"
+        folder = tmp_path / f"hash_seed_{seed}_threads_{threads}"
+        check_same_files(first, write(folder, scene, seed, threads))

@@ -1,11 +1,7 @@
 """Run folders: what goes in comes out, and a kill at any moment leaves a readable run."""
 
 import json
-import os
 import re
-import signal
-import subprocess
-import sys
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -17,6 +13,7 @@ from nmm.quantity import Quantity
 from nmm.results import Frame, RunFolder, Summary, read_run
 from nmm.results.sink import MemorySink
 from nmm.results.storage import files
+from nmm.testing.killing import killed
 
 
 def fill(sink, run):
@@ -77,26 +74,18 @@ def test_the_summary_says_running_until_the_end(tmp_path, memory_run):
 
 
 KILLED = """
-import sys
+import os, signal, sys
 from conftest import made_up_run
 from nmm.results import RunFolder
-class Slow(RunFolder):
+class Dying(RunFolder):
     def finish(self, summary):
-        print("written", flush=True)
-        import time; time.sleep(60)
-made_up_run(Slow(sys.argv[1]), blocks=10, frames=3)
+        os.kill(os.getpid(), signal.SIGKILL)
+made_up_run(Dying(sys.argv[1]), blocks=10, frames=3)
 """
 
 
 def test_a_killed_run_keeps_its_frames_and_history(tmp_path):
-    tests = str(Path(__file__).parents[2])
-    with subprocess.Popen(
-        [sys.executable, "-c", KILLED, tmp_path / "run"],
-        stdout=subprocess.PIPE,
-        env={**os.environ, "PYTHONPATH": tests},
-    ) as process:
-        assert process.stdout.readline() == b"written\n"
-        process.send_signal(signal.SIGKILL)
+    killed(KILLED, tmp_path / "run", PYTHONPATH=str(Path(__file__).parents[2]))
     stored = read_run(tmp_path / "run")
     assert stored.summary.status == "stopped"
     assert stored.summary.sentence.endswith("3 steps of it can be read, the last at 0.2")
