@@ -1,5 +1,6 @@
 """The verbs of the command line. What they need is imported inside them, so that help is fast."""
 
+import atexit
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from nmm.cli import lean, motion_verbs, scene_verbs, study_verbs, verification_verbs
+from nmm.cli import motion_verbs, scene_verbs, study_verbs, verification_verbs
 from nmm.cli.scene_verbs import AllowCode, FormulationFile, allowed, read_formulation
 from nmm.cli.terminal import (
     console,
@@ -29,8 +30,6 @@ if TYPE_CHECKING:
     from nmm.scene import Scene
     from nmm.stepping.run import Run
 
-lean.without_plugins()
-lean.late_methods()
 app = typer.Typer(
     help="Numerical manifold method in 2D: blocks, joints, contact and fracture.",
     no_args_is_help=True,
@@ -61,7 +60,8 @@ def main(
 ) -> None:
     """Numerical manifold method in 2D: blocks, joints, contact and fracture."""
     gc.set_threshold(MADE_BETWEEN_SEARCHES)
-    lean.without_farewell()
+    # Python ends with three searches through all that imports have made: a fifth of a check.
+    atexit.register(gc.freeze)
     if version:
         import nmm
 
@@ -129,7 +129,6 @@ def compile_ahead() -> None:
     from nmm.cli.compiling import compile_kernels
 
     with faults_told():
-        lean.sparse_matrices()
         compile_kernels()
 
 
@@ -203,7 +202,6 @@ def _run(
     budget: float | None = None,
     pictures: bool = False,
 ) -> None:
-    lean.sparse_matrices()
     import nmm
 
     scene = nmm.read_scene(place)
@@ -283,7 +281,6 @@ def _draw(
     from nmm.plots import draw_all
     from nmm.results.storage.files import PICTURES
 
-    lean.pictures()
     return draw_all(
         run,
         folder / PICTURES,

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
-from nmm.cli import lean
 from nmm.cli.terminal import console, faults_told, tell_faults, tell_next
 
 if TYPE_CHECKING:
@@ -34,7 +33,7 @@ def check(
     scene: SceneFile, formulation: FormulationFile = None, allow_code: AllowCode = None
 ) -> None:
     """Name every fault of the files, and what a run would refuse; exit code 1 if there is one."""
-    with faults_told(), lean.without_searches(), allowed(scene, allow_code):
+    with faults_told(), allowed(scene, allow_code):
         faults = _faults(scene, formulation)
     tell_faults(faults)
     if faults:
@@ -51,7 +50,6 @@ def explain(
     allow_code: AllowCode = None,
 ) -> None:
     """Say what a scene simulates and what it does not, and how large it is."""
-    lean.sparse_matrices()
     from nmm.cli.explaining import told
 
     with faults_told(), allowed(scene, allow_code):
@@ -182,7 +180,6 @@ def _bound(place: Path, formulation: Path | None) -> None:
 
 def _faults(place: Path, formulation: Path | None) -> list[str]:
     """Lines about keys and values of both files, then about blocks and parts that they name."""
-    lean.sparse_matrices()
     import nmm
     from nmm.errors import NmmError
     from nmm.formulation import Formulation
