@@ -68,9 +68,11 @@ class Problem:
     def fields(self, p: Floats, side: Floats) -> tuple[Floats, Floats]:
         """Displacement (m, 2) and gradient (m, 2, 2)."""
         u, g = np.zeros((len(p), 2)), np.zeros((len(p), 2, 2))
+        # Beside a corner angles from the bisector are less than half a turn.
+        bearing = (0.0 if self.crack is None else np.pi / 2) * side
         for functions in (self.known, self.other):
             item = Enrichment(functions, np.zeros(2), self.direction)
-            value, gradient = singular_fields(item, p, np.pi / 2 * side)
+            value, gradient = singular_fields(item, p, bearing)
             strength = 1 / (2 * SHEAR) / np.arange(1, functions.number + 1)
             u += np.real(np.einsum("mnc,n->mc", value, strength))
             g += np.real(np.einsum("mncd,n->mcd", gradient, strength))

@@ -24,7 +24,7 @@ from nmm.assembly.stress_points import StressAt
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.bonds.turning import counting
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.midpoint import ContactRows
+from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.problem.step_problem import BONDED, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
 

@@ -20,6 +20,7 @@ from nmm.contact.laws.found_contacts import sized
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.continued.kept_energy import kept_energy, no_more_energy
 from nmm.contact.points.continued.lasting_springs import as_stretched, pushing_on
+from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.contact.points.continued.reference_gap import counted, counted_on
 from nmm.contact.points.continued.tracking import (
     answered,
@@ -93,13 +94,15 @@ class Candidates:
         new = searched_points(found, interface, self._laws.initial(interface, loose), surface)
         if self._laws.stiff:
             new = sized(self._laws, new, surface)
-        before, lasting = np.full(len(new), -1, dtype=np.int64), self._lasting(new, in_time)
+        none = np.zeros(0, dtype=np.int64)
+        number, old = np.full(len(new), -1, dtype=np.int64), new.take(none)
         if record.found is not None and record.known is not None:
-            before = follow(record.found, found)
-            if in_time and len(record.known):
-                new, before = pushing_on(new, record.known, before, surface, lasting)
+            number, old = follow(record.found, found), record.known
+        before = Predecessors(old, number, self._lasting(new, in_time))
+        if in_time and len(old):
+            new, before = pushing_on(new, before, surface)
         new = self._geometry.measured(new, state)
-        return found, self._followed(record, new, before, lasting, in_time)
+        return found, self._followed(record, new, before, in_time)
 
     def _lasting(self, points: ContactPoints, in_time: bool) -> Bools:
         """Which springs (m,) are to stay as they are while they push: those in time hold energy.
@@ -169,22 +172,16 @@ class Candidates:
         return after, concatenate([done, book.lost])
 
     def _followed(
-        self,
-        record: ContactRecord,
-        new: ContactPoints,
-        before: Ints,
-        lasting: Bools,
-        in_time: bool,
+        self, record: ContactRecord, new: ContactPoints, before: Predecessors, in_time: bool
     ) -> ContactPoints:
-        """Return points with what the ones ``before`` (m,) them left, and gaps as they count."""
-        old, left = record.known, record.book.left
+        """Return points with what the ones ``before`` them left, and gaps as they count."""
+        old, left = before.old, record.book.left
         stiffness, body = self._laws.normal_stiffness, self._geometry.model.manifold.boundary.body
-        if old is None:
-            return counted(new, None, before, stiffness, body, left, lasting)
-        new = remember(new, old, before)
-        new = counted(new, old, before, stiffness, body, left, lasting)
+        new = counted(remember(new, before), before, stiffness, body, left)
         if len(old):
-            new = as_stretched(new, old, before, lasting)
+            new = as_stretched(new, before)
+        if record.known is None:
+            return new
         if self._keeps_energy:
             new = kept_energy(new, old, stiffness, body)
         if in_time and self._laws.stiff:

@@ -13,7 +13,7 @@ from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.laws.tractions import ContactForces, contact_forces
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.midpoint import ContactRows
+from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.problem.step_problem import BONDED, OPEN, SLIDE, STICK, StepAnswer, Verdict
 from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.request import StepRequest

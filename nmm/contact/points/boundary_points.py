@@ -7,6 +7,7 @@ geometry that the search sees, whatever the degree of the approximation.
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +18,23 @@ from nmm.assembly.motion import Frames, MaterialPoints, material_points
 from nmm.contact.detection.surface import Surface
 
 _UPRIGHT = np.zeros(0)
+
+
+class EdgeRows(NamedTuple):
+    """Rows at both ends of edges, in the axes of their bodies, as compiled code takes them.
+
+    Attributes
+    ----------
+    unknowns, start, end
+        (n, L), and (n, 2, L) of the starts and the ends.
+    body
+        (n,) of the edges.
+    """
+
+    unknowns: Ints
+    start: Floats
+    end: Floats
+    body: Ints
 
 
 @dataclass(frozen=True)
@@ -51,6 +69,12 @@ class Sides:
             next=edges.next,
             previous=edges.previous,
         )
+
+    @cached_property
+    def table(self) -> EdgeRows:
+        """Rows at the ends of all edges."""
+        start, end = self.start.rows, self.end.rows
+        return EdgeRows(start.unknowns, start.values, end.values, self.start.body)
 
     @cached_property
     def length(self) -> Floats:

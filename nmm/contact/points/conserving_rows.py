@@ -26,8 +26,8 @@ from nmm.contact.points.bent_faces import Line, face_lines
 from nmm.contact.points.between_faces import EdgeShares, across
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.points.joint_points import JointSites, padded
-from nmm.contact.points.midpoint import ContactRows
 
 Pair = tuple[Floats, Floats]
 """What vectors are at the start and at the end of a step, or slopes by ``t`` and by ``r``."""

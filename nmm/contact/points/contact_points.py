@@ -1,19 +1,12 @@
-"""Contact points of a step: where they are, what gap and slip they have, which rows move them."""
+"""Contact points of a step: where they are, what gap and slip they have, what is remembered."""
 
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.motion import Frames
-from nmm.contact.points.boundary_points import Sides
 from nmm.interfaces.history import History
-from nmm.solvers.unchecked import made_of
-
-if TYPE_CHECKING:
-    from nmm.contact.points.joint_points import JointSites
 
 
 @dataclass(frozen=True)
@@ -147,45 +140,3 @@ def concatenate(parts: list[ContactPoints]) -> ContactPoints:
         name: np.concatenate([part.history[name] for part in some]) for name in some[0].history
     }
     return ContactPoints(**joined, history=history)
-
-
-def rows(
-    contacts: ContactPoints,
-    sides: Sides,
-    frames: Frames,
-    n_unknowns: int,
-    sites: "JointSites | None" = None,
-    more: tuple[Floats, Floats] | None = None,
-) -> tuple[csr_array, csr_array]:
-    """Return the normal and tangent rows (m, n_unknowns): ``gap += N d``, ``slip += T d``.
-
-    Both have the same sorted pattern. Joints act at their ``sites``, or on chords without.
-    ``more`` (m, 2 L) is added to what the unknowns of sides a and b do.
-    """
-    from nmm.contact.points.rows import side_rows
-
-    columns, *values = side_rows(
-        sides.start.rows.unknowns if sites is None else sites.unknowns,
-        sides.start.rows.values if sites is None else sites.start,
-        sides.end.rows.values if sites is None else sites.end,
-        frames.rotation,
-        sides.start.body if sites is None else sites.body,
-        (contacts.edge_a, contacts.edge_b) if sites is None else sites.rows_of(contacts),
-        (contacts.parameter_a, contacts.parameter_b),
-        contacts.normal,
-    )
-    if more is not None:
-        values = [value + turned for value, turned in zip(values, more, strict=True)]
-    offsets = np.arange(len(contacts) + 1, dtype=np.int32) * np.int32(columns.shape[1])
-    shape = (len(contacts), n_unknowns)
-    # Columns of their own: sorting changes them in place; offsets too where entries are summed.
-    others = columns.flatten(), offsets.copy() if sides.repeats else offsets
-    patterns = (columns.ravel(), offsets), others
-    normal, tangent = (
-        made_of(csr_array, value.ravel(), *pattern, shape)
-        for value, pattern in zip(values, patterns, strict=True)
-    )
-    if sides.repeats:
-        for part in (normal, tangent):
-            part.sum_duplicates()
-    return normal, tangent

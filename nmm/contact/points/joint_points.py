@@ -13,7 +13,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.assembly.motion import Frames, MaterialPoints, material_points
 from nmm.contact.detection.tolerances import SAME_ROWS
-from nmm.contact.points.boundary_points import Sides
+from nmm.contact.points.boundary_points import EdgeRows, Sides
 from nmm.contact.points.contact_points import ContactPoints
 
 
@@ -25,19 +25,16 @@ class JointSites:
     ----------
     a, b
         The two sides.
-    unknowns, start, end, body
+    table
         Rows at the ends of all edges, then those of ``a`` and of ``b`` with both ends the same.
     whole
-        Whether ``a`` and ``b`` are the sides of all contacts of a step, row by row, and the tables
-        hold nothing else.
+        Whether ``a`` and ``b`` are the sides of all contacts of a step, row by row, and the table
+        holds nothing else.
     """
 
     a: MaterialPoints
     b: MaterialPoints
-    unknowns: Ints
-    start: Floats
-    end: Floats
-    body: Ints
+    table: EdgeRows
     whole: bool = False
 
     @classmethod
@@ -59,14 +56,13 @@ class JointSites:
         rows = [sides.start.rows, a.rows, b.rows]
         width = max(part.unknowns.shape[1] for part in (*rows, sides.end.rows))
         values = [padded(part.values, width) for part in rows]
-        return cls(
-            a,
-            b,
-            unknowns=np.concatenate([padded(part.unknowns, width) for part in rows]),
-            start=np.concatenate(values),
-            end=np.concatenate([padded(sides.end.rows.values, width), *values[1:]]),
-            body=np.concatenate([sides.start.body, a.body, b.body]),
+        table = EdgeRows(
+            np.concatenate([padded(part.unknowns, width) for part in rows]),
+            np.concatenate(values),
+            np.concatenate([padded(sides.end.rows.values, width), *values[1:]]),
+            np.concatenate([sides.start.body, a.body, b.body]),
         )
+        return cls(a, b, table)
 
     @classmethod
     def at(cls, sides: Sides, contacts: ContactPoints) -> Self:
@@ -76,14 +72,14 @@ class JointSites:
         unknowns = [padded(part.rows.unknowns, width) for part in (a, b)]
         values = np.concatenate([padded(part.rows.values, width) for part in (a, b)])
         body = np.concatenate([a.body, b.body])
-        return cls(a, b, np.concatenate(unknowns), values, values, body, whole=True)
+        return cls(a, b, EdgeRows(np.concatenate(unknowns), values, values, body), whole=True)
 
     def rows_of(self, contacts: ContactPoints) -> tuple[Ints, Ints]:
-        """Rows (m,) of the tables above for both sides of contacts, joints or not."""
+        """Rows (m,) of the table for both sides of contacts, joints or not."""
         if self.whole:
             count = np.arange(len(contacts))
             return count, len(contacts) + count
-        first = len(self.body) - 2 * len(self.a.body)
+        first = len(self.table.body) - 2 * len(self.a.body)
         at_a = first - 1 - contacts.key
         joint = contacts.is_joint
         return (

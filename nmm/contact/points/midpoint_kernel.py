@@ -1,7 +1,4 @@
-"""What rows of contacts half way have beyond those of points that do not turn, compiled.
-
-`midpoint` says the same by sparse matrices, which is what this is tested against.
-"""
+"""What rows of contacts half way have beyond those of points that do not turn, compiled."""
 
 import numpy as np
 

@@ -14,21 +14,19 @@ from nmm.assembly.motion import State
 from nmm.contact.points.between_faces import EdgeShares, across
 from nmm.contact.points.boundary_points import Sides, tangents
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.contact_rows import Turn
 from nmm.contact.points.joint_points import JointSites
 
 
 def line_turns(
-    contacts: ContactPoints, sides: Sides, state: State, sites: JointSites | None, width: int
-) -> tuple[Floats, Floats] | None:
-    """Return what to add to normal and tangent rows (m, 2 L) of contacts; None without joints.
-
-    ``width`` L is that of rows of either side, of a before b.
-    """
+    contacts: ContactPoints, sides: Sides, state: State, sites: JointSites | None
+) -> Turn | None:
+    """Return what adds it to normal and tangent rows (m, 2 L) of contacts; None without joints."""
     (at,) = contacts.is_joint.nonzero()
     if not len(at):
         return None
     joints, place = contacts.take(at), (state.frames, state.deformation)
-    edges = joints.edge_a, joints.edge_b
+    edges, width = (joints.edge_a, joints.edge_b), (sites or sides).table.unknowns.shape[1]
     shares, ends = EdgeShares.of(joints, sides.length), (sides.start, sides.end)
     starts, stops = ([end.take(edge).place(*place) for edge in edges] for end in ends)
     line = shares.a * (stops[0] - starts[0]) + shares.b * (stops[1] - starts[1])
@@ -40,11 +38,14 @@ def line_turns(
         local = state.frames.to_body(sides.start.body[edge], normal)
         turn[:, k, : rows.shape[2]] = share / stretch * np.einsum("mcl,mc->ml", rows, local)
     apart = _apart(contacts, joints, sides, state, sites)
-    found = np.zeros((2, len(contacts), 2 * width))
-    for k, (axis, sign) in enumerate(((tangents(normal), 1.0), (normal, -1.0))):
-        lever = sign * np.einsum("ij,ij->i", apart, axis)
-        found[k, at] = lever[:, None] * turn.reshape(len(at), -1)
-    return found[0], found[1]
+    levers = (np.einsum("ij,ij->i", apart, axis)[:, None] for axis in (tangents(normal), -normal))
+    gained = [lever * turn.reshape(len(at), -1) for lever in levers]
+
+    def add(normal_rows: Floats, tangent_rows: Floats) -> None:
+        normal_rows[at] += gained[0]
+        tangent_rows[at] += gained[1]
+
+    return add
 
 
 def _apart(

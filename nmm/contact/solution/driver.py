@@ -23,7 +23,7 @@ from nmm.contact.laws.dashpots import RigidMass
 from nmm.contact.laws.failing_bonds import break_bonds, breaking
 from nmm.contact.laws.history_iteration import HistoryIteration, slid_under_load
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.midpoint import ContactRows
+from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.problem.balance import with_springs
 from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem

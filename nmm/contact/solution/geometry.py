@@ -14,10 +14,11 @@ from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.points.bent_faces import bent_normals
 from nmm.contact.points.between_faces import JointFaces
 from nmm.contact.points.boundary_points import Sides
-from nmm.contact.points.contact_points import ContactPoints, rows
+from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.contact_rows import ContactRows, contact_rows
 from nmm.contact.points.continued.tracking import apart_on
 from nmm.contact.points.joint_points import JointSites
-from nmm.contact.points.midpoint import ContactRows, body_projection, midpoint_rows
+from nmm.contact.points.midpoint import body_projection, midpoint_rows
 from nmm.contact.points.turning_lines import line_turns
 from nmm.frozen import with_parts
 
@@ -64,17 +65,13 @@ class ContactGeometry:
     ) -> ContactRows:
         """Return the rows of contacts in a state, or at the middle of a step."""
         if midpoint is not None:
-            given = contacts, self.sides, self.model, state, midpoint
-            return midpoint_rows(*given, self._projection)
+            return midpoint_rows(contacts, self.sides, state, midpoint, self._projection)
         sites = JointSites.at(self.sides, contacts) if self.bends else self._sites
-        n_unknowns = self.model.manifold.n_unknowns
-        width = (self.sides.start.rows if sites is None else sites).unknowns.shape[1]
-        more = line_turns(contacts, self.sides, state, sites, width)
-        found = rows(contacts, self.sides, state.frames, n_unknowns, sites, more)
-        return ContactRows(*found, contacts.normal)
+        turn = line_turns(contacts, self.sides, state, sites)
+        return contact_rows(contacts, self.sides, state.frames, sites, turn)
 
     @cached_property
-    def _projection(self) -> Floats | None:
+    def _projection(self) -> Floats:
         return body_projection(self.sides, self.model)
 
     def conserving(self, contacts: ContactPoints, before: State, after: State) -> ContactRows:

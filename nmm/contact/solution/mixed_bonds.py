@@ -29,7 +29,7 @@ from nmm.assembly.stress_points import StressAt
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.midpoint import ContactRows
+from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.request import StepRequest
 

@@ -14,7 +14,7 @@ from nmm.contact.laws.history_iteration import HistoryIteration
 from nmm.contact.laws.late_cohesion import LateCohesion
 from nmm.contact.laws.time_weighting import RaisedFaces, TimeWeighting, end_shares
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.midpoint import ContactRows
+from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
 from nmm.contact.solution.request import StepRequest

@@ -8,8 +8,8 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.points.joint_book import JointBook
-from nmm.contact.points.midpoint import ContactRows
 from nmm.contact.problem.step_problem import StepAnswer
 from nmm.frozen import MadeOnce
 

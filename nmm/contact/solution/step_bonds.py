@@ -11,7 +11,7 @@ from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.contact_points import ContactPoints
-from nmm.contact.points.midpoint import ContactRows
+from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.solution.mixed_bonds import MixedBonds
 
 

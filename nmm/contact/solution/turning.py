@@ -5,7 +5,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.assembly.moved_bodies import Entries, mean, spread
 from nmm.compiled import compiled
-from nmm.contact.points.moments import moments
+from nmm.contact.solution.moments import moments
 
 Pressing = tuple[Ints, Ints, Floats, Floats]
 """Edges of sides a and b, normal force and gap (m,) of contacts."""

@@ -7,61 +7,50 @@ on a short stretch grows stiffer with it, less stretched by ``sqrt(k_0 / k_1)``:
 held.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats, Ints
 from integration.contraction import contract
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.kept_energy import stretched
+from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.frozen import with_parts
 
 
 def pushing_on(
-    new: ContactPoints, old: ContactPoints, predecessor: Ints, surface: Surface, lasting: Bools
-) -> tuple[ContactPoints, Ints]:
-    """Return new points, and which they continue (m,), with springs that push as they were.
-
-    Parameters
-    ----------
-    new, old
-        As found, and of the last accepted step.
-    predecessor
-        (m,) which of the old points each new one continues, -1 where it is new.
-    lasting
-        (m,) springs that stay as they are while they push.
-    """
-    source = np.where(predecessor >= 0, predecessor, 0)
-    pushes = (predecessor >= 0) & ((old.gap < 0) | (old.normal_force != 0))[source] & lasting
+    new: ContactPoints, before: Predecessors, surface: Surface
+) -> tuple[ContactPoints, Predecessors]:
+    """Return new points with springs that push as they were, and what they continue."""
+    old, source, lasting = before.old, before.source, before.lasting
+    pushes = before.known & ((old.gap < 0) | (old.normal_force != 0))[source] & lasting
     least = np.where(pushes, old.spring_factor[source], 0.0)
     factor = np.maximum(least, new.spring_factor)
     if not np.array_equal(factor, new.spring_factor):
         new = with_parts(new, spring_factor=factor)
     within = new.parameter_a > 0
-    predecessor = np.where(within & ~pushes & lasting, -1, predecessor)
-    inside = np.flatnonzero(within & pushes & (old.key[source] == new.key))
+    inside = np.flatnonzero(within & pushes & before.stay(new))
+    before = replace(before, number=np.where(within & ~pushes & lasting, -1, before.number))
     if not len(inside):
-        return new, predecessor
+        return new, before
     edges = new.edge_a[inside], new.edge_b[inside]
     last = old.parameter_a[source[inside]], old.parameter_b[source[inside]]
     # Both sides go half of the way that they have slid, and the gap is across the line between.
     middle = (surface.at(edges[0], last[0]) + surface.at(edges[1], last[1])) / 2
     on_a, on_b = (_foot(surface, edge, middle) for edge in edges)
     over = (np.minimum(on_a, on_b) >= 0) & (np.maximum(on_a, on_b) <= 1)
-    return _placed(new, surface, inside[over], (on_a[over], on_b[over])), predecessor
+    return _placed(new, surface, inside[over], (on_a[over], on_b[over])), before
 
 
-def as_stretched(
-    new: ContactPoints, old: ContactPoints, predecessor: Ints, lasting: Bools
-) -> ContactPoints:
+def as_stretched(new: ContactPoints, before: Predecessors) -> ContactPoints:
     """Return points that hold what they held where they are stiffer than they were."""
-    source = np.where(predecessor >= 0, predecessor, 0)
-    goes_on = lasting & (predecessor >= 0) & (old.key[source] == new.key)
-    before = old.spring_factor[source]
-    stiffer = goes_on & (new.spring_factor > before)
+    factor = before.old.spring_factor[before.source]
+    stiffer = before.lasting & before.stay(new) & (new.spring_factor > factor)
     if not stiffer.any():
         return new
-    return stretched(new, np.where(stiffer, np.sqrt(before / new.spring_factor), 1.0), slip=True)
+    return stretched(new, np.where(stiffer, np.sqrt(factor / new.spring_factor), 1.0), slip=True)
 
 
 def _foot(surface: Surface, edge: Ints, place: Floats) -> Floats:

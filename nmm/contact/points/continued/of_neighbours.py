@@ -20,7 +20,7 @@ def found_for(left: ContactPoints, new: ContactPoints, body: Ints) -> Bools:
 
 def in_place_of(
     new: ContactPoints,
-    old: ContactPoints | None,
+    old: ContactPoints,
     stiffness: Callable[[ContactPoints], Floats],
     body: Ints,
     left: ContactPoints,
@@ -30,7 +30,7 @@ def in_place_of(
     It is pressed by what it overlaps, or by the share of that with which all springs between two
     bodies hold no more energy than joints and faces did.
     """
-    old = left if old is None else concatenate([left, old.take(old.length > 0)])
+    old = concatenate([left, old.take(old.length > 0)])
     pair_old, pair_new = matched(old, new, body)
     held, asked = (
         np.bincount(pair, stiffness(one) * np.minimum(one.gap, 0.0) ** 2, 1 + pair_old.max())

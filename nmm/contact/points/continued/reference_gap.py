@@ -15,58 +15,50 @@ from collections.abc import Callable
 
 import numpy as np
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats, Ints
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.of_neighbours import beside, found_for, in_place_of
+from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.frozen import with_parts
 
 
 def counted(
     new: ContactPoints,
-    old: ContactPoints | None,
-    predecessor: Ints,
+    before: Predecessors,
     stiffness: Callable[[ContactPoints], Floats],
     body: Ints,
     left: ContactPoints,
-    lasting: Bools,
 ) -> ContactPoints:
     """Return new points with gaps counted from their references.
 
     Parameters
     ----------
-    new
-        Points as found, their gaps as measured (m).
-    old
-        Points of the last accepted step with gaps as counted (m); None before the first.
-    predecessor
-        (m,) which of the old points each new one continues, -1 where it is new.
+    new, before
+        Points as found, their gaps as measured (m), and what they continue.
     stiffness
         Normal stiffness (N/m) of contact points.
     body
         (E,) of the boundary edges.
     left
         Points of joints that the last step gave up, with gap and slip as it left them (m).
-    lasting
-        (m,) springs that stay as they are while they push: a new stretch of these is not pressed.
     """
-    reference = np.minimum(new.gap, 0.0)
-    known, on_face = predecessor >= 0, new.length > 0
-    if old is not None and len(old) and len(new):
-        source = np.where(known, predecessor, 0)
-        stays = known & (old.key[source] == new.key)
+    reference, on_face, old = np.minimum(new.gap, 0.0), new.length > 0, before.old
+    if len(old) and len(new):
+        source, stays = before.source, before.stay(new)
         reference = np.where(stays, _shrunk(new.gap, old.reference[source]), reference)
-        handed = np.flatnonzero(known & ~stays & (new.gap < 0))
+        handed = np.flatnonzero(before.known & ~stays & (new.gap < 0))
         if len(handed):
             giver, taker = old.take(source[handed]), new.take(handed)
             stretch = _passed_on(giver.gap, stiffness(giver) / stiffness(taker))
             reference[handed] = _from_stretch(taker.gap, stretch)
-        born = np.flatnonzero(~known & on_face & (new.gap < 0) & ~lasting)
+        # A new stretch of lasting springs is not pressed.
+        born = np.flatnonzero(~before.known & on_face & (new.gap < 0) & ~before.lasting)
         if len(born):
             taker = new.take(born)
             reference[born] = _from_stretch(taker.gap, beside(taker, old, body))
     if len(left):
         # A joint stands for all of its length: stretches beside it were not pressed so far.
-        instead = (on_face | ~known) & (new.gap < 0) & found_for(left, new, body)
+        instead = (on_face | ~before.known) & (new.gap < 0) & found_for(left, new, body)
         reference, slip = reference.copy(), new.slip.copy()
         reference[instead], slip[instead] = in_place_of(
             new.take(instead), old, stiffness, body, left

@@ -11,6 +11,7 @@ from nmm.contact.detection.face_contacts import FaceContacts
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.detection.surface import Surface
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN, StepAnswer
 from nmm.frozen import with_parts
 from nmm.interfaces.history import History
@@ -53,23 +54,23 @@ def searched_points(
     )
 
 
-def remember(new: ContactPoints, old: ContactPoints, predecessor: Ints) -> ContactPoints:
+def remember(new: ContactPoints, before: Predecessors) -> ContactPoints:
     """Return the new points with state, forces, slip and history of the old ones they continue.
 
     A point that goes on under another interface keeps no history.
     """
-    if len(old) == len(new) and np.array_equal(predecessor, np.arange(len(new))):
+    old, number = before.old, before.number
+    if len(old) == len(new) and np.array_equal(number, np.arange(len(new))):
         return with_parts(
             new, history=old.history, **{name: getattr(old, name) for name in CARRIED}
         )
     if not len(old):
         return new
-    known = predecessor >= 0
-    source = np.where(known, predecessor, 0)
     kept: dict[str, Any] = {
-        name: np.where(known, getattr(old, name)[source], getattr(new, name)) for name in CARRIED
+        name: np.where(before.known, getattr(old, name)[before.source], getattr(new, name))
+        for name in CARRIED
     }
-    return with_parts(new, history=new.inherited(old, predecessor), **kept)
+    return with_parts(new, history=new.inherited(old, number), **kept)
 
 
 def continues(old: Contacts | None, new: Contacts) -> bool:

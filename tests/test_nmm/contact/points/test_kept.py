@@ -6,6 +6,7 @@ import numpy as np
 
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.contact.points.continued.reference_gap import counted, counted_on
 from nmm.contact.points.continued.tracking import continued, continues, remember, searched_points
 from nmm.contact.points.kept import KeptOfPairs
@@ -36,8 +37,8 @@ def test_points_that_go_on_are_those_that_are_remembered_and_counted_anew() -> N
     same = np.arange(3)
     left = old.take(np.zeros(0, dtype=int))
     one, body = (lambda p: np.ones(len(p))), np.zeros(9, int)
-    none = np.zeros(len(same), dtype=bool)
-    long = counted(remember(points(found), old, same), old, same, one, body, left, none)
+    line = Predecessors(old, same, np.zeros(len(same), dtype=bool))
+    long = counted(remember(points(found), line), line, one, body, left)
     for name in ("gap", "reference", "slip", "edge_a", "parameter_b", "normal", "state", "key"):
         np.testing.assert_array_equal(getattr(quick, name), getattr(long, name))
     assert quick.key is old.key

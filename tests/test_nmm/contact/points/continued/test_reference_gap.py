@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nmm.contact.points.contact_points import PARTS, ContactPoints
+from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.contact.points.continued.reference_gap import counted
 
 BODY = np.array([0, 0, 1, 1, 2, 2])
@@ -25,14 +26,14 @@ def follow(new, old=None, continues=False, stiffness=(1.0, 1.0), left=None):
     """The new point, continuing the old one or not; ``left`` is of joints that came apart."""
     predecessor = np.array([0 if continues else -1])
     new_stiffness, old_stiffness = stiffness
+    none = points(0.0).take(np.zeros(0, dtype=int))
+    before = Predecessors(none if old is None else old, predecessor, np.zeros(1, dtype=bool))
     return counted(
         new,
-        old,
-        predecessor,
+        before,
         lambda part: np.where(part.key == 0, old_stiffness, new_stiffness),
         BODY,
-        points(0.0).take(np.zeros(0, dtype=int)) if left is None else left,
-        np.zeros(1, dtype=bool),
+        none if left is None else left,
     )
 
 
