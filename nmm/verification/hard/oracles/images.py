@@ -130,7 +130,7 @@ def compared(first: "Run", other: "Run", image: Image, to: float = HELD_TO) -> C
     signed = "foundations:" if np.linalg.det(image.turn) < 0 else "none:"
     known = [name for name in one if _unit(name) and not name.startswith(signed)]
     wanted = {name: _there(name, first, image) for name in known}
-    sizes, least = _sizes(wanted), _least(other, image)
+    sizes, least = _sizes(wanted), _least(other, image, to)
     worst, where = 0.0, "none"
     for name in (name for name in known if _unit(name) in units):
         column = wanted[name]
@@ -140,8 +140,10 @@ def compared(first: "Run", other: "Run", image: Image, to: float = HELD_TO) -> C
     return Check(worst, 0.0, to, f"rounding; the worst column is {where}", 1.0)
 
 
-def _least(run: "Run", image: Image) -> dict[str, float]:
+def _least(run: "Run", image: Image, to: float) -> dict[str, float]:
     """Return what rounding makes of nothing, by unit: strains of `STRAIN` over the whole scene.
+
+    Places are no nearer than their own rounding, whatever share ``to`` of them is asked for.
 
     Of far places it makes the rounding of their coordinates over its size, and springs of supports
     store it.
@@ -152,7 +154,8 @@ def _least(run: "Run", image: Image) -> dict[str, float]:
     strain = max(STRAIN, 4 * np.finfo(float).eps * float(np.abs(image.by).max()) / size)
     force = modulus * strain * size * thick
     stored = SPRING * force * strain * size if strain > STRAIN else force * strain * size
-    return {"m": strain * size, "N": force, "J": stored}
+    place = max(strain, 4 * np.finfo(float).eps / to) * size
+    return {"m": place, "N": force, "J": stored}
 
 
 def _sizes(columns: Mapping[str, Floats]) -> dict[tuple[str, str], float]:
