@@ -16,7 +16,7 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.measures import dot
 from nmm.contact.detection.surface import Surface
-from nmm.contact.detection.tolerances import RUN_APART, SAME_COMPLIANCE
+from nmm.contact.detection.tolerances import ENOUGH_NODES, RUN_APART, SAME_COMPLIANCE
 from nmm.contact.mortar.trace_space import TraceSpace
 from nmm.contact.points.contact_points import ContactPoints
 
@@ -55,8 +55,27 @@ def functions_along(contacts: ContactPoints, surface: Surface, space: TraceSpace
     new = np.ones(len(at), dtype=bool)
     new[1:] = (who[:, 1:] != who[:, :-1]).any(axis=0)
     new[1:] |= np.diff(at) > RUN_APART * np.maximum(interval[1:], interval[:-1])
-    found = _hats(at, new, space.node, ~joined[order])
+    found = _on_runs(at, new, space, ~joined[order])
     return Entries(points[order][found.point], found.function, found.value)
+
+
+def _on_runs(at: Floats, new: Bools, space: TraceSpace, free: Bools) -> Entries:
+    """Functions at points of runs: of fine nodes where a run has few of the others inside.
+
+    One hat alone, even along a run, would let its faces turn into each other.
+    """
+    first = np.flatnonzero(new)
+    low, high = _inner(at[first], at[np.append(first[1:], len(at)) - 1], space.node)
+    few = (high - low + 1 < ENOUGH_NODES)[np.cumsum(new) - 1]
+    parts, count = [], 0
+    for some, node in ((~few, space.node), (few, space.fine)):
+        (points,) = some.nonzero()
+        if len(points):
+            part = _hats(at[points], new[points], node, free[points])
+            parts.append(Entries(points[part.point], count + part.function, part.value))
+            count += int(part.function.max()) + 1
+    columns = zip(*((part.point, part.function, part.value) for part in parts), strict=True)
+    return Entries(*(np.concatenate(column) for column in columns))
 
 
 def _sides(
@@ -122,12 +141,14 @@ def _hats(at: Floats, new: Bools, node: Floats, free: Bools) -> Entries:
     inside = np.ones(len(at), dtype=bool)
     inside[first[own_first]] = inside[last[own_last]] = False
     point, run = np.flatnonzero(inside), (np.cumsum(new) - 1)[inside]
-    x = np.clip(at[inside], node[low[run]], node[high[run]])
+    x, least, most = at[inside], low[run], high[run]
     left = np.searchsorted(node, x, side="right") - 1
-    left = np.clip(left, low[run], high[run])
-    right = np.minimum(left + 1, high[run])
-    wide = node[right] - node[left]
-    share = np.divide(x - node[left], wide, out=np.zeros_like(x), where=wide > 0)
+    left = np.clip(left, least, np.maximum(most - 1, least))
+    right = np.minimum(left + 1, most)
+    # The first and the last hat begin at the ends of the run.
+    begin = np.where(left == least, at[first][run], node[left])
+    wide = np.where(right == most, at[last][run], node[right]) - begin
+    share = np.divide(x - begin, wide, out=np.zeros_like(x), where=right > left)
     hat = offset[run] + 1 + left - low[run]
 
     one = np.ones(len(first))

@@ -15,10 +15,13 @@ import numpy as np
 
 from covers.cutting.cut_boundary import CutBoundary
 from integration.arrays import Bools, Floats, Ints
-from nmm.contact.detection.tolerances import ALIKE_COSINE, KINK
+from nmm.assembly.motion import material_points
+from nmm.contact.detection.tolerances import ALIKE_COSINE, ALIKE_FINE, KINK
 from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.welded import Welded
 
+# Places on an edge that may be nodes: fields that are smooth are most unlike between corners.
+PARTS = (0.0, 1 / 3, 2 / 3)
 # What covers weigh at a corner, as a vector of length one.
 Weights = dict[int, float]
 
@@ -35,6 +38,8 @@ class TraceSpace:
         (n,) face of each edge.
     node
         (p,) chosen nodes, rising; among them both ends of every face.
+    fine
+        (q,) the same that are less unlike, for stretches of faces with few of the others.
     softness
         (n,) one over Young's modulus at each edge (1/Pa).
     previous
@@ -47,6 +52,7 @@ class TraceSpace:
     end: Floats
     face: Ints
     node: Floats
+    fine: Floats
     softness: Floats
     previous: Ints
     welded: Bools
@@ -65,18 +71,22 @@ class TraceSpace:
         end = np.empty_like(length)
         end[order] = np.cumsum(length[order] + float(length.mean()) * first)
         start = end - length
-        weights = _weights(sides)
+        weights = [_weights(sides, part) for part in PARTS]
         nodes: list[float] = []
+        fine: list[float] = []
         for edge in np.split(order, np.flatnonzero(first)[1:]):  # faces, once a run
-            corners = np.append(edge, edges.next[edge[-1]])
-            chosen = _unlike([weights[corner] for corner in corners])
-            on_line = np.append(start[edge], end[edge[-1]])
-            nodes.extend(on_line[chosen].tolist())
+            there = [part[one] for one in edge for part in weights]
+            there.append(weights[0][edges.next[edge[-1]]])
+            on_line = start[edge, None] + length[edge, None] * np.array(PARTS)
+            on_line = np.append(on_line, end[edge[-1]])
+            nodes.extend(on_line[_unlike(there, ALIKE_COSINE)].tolist())
+            fine.extend(on_line[_unlike(there, ALIKE_FINE)].tolist())
         return cls(
             start,
             end,
             face,
             np.array(nodes),
+            np.array(fine),
             1 / modulus[edges.element],
             edges.previous,
             np.zeros(len(edges), dtype=bool) if welded is None else welded.beside,
@@ -104,12 +114,15 @@ def _faces(along: Floats, after: Ints, before: Ints) -> tuple[Ints, Bools]:
     return np.array(order, dtype=np.int64), np.array(first, dtype=bool)
 
 
-def _weights(sides: Sides) -> list[Weights]:
-    """Weights of the covers at the start of every edge.
+def _weights(sides: Sides, part: float) -> list[Weights]:
+    """Weights of the covers at a ``part`` of every edge.
 
     All functions of a cover count together: near its middle they are alike.
     """
-    rows = sides.start.rows
+    edges = sides.manifold.boundary
+    count = np.arange(len(edges))
+    place = edges.at(count, np.full(len(edges), part))
+    rows = material_points(sides.manifold, edges.element, place).rows
     cover = np.searchsorted(sides.manifold.cover_offset, rows.unknowns, side="right") - 1
     square = (rows.values**2).sum(axis=1)
     square /= square.sum(axis=1, keepdims=True)
@@ -122,13 +135,13 @@ def _weights(sides: Sides) -> list[Weights]:
     return found
 
 
-def _unlike(corners: list[Weights]) -> list[int]:
-    """Corners of a face that are nodes: both ends, and those unlike the node before."""
+def _unlike(corners: list[Weights], alike: float) -> list[int]:
+    """Corners of a face that are nodes: both ends, and those not ``alike`` the node before."""
     chosen = [0]
     for k in range(1, len(corners) - 1):  # corners, once a run
-        if _cosine(corners[chosen[-1]], corners[k]) <= ALIKE_COSINE:
+        if _cosine(corners[chosen[-1]], corners[k]) <= alike:
             chosen.append(k)
-    if len(chosen) > 1 and _cosine(corners[chosen[-1]], corners[-1]) > ALIKE_COSINE:
+    if len(chosen) > 1 and _cosine(corners[chosen[-1]], corners[-1]) > alike:
         chosen.pop()
     return [*chosen, len(corners) - 1]
 

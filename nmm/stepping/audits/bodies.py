@@ -9,6 +9,11 @@ from nmm.assembly.motion import State
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.step.stepper import Stepper
 
+SPRINGS_GIVE = "raise [contact] normal_penalty, take smaller steps, or an exact enforcement"
+HELD_IN_THE_MEAN = (
+    'faces of meshes are held apart in the mean: take smaller cells, or [contact] points = "vertices"'
+)
+
 
 def bodies(run: Ended) -> Findings:
     """Audit overlap, area and momentum."""
@@ -21,7 +26,7 @@ def bodies(run: Ended) -> Findings:
             deep / size,
             f"bodies overlap by up to {deep:.3g} m, {percent(deep / size)} of the smallest: "
             f"{run.recorder.totals.deepest}",
-            "raise [contact] normal_penalty, take smaller steps, or an exact enforcement",
+            HELD_IN_THE_MEAN if contact.exact else SPRINGS_GIVE,
             mild=contact.laws.stiff,
         )
     if run.formulation.rotation.update == "linear":

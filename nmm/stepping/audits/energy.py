@@ -76,9 +76,13 @@ def _made(run: Ended) -> Findings:
 
 
 def _driven(run: Ended) -> AuditFinding:
-    """Energy that dampers and friction gave in all: what hangs on a velocity's sign lags behind."""
+    """Energy that dampers and friction gave in all, and matter in some steps.
+
+    What hangs on a velocity's sign lags behind.
+    """
     ledger = run.recorder.ledger
     losses = {**ledger.damping_loss, "friction and bonds": ledger.friction_loss}
+    losses["matter that flows"] = -ledger.material_gift
     given = {name: -loss for name, loss in losses.items() if loss < 0}
     most = sum(given.values())
     share = most / ledger.throughput
@@ -86,7 +90,7 @@ def _driven(run: Ended) -> AuditFinding:
         "energy_made_by_damping",
         share,
         f"{most:.3g} J, {percent(share)} of the turnover, came from {' and '.join(given)}",
-        "take smaller steps: damping that turns with the velocity comes a step late",
+        "take smaller steps: what turns with a velocity or a stress comes a step late",
     )
 
 

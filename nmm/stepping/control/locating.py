@@ -90,9 +90,11 @@ def outward(try_: Callable[[float], Tried], still: Tried, way: float) -> Tried |
             return now
         if np.sign(now.over) != np.sign(still.over) or abs(now.over) <= CLOSE:
             return now
+        if now.way == before.way or abs(now.load - still.load) <= CLOSE:
+            return None
         slope = (now.load - before.load) / (now.way - before.way)
         further = 2 * now.way if slope == 0 else now.way - 1.01 * now.over / slope
-        if abs(now.load - still.load) <= CLOSE or further * now.way < 0:
+        if further * now.way < 0:
             return None
         before, now = now, try_(further)
     return None

@@ -46,6 +46,9 @@ class Ledger:
     work, friction_loss, material_loss
         Work of loads, weight and driven supports; what friction, dashpots and breaking bonds took;
         and what material points did, which flow or suffer damage.
+    material_gift
+        What material points gave in the steps in which they took less than nothing: stresses that
+        turn about within a step do work on what flows at its end.
     damping_loss
         What dampers took, by effect.
     effect_loss
@@ -83,6 +86,7 @@ class Ledger:
     work: float = 0.0
     friction_loss: float = 0.0
     material_loss: float = 0.0
+    material_gift: float = 0.0
     damping_loss: Mapping[str, float] = field(default_factory=dict)
     effect_loss: Mapping[str, float] = field(default_factory=dict)
     integration_loss: float = 0.0
@@ -118,11 +122,13 @@ class Ledger:
         if grows:
             work -= standing(plan, before, after)
         loss = 0.0 if attempt.solved is None else attempt.solved.loss
+        dissipated = model.dissipated(before, after)
         found = with_parts(
             self,
             work=work,
             friction_loss=self.friction_loss + loss,
-            material_loss=self.material_loss + model.dissipated(before, after),
+            material_loss=self.material_loss + dissipated,
+            material_gift=self.material_gift + max(-dissipated, 0.0),
             effect_loss={
                 name: self.effect_loss.get(name, 0.0) + lost
                 for name, lost in plan.losses(before, after).items()

@@ -139,3 +139,45 @@ def test_a_square_on_a_slope_slides_by_coulombs_law(kind, degree):
     assert way == pytest.approx(-fall * 0.1**2 / 2, rel=2e-3)
     rubbed = np.tan(np.radians(20.0)) * 0.5 * WEIGHT * np.cos(lean) * -way
     assert found.history["friction_loss"][-1] == pytest.approx(rubbed, rel=1e-3)
+
+
+LINEAR = {
+    "quads": "size = 0.45\ndegree = 1",
+    "graded": "size = 0.45\ndegree = 1",
+    "triangles": "size = 0.4\ndegree = 1",
+    "bspline": "size = 0.45\ndegree = 1",
+}
+HEIGHT, MODULUS, PRESS, LEAN = 0.6, 1e8, 1e5, 0.8
+
+
+def column():
+    """Two blocks of three cells under a pressure that is linear across them; no contraction."""
+    top = [[0, 2 * HEIGHT], [1, 2 * HEIGHT]]
+    return text.scene(
+        'plane = "stress"\n[contact]\n[formulation.rotation]\nupdate = "small"\n',
+        [
+            text.material("rock", modulus=MODULUS, poisson=0.0, density=None),
+            text.interface("rough", 60.0),
+            text.block("low", "rock", text.rectangle((0, 0), (1, HEIGHT))),
+            text.block("top", "rock", text.rectangle((0, HEIGHT), (1, 2 * HEIGHT))),
+            f'[[supports]]\nname = "base"\nsegment = {[[0, 0], [1, 0]]}\nfix = ["x", "y"]\n',
+            f'[[loads]]\nname = "p"\nkind = "edge"\nsegment = {top}\n'
+            f'field = ["0", "{-PRESS} * (1 + {LEAN} * (2 * x - 1))"]\n',
+            text.monitor("corner", (1, 2 * HEIGHT), "top"),
+        ],
+    )
+
+
+@pytest.mark.parametrize("enforcement", ["lagrange", "augmented", "cone"])
+@pytest.mark.parametrize("kind", LINEAR)
+def test_a_pressure_that_is_linear_along_a_face_passes_it_as_in_one_body(kind, enforcement):
+    held = '[supports]\nmethod = "lagrange"\n[rotation]\nupdate = "small"\n'
+    cover = f'[cover]\ntype = "{kind}"\n{LINEAR[kind]}\n'
+    chosen = parse_formulation(f'{cover}{held}[contact]\nenforcement = "{enforcement}"\n')
+    found = run(parse_scene(column()), chosen).history
+    # u_y = y p(x) / E and u_x = -y^2 p' / (2 E), of degree 2: solved to 1e-8 of the forces.
+    y, slope = 2 * HEIGHT, -PRESS * LEAN * 2
+    right = {"ux": -(y**2) * slope / (2 * MODULUS), "uy": -y * PRESS * (1 + LEAN) / MODULUS}
+    for name, value in right.items():
+        assert found[f"monitor:corner:{name}"][-1] == pytest.approx(value, rel=1e-6)
+    assert found["penetration"][-1] < 1e-6 * y
