@@ -11,7 +11,8 @@ from nmm.stepping.step.stepper import Stepper
 
 SPRINGS_GIVE = "raise [contact] normal_penalty, take smaller steps, or an exact enforcement"
 HELD_IN_THE_MEAN = (
-    'faces of meshes are held apart in the mean: take smaller cells, or [contact] points = "vertices"'
+    "faces of meshes are held apart in the mean: take smaller cells, or "
+    '[contact] points = "vertices"'
 )
 
 

@@ -34,8 +34,8 @@ THRESHOLDS: dict[str, Threshold] = {
     ),
     "energy_made_in_run": Threshold("the same over any stretch of the run", 1e-4, 1e-2, "dynamics"),
     "energy_made_by_damping": Threshold(
-        "energy that dampers, friction and bonds gave in all, and matter that flows in some steps, over "
-        "the turnover",
+        "energy that dampers, friction and bonds gave in all, and matter that flows in some steps, "
+        "over the turnover",
         1e-6,
         1e-2,
         "dynamics",
