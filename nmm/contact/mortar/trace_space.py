@@ -21,7 +21,7 @@ from nmm.contact.points.boundary_points import Sides
 from nmm.contact.points.welded import Welded
 
 # Places on an edge that may be nodes: fields that are smooth are most unlike between corners.
-PARTS = (0.0, 1 / 3, 2 / 3)
+ALONG_EDGES = (0.0, 1 / 3, 2 / 3)
 # What covers weigh at a corner, as a vector of length one.
 Weights = dict[int, float]
 
@@ -71,13 +71,13 @@ class TraceSpace:
         end = np.empty_like(length)
         end[order] = np.cumsum(length[order] + float(length.mean()) * first)
         start = end - length
-        weights = [_weights(sides, part) for part in PARTS]
+        weights = [_weights(sides, part) for part in ALONG_EDGES]
         nodes: list[float] = []
         fine: list[float] = []
         for edge in np.split(order, np.flatnonzero(first)[1:]):  # faces, once a run
             there = [part[one] for one in edge for part in weights]
             there.append(weights[0][edges.next[edge[-1]]])
-            on_line = start[edge, None] + length[edge, None] * np.array(PARTS)
+            on_line = start[edge, None] + length[edge, None] * np.array(ALONG_EDGES)
             on_line = np.append(on_line, end[edge[-1]])
             nodes.extend(on_line[_unlike(there, ALIKE_COSINE)].tolist())
             fine.extend(on_line[_unlike(there, ALIKE_FINE)].tolist())
