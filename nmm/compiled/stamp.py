@@ -44,7 +44,9 @@ def _own(kernel: Compilable) -> tuple[str, frozenset[Compilable]]:
             called.add(value)
         else:
             values.append((name, repr(_told(value))))
-    words = kernel.options, _words(python.__code__), python.__defaults__, sorted(values)
+    # Compiled code names the modules of what it calls.
+    place = python.__module__, python.__qualname__
+    words = place, kernel.options, _words(python.__code__), python.__defaults__, sorted(values)
     return hashlib.sha256(repr(words).encode()).hexdigest(), frozenset(called)
 
 
@@ -75,7 +77,7 @@ def _names(code: CodeType) -> set[str]:
 
 
 def _words(code: CodeType) -> tuple[object, ...]:
-    """What a function does, wherever it stands: not its file and lines."""
+    """What a function does, on whatever lines it stands."""
     given = (_words(each) if isinstance(each, CodeType) else each for each in code.co_consts)
     return code.co_code, code.co_names, code.co_varnames, code.co_freevars, *given
 
@@ -83,7 +85,8 @@ def _words(code: CodeType) -> tuple[object, ...]:
 def _told(value: Any) -> object:
     """Words for a value that are the same in every process."""
     if isinstance(value, type | ModuleType):
-        return value.__name__, getattr(value, "_fields", ())
+        place = getattr(value, "__module__", "")
+        return place, value.__name__, getattr(value, "_fields", ())
     if callable(value):
         code = getattr(unwrap(value), "__code__", None)
         return _words(code) if code else getattr(value, "__name__", "")

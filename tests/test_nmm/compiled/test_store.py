@@ -83,6 +83,15 @@ def test_lines_and_comments_compile_nothing_again(package):
     assert stamp(_total()) == before
 
 
+def test_a_kernel_is_another_when_one_that_it_calls_stands_in_another_module(package):
+    """Compiled code names the modules of what it calls: it cannot be read where they are gone."""
+    before = stamp(_total())
+    (package / "part_inner.py").rename(package / "part_moved.py")
+    (package / "part_outer.py").write_text(OUTER.replace("part_inner", "part_moved"))
+    assert stamp(_total()) != before
+    sys.modules.pop("part_moved", None)
+
+
 def test_values_that_numba_cannot_take_in_do_no_harm(package):
     attribute = INNER.replace("return FACTOR * x", "return FACTOR * x.real")
     (package / "part_inner.py").write_text("import threading\nreal = threading.Lock()" + attribute)
