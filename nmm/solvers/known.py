@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from nmm.solvers.unchecked import magnitudes
 
 LEAST = 1e-6
 """Part of forces that cancel below which what is left of them is not looked at more closely."""
@@ -52,8 +53,7 @@ def is_rounding(
 
 def gross(matrix: csc_array, at: Floats) -> float:
     """Return the size of what a matrix (n, n) times unknowns (n,) is the sum of."""
-    magnitudes = csc_array((np.abs(matrix.data), matrix.indices, matrix.indptr), matrix.shape)
-    return _norm(magnitudes @ np.abs(at))
+    return _norm(magnitudes(matrix) @ np.abs(at))
 
 
 def _norm(vector: Floats) -> float:

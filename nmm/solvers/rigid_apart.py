@@ -16,6 +16,7 @@ from scipy.sparse import csc_array, csr_array, diags_array, eye_array
 from integration.arrays import Floats
 from nmm.solvers.krylov import minimal_residual
 from nmm.solvers.linear import Factor
+from nmm.solvers.unchecked import magnitudes
 
 # Rounding of elastic forces, as a share of the load, from which rigid motions are kept apart.
 ROUNDED = 1e-12
@@ -72,7 +73,7 @@ class Apart:
 def rounding(factor: Factor, bodies: Bodies, solution: Floats, load: Floats) -> float:
     """Return what rounding of the solution makes of elastic forces, as a share of the load."""
     n = bodies.elastic.shape[0]
-    force = abs(bodies.elastic) @ np.abs(solution[:n])
+    force = magnitudes(bodies.elastic) @ np.abs(solution[:n])
     size = float(np.linalg.norm(factor.scale * load))
     error = float(np.finfo(float).eps) * float(np.linalg.norm(factor.scale[:n] * force))
     return error / size if size > 0 else 0.0

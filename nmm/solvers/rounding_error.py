@@ -4,6 +4,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.solvers.factor import Factor
+from nmm.solvers.unchecked import magnitudes
 
 SAMPLES = 2
 """Signs of roundings that are drawn; the worst counts."""
@@ -19,6 +20,6 @@ def rounding_changes(factor: Factor, solution: Floats, load: Floats) -> list[Flo
     solution is off by, within a factor of some ten; a condition number bounds the worst load.
     """
     eps = float(np.finfo(float).eps)
-    size = eps * (abs(factor.matrix) @ np.abs(solution) + np.abs(load))
+    size = eps * (magnitudes(factor.matrix) @ np.abs(solution) + np.abs(load))
     signs = np.random.default_rng(0).choice([-1.0, 1.0], (SAMPLES, len(load)))
     return [factor.refined(sign * size, DIGITS) for sign in signs]

@@ -6,14 +6,14 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.solvers.unchecked import made_of
+from nmm.solvers.unchecked import made_of, magnitudes
 
 
 def jacobi_scale(matrix: csc_array) -> Floats:
     """(n,) ``1/sqrt(|a_ii|)``; the largest entry of the column stands in for a zero diagonal."""
     diagonal = np.abs(matrix.diagonal())
     if (diagonal == 0.0).any():
-        largest = np.asarray(abs(matrix).max(axis=0).todense()).ravel()
+        largest = np.asarray(magnitudes(matrix).max(axis=0).todense()).ravel()
         diagonal = np.where(diagonal > 0, diagonal, np.where(largest > 0, largest, 1.0))
     return np.asarray(1.0 / np.sqrt(diagonal))
 
@@ -24,7 +24,7 @@ SWEEPS = 3
 
 def ruiz_scale(matrix: csc_array) -> Floats:
     """(n,) factors that bring the largest entry of every row and column near one (Ruiz 2001)."""
-    size = csc_array((np.abs(matrix.data), matrix.indices, matrix.indptr), shape=matrix.shape)
+    size = magnitudes(matrix)
     scale = np.ones(matrix.shape[0])
     for _ in range(SWEEPS):
         now = scaled(size, scale, 0.0)

@@ -25,6 +25,12 @@ def product(matrix: csc_array | csr_array, vector: Floats) -> Floats:
     return found
 
 
+def magnitudes(matrix: Matrix) -> Matrix:
+    """Return the sizes of all entries; ``abs`` of a matrix would sort those of its own."""
+    data, pattern = np.abs(matrix.data), (matrix.indices, matrix.indptr)
+    return made_of(type(matrix), data, *pattern, matrix.shape)
+
+
 def made_of(
     kind: type[Matrix],
     data: Floats,

@@ -15,6 +15,7 @@ from integration.arrays import Floats, Ints, same
 from nmm.contact.problem.row_products import compressed, pushed
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform
+from nmm.solvers.unchecked import magnitudes
 
 # Conditions that others imply up to this share of the largest are left out.
 IMPLIED = 1e-10
@@ -105,9 +106,7 @@ class NullSpace(Transform):
 
     def _sizes(self, among: Floats) -> Floats:
         """Sizes (n - r,) of what forces of so much on all unknowns (n,) may come to."""
-        basis = self.basis
-        sizes = csc_array((np.abs(basis.data), basis.indices, basis.indptr), shape=basis.shape)
-        return np.asarray(sizes.T @ among)
+        return np.asarray(magnitudes(self.basis).T @ among)
 
     def _multipliers(self, rest: Floats) -> Floats:
         """Multipliers (k,) with ``rows.T @ m = rest`` (n,), what is left of the balance."""

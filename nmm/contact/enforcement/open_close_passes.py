@@ -131,11 +131,8 @@ class OpenClosePasses:
             tail = f"{changing.size} of {self.problem.n_contacts} contacts changed in pass {last}"
             if not changing.size:
                 tail = "states stood still but friction had not settled"
-            sentence = f"not settled after {last} passes: {tail}; allow more passes, shorten"
-            where = tuple(int(i) for i in changing)
-            return Verdict(
-                False, "passes", f"{sentence} the step or use the cone enforcement", where
-            )
+            sentence = f"not settled after {last} passes: {tail}; {REMEDY}"
+            return Verdict(False, "passes", sentence, tuple(int(i) for i in changing))
         cycle = self.trail[first:]
         moved = np.zeros(self.problem.n_contacts, dtype=bool)
         for old, new in pairwise(cycle):
@@ -143,10 +140,8 @@ class OpenClosePasses:
         who = np.flatnonzero(moved)
         named = "; ".join(f"contact {i} {_story(cycle, int(i))}" for i in who[:5])
         more = f" and {who.size - 5} more" if who.size > 5 else ""
-        sentence = (
-            f"the contact state cycled between passes {first + 1} and {last + 1}: {named}{more}; "
-            f"{REMEDY}"
-        )
+        between = f"the contact state cycled between passes {first + 1} and {last + 1}"
+        sentence = f"{between}: {named}{more}; {REMEDY}"
         return Verdict(False, "cycle", sentence, tuple(int(i) for i in who))
 
 

@@ -11,6 +11,7 @@ from nmm.contact.problem.rounding import rounding
 from nmm.contact.problem.step_problem import StepAnswer, Verdict
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
+from nmm.solvers.unchecked import magnitudes
 
 PASSES = 3
 """Open-close passes after a failure, to see whether a part came free."""
@@ -69,7 +70,7 @@ def _worst_contacts(springs: CutSprings, increment: Floats) -> tuple[int, ...]:
     """Up to ten contacts on whose unknowns the out-of-balance force is largest."""
     problem = springs.problem
     rest = np.abs(springs.weight**2 * springs.residual(increment).force)
-    felt = abs(problem.normal_rows) @ rest + abs(problem.tangent_rows) @ rest
+    felt = sum(magnitudes(part) @ rest for part in (problem.normal_rows, problem.tangent_rows))
     return tuple(int(i) for i in np.argsort(-felt)[:10])
 
 

@@ -97,7 +97,8 @@ class _WaysToForces:
         if not ended.size <= self.tolerance:
             return ended.then(self.in_order(increment, budget))
         if not near:
-            ways.interior_took(_less(ended, found), options.ways)
+            price = options.ways.inside
+            ways.interior_took(ended.cost(price) - found.cost(price), options.ways)
         return ended
 
     def in_order(self, increment: Floats, budget: IterationBudget) -> IterationResult:
@@ -155,12 +156,3 @@ def inside_start(sides: Complementarity, tools: Tools) -> InteriorIterate:
     problem, within = springs.problem, tools.options.interior.within
     increment = kept.factor.solve(problem.force, problem.among)
     return sides.start(increment, np.stack(alike.forces(increment)), within)
-
-
-def _less(whole: IterationResult, part: IterationResult) -> IterationResult:
-    """The whole with the cost of what came after the part alone."""
-    return replace(
-        whole,
-        solves=whole.solves - part.solves,
-        factorisations=whole.factorisations - part.factorisations,
-    )

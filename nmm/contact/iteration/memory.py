@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 
 from integration.arrays import Floats, Ints, same
-from integration.contraction import contract, every
+from integration.contraction import every
 from nmm.contact.islands.partition import Islands
 from nmm.contact.iteration.options import MemoryOptions
 from nmm.contact.iteration.ways import Ways
+from nmm.contact.problem.balance import length
 from nmm.contact.problem.cut_springs import CutSprings
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.row_products import compressed
@@ -55,7 +56,7 @@ class KeptFactor:
         )
         turn = self.options.turn
         return all(
-            a is b or (len(a) == len(b) and _norm(a - b) <= turn * _norm(b)) for a, b in pairs
+            a is b or (len(a) == len(b) and length(a - b) <= turn * length(b)) for a, b in pairs
         )
 
 
@@ -102,15 +103,9 @@ class Memory:
     _load: Floats | None = None
     _islands: tuple[SpringPattern, Islands] | None = None
 
-    def recalled(self, problem: StepProblem) -> tuple[StepAnswer | None, StepProblem]:
-        """What is `known` of a problem, and the problem as `started`."""
-        if self.answered is None or not _alike(self.answered[0], problem, STEP):
-            return None, problem
-        return self.known(problem), self.started(problem)
-
     def known(self, problem: StepProblem) -> StepAnswer | None:
         """Answer of the last solution if it was of the same problem; it took no passes."""
-        if self.answered is None or not _same(self.answered[0], problem):
+        if self.answered is None or not _alike(self.answered[0], problem, PROBLEM):
             return None
         return replace(self.answered[1], passes=0, factorisations=0)
 
@@ -185,15 +180,6 @@ class Memory:
             return problem
         _, last = found
         return replace(problem, normal_force=last.normal_force, shear_force=last.shear_force)
-
-
-def _norm(values: Floats) -> float:
-    """Length of a vector on one thread: those of BLAS wait longer for each other than it lasts."""
-    return float(np.sqrt(contract("i,i->", values, values)))
-
-
-def _same(a: StepProblem, b: StepProblem) -> bool:
-    return a.n_contacts == b.n_contacts and _alike(a, b, PROBLEM)
 
 
 def _alike(a: StepProblem, b: StepProblem, names: tuple[str, ...]) -> bool:

@@ -9,7 +9,6 @@ timed: runs repeat to the last digit.
 from dataclasses import dataclass, replace
 
 from nmm.contact.iteration.options import IterationBudget, WayOptions
-from nmm.contact.problem.cut_springs import IterationResult
 
 
 @dataclass
@@ -59,15 +58,10 @@ class Ways:
         """Learn from a turn of the alternation's second factor whether it paid."""
         self.stay = max(self.stay / 2, 1.0) if paid else min(2 * self.stay, longest)
 
-    def interior_took(self, found: IterationResult, options: WayOptions) -> None:
-        """Learn from a step that the interior point ended, of its cost alone."""
-        self.inside = cost(found, options.inside)
+    def interior_took(self, cost: float, options: WayOptions) -> None:
+        """Learn from a step that the interior point ended, at a ``cost`` of its own in solves."""
+        self.inside = cost
         tried = not self.leads or self._wait <= 0
         self.leads = True
         if tried:
             self._wait, self._pause = self._pause, min(2 * self._pause, options.longest)
-
-
-def cost(found: IterationResult, factor: float) -> float:
-    """Return solves of an iteration, a factorisation counted as ``factor`` of them."""
-    return found.solves + factor * found.factorisations

@@ -14,6 +14,7 @@ from integration.arrays import Bools, Ints
 from nmm.contact.detection.face_contacts import FaceContacts
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.points.boundary_points import Sides
+from nmm.solvers.unchecked import magnitudes
 
 # Rows of two faces that differ by no more than this part of their entries are one.
 ALIKE = 1e-12
@@ -48,10 +49,7 @@ class Welded:
         across, n = boundary.next[boundary.opposite[face]], len(boundary)
         one = _moved(sides, face) - _moved(sides, across)
         size = ALIKE * np.abs(sides.start.rows.values[face]).max(axis=(1, 2))
-        # Not abs(one): scipy would sort what it shares.
-        largest = csr_array((np.abs(one.data), one.indices, one.indptr), shape=one.shape).max(
-            axis=1
-        )
+        largest = magnitudes(one).max(axis=1)
         alike = largest.toarray().reshape(-1, 2).max(axis=1) <= size
         pairs = (np.ones(int(alike.sum())), (face[alike], across[alike]))
         _, place = connected_components(csr_array(pairs, shape=(n, n)), directed=False)

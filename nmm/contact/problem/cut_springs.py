@@ -145,6 +145,10 @@ class IterationResult:
         better, other = (after, self) if after.size < self.size else (self, after)
         return replace(better.at_cost_of(other), story=f"{self.story}, then {after.story}")
 
+    def cost(self, factor: float) -> float:
+        """Solves that it took, a factorisation counted as ``factor`` of them."""
+        return self.solves + factor * self.factorisations
+
     def at_cost_of(self, other: "IterationResult") -> "IterationResult":
         """The same with the cost of another iteration besides."""
         return replace(

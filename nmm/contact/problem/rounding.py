@@ -5,6 +5,8 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.contact.problem.balance import length
 from nmm.contact.problem.cut_springs import CutSprings
+from nmm.contact.problem.row_products import pushed, terms_of_stretches
+from nmm.solvers.unchecked import magnitudes
 
 # Sums of some ten products each are rounded some ten times.
 ROUNDINGS = 16.0
@@ -20,19 +22,12 @@ def rounding(springs: CutSprings, increment: Floats) -> float:
     a stiffness 1e10 times that of what moves, that digit is a millionth of the load.
     """
     problem, grain = springs.problem, ROUNDINGS * float(np.finfo(float).eps)
-    moved = np.abs(increment)
-    parts = (
-        (problem.normal_rows, problem.gap, springs.stiffness[0]),
-        (problem.tangent_rows, problem.slip, springs.stiffness[1]),
-    )
-    normal, shear = springs.forces(increment)
-    left = np.zeros_like(increment)
-    held = np.zeros_like(increment)
-    for (rows, start, stiffness), force in zip(parts, (normal, shear), strict=True):
-        size = abs(rows)
-        acts = force != 0
-        left += size.T @ np.where(acts, grain * stiffness * (np.abs(start) + size @ moved), 0.0)
-        held += rows.T @ force
+    rows, starts = (problem.normal_rows, problem.tangent_rows), (problem.gap, problem.slip)
+    forces = np.stack(springs.forces(increment))
+    sizes = np.abs(starts) + terms_of_stretches(*rows, increment)
+    lost = np.where(forces != 0, grain * springs.stiffness * sizes, 0.0)
+    left = sum(magnitudes(part).T @ one for part, one in zip(rows, lost, strict=True))
+    held = pushed(*rows, *forces)
     inner = problem.matrix @ increment
     whole = max(length(springs.weight * part) for part in (inner, held, problem.force))
     whole = max(whole, problem.least(springs.weight))

@@ -8,6 +8,7 @@ from scipy.sparse import csc_array, csr_array
 
 from integration.arrays import Floats
 from nmm.compiled import compiled, place
+from nmm.solvers.unchecked import magnitudes
 
 Index = npt.NDArray[Any]
 Compressed = tuple[Index, Index, Floats]
@@ -31,11 +32,7 @@ def terms_of_stretches(
     normal_rows: csr_array, tangent_rows: csr_array, increment: Floats
 ) -> Floats:
     """(2, m) sums of the sizes of the terms of which `stretched` is made (m): what it rounds."""
-    sizes, found = np.abs(increment), np.empty((2, normal_rows.shape[0]))
-    # Not abs(rows): scipy merges and sorts the entries of what it is asked of.
-    for rows, one in zip((normal_rows, tangent_rows), found, strict=True):
-        products_along((rows.indptr, rows.indices, np.abs(rows.data)), sizes, one)
-    return found
+    return stretched(magnitudes(normal_rows), magnitudes(tangent_rows), np.abs(increment))
 
 
 def along(rows: csr_array, increment: Floats) -> Floats:

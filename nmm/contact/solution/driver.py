@@ -5,7 +5,7 @@ What is posed stands: limits, springs, lifted faces. Between two solutions laws 
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -28,7 +28,7 @@ from nmm.contact.problem.balance import with_springs
 from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
-from nmm.contact.solution.posed_step import Posing
+from nmm.contact.solution.posed_step import PosedStep, Posing
 from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.request import StepRequest
 from nmm.contact.solution.untouched import Untouched
@@ -110,9 +110,38 @@ class ContactSolver:
         ``more`` are transforms besides those of laws: whole bonds, means over faces, conditions.
         """
         self.memory.moving = request.step is not None
-        iteration, passes, loss = HistoryIteration(self._laws, contacts), 0, 0.0
+        passes, loss, besides = 0, 0.0, more(contacts)
+        while True:
+            agreed = self._agreed(contacts, rows, request, besides)
+            answer, iteration = agreed.answer, agreed.iteration
+            passes += agreed.passes
+            found = ContactSolution(iteration.contacts, answer, passes, loss)
+            if not answer.verdict.converged:
+                return found
+            broken = breaking(self._laws, iteration.contacts, answer, request.breaking == "worst")
+            brittle = broken & self._laws.brittle[contacts.interface]
+            if not some(broken):
+                return agreed.told(found, contacts, rows, static=request.step is None)
+            if request.near is not None and not request.near(answer.increment):
+                return found
+            if request.breaking == "stop" and brittle.any():
+                return replace(found, stopped=True)
+            freed = broken & contacts.tied
+            loss += _stored(agreed.posed.problem, answer, brittle, contacts)
+            contacts, stored = self._broken(iteration, contacts, answer, (broken, brittle))
+            loss += stored
+            besides = more(contacts) if freed.any() else besides
+
+    def _agreed(
+        self,
+        contacts: ContactPoints,
+        rows: ContactRows,
+        request: StepRequest,
+        besides: Sequence[Transform],
+    ) -> "_Agreed":
+        """Solve until laws remember what they were solved with, or there is no solution."""
+        iteration, passes = HistoryIteration(self._laws, contacts), 0
         start: Floats | None = None
-        besides = more(contacts)
         while True:
             posed = self._posing.posed(iteration, rows, request, besides, start)
             enforced = partial(self._enforced, posed.transforms, request.solver)
@@ -122,29 +151,9 @@ class ContactSolver:
             if answer.verdict.converged:
                 fault = iteration.settled(answer, sliding)
                 answer = answer if fault is None else replace(answer, verdict=fault)
-            found = ContactSolution(iteration.contacts, answer, passes, loss)
-            if not answer.verdict.converged:
-                return found
-            if not iteration.done:
-                start = answer.increment
-                continue
-            broken = breaking(self._laws, iteration.contacts, answer, request.breaking == "worst")
-            brittle = broken & self._laws.brittle[contacts.interface]
-            if not some(broken):
-                rubbed = iteration.loss(answer, sliding, static=request.step is None)
-                loss += rubbed + posed.loss(contacts, answer)
-                missed = posed.missed(answer)
-                return with_parts(found, loss=loss, sliding=sliding, rows=rows, missed=missed)
-            if request.near is not None and not request.near(answer.increment):
-                return found
-            if request.breaking == "stop" and brittle.any():
-                return replace(found, stopped=True)
-            freed = broken & contacts.tied
-            loss += _stored(posed.problem, answer, brittle, contacts)
-            contacts, stored = self._broken(iteration, contacts, answer, (broken, brittle))
-            loss += stored
-            besides = more(contacts) if freed.any() else besides
-            iteration, start = HistoryIteration(self._laws, contacts), None
+            if iteration.done or not answer.verdict.converged:
+                return _Agreed(iteration, posed, answer, sliding, passes)
+            start = answer.increment
 
     def _broken(
         self,
@@ -202,14 +211,36 @@ class ContactSolver:
     ) -> StepAnswer:
         """Return the answer to a problem after all transforms."""
         # A step that looks further and finds no other contacts asks the same again.
-        answer, started = self.memory.recalled(problem)
+        answer = self.memory.known(problem)
         if answer is None:
+            started = self.memory.started(problem)
             body = self._unknown_body
             for transform in transforms:
                 body = transform.of_unknowns(body)
             answer = solve_rebalanced(self._enforcement, started, solver, self.memory, body)
         self.memory.answered = self.last = problem, answer
         return answer
+
+
+@dataclass(frozen=True)
+class _Agreed:
+    """A solution that laws agree with, the problem it solves, and what it slid (m,) under load."""
+
+    iteration: HistoryIteration
+    posed: PosedStep
+    answer: StepAnswer
+    sliding: Floats
+    passes: int
+
+    def told(
+        self, found: ContactSolution, start: ContactPoints, rows: ContactRows, static: bool
+    ) -> ContactSolution:
+        """Return what was found as an accepted step from ``start``, with what friction took."""
+        answer, sliding = self.answer, self.sliding
+        rubbed = self.iteration.loss(answer, sliding, static) + self.posed.loss(start, answer)
+        missed = self.posed.missed(answer)
+        loss = found.loss + rubbed
+        return with_parts(found, loss=loss, sliding=sliding, rows=rows, missed=missed)
 
 
 def _stored(

@@ -23,12 +23,7 @@ def ordering() -> str:
 def metis_order(ptr: Index, graph: Index, weight: Ints) -> Ints:
     """Order of elimination of the nodes of a graph that lists each node beside itself.
 
-    Parameters
-    ----------
-    ptr, graph
-        Neighbours of each node.
-    weight
-        (n,) unknowns of each node.
+    See `nmm.solvers.frontal.dissection.dissect`.
     """
     owner = np.repeat(np.arange(len(ptr) - 1), np.diff(ptr))
     others = graph != owner

@@ -1,6 +1,7 @@
 """Where the entries of a matrix go in the panels of its factor."""
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from integration.arrays import Index, Ints
 from nmm.compiled import compiled
@@ -23,27 +24,11 @@ def upper_places(
     Those of a pivot block go into its panel; those beside it follow all panels, transposed, and
     start at ``beside_start`` (S+1,) for every supernode.
     """
-    return _places(*_turned(indptr, indices), order, *shape, beside_start)
-
-
-@compiled
-def _turned(indptr: Index, indices: Index) -> tuple[Index, Index, Ints]:
-    """Pattern of the transpose, and which entry stands at every place of it."""
     n = len(indptr) - 1
-    ptr = np.zeros(n + 1, dtype=np.int32)
-    for i in indices:
-        ptr[i + 1] += 1
-    for j in range(n):
-        ptr[j + 1] += ptr[j]
-    at = ptr[:-1].copy()
-    columns = np.empty(len(indices), dtype=np.int32)
-    entry = np.empty(len(indices), dtype=np.int64)
-    for j in range(n):
-        for e in range(indptr[j], indptr[j + 1]):
-            i = indices[e]
-            columns[at[i]], entry[at[i]] = j, e
-            at[i] += 1
-    return ptr, columns, entry
+    # The transpose, its entries the numbers of those of the pattern.
+    turned = csc_array((np.arange(len(indices)), indices, indptr), shape=(n, n)).tocsr()
+    pattern = turned.indptr.astype(np.int32), turned.indices.astype(np.int32)
+    return _places(*pattern, turned.data, order, *shape, beside_start)
 
 
 @compiled

@@ -9,8 +9,7 @@ from scipy.sparse import coo_matrix, csc_array
 from integration.arrays import Floats
 from nmm.solvers.factor import Decomposition, RankDeficientError
 from nmm.solvers.libraries.optional import MUMPS
-from nmm.solvers.linear import LinearSolver
-from nmm.solvers.saddle import equilibrated_scale
+from nmm.solvers.libraries.superlu import PivotingSolver
 
 
 @dataclass(frozen=True)
@@ -25,7 +24,7 @@ class MumpsFactor:
 
 
 @dataclass(frozen=True)
-class Mumps(LinearSolver):
+class Mumps(PivotingSolver):
     """``A = L D L^T``, or ``L U`` of what is not symmetric (Amestoy et al. 2001), pivots searched.
 
     Attributes
@@ -35,14 +34,11 @@ class Mumps(LinearSolver):
         column.
     symmetric
         Whether the upper triangle stands for the whole matrix.
-    equilibrate
-        Scale by the largest entries of rows and columns instead of the diagonal.
     """
 
     name: ClassVar[str] = "mumps"
     pivot_threshold: float = 0.01
     symmetric: bool = True
-    equilibrate: bool = False
 
     def decompose(self, matrix: csc_array) -> Decomposition:
         """Factorise a scaled matrix; `RankDeficientError` where it is singular."""
@@ -54,10 +50,6 @@ class Mumps(LinearSolver):
         except mumps.MUMPSError as fault:
             raise RankDeficientError(str(fault)) from fault
         return MumpsFactor(context)
-
-    def scaling(self, matrix: csc_array) -> Floats:
-        """By the diagonal, or by the largest entries where diagonals may vanish."""
-        return equilibrated_scale(matrix) if self.equilibrate else super().scaling(matrix)
 
     def indefinite(self) -> "Mumps":
         """Equilibrated and refined twice."""

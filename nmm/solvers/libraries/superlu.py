@@ -1,6 +1,6 @@
 """SuperLU of scipy with settings for symmetric matrices; always available."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -16,7 +16,24 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class SuperLU(LinearSolver):
+class PivotingSolver(LinearSolver):
+    """Base of solvers that search pivots, for matrices whose diagonals may vanish as well.
+
+    Attributes
+    ----------
+    equilibrate
+        Scale by the largest entries of rows and columns instead of the diagonal.
+    """
+
+    equilibrate: bool = field(default=False, kw_only=True)
+
+    def scaling(self, matrix: csc_array) -> Floats:
+        """By the diagonal, or by the largest entries where diagonals may vanish."""
+        return equilibrated_scale(matrix) if self.equilibrate else super().scaling(matrix)
+
+
+@dataclass(frozen=True)
+class SuperLU(PivotingSolver):
     """Sparse LU (Demmel et al. 1999) on the pattern of ``A + A^T``, pivots from the diagonal.
 
     Attributes
@@ -25,13 +42,10 @@ class SuperLU(LinearSolver):
         A diagonal pivot is kept when it is at least this part of the largest entry of its
         column: 0 for positive definite matrices (no search, symmetric fill), 0.1 for indefinite
         ones.
-    equilibrate
-        Scale by the largest entries of rows and columns instead of the diagonal.
     """
 
     name: ClassVar[str] = "superlu"
     pivot_threshold: float = 0.0
-    equilibrate: bool = False
 
     def decompose(self, matrix: csc_array) -> "Decomposed":
         """Factorise; `RankDeficientError` at a zero pivot."""
@@ -49,10 +63,6 @@ class SuperLU(LinearSolver):
         except RuntimeError as fault:
             # SuperLU reports a zero pivot, or trips over the supernode that holds it.
             raise RankDeficientError(str(fault)) from fault
-
-    def scaling(self, matrix: csc_array) -> Floats:
-        """By the diagonal, or by the largest entries where diagonals may vanish."""
-        return equilibrated_scale(matrix) if self.equilibrate else super().scaling(matrix)
 
     def indefinite(self) -> "SuperLU":
         """Equilibrated, pivots within a factor 10 of the largest entry, refined twice."""

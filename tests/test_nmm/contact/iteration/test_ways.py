@@ -10,8 +10,7 @@ OPTIONS = WayOptions()
 WHOLE = IterationBudget()
 
 
-def inside(factors=10, solves=40):
-    return IterationResult(None, np.zeros(0), 0.0, solves, factors, "")
+INSIDE = IterationResult(None, np.zeros(0), 0.0, 40, 10, "")
 
 
 def steps(ways, count):
@@ -19,7 +18,7 @@ def steps(ways, count):
     tried = []
     for _ in range(count):
         tried.append(ways.budget(WHOLE, False, OPTIONS) is not None)
-        ways.interior_took(inside(), OPTIONS)
+        ways.interior_took(INSIDE.cost(OPTIONS.inside), OPTIONS)
     return tried
 
 
