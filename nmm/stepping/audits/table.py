@@ -57,7 +57,7 @@ THRESHOLDS: dict[str, Threshold] = {
         "largest out-of-balance force of an accepted step, over the load", 1e-6, 1e-3, "all"
     ),
     "force_balance": Threshold(
-        "sum of loads and reactions where a path ends, over the largest of them",
+        "sum of loads and reactions where a path ends, over the sizes of the largest of them",
         1e-5,
         1e-2,
         "`[loading.control]`, without supports by multipliers",
