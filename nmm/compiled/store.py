@@ -46,7 +46,8 @@ class KeptCode:
         target.refresh()
         name = self._file(types, target.codegen())
         for folder in folders():
-            with suppress(OSError, EOFError, pickle.UnpicklingError):
+            # Types of arguments may have moved to another module since.
+            with suppress(OSError, EOFError, pickle.UnpicklingError, ImportError, AttributeError):
                 parts = pickle.loads((folder / name).read_bytes())
                 return CompileResult._rebuild(target, *parts)  # type: ignore[no-untyped-call]
         return None

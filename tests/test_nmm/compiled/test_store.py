@@ -77,6 +77,17 @@ def test_a_kernel_is_compiled_again_when_one_that_it_calls_has_changed(package, 
     assert sum(changed.stats.cache_misses.values()) == 1
 
 
+def test_a_kernel_that_another_calls_may_move_to_another_module(package):
+    assert _total()(TWO) == 6.0
+    (package / "part_inner.py").rename(package / "part_moved.py")
+    (package / "part_outer.py").write_text(OUTER.replace("part_inner", "part_moved"))
+    moved = _total()
+    sys.modules.pop("part_moved")
+    # A new process has read nothing of the old module, which is gone.
+    assert moved(TWO) == 6.0
+    assert sum(moved.stats.cache_misses.values()) == 1
+
+
 def test_lines_and_comments_compile_nothing_again(package):
     before = stamp(_total())
     (package / "part_inner.py").write_text("# A comment.\n" + INNER)
