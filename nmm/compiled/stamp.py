@@ -1,8 +1,9 @@
 """What the compiled code of a kernel was made of: its own code, what it calls, values it names.
 
 Compiled code takes in the kernels that it calls and the values that it names. The stamp of a kernel
-changes with any of them, wherever they stand, so that code kept on disk is never that of an earlier
-version. It is taken from what Python has read and not from files, which may have changed since.
+changes with any of them, and with the modules that kernels stand in, which compiled code loads:
+code kept on disk is never that of an earlier version. It is taken from what Python has read and not
+from files, which may have changed since.
 """
 
 import hashlib
