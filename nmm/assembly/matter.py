@@ -185,15 +185,8 @@ class Matter:
         stored = self.thickness * float(self.points.rule.weights @ density)
         return stored + float(deformation @ (self.rest @ deformation)) / 2
 
-    def work(self, start: tuple[Floats, History], end: tuple[Floats, History]) -> float:
-        """Return the work (J) on points from deformations (n,) and histories at both ends."""
-        mean = (start[1][STRESS] + end[1][STRESS]) / 2
-        force = self.thickness * self.points.force(mean)
-        elastic = [float(one @ (self.rest @ one)) / 2 for one in (end[0], start[0])]
-        return float(force @ (end[0] - start[0])) + elastic[0] - elastic[1]
-
     def missed(self, before: Floats, after: Floats) -> float:
-        """Return what the mean force of both ends does beyond its `work`: nothing (J)."""
+        """Return what the mean force of both ends does beyond its work: nothing (J)."""
         return 0.0
 
     def stress_near(

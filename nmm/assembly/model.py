@@ -172,10 +172,21 @@ class Model:
 
     def dissipated(self, before: "State", after: "State") -> float:
         """Work (J) of the stress in a step less what the material stores of it."""
-        if self.matter is None:
+        if self.matter is None or self.finite:  # which stores all
             return 0.0
-        ends = (before.deformation, before.history), (after.deformation, after.history)
-        return self.matter.work(*ends) - self.strain_energy(after) + self.strain_energy(before)
+        mean = (self.internal(before) + self.internal(after)) / 2
+        work = float(mean @ (after.deformation - before.deformation))
+        return work - self.strain_energy(after) + self.strain_energy(before)
+
+    def internal(self, state: "State") -> Floats:
+        """Internal force (n,) of matter that is not linear; kept for the last states."""
+        return self._internal.of(state)
+
+    @cached_property
+    def _internal(self) -> KeptOfStates[Floats]:
+        matter = self.matter
+        assert matter is not None
+        return KeptOfStates(lambda state: matter.internal(state.deformation, state.history))
 
     def missed_work(self, before: "State", after: "State") -> float:
         """Return by how much the mean force of both ends does more work (J) than is stored.

@@ -7,7 +7,7 @@ found by trying all sets that can: none may be exceeded and none may flow backwa
 of Karush, Kuhn and Tucker, Koiter 1953).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Self
 
@@ -94,7 +94,7 @@ class Pyramid:
 
     def size(self, stress: Floats) -> Floats:
         """Return what rounding of principal stresses (m, 3) is a share of, (m,) in Pa."""
-        return np.asarray(np.abs(stress).max(axis=1) + self.strength)
+        return np.asarray(_ends(np.abs(stress))[0] + self.strength)
 
     def flows(self, stress: Floats) -> Bools:
         """Return where (m,) principal stresses (m, 3) in any order exceed the surface."""
@@ -102,7 +102,7 @@ class Pyramid:
 
     def beyond(self, stress: Floats) -> Floats:
         """Return how far (m,) principal stresses (m, 3) in any order exceed the surface (Pa)."""
-        first, last = stress.max(axis=1), stress.min(axis=1)
+        first, last = _ends(stress)
         cone = (first - last) + (first + last) * self.slope - self.strength
         return np.asarray(np.maximum(cone, first - self.tension))
 
@@ -123,21 +123,36 @@ def principal_return(strain: Floats, plastic: Floats, pyramid: Pyramid) -> Retur
     """
     elastic = np.column_stack([strain, np.zeros(len(strain))]) - plastic
     stress = elastic @ pyramid.whole
-    tangent = np.tile(pyramid.whole[:3, :3], (len(strain), 1, 1))
+    # One tangent for all points, copied where some flow.
+    tangent = np.broadcast_to(pyramid.whole[:3, :3], (len(strain), 3, 3))
     found = ReturnedStress(stress, tangent, plastic.copy())
-    flows = np.flatnonzero(pyramid.flows(_principal(stress)[0]))
+    flows = np.flatnonzero(pyramid.flows(_values(stress)))
     if len(flows):
         back = _returned(elastic[flows], pyramid)
+        tangent = tangent.copy()
         stress[flows], tangent[flows] = back.stress, back.tangent
+        found = replace(found, tangent=tangent)
         found.plastic_strain[flows] += back.plastic_strain
     return found
 
 
+def _ends(stress: Floats) -> tuple[Floats, Floats]:
+    """Largest and least (m,) of three stresses each (m, 3), by columns, which is fast."""
+    a, b, c = stress.T
+    return np.maximum(np.maximum(a, b), c), np.minimum(np.minimum(a, b), c)
+
+
+def _values(tensor: Floats) -> Floats:
+    """Principal values (m, 3) of tensors (m, 4: xx, yy, xy, zz)."""
+    middle, half = (tensor[:, 0] + tensor[:, 1]) / 2, (tensor[:, 0] - tensor[:, 1]) / 2
+    radius = np.hypot(half, tensor[:, 2])
+    return np.stack([middle + radius, middle - radius, tensor[:, 3]], axis=1)
+
+
 def _principal(tensor: Floats) -> tuple[Floats, Floats]:
     """Principal values (m, 3) of tensors (m, 4: xx, yy, xy, zz), and angles (m,) of the first."""
-    middle, half = (tensor[:, 0] + tensor[:, 1]) / 2, (tensor[:, 0] - tensor[:, 1]) / 2
-    radius, angle = np.hypot(half, tensor[:, 2]), np.arctan2(tensor[:, 2], half) / 2
-    return np.stack([middle + radius, middle - radius, tensor[:, 3]], axis=1), angle
+    half = (tensor[:, 0] - tensor[:, 1]) / 2
+    return _values(tensor), np.arctan2(tensor[:, 2], half) / 2
 
 
 def _returned(elastic: Floats, pyramid: Pyramid) -> ReturnedStress:

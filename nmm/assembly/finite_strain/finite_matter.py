@@ -132,10 +132,6 @@ class FiniteMatter:
         density = self._potential(green(self.points.strain(deformation))).energy
         return self.thickness * float(self.points.rule.weights @ density)
 
-    def work(self, start: tuple[Floats, History], end: tuple[Floats, History]) -> float:
-        """Return the work (J) on points between two deformations: all of it is stored."""
-        return self.energy(*end) - self.energy(*start)
-
     def missed(self, before: Floats, after: Floats) -> float:
         """Return by how much the mean force of both ends does more work (J) than is stored."""
         mean = self.internal(before, {}) + self.internal(after, {})

@@ -23,8 +23,8 @@ BALANCED, MOST = 1e-13, 60
 # What falls no more for rounding is taken up to this share.
 ROUNDED = 1e-9
 ROUNDING = 10 * float(np.finfo(float).eps)
-# Halvings of a step of slips that leaves more out of balance than there was.
-HALVINGS = 8
+# A step of slips is halved while it leaves more out of balance than there was, down to this share.
+SHORTEST = 0.5**7
 # Share of its elastic stiffness that a bond never lacks while slips are sought: a bar whose bond is
 # gone stays where it is.
 LEFT = 1e-10
@@ -93,7 +93,7 @@ class Chains:
         """Whether nothing has a yield value: ways leave nothing to remember."""
         return bool(self.axial.elastic.all() and self.bond.elastic.all())
 
-    @property
+    @cached_property
     def linear(self) -> bool:
         """Whether axial forces are lines in the stretches."""
         return self.axial.linear and self.bond.linear
@@ -107,13 +107,13 @@ class Chains:
         if not len(slip):
             return now
         size = before = np.inf
+        out, scale = self._out(now)
         for _ in range(MOST):
-            out, scale = self._out(now)
             size = float(np.abs(out).max()) / scale if scale else 0.0
             if size <= BALANCED or (size <= ROUNDED and size > before / 2):
                 break
             before = size
-            now = self._nearer(now, out, stretch, memory)
+            now, (out, scale) = self._nearer(now, out, stretch, memory)
         _, unstable = self._factors(now)
         lost = np.arange(len(slip)) if size > ROUNDED else unstable
         return ChainAnswer(now.axial, now.bond, now.slip, lost)
@@ -158,26 +158,35 @@ class Chains:
 
     def _nearer(
         self, now: ChainAnswer, out: Floats, stretch: Floats, memory: tuple[Floats, Floats]
-    ) -> ChainAnswer:
-        """Return the next iterate: Newton's, or less where more would be out of balance."""
+    ) -> tuple[ChainAnswer, tuple[Floats, float]]:
+        """Return the next iterate, Newton's, or less where more would be out of balance; its so."""
         factors, unstable = self._factors(now)
         if len(unstable):
             factors = cholesky_banded(self._elastic)
         way = -cho_solve_banded((factors, False), out)
-        was, found = float(np.linalg.norm(out)), now
-        for part in range(HALVINGS):
-            found = self._at(stretch, now.slip + 0.5**part * way, memory)
-            if np.linalg.norm(self._out(found)[0]) < was:
-                break
-        return found
+        was, part = float(np.linalg.norm(out)), 1.0
+        while True:
+            found = self._at(stretch, now.slip + part * way, memory)
+            left = self._out(found)
+            if np.linalg.norm(left[0]) < was or part <= SHORTEST:
+                return found, left
+            part /= 2
 
     def _factors(self, at: ChainAnswer) -> tuple[Floats, Ints]:
         """Factor of the tridiagonal matrix, and the slips before which it is not positive."""
+        if self.linear:
+            return self._of_lines, NONE
         band = self._band(at)
         try:
             return cholesky_banded(band), NONE
         except LinAlgError:
             return band, np.concatenate([s for _, s, _ in self._bars if not _positive(band[:, s])])
+
+    @cached_property
+    def _of_lines(self) -> Floats:
+        """Factor of the tridiagonal matrix of linear laws, whatever they answer."""
+        bond = (1 + LEFT) * self.bond.stiffness
+        return np.asarray(cholesky_banded(self._matrix(self.axial.stiffness, bond)))
 
     def _band(self, at: ChainAnswer) -> Floats:
         return self._matrix(at.axial.tangent, at.bond.tangent + LEFT * self.bond.stiffness)

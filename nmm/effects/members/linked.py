@@ -75,12 +75,13 @@ class Linked(Effect):
             raise SolveError(self._lost(found))
         links, force = members.links, found.axial.force
         lines = links.lines(state)
+        # Small turns count beside one of 1 rad, and forces that turn beside what stretches.
         made_of = (
-            state.frames.angle[links.bodies],
+            np.append(state.frames.angle[links.bodies], 1.0),
             lines.along,
             found.axial.tangent,
             found.bond.tangent,
-            force * lines.across,
+            np.append(force * lines.across, found.axial.tangent),
         )
         if self._made is None or not _alike(self._made[0], made_of, LIKE if self.bends else 0.0):
             tangent = members.chains.tangent(found)

@@ -15,6 +15,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.assembly.kinematics import Kinematics
+from nmm.assembly.matter import STRESS
 from nmm.assembly.motion import State, coordinate_rounding
 from nmm.effects.base import Instant, Span, StepForce, defines
 from nmm.integrators.base import Integrator
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 # Out-of-balance force of a step whose energy is kept: what it leaves adds up over steps.
 CONSERVED = 1e-13
+# Share of the largest stress by which one that stays is off for rounding.
+STAYS = 1e-13
 # Forces of effects below this share of those of a step count as so large.
 HARDLY = 1e-6
 # What effects miss is rounding up to so many times that of their stiffness times the motion.
@@ -150,7 +153,7 @@ class Inner:
             self.start = self.elastic @ state.deformation
         else:
             self.elastic = matter.elastic_stiffness
-            self.start = matter.internal(state.deformation, state.history)
+            self.start = self._model.internal(state)
         self._lines = {name: self._line(name) for name in self._plan.bent}
         self._lined = all(defines(one, "matrix") for one in self._plan.bent.values())
 
@@ -258,7 +261,9 @@ class Inner:
             return self._conserving(whole), state.history
         last = None if before is None else state.deformation + before.increment
         answer = matter.update(whole, state.history, self._step or 0.0, last)
-        force, tangent = matter.force(whole, answer.stress), answer.tangent
+        stays = not increment.any() and _rounding(answer.stress, state.history.get(STRESS))
+        force = self.start if stays else matter.force(whole, answer.stress)
+        tangent = answer.tangent
         return InnerPart(force, lambda: matter.stiffness(tangent, self.symmetric)), answer.history
 
     def _conserving(self, whole: Floats) -> InnerPart:
@@ -286,6 +291,13 @@ class Inner:
         for name, one in pulls.items():
             total = total + one.stiffness() / self._span.weight - self._lines[name][1]
         return csc_array((total + total.T) / 2 if self.symmetric and not self._even else total)
+
+
+def _rounding(stress: Floats, known: Floats | None) -> bool:
+    """Whether a stress is one that is known, to rounding."""
+    if known is None:
+        return False
+    return float(np.abs(stress - known).max(initial=0.0)) <= STAYS * np.abs(known).max(initial=0.0)
 
 
 def _size(force: Floats) -> float:
