@@ -297,7 +297,8 @@ def _rounding(stress: Floats, known: Floats | None) -> bool:
     """Whether a stress is one that is known, to rounding."""
     if known is None:
         return False
-    return float(np.abs(stress - known).max(initial=0.0)) <= STAYS * np.abs(known).max(initial=0.0)
+    off, size = (float(np.abs(one).max(initial=0.0)) for one in (stress - known, known))
+    return off <= STAYS * size
 
 
 def _size(force: Floats) -> float:
