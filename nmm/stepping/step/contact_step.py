@@ -11,7 +11,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.motion import State, middle
-from nmm.contact.candidates.held_back import Crossed, joined
+from nmm.contact.candidates.held_back import joined
 from nmm.contact.detection.tolerances import (
     CROSSING_SOLUTIONS,
     FIRST_REACH,
@@ -27,9 +27,11 @@ from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations
 from nmm.stepping.step.mover import Mover
-from nmm.stepping.step.trial import Attempt
+from nmm.stepping.step.trial import Attempt, Sought
 
 if TYPE_CHECKING:
+    from nmm.contact.candidates.held_back import Crossed
+    from nmm.contact.detection.crossing import Motion
     from nmm.contact.enforcement.null_space import NullSpace
     from nmm.contact.following.path_equation import PathEquation
     from nmm.contact.points.contact_points import ContactPoints
@@ -96,40 +98,64 @@ class Touching:
             Where the load moves a part that nothing holds.
         """
         contact, state = self.contact, equations.state
-        near = self._near(equations, foreseen)
-        passes, halves, looks = 0, 0, 0
+        near, passes = self._near(equations, foreseen), 0
         contacts = self.candidates(state, reach, equations.step)
-        midpoint = ahead = self._ahead(equations, contacts, contact.momentum)
-        crossed: Crossed | None = None
-        held = self._conditions(equations)
+        ahead = self._ahead(equations, contacts, contact.momentum)
+        sought, held = Sought(reach, contacts, ahead, ahead), self._conditions(equations)
         while True:
-            solved = self._solve(equations, contacts, breaking, midpoint, held, reach, near)
+            solved = self._solve(equations, sought, breaking, held, near)
             passes += solved.passes
-            verdict = solved.answer.verdict
+            verdict, motion = solved.answer.verdict, None
             result, rest = self._judged(equations, solved, held)
             good = verdict.converged and result.motion <= self._size and not solved.stopped
-            if good and result.motion > reach:
-                reach = FURTHER * result.motion
-                contacts, midpoint = self.candidates(state, reach, equations.step, crossed), ahead
+            if good and result.motion <= sought.reach:
+                motion = contact.partners.motion(state, result.state)
+            again = self._again(equations, sought, solved, result, motion) if good else None
+            if again is not None:
+                sought = again
                 continue
-            motion = contact.partners.motion(state, result.state) if good else None
-            missed = None if motion is None else contact.overlooked(contacts, motion)
-            if missed is not None and looks < CROSSING_SOLUTIONS:
-                looks, crossed = looks + 1, joined(crossed, missed)
-                contacts, midpoint = self.candidates(state, reach, equations.step, crossed), ahead
-                continue
-            if good and equations.step is not None and self._mover.kinematics.turns:
-                half = contact.momentum.midpoint(solved, state, result.state, midpoint)
-                if half is not None and halves < MIDPOINT_SOLUTIONS:
-                    midpoint, halves = half, halves + 1
-                    continue
-                if solved.rows is not None:
-                    result = self._kept(equations, solved, result, rest)
+            if good and self._turns(equations) and solved.rows is not None:
+                result = self._kept(equations, solved, result, rest)
             if good and near is not None and solved.rows is not None:
                 result = with_parts(result, missed=self._missed(state, solved, result.state))
             passage = "" if motion is None else contact.partners.passage(motion)
             sentence = passage or self._why(verdict.sentence, result, solved)
-            return _told(result, good and not passage, sentence, solved, passes)
+            return result.told(good and not passage, sentence, solved, passes)
+
+    def _again(
+        self,
+        equations: Equations,
+        sought: Sought,
+        solved: "ContactSolution",
+        result: Attempt,
+        motion: "Motion | None",
+    ) -> Sought | None:
+        """Return with what a step is solved again; None where its solution stands.
+
+        ``motion`` is None where bodies went further than contacts were sought.
+        """
+        if motion is None:
+            return self._looked(equations, replace(sought, reach=FURTHER * result.motion))
+        missed = self.contact.overlooked(sought.contacts, motion)
+        if missed is not None and sought.crossings < CROSSING_SOLUTIONS:
+            crossed, count = joined(sought.crossed, missed), sought.crossings + 1
+            return self._looked(equations, replace(sought, crossed=crossed, crossings=count))
+        if not self._turns(equations) or sought.midpoints == MIDPOINT_SOLUTIONS:
+            return None
+        given = solved, equations.state, result.state, sought.midpoint
+        half = self.contact.momentum.midpoint(*given)
+        if half is None:
+            return None
+        return replace(sought, midpoint=half, midpoints=sought.midpoints + 1)
+
+    def _looked(self, equations: Equations, sought: Sought) -> Sought:
+        """Return what was sought with contacts found anew."""
+        given = equations.state, sought.reach, equations.step, sought.crossed
+        return replace(sought, contacts=self.candidates(*given), midpoint=sought.ahead)
+
+    def _turns(self, equations: Equations) -> bool:
+        """Whether bodies turn in a step in time."""
+        return equations.step is not None and self._mover.kinematics.turns
 
     def _ahead(
         self, equations: Equations, contacts: "ContactPoints", momentum: "Momentum"
@@ -139,7 +165,7 @@ class Touching:
         It goes by the state alone, so that a run that is resumed foresees the same.
         """
         state, step = equations.state, equations.step
-        if step is None or not self._mover.kinematics.turns:
+        if step is None or not self._turns(equations):
             return None
         flight, half = step * state.velocity, 0.5 * step**2
         way = momentum.foreseen(contacts, flight, state.acceleration, half)
@@ -169,7 +195,7 @@ class Touching:
                 break
             reach = FURTHER * result.motion
         verdict = solved.answer.verdict
-        return _told(result, verdict.converged, verdict.sentence, solved, solved.passes)
+        return result.told(verdict.converged, verdict.sentence, solved, solved.passes)
 
     def _why(self, solution: str, result: Attempt, solved: "ContactSolution") -> str:
         """Say why a solution is no step, though it be one of its equations."""
@@ -180,7 +206,7 @@ class Touching:
         return solution
 
     def candidates(
-        self, state: State, reach: float, step: float | None, crossed: Crossed | None = None
+        self, state: State, reach: float, step: float | None, crossed: "Crossed | None" = None
     ) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
         with self._clock.phase("search"):
@@ -206,15 +232,13 @@ class Touching:
     def _solve(
         self,
         equations: Equations,
-        contacts: "ContactPoints",
+        sought: Sought,
         breaking: "Breaking",
-        midpoint: State | None,
         held: "NullSpace | None",
-        reach: float,
-        foreseen: Attempt | None = None,
+        foreseen: Attempt | None,
     ) -> "ContactSolution":
         def near(increment: Floats) -> bool:
-            return self._mover.after(equations, increment).motion <= reach
+            return self._mover.after(equations, increment).motion <= sought.reach
 
         request = StepRequest(
             matrix=equations.matrix,
@@ -231,7 +255,8 @@ class Touching:
         )
         end = None if foreseen is None else foreseen.state
         with self._clock.phase("solve"):
-            return self.contact.steps.solve(contacts, equations.state, request, midpoint, end)
+            given = sought.contacts, equations.state, request, sought.midpoint
+            return self.contact.steps.solve(*given, end)
 
     def _near(self, equations: Equations, foreseen: Attempt | None) -> Attempt | None:
         """Return what is foreseen of a step in time of bodies that bend by any angle; else None."""
@@ -270,17 +295,3 @@ class Touching:
         state = result.state
         change = self.contact.momentum.kept(solved, equations.state, state, equations.step, rest)
         return with_parts(result, state=with_parts(state, velocity=state.velocity + change))
-
-
-def _told(
-    moved: Attempt, converged: bool, sentence: str, solved: "ContactSolution", passes: int
-) -> Attempt:
-    """Return where bodies are moved with how their contacts were solved."""
-    return with_parts(
-        moved,
-        converged=converged,
-        sentence=sentence,
-        residual=solved.answer.residual,
-        passes=passes,
-        solved=solved,
-    )

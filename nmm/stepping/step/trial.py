@@ -1,4 +1,4 @@
-"""What came of a step."""
+"""What a step with contact is solved with, and what came of a step."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
@@ -8,10 +8,41 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.errors import SolveError
+from nmm.frozen import with_parts
 from nmm.stepping.step.booking import Booked
 
 if TYPE_CHECKING:
+    from nmm.contact.candidates.held_back import Crossed
+    from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import ContactSolution
+
+
+@dataclass(frozen=True)
+class Sought:
+    """With what contacts a step is solved, and how often it was solved again for what it did.
+
+    Attributes
+    ----------
+    reach
+        How far contacts were sought (m).
+    contacts
+        Those that were found.
+    midpoint, ahead
+        Where contact forces act, and where they do as contacts are sought anew; None where the step
+        begins.
+    crossed
+        Pairs that are contacts because the step without them let them through; None without any.
+    crossings, midpoints
+        Solutions for such pairs, and for forces that act elsewhere half way.
+    """
+
+    reach: float
+    contacts: "ContactPoints"
+    midpoint: State | None
+    ahead: State | None
+    crossed: "Crossed | None" = None
+    crossings: int = 0
+    midpoints: int = 0
 
 
 @dataclass(frozen=True)
@@ -63,3 +94,11 @@ class Attempt:
         """Return what came of a step from ``state`` that has no solution."""
         rest = np.zeros_like(state.deformation)
         return cls(False, str(fault), state, rest, 0.0, np.nan, 1, singular=fault.singular)
+
+    def told(
+        self, converged: bool, sentence: str, solved: "ContactSolution", passes: int
+    ) -> "Attempt":
+        """Return where bodies are moved with how their contacts were solved."""
+        residual = solved.answer.residual
+        verdict = {"converged": converged, "sentence": sentence, "residual": residual}
+        return with_parts(self, **verdict, passes=passes, solved=solved)

@@ -2,9 +2,8 @@
 
 import math
 
-from integration.arrays import Floats, Ints
 from nmm.compiled import compiled
-from nmm.contact.detection.narrow.tables import Shape
+from nmm.contact.detection.narrow.tables import Before, Shape
 from nmm.contact.detection.tolerances import Rules
 
 
@@ -28,10 +27,9 @@ def measure(shape: Shape, v: int, e: int) -> tuple[float, float]:
 
 
 @compiled
-def cover(
-    shape: Shape, v: int, edge: Ints, low: int, high: int, s: Floats, gap: Floats, rules: Rules
-) -> None:
+def cover(shape: Shape, v: int, before: Before, rules: Rules) -> None:
     """Enter the flush covers of both edges at a vertex."""
+    edge, low, high, s, gap = before
     cosine = math.sqrt(1.0 - rules.sine * rules.sine)
     best_own = best_before = 0.0
     for k in range(low, high):

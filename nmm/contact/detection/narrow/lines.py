@@ -2,11 +2,11 @@
 
 import math
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Bools, Floats
 from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import thinner
 from nmm.contact.detection.narrow.shields import leaves, rays, shielded
-from nmm.contact.detection.narrow.tables import Shape, Small
+from nmm.contact.detection.narrow.tables import Before, Shape, Small
 from nmm.contact.detection.tolerances import Rules
 
 INTERIOR, USABLE = 1, 2
@@ -42,19 +42,9 @@ def _inside(shape: Shape, one: int, other: int, rules: Rules) -> bool:
 
 
 @compiled
-def judge(
-    shape: Shape,
-    v: int,
-    edge: Ints,
-    low: int,
-    high: int,
-    s: Floats,
-    gap: Floats,
-    known: Bools,
-    state: Small,
-    rules: Rules,
-) -> None:
+def judge(shape: Shape, v: int, before: Before, known: Bools, state: Small, rules: Rules) -> None:
     """Enter for each row of a vertex whether the foot is inside and the edge can be entered."""
+    edge, low, high, s, gap = before
     p = shape[v].previous
     ox, oy = shape[v].tx, shape[v].ty
     bx, by = -shape[p].tx, -shape[p].ty
@@ -103,19 +93,10 @@ def _passes(shape: Shape, v: int, e: int, s: float, gap: float) -> bool:
 
 @compiled
 def dominate(
-    shape: Shape,
-    v: int,
-    edge: Ints,
-    low: int,
-    high: int,
-    s: Floats,
-    gap: Floats,
-    state: Small,
-    rank: Floats,
-    kept: Small,
-    rules: Rules,
+    shape: Shape, v: int, before: Before, state: Small, rank: Floats, kept: Small, rules: Rules
 ) -> None:
     """Keep of the rows of a vertex those over which no other edge of the same body stands."""
+    edge, low, high, s, gap = before
     both = INTERIOR | USABLE
     for i in range(low, high):
         kept[i] = 0

@@ -11,7 +11,15 @@ from nmm.compiled import compiled
 from nmm.contact.detection.narrow.edges import cover, measure
 from nmm.contact.detection.narrow.lines import USABLE, dominate, judge, rank_of
 from nmm.contact.detection.narrow.pairs import pair
-from nmm.contact.detection.narrow.tables import Columns, Shape, Small, describe, offsets, shape_of
+from nmm.contact.detection.narrow.tables import (
+    Before,
+    Columns,
+    Shape,
+    Small,
+    describe,
+    offsets,
+    shape_of,
+)
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import Rules
 
@@ -46,17 +54,18 @@ def select(
         low, high = offset[v], offset[v + 1]
         for k in range(low, high):
             s[k], gap[k] = measure(shape, v, edge[k])
-        cover(shape, v, edge, low, high, s, gap, rules)
+        cover(shape, v, Before(edge, low, high, s, gap), rules)
     state, kept = np.empty(m, np.int8), np.empty(m, np.int8)
     rank = np.empty(m)
     known = _known(edge, offset, last)
     for v in range(n):
         low, high = offset[v], offset[v + 1]
-        judge(shape, v, edge, low, high, s, gap, known, state, rules)
+        before = Before(edge, low, high, s, gap)
+        judge(shape, v, before, known, state, rules)
         for k in range(low, high):
             if state[k] & USABLE:
                 rank[k] = rank_of(shape, motion, v, edge[k], s[k], gap[k], known[k], rules)
-        dominate(shape, v, edge, low, high, s, gap, state, rank, kept, rules)
+        dominate(shape, v, before, state, rank, kept, rules)
     final = kept.copy()
     for k in range(m):
         v, w = vertex[k], edge[k]

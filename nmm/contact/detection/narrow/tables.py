@@ -1,7 +1,7 @@
 """Tables of the compiled narrow phase: edges as they go in, contacts as they come out."""
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,23 @@ Small = npt.NDArray[np.int8]
 """States of rows."""
 Columns = tuple[Ints, Ints, Floats, Floats, Floats, Ints, Ints, Ints, Ints]
 """Those of `narrow_phase.Contacts`."""
+
+
+class Before(NamedTuple):
+    """The candidate edges before which one vertex stands: rows ``low`` to ``high`` of all.
+
+    Attributes
+    ----------
+    edge, s, gap
+        (m,) edge, foot along it and distance from its line, of all rows.
+    """
+
+    edge: Ints
+    low: int
+    high: int
+    s: Floats
+    gap: Floats
+
 
 # Of an edge start, end and unit direction, its length and the thickness of its body; that body,
 # neighbours in the ring, whether its first vertex is convex, and the flush covers of the two edges
