@@ -5,7 +5,7 @@ With Darcy's law the head ``h`` obeys ``S dh/dt = div (k grad h)``; the pressure
 (Terzaghi 1936; Biot 1941 for ``b``). What pores gain by strain `nmm.water.consolidation` adds.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Self
 
@@ -28,13 +28,15 @@ from nmm.diffusion.from_scene import (
     sloping,
 )
 from nmm.diffusion.problem import DiffusionProblem
-from nmm.effects.base import Instant, Setup
+from nmm.effects.base import Instant, Setup, Span, StepForce
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.quantity import Quantity
 
 if TYPE_CHECKING:
+    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
     from nmm.scene.tables.seepage import HeadTable
     from nmm.water.free_surface import Filling, FreeSurface
+    from nmm.water.pore_stress import PoreStress
 
 LOOSE = ("seepage", "head", "add [[heads]], or transient = true")
 
@@ -51,9 +53,11 @@ class PoreWater(FieldEffect):
         weight: float,
         second: float = 1.0,
         filling: "Filling | None" = None,
+        matter: "FiniteMatter | None" = None,
     ) -> None:
         super().__init__(course, stress, conductivity, second)
         self._ground, self._weight, self._filling = ground, weight, filling
+        self._turned = None if matter is None else _turned(stress, matter, self.acting)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -76,7 +80,32 @@ class PoreWater(FieldEffect):
         course = course_of(setup, problem, initial, second)
         conductivity = of_elements(setup, "hydraulic_conductivity")
         weight = table.unit_weight
-        return cls(course, stress, conductivity, ground, weight, second, filling)
+        matter = _bending(setup)
+        return cls(course, stress, conductivity, ground, weight, second, filling, matter)
+
+    @property
+    def with_axes(self) -> str:
+        """See `Effect.with_axes`: the pressure follows the material in plane strain."""
+        return "" if self._turned is not None else super().with_axes
+
+    @property
+    def bends(self) -> bool:
+        """See `Effect.bends`: it does in bodies that bend by any angle."""
+        return self._turned is not None
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """See `Effect.force`."""
+        found = super().force(state, end)
+        return found if self._turned is None else self._turned.force(state, end)
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`."""
+        assert self._turned is not None
+        return self._turned.through(before, after, span)
+
+    def mean_stress(self, state: State) -> Floats:
+        """See `Effect.mean_stress`."""
+        return super().mean_stress(state) if self._turned is None else self._turned.mean(state)
 
     def acting(self, time: float) -> Floats:
         """Unknowns (n,) of the pressure (Pa)."""
@@ -84,6 +113,8 @@ class PoreWater(FieldEffect):
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of the pressure on the strain of the blocks, by the mean of both ends."""
+        if self._turned is not None:
+            return self._turned.work(before, after)
         ends = (self.force(one, Instant.of(one)) for one in (before, after))
         return float(sum(ends) @ (after.deformation - before.deformation)) / 2
 
@@ -113,6 +144,32 @@ class PoreWater(FieldEffect):
         values = self.space.vertices @ self.acting(state.time)
         extremes = {"lowest": float(values.min()), "highest": float(values.max())}
         return {**extremes, **self.amounts(state)}
+
+
+def _bending(setup: Setup) -> "FiniteMatter | None":
+    """Return matter that bends by any angle, where water in it knows how: in plane strain, one way.
+
+    In plane stress the pores would have to know how thick the plate has become.
+    """
+    table = setup.scene.seepage
+    assert table is not None
+    if not setup.kinematics.finite or table.coupled or setup.scene.plane != "strain":
+        return None
+    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
+
+    assert isinstance(setup.model.matter, FiniteMatter)
+    return setup.model.matter
+
+
+def _turned(
+    stress: FieldStress, matter: "FiniteMatter", pressure: Callable[[float], Floats]
+) -> "PoreStress":
+    """Return the stress of a pressure at the points of bodies that bend by any angle."""
+    from nmm.water.pore_stress import PoreStress
+
+    rule = matter.points.rule
+    rows, share = stress.space.values(rule.owner, rule.points), stress.stress[rule.owner, 0]
+    return PoreStress(matter, lambda time: share * (rows @ pressure(time)))
 
 
 def _filling(setup: Setup, space: ScalarSpace) -> "Filling":

@@ -6,7 +6,7 @@ where the pressure has a kink, at the water table, and integrated exactly.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -17,12 +17,13 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place, along_segment, on_parts
 from nmm.assembly.pushes import Pushes, joined
-from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.load_factor import load_factor
 from nmm.errors import Fault, SceneError
 from nmm.water.head import Pressure, pressure_of
 
 if TYPE_CHECKING:
+    from nmm.effects.loading.pressures import SurfacePressure, SurfacePressures
     from nmm.scene.tables.water import WaterPressureTable
 
 # Parts of an edge shorter than this share of it are rounding.
@@ -47,6 +48,8 @@ class WaterOnEdges:
         From the instant to the factor.
     steady
         Whether it has no history.
+    surface
+        That presses where bodies bend by any angle, turns and stretches; None where axes turn.
     """
 
     name: str
@@ -55,9 +58,12 @@ class WaterOnEdges:
     unknown: Floats
     factor: Callable[[Instant], float]
     steady: bool
+    surface: "SurfacePressure | None" = None
 
     def forces(self, state: State, end: Instant) -> Floats:
         """Forces (m, 2) in global axes (N)."""
+        if self.surface is not None:
+            return self.surface.forces(state, end)
         turned = state.frames.to_global(self.place.points.body, self.force)
         return np.asarray(self.factor(end) * turned)
 
@@ -70,6 +76,8 @@ class WaterPressures(Effect):
     def __init__(self, given: list[WaterOnEdges], model: Model) -> None:
         self.given, self._model = given, model
         self._n = model.manifold.n_unknowns
+        surfaces = [one.surface for one in given if one.surface is not None]
+        self._surfaces = _surfaces(surfaces, model) if surfaces else None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -82,6 +90,21 @@ class WaterPressures(Effect):
         """See `Effect.steady`."""
         return all(one.steady for one in self.given)
 
+    @property
+    def bends(self) -> bool:
+        """See `Effect.bends`: it does on bodies that bend by any angle."""
+        return self._surfaces is not None
+
+    @property
+    def symmetric(self) -> bool:
+        """See `Effect.symmetric`."""
+        return self._surfaces is None
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`."""
+        assert self._surfaces is not None
+        return self._surfaces.through(before, after, span)
+
     def pushes(self, state: State) -> Pushes:
         """See `Effect.pushes`: those of water in cracks."""
         now = Instant.of(state)
@@ -90,6 +113,8 @@ class WaterPressures(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the pressures in the bodies' axes."""
+        if self._surfaces is not None:
+            return self._surfaces.force(state, end)
         total = np.zeros(self._n)
         for one in self.given:  # a handful
             total += one.factor(end) * one.unknown
@@ -119,13 +144,34 @@ def _water(setup: Setup, item: "WaterPressureTable") -> WaterOnEdges:
         where = setup.scene.source.of_name("water_pressures", item.name)
         found = str(item.segment or item.crack or item.block)
         raise SceneError(Fault(where, found, "an edge of a block", "move it onto one"))
-    place = on_parts(manifold, edge, start, end, manifold.degree + 1)
+    bends = setup.kinematics.finite
+    order = 2 * max(manifold.degree, 1) + 3 if bends else manifold.degree + 1
+    place = on_parts(manifold, edge, start, end, order)
     assert place.normal is not None
-    size = pressure.pressure(place.position) * place.weight * setup.model.thickness
+    there = pressure.pressure(place.position)
+    size = there * place.weight * setup.model.thickness
     force = -size[:, None] * place.normal
     unknown = place.points.rows.spread(force, manifold.n_unknowns)
     factor = load_factor(setup, item)
-    return WaterOnEdges(item.name, place, force, unknown, factor, item.history is None)
+    steady = item.history is None
+    water = WaterOnEdges(item.name, place, force, unknown, factor, steady)
+    return replace(water, surface=_surface(setup, water, there)) if bends else water
+
+
+def _surface(setup: Setup, water: WaterOnEdges, pressure: Floats) -> "SurfacePressure":
+    """Return a pressure (m,) at the points of edges that turn and stretch with their body."""
+    from nmm.effects.loading.pressures import SurfacePressure, along_surface
+
+    slopes = along_surface(water.place)
+    varies = pressure.reshape(slopes.shape[:2])[:, :, None] * slopes
+    thickness = setup.model.thickness
+    return SurfacePressure(water.name, water.place, varies, thickness, water.factor, water.steady)
+
+
+def _surfaces(surfaces: "list[SurfacePressure]", model: Model) -> "SurfacePressures":
+    from nmm.effects.loading.pressures import SurfacePressures
+
+    return SurfacePressures(surfaces, model, True)
 
 
 def _edges(setup: Setup, item: "WaterPressureTable") -> tuple[Ints, Floats, Floats]:

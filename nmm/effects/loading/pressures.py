@@ -168,11 +168,13 @@ def _pressure(setup: Setup, load: "LoadTable") -> SurfacePressure:
     order = 2 * max(setup.model.manifold.degree, 1) + 1
     place = edge_place(setup, "loads", load, order)
     size, factor = load.pressure * setup.model.thickness, load_factor(setup, load)
-    return SurfacePressure(load.name, place, _slopes(place), size, factor, load.history is None)
+    return SurfacePressure(
+        load.name, place, along_surface(place), size, factor, load.history is None
+    )
 
 
-def _slopes(place: Place) -> Floats:
-    """Weights (k, q, q) of the points' places in the way that each stands for."""
+def along_surface(place: Place) -> Floats:
+    """Weights (k, q, q) of the points' places in the way that each stands for: `slopes`."""
     assert place.piece is not None
     assert place.normal is not None
     k = int(place.piece[-1]) + 1
