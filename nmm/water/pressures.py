@@ -23,7 +23,7 @@ from nmm.errors import Fault, SceneError
 from nmm.water.head import Pressure, pressure_of
 
 if TYPE_CHECKING:
-    from nmm.effects.loading.pressures import SurfacePressure, SurfacePressures
+    from nmm.effects.loading.surface_pressure import PressedSurfaces, SurfacePressure
     from nmm.scene.tables.water import WaterPressureTable
 
 # Parts of an edge shorter than this share of it are rounding.
@@ -77,7 +77,7 @@ class WaterPressures(Effect):
         self.given, self._model = given, model
         self._n = model.manifold.n_unknowns
         surfaces = [one.surface for one in given if one.surface is not None]
-        self._surfaces = _surfaces(surfaces, model) if surfaces else None
+        self._surfaces = _pressed(surfaces, self._n) if surfaces else None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -160,7 +160,7 @@ def _water(setup: Setup, item: "WaterPressureTable") -> WaterOnEdges:
 
 def _surface(setup: Setup, water: WaterOnEdges, pressure: Floats) -> "SurfacePressure":
     """Return a pressure (m,) at the points of edges that turn and stretch with their body."""
-    from nmm.effects.loading.pressures import SurfacePressure, along_surface
+    from nmm.effects.loading.surface_pressure import SurfacePressure, along_surface
 
     slopes = along_surface(water.place)
     varies = pressure.reshape(slopes.shape[:2])[:, :, None] * slopes
@@ -168,10 +168,10 @@ def _surface(setup: Setup, water: WaterOnEdges, pressure: Floats) -> "SurfacePre
     return SurfacePressure(water.name, water.place, varies, thickness, water.factor, water.steady)
 
 
-def _surfaces(surfaces: "list[SurfacePressure]", model: Model) -> "SurfacePressures":
-    from nmm.effects.loading.pressures import SurfacePressures
+def _pressed(surfaces: "list[SurfacePressure]", n: int) -> "PressedSurfaces":
+    from nmm.effects.loading.surface_pressure import PressedSurfaces
 
-    return SurfacePressures(surfaces, model, True)
+    return PressedSurfaces(tuple(surfaces), n)
 
 
 def _edges(setup: Setup, item: "WaterPressureTable") -> tuple[Ints, Floats, Floats]:

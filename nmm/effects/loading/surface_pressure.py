@@ -1,0 +1,126 @@
+"""Pressure on pieces of boundary that turn and stretch: forces, how they fall with the motion."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.assembly.places import Place
+from nmm.effects.base import Instant, Span, StepForce
+
+# A vector turned clockwise: the way along a surface gives the way out of it.
+CLOCKWISE = np.array([[0.0, 1.0], [-1.0, 0.0]])
+
+
+@dataclass(frozen=True)
+class SurfacePressure:
+    """Pressure on q points of each of k pieces of boundary, k q = m of them.
+
+    Attributes
+    ----------
+    name
+        As the scene calls it.
+    place
+        The points.
+    slopes
+        (k, q, q) from places of the points of a piece to the way along the surface that each of
+        them stands for, the material to its left; exact where places are polynomials of degree
+        q - 1 along the piece.
+    size
+        Pressure times thickness (N/m).
+    factor
+        From the instant to the factor.
+    steady
+        Whether it has no history.
+    """
+
+    name: str
+    place: Place
+    slopes: Floats
+    size: float
+    factor: Callable[[Instant], float]
+    steady: bool
+
+    def forces(self, state: State, end: Instant) -> Floats:
+        """Forces (m, 2) on the points where they are (N)."""
+        places = self.place.points.place(state.frames, state.deformation)
+        shape = (*self.slopes.shape[:2], 2)
+        along = (self.slopes @ places.reshape(shape)).reshape(-1, 2)
+        return np.asarray(-self.factor(end) * self.size * along @ CLOCKWISE.T)
+
+    def stiffness(self, n: int) -> csr_array:
+        """Matrix (n, n) by which the force falls with the motion, at factor 1.
+
+        What is not symmetric of it is of the ends of an open surface alone.
+        """
+        rows = self.place.points.rows.matrix(n)
+        k, q, _ = self.slopes.shape
+        turned = np.einsum("kij,ab->kiajb", self.slopes, CLOCKWISE).reshape(k, 2 * q, 2 * q)
+        first = np.arange(k)[:, None, None] * 2 * q + np.arange(2 * q)
+        index = np.broadcast_to(first, turned.shape)
+        entries = (turned.ravel(), (np.swapaxes(index, 1, 2).ravel(), index.ravel()))
+        blocks = csr_array(entries, shape=(2 * k * q, 2 * k * q))
+        return csr_array(self.size * (rows.T @ blocks @ rows))
+
+
+@dataclass(frozen=True)
+class PressedSurfaces:
+    """Several of them on a model of ``n`` unknowns."""
+
+    surfaces: tuple[SurfacePressure, ...]
+    n: int
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """See `Effect.force`: the pressures on the surfaces as they are, in the bodies' axes."""
+        total = np.zeros(self.n)
+        for one in self.surfaces:  # a handful
+            total += one.place.points.push(state, one.forces(state, end))
+        return total
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`: the forces at both ends, which are lines in the places."""
+        end = Instant.of(after)
+        force = span.weight * self.force(after, end)
+        if span.weight < 1:
+            force += (1 - span.weight) * self.force(before, Instant.of(before))
+
+        def stiffness() -> csc_array:
+            none = csc_array((self.n, self.n))
+            pairs = zip(self.surfaces, self.stiffness, strict=True)
+            return csc_array(sum((span.weight * p.factor(end) * k for p, k in pairs), start=none))
+
+        return StepForce(force, stiffness)
+
+    @cached_property
+    def stiffness(self) -> list[csr_array]:
+        """Matrices (n, n) of each at factor 1."""
+        return [one.stiffness(self.n) for one in self.surfaces]
+
+
+def along_surface(place: Place) -> Floats:
+    """Weights (k, q, q) of the points' places in the way that each stands for: `slopes`."""
+    assert place.piece is not None
+    assert place.normal is not None
+    k = int(place.piece[-1]) + 1
+    q = len(place) // k
+    # Shares of the piece at which Gauss points lie; the sum of weights is its length.
+    nodes, weights = np.polynomial.legendre.leggauss(q)
+    slopes = weights[:, None] * _derivatives(nodes)
+    ends = place.position.reshape(k, q, 2)
+    normal = place.normal.reshape(k, q, 2)[:, 0]
+    way = np.einsum("ij,kjc->kic", slopes, ends).sum(axis=1)
+    # Along the surface with the material to the left the outward normal is turned clockwise.
+    sense = np.sign(np.sum(way @ CLOCKWISE.T * normal, axis=1))
+    return np.asarray(sense[:, None, None] * slopes)
+
+
+def _derivatives(nodes: Floats) -> Floats:
+    """Matrix (q, q) from values at nodes to the derivatives of the polynomial through them."""
+    powers = np.vander(nodes, increasing=True)
+    slopes = np.zeros_like(powers)
+    slopes[:, 1:] = powers[:, :-1] * np.arange(1, len(nodes))
+    return np.asarray(slopes @ np.linalg.inv(powers))
