@@ -35,6 +35,22 @@ def test_water_that_has_no_time_to_leave_carries_its_share_of_the_load(storage):
     assert -run.history["monitor:top:uy"][-1] == pytest.approx(down, rel=0.02)
 
 
+@pytest.mark.parametrize(
+    "cover", [QUADS, QUADS.replace("quads", "triangles").replace("1.0", "0.7")]
+)
+def test_water_a_million_times_as_stiff_as_soil_spoils_no_digits(cover):
+    """``p = q / (1 + S M / w)``, and a settlement of 1e-6 of the drained one."""
+    storage, free = 1e-6, LOAD * HEIGHT / CONFINED
+    text = ConsolidatingColumn(steps=2, storage=storage, time=1e-12).scene()
+    run = nmm.run(nmm.parse_scene(text + cover, "scene"))
+    assert run.summary.status == "converged"
+    # What flows in this time is a share of sqrt(1e-12) of a cell; solutions end at 1e-10 of the
+    # forces, a millionth of which strains the soil.
+    assert pressure(run, DEEP) == pytest.approx(LOAD, rel=3e-6)
+    down = -run.history["monitor:top:uy"][-1]
+    assert down == pytest.approx(free * storage / (1 + storage), rel=1e-3)
+
+
 def test_errors_fall_with_the_step_in_order_one():
     exact = LOAD * HEIGHT / CONFINED * (1e-3 + settled(0.3)) / 1.001
     off = [abs(column(steps=n).history["monitor:top:uy"][-1] + exact) for n in (10, 20, 40)]
