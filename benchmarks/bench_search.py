@@ -1,6 +1,7 @@
 """Contact search on Voronoi blocks, and what its compiled forms save."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,11 +11,11 @@ import shapely
 from integration.polygons import Polygons
 from nmm.contact.detection.joints import find_joints
 from nmm.contact.detection.narrow_phase import find_contacts, follow
-from nmm.contact.detection.neighbour_list import NeighbourList, near_pairs
+from nmm.contact.detection.neighbour_list import NeighbourList
 from nmm.contact.detection.surface import Surface
 from nmm.testing.detection.crossings import find_crossings
 from nmm.testing.detection.narrow_arrays import find_by_arrays
-from nmm.testing.detection.search import near_pairs_by_tree, polygon_surface
+from nmm.testing.detection.search import near_pairs, near_pairs_by_tree, polygon_surface
 
 SKIN, REACH = 0.02, 0.01
 """Distances of pairs and of contacts, in sizes of a cell."""
@@ -38,10 +39,10 @@ def tasks(surface: Surface) -> dict[str, Callable[[], object]]:
     found = find_contacts(surface, vertex, edge, REACH)
     rng = np.random.default_rng(2)
     way = 0.01 * rng.standard_normal((int(surface.body.max()) + 1, 2))[surface.body]
-    after = surface.moved(surface.start + way, surface.end + way)
+    after = replace(surface, start=surface.start + way, end=surface.end + way)
 
     def fresh() -> Surface:
-        return surface.moved(surface.start, surface.end)  # nothing derived is known yet
+        return replace(surface)  # nothing derived is known yet
 
     return {
         "pairs, grid": lambda: near_pairs(fresh(), SKIN),

@@ -79,10 +79,8 @@ class Supports(TiedInterfaces):
         Springs that the change makes stiffer or softer exert what they did.
         """
         new, state, former = type(self).from_setup(change.setup), change.state, change.former
-        jumps = self._jumps(former, Instant.of(former))
-        known = {
-            tie.interface.name: (tie, jump) for tie, jump in zip(self.ties, jumps, strict=True)
-        }
+        pairs = self._each(former, Instant.of(former))
+        known = {tie.interface.name: (tie, jump) for tie, jump in pairs}
         for number, tie in enumerate(new.ties):
             interface, before = tie.interface, known.get(tie.interface.name)
             anchor = interface.motion(state)
@@ -112,9 +110,8 @@ class Supports(TiedInterfaces):
         """Return what each support exerts; multipliers are those of the supports ``before``."""
         known = {tie.interface.name: tie for tie in before.ties}
         found = []
-        for tie, (pull, beside) in zip(
-            self.ties, self._pulls(state, Instant.of(state)), strict=True
-        ):
+        pulls = self._pulls(state, Instant.of(state))
+        for tie, (pull, beside) in zip(self.ties, pulls, strict=True):
             old, place = known[tie.interface.name], tie.interface.first
             if tie.shared is not None and len(old.interface) == len(tie.interface):
                 pull = pull + old.point_forces(state, np.zeros_like(pull))
@@ -162,13 +159,11 @@ class Supports(TiedInterfaces):
 
     def reactions(self, state: State) -> dict[str, Floats]:
         """Return the force (2,) in N that each support exerts on the bodies."""
-        now = Instant.of(state)
-        return {
-            tie.interface.name: self._with_added(tie.point_forces(state, jump), tie, state).sum(
-                axis=0
-            )
-            for tie, jump in zip(self.ties, self._jumps(state, now), strict=True)
-        }
+        found = {}
+        for tie, jump in self._each(state, Instant.of(state)):
+            forces = self._with_added(tie.point_forces(state, jump), tie, state)
+            found[tie.interface.name] = forces.sum(axis=0)
+        return found
 
     def _with_added(self, forces: Floats, tie: Imposition, state: State) -> Floats:
         """Forces (m, 2) in N with those of stresses that other effects add."""

@@ -6,7 +6,7 @@ step ends: stiff ties that were left there would push back by far more than they
 in time of what may turn are solved for the forces at their end.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -95,7 +95,7 @@ class TiedInterfaces(Effect):
     def force(self, state: State, end: Instant) -> Floats:
         """Return the pull at the start of the step towards the places at its end."""
         total = np.zeros(self._n)
-        for tie, jump in zip(self.ties, self._jumps(state, end), strict=True):
+        for tie, jump in self._each(state, end):
             total += tie.force(state, jump)
             if self._stresses:
                 total += tie.interface.spread(state, self._added(tie, state, end))
@@ -143,7 +143,7 @@ class TiedInterfaces(Effect):
     def _pulls(self, state: State, end: Instant) -> list[tuple[Floats, Floats]]:
         """Forces (m, 2) in N on the first side of each tie, and (n,) what it does besides."""
         found = []
-        for tie, jump in zip(self.ties, self._jumps(state, end), strict=True):
+        for tie, jump in self._each(state, end):
             pull = tie.point_forces(state, jump)
             beside = tie.force(state, jump) - tie.interface.spread(state, pull)
             if self._stresses:
@@ -164,7 +164,7 @@ class TiedInterfaces(Effect):
         if not self._spaces:
             return None
         found: dict[int, tuple[csr_array, Floats]] = {}
-        for tie, jump in zip(self.ties, self._jumps(state, end), strict=True):
+        for tie, jump in self._each(state, end):
             if tie.shared is not None:
                 rows, sides = tie.conditions(state, jump)
                 before = found.get(id(tie.shared))
@@ -195,8 +195,7 @@ class TiedInterfaces(Effect):
 
     def energy(self, state: State) -> float:
         """Energy (J) stored in ``state``, with places of its own instant."""
-        now = Instant.of(state)
-        pairs = list(zip(self.ties, self._jumps(state, now), strict=True))
+        pairs = self._each(state, Instant.of(state))
         return sum(tie.energy(state, jump) for tie, jump in pairs) + self.felt_energy(state)
 
     def felt_energy(self, state: State) -> float:
@@ -213,13 +212,13 @@ class TiedInterfaces(Effect):
 
     def _felt(self, state: State, at: Instant) -> float:
         """Tractions of stresses at an instant times the jumps of a state (J)."""
-        pairs = zip(self.ties, self._jumps(state, Instant.of(state)), strict=True)
+        pairs = self._each(state, Instant.of(state))
         return sum(float(np.sum(jump * self._added(tie, state, at))) for tie, jump in pairs)
 
     def gap_volume(self, state: State, k: int) -> Floats:
         """See `Effect.gap_volume`."""
         total = np.zeros(k)
-        for tie, jump in zip(self.ties, self._jumps(state, Instant.of(state)), strict=True):
+        for tie, jump in self._each(state, Instant.of(state)):
             total += tie.gap_volume(state, jump, k)
         return total
 
@@ -227,6 +226,10 @@ class TiedInterfaces(Effect):
         """Return the unknowns tied to those of neighbours, as by ghost terms."""
         none = [np.empty(0, dtype=np.int64)]
         return np.unique(np.concatenate(none + [tie.tied_unknowns for tie in self.ties]))
+
+    def _each(self, state: State, end: Instant) -> Iterator[tuple[Imposition, Floats]]:
+        """Each tie with its jump (m, 2) from where the ground is at an instant."""
+        return zip(self.ties, self._jumps(state, end), strict=True)
 
     def _jumps(self, state: State, end: Instant) -> list[Floats]:
         motions, last = self._motions.of(state), self._last

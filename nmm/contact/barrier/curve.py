@@ -11,7 +11,6 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.contact.barrier.potential import Potential, Pull
-from nmm.contact.problem.step_problem import StepProblem
 
 TURNS = 40
 """Most steps of Newton's method for one number; five to eight are usual."""
@@ -111,11 +110,3 @@ class Curves:
         short = 2 * size / (ramp + root) * half
         slides = size >= bound + self.shear * half
         return np.sign(trial) * np.where(slides, (size - bound) / self.shear, short)
-
-
-def with_forces(
-    problem: StepProblem, increment: Floats, spot: Spot
-) -> tuple[Floats, Floats, Floats]:
-    """Out-of-balance force (n,) of the forces of ``spot``, and what gaps and slips miss (m,)."""
-    rest = problem.out_of_balance(increment, spot.pull.normal, spot.pull.shear)
-    return rest, problem.gaps(increment) - spot.gap, problem.slips(increment) - spot.slip

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.barrier.curve import Curves, Spot, with_forces
+from nmm.contact.barrier.curve import Curves, Spot
 from nmm.contact.barrier.potential import Potential
 from nmm.contact.iteration.multiplier_rounds import compliances, stiff_springs
 from nmm.contact.iteration.tools import Tools
@@ -117,7 +117,8 @@ class Newton:
         problem = self.well.problem
         places = problem.gaps(increment), problem.slips(increment)
         spot = self.curves.at(trials, *places, self.bound)
-        rest, gap, slip = with_forces(problem, increment, spot)
+        rest = problem.out_of_balance(increment, spot.pull.normal, spot.pull.shear)
+        gap, slip = places[0] - spot.gap, places[1] - spot.slip
         parts = float(self.soft[0] @ gap**2 + self.soft[1] @ slip**2)
         miss = float(np.sqrt(length(self.weight * rest) ** 2 + parts))
         return _State(increment, trials, spot, rest, gap, slip, miss)

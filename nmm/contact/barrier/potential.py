@@ -136,11 +136,10 @@ class Potential:
         """Bound of the shear force that belongs to a normal force."""
         return shear_bound(normal, normal < 0, self.problem.limits)
 
-    def pull(self, gap: Floats, slip: Floats, bound: Floats | None = None) -> Pull:
-        """Forces for a given bound of the friction, or for that of their own normal force."""
+    def pull(self, gap: Floats, slip: Floats) -> Pull:
+        """Forces for the bound of friction of their own normal force."""
         normal, stiff = self.normal(gap)
-        given = self.bound(normal) if bound is None else bound
-        return self.pulled(normal, stiff, slip, given, follows=bound is None)
+        return self.pulled(normal, stiff, slip, self.bound(normal), follows=True)
 
     def pulled(
         self, normal: Floats, stiff: Floats, slip: Floats, bound: Floats, follows: bool

@@ -18,7 +18,7 @@ from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.failing_bonds import strength
 from nmm.contact.laws.found_contacts import sized
 from nmm.contact.points.contact_points import ContactPoints, concatenate
-from nmm.contact.points.continued.kept_energy import kept_energy, no_more_energy
+from nmm.contact.points.continued.kept_energy import kept_energy
 from nmm.contact.points.continued.lasting_springs import as_stretched, pushing_on
 from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.contact.points.continued.reference_gap import counted, counted_on
@@ -185,5 +185,5 @@ class Candidates:
         if self._keeps_energy:
             new = kept_energy(new, old, stiffness, body)
         if in_time and self._laws.stiff:
-            new = no_more_energy(new, concatenate([left, old]), stiffness, body)
+            new = kept_energy(new, concatenate([left, old]), stiffness, body, at_most=True)
         return new

@@ -4,32 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from integration.arrays import Floats, Ints, same
+from integration.arrays import Ints, same
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import DEPTH
-
-
-def near_pairs(
-    surface: Surface, distance: float | Floats, within_bodies: bool = False
-) -> tuple[Ints, Ints]:
-    """Vertex and edge (m,) of all near pairs, sorted by vertex, then edge; by a compiled grid.
-
-    Parameters
-    ----------
-    surface
-        The edges.
-    distance
-        The largest distance (m) of a vertex from the segment; an array (n,) gives one to each
-        vertex and edge, and the smaller of the two counts.
-    within_bodies
-        Also pairs of one body, as the faces of a crack in it: all but the edges at the vertex, and
-        those that share an end with them at a corner that is not reentrant.
-    """
-    # Compiled code is loaded by the first search, not by whoever names this module.
-    from nmm.contact.detection.grid import pairs_by_grid
-
-    distances = np.broadcast_to(np.asarray(distance, dtype=float), len(surface)).copy()
-    return pairs_by_grid(surface, distances, within_bodies)
 
 
 class NeighbourList:
@@ -45,7 +22,8 @@ class NeighbourList:
     skin
         m. A wider skin makes longer lists and fewer searches.
     within_bodies
-        See `near_pairs`.
+        Also pairs of one body, as the faces of a crack in it: all but the edges at the vertex, and
+        those that share an end with them at a corner that is not reentrant.
     """
 
     def __init__(self, skin: float, within_bodies: bool = False) -> None:
@@ -60,9 +38,12 @@ class NeighbourList:
         if surface is self._last:  # the step asks again by which it began
             return self._pairs
         if self._built is None or not self._stands(self._built, surface):
+            # Compiled code is loaded by the first search, not by whoever names this module.
+            from nmm.contact.detection.grid import pairs_by_grid
+
             depth = DEPTH * surface.thickness + 0.5 * self.skin
             distance = np.maximum(self.skin, depth)
-            self._pairs = near_pairs(surface, distance, self.within_bodies)
+            self._pairs = pairs_by_grid(surface, distance, self.within_bodies)
             self._built = surface
         self._last = surface
         return self._pairs

@@ -74,7 +74,3 @@ class Surface:
     def at(self, edge: Ints, parameter: Floats) -> Floats:
         """Points (m, 2) at fractions of edges."""
         return self.start[edge] + parameter[:, None] * (self.end[edge] - self.start[edge])
-
-    def moved(self, start: Floats, end: Floats) -> Surface:
-        """Return the same rings with their edges elsewhere."""
-        return Surface(start, end, self.body, self.next, self.previous)

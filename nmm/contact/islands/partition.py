@@ -67,11 +67,6 @@ class Islands:
         found = balances(increment, force, self.unknown, self.count, springs.columns)
         return np.asarray(found[0]), np.asarray(found[1])
 
-    def sizes(self, springs: CutSprings, increment: Floats, force: Floats) -> Floats:
-        """(I,) the first of `balance` over the second."""
-        rest, largest = self.balance(springs, increment, force)
-        return np.divide(rest, largest, out=np.zeros_like(rest), where=largest > 0)
-
     def around(self, problem: StepProblem, chosen: Bools) -> tuple[Ints, Ints]:
         """Unknowns of ``chosen`` islands (I,) and of held bodies they touch, and their contacts."""
         within, contacts = chosen[self.unknown], np.flatnonzero(chosen[self.contact])

@@ -90,7 +90,7 @@ def _interior_round(
     forces = found.springs.forces(found.increment)
     largest = max(float(np.abs(force).max(initial=0.0)) for force in forces)
     gap = found.error * largest * float(compliance.max(initial=0.0))
-    best = MultiplierIterate(found, before.count, found.error, gap, found.error)
+    best = MultiplierIterate(found, before.count, gap, found.error)
     if len(problem.force) > SMALL:
         return best
     for _ in range(2):

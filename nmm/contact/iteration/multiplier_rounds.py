@@ -31,10 +31,8 @@ class MultiplierIterate:
         Springs shifted by the multipliers of this round, unknowns, out-of-balance force.
     count
         Rounds so far.
-    change
-        Largest change of a multiplier in this round over the largest force.
     gap
-        The same as a length (m): the largest gap, slip or opening that should not be.
+        Largest gap, slip or opening that should not be (m).
     error
         ``gap`` over what the largest force would press into the contact alone (its compliance
         times the force): the part of a force that is still missing where forces are determined.
@@ -42,7 +40,6 @@ class MultiplierIterate:
 
     result: IterationResult
     count: int = 0
-    change: float = np.inf
     gap: float = np.inf
     error: float = np.inf
 
@@ -90,12 +87,6 @@ def stiff_springs(problem: StepProblem, scale: float | None) -> CutSprings:
     return CutSprings(problem, stiffness, np.where(exact, forces, 0.0))
 
 
-def stiffened(springs: CutSprings, factor: float) -> CutSprings:
-    """The same springs, ``factor`` times as stiff where stiffness is not the joint's own."""
-    times = np.where(springs.problem.own_stiffness, 1.0, factor)
-    return replace(springs, stiffness=times * springs.stiffness)
-
-
 def exact_goal(problem: StepProblem, tolerance: float, gap_tolerance: float) -> Goal:
     """Goal with the tolerance of balance for gaps where a small problem makes it cost nothing."""
     small = len(problem.force) <= SMALL
@@ -128,12 +119,11 @@ def measured(found: IterationResult, count: int) -> MultiplierIterate:
     problem = springs.problem
     rows = problem.normal_rows, problem.tangent_rows
     counts = gap > UNKNOWN * terms_of_stretches(*rows, found.increment)
-    jump, gap = np.where(counts, jump, 0.0), np.where(counts, gap, 0.0)
+    gap = np.where(counts, gap, 0.0)
     part = gap / compliances(springs.problem)
     size = float(np.abs(forces).max(initial=0.0))
-    largest = [float(quantity.max(initial=0.0)) for quantity in (jump, gap, part)]
-    over = 1.0 / size if size > 0 else 0.0
-    return MultiplierIterate(found, count, largest[0] * over, largest[1], largest[2] * over)
+    largest = [float(quantity.max(initial=0.0)) for quantity in (gap, part)]
+    return MultiplierIterate(found, count, largest[0], largest[1] * (1.0 / size if size else 0.0))
 
 
 def updated(last: MultiplierIterate, growth: float) -> MultiplierIterate:
@@ -141,11 +131,10 @@ def updated(last: MultiplierIterate, growth: float) -> MultiplierIterate:
 
     ``lambda <- lambda + p d``, cut at the limits.
     """
-    exact = ~last.result.springs.problem.own_stiffness
-    forces = np.stack(last.result.springs.forces(last.result.increment))
-    springs = last.result.springs.shifted(np.where(exact, forces, 0))
-    if growth != 1.0:
-        springs = stiffened(springs, growth)
+    springs, own = last.result.springs, last.result.springs.problem.own_stiffness
+    forces = np.stack(springs.forces(last.result.increment))
+    stiffness = np.where(own, 1.0, growth) * springs.stiffness
+    springs = replace(springs, stiffness=stiffness, shift=np.where(own, 0.0, forces))
     return replace(last, result=replace(last.result, springs=springs))
 
 

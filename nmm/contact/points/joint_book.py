@@ -23,6 +23,9 @@ from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.problem.step_problem import BONDED, BROKEN, OPEN
 from nmm.interfaces.history import History
 
+# What contact points have of those of joints.
+OF_JOINTS = ("edge_a", "parameter_a", "edge_b", "parameter_b", "normal", "gap", "length")
+
 
 @dataclass(frozen=True)
 class JointBook:
@@ -180,13 +183,7 @@ def follow_joints(
     vertex, edge, joint = joint_ends(surface, joints)
     held = laws.bonded[interface[points.joint]]
     found = ContactPoints.unloaded(
-        edge_a=points.edge_a,
-        parameter_a=points.parameter_a,
-        edge_b=points.edge_b,
-        parameter_b=points.parameter_b,
-        normal=points.normal,
-        gap=points.gap,
-        length=points.length,
+        **{name: getattr(points, name) for name in OF_JOINTS},
         spring_factor=points.length / distance[points.joint],
         interface=interface[points.joint],
         key=-1 - np.arange(len(points)),

@@ -187,15 +187,12 @@ class Verdict:
         Passes, contacts and remedy in words; contacts by their row in the problem.
     contacts
         Rows of the contacts at fault, worst first; empty when converged.
-    unknowns
-        Unknowns at fault (a free motion), else empty.
     """
 
     converged: bool
     code: str
     sentence: str
     contacts: tuple[int, ...] = ()
-    unknowns: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

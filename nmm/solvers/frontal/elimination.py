@@ -43,9 +43,6 @@ class Fronts:
         Entries of the matrix in its lower triangle, after ordering, and their place in the panels.
     stack_size
         Largest stack of updates.
-    mirrored
-        Whether the pattern is symmetric. Sums of sparse matrices drop an entry that rounds to zero
-        and may keep its mirror image; the plan has room for both.
     """
 
     indptr: Index
@@ -59,11 +56,14 @@ class Fronts:
     source: Ints
     target: Ints
     stack_size: int
-    mirrored: bool = True
 
     @classmethod
     def of(cls, matrix: csc_array, mirrored: bool = True) -> "Fronts":
-        """Plan the factorisation of a symmetric matrix with sorted rows."""
+        """Plan the factorisation of a matrix with sorted rows, whose pattern may be ``mirrored``.
+
+        Sums of sparse matrices drop an entry that rounds to zero and may keep its mirror image; the
+        plan has room for both.
+        """
         indptr = matrix.indptr.astype(np.int32, copy=False)
         indices = matrix.indices.astype(np.int32, copy=False)
         node_of, graph_ptr, graph = node_graph(indptr, indices, mirrored)
@@ -75,8 +75,7 @@ class Fronts:
         order = np.argsort(inverse(node_order)[node_of], kind="stable")
         source, target = lower_places(indptr, indices, order, fronts)
         n_children, stack = stack_of_updates(*fronts[:3])
-        places = n_children, source, target, int(stack)
-        return cls(indptr, indices, order, *fronts, *places, mirrored)
+        return cls(indptr, indices, order, *fronts, n_children, source, target, int(stack))
 
     @property
     def shape(self) -> Shape:

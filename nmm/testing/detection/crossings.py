@@ -4,9 +4,9 @@ import numpy as np
 
 from integration.arrays import Ints
 from nmm.contact.detection.crossing import Crossings, crossings_in, motion_of
-from nmm.contact.detection.neighbour_list import near_pairs
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import DEPTH
+from nmm.testing.detection.search import near_pairs
 
 
 def find_crossings(before: Surface, after: Surface) -> Crossings:

@@ -3,9 +3,10 @@
 import numpy as np
 import shapely
 
-from integration.arrays import Bools, Ints
+from integration.arrays import Bools, Floats, Ints
 from integration.permutations import inverse
 from integration.polygons import Polygons
+from nmm.contact.detection.grid import pairs_by_grid
 from nmm.contact.detection.surface import Surface
 
 
@@ -20,6 +21,14 @@ def polygon_surface(polygons: Polygons) -> Surface:
         follower,
         inverse(follower),
     )
+
+
+def near_pairs(
+    surface: Surface, distance: float | Floats, within_bodies: bool = False
+) -> tuple[Ints, Ints]:
+    """Vertex and edge (m,) of all near pairs, by the grid; ``distance`` (n,) or of all (m)."""
+    distances = np.broadcast_to(np.asarray(distance, dtype=float), len(surface)).copy()
+    return pairs_by_grid(surface, distances, within_bodies)
 
 
 def near_pairs_by_tree(

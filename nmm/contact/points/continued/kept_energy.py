@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from integration.arrays import Bools, Floats, Ints
+from integration.arrays import Floats, Ints
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.of_neighbours import matched
 from nmm.frozen import with_parts
@@ -21,38 +21,14 @@ def kept_energy(
     old: ContactPoints,
     stiffness: Callable[[ContactPoints], Floats],
     body: Ints,
+    at_most: bool = False,
 ) -> ContactPoints:
-    """Return new points that hold what the old ones held between every two bodies.
+    """Return new points that hold what the old ones held between every two bodies, if they push.
 
-    Gaps of both are counted from their references; ``body`` (E,) is of the boundary edges.
+    With ``at_most`` they hold no more: springs whose stiffness is one by area grow with the area,
+    with no work that pays for it. What these hold of slip falls by the same factor. Gaps of both
+    are counted from their references; ``body`` (E,) is of the boundary edges.
     """
-    held, left, pair = _energies(new, old, stiffness, body)
-    return stretched(new, _ratio(held, left, (left > 0) & (left < held))[pair])
-
-
-def no_more_energy(
-    new: ContactPoints,
-    old: ContactPoints,
-    stiffness: Callable[[ContactPoints], Floats],
-    body: Ints,
-) -> ContactPoints:
-    """Return new points that hold no more than the old ones between every two bodies.
-
-    Springs whose stiffness is one by area grow with the area, with no work that pays for it: what
-    they hold of slip falls by the same factor.
-    """
-    held, left, pair = _energies(new, old, stiffness, body)
-    factor = _ratio(held, left, left > held)[pair]
-    return stretched(new, factor, slip=True)
-
-
-def _energies(
-    new: ContactPoints,
-    old: ContactPoints,
-    stiffness: Callable[[ContactPoints], Floats],
-    body: Ints,
-) -> tuple[Floats, Floats, Ints]:
-    """Energy (J) of old and of new springs between two bodies, and whose (m,) the new ones are."""
     parts, pairs = (old, new), matched(old, new, body)
     count = 1 + int(max(pair.max(initial=0) for pair in pairs))
     energies = (stiffness(part) / 2 * np.minimum(part.gap, 0.0) ** 2 for part in parts)
@@ -60,12 +36,9 @@ def _energies(
         np.bincount(pair, energy, count).astype(float)
         for pair, energy in zip(pairs, energies, strict=True)
     )
-    return held, left, pairs[1]
-
-
-def _ratio(held: Floats, left: Floats, chosen: Bools) -> Floats:
-    """Factor of stretches with which chosen springs hold as much as was held; else 1."""
-    return np.asarray(np.sqrt(np.divide(held, left, out=np.ones(len(held)), where=chosen)))
+    wrong = left > held if at_most else (left > 0) & (left < held)
+    factor = np.sqrt(np.divide(held, left, out=np.ones(count), where=wrong))
+    return stretched(new, factor[pairs[1]], slip=at_most)
 
 
 def stretched(points: ContactPoints, factor: Floats, slip: bool = False) -> ContactPoints:

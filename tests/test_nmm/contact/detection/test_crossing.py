@@ -1,5 +1,7 @@
 """Crossings: no body passes through another unseen, and ordinary penetration is no crossing."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -19,7 +21,7 @@ def scene(*rings: np.ndarray) -> Surface:
 
 def shifted(surface: Surface, body: int, by: tuple[float, float]) -> Surface:
     step = np.where((surface.body == body)[:, None], np.array(by), 0.0)
-    return surface.moved(surface.start + step, surface.end + step)
+    return replace(surface, start=surface.start + step, end=surface.end + step)
 
 
 def test_a_block_thrown_through_a_thin_plate_is_stopped_where_it_touches():
@@ -113,7 +115,7 @@ def test_result_does_not_depend_on_where_the_scene_is():
     axes = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
 
     def placed(surface: Surface) -> Surface:
-        return surface.moved(surface.start @ axes + shift, surface.end @ axes + shift)
+        return replace(surface, start=surface.start @ axes + shift, end=surface.end @ axes + shift)
 
     after = shifted(before, 1, (0.3, -4.0))
     here, there = find_crossings(before, after), find_crossings(placed(before), placed(after))

@@ -1,5 +1,7 @@
 """Joints: which stretches of boundary two bodies share, and the points that stand for them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -66,7 +68,7 @@ def test_voronoi_joints_have_the_length_of_the_inner_boundary():
 def test_joints_do_not_depend_on_where_the_scene_is(angle, shift):
     still = brick_wall(4, 5)
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    moved = still.moved(still.start @ turn.T + shift, still.end @ turn.T + shift)
+    moved = replace(still, start=still.start @ turn.T + shift, end=still.end @ turn.T + shift)
     here, there = find_joints(still), find_joints(moved)
     np.testing.assert_array_equal(here.edge_a, there.edge_a)
     np.testing.assert_array_equal(here.edge_b, there.edge_b)
@@ -125,7 +127,7 @@ def test_joint_points_follow_the_surface_and_measure_its_opening():
     joints = find_joints(surface)
     upper = (surface.body == 1)[:, None]
     lift = np.array([0.0, 1e-3])
-    moved = surface.moved(surface.start + upper * lift, surface.end + upper * lift)
+    moved = replace(surface, start=surface.start + upper * lift, end=surface.end + upper * lift)
     points = joint_points(moved, joints, "gauss")
     # Side a is the lower block, b the upper: the distance along the outward normal of b opens.
     np.testing.assert_allclose(points.gap, 1e-3, rtol=1e-12)

@@ -1,6 +1,6 @@
 """Narrow phase: who touches whom, across which line, and that nothing else changes the answer."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def search(surface, reach=0.01, within_bodies=False, find=find_contacts, **optio
 
 def placed(surface: Surface, angle: float, shift: float) -> Surface:
     turn = axes(angle)
-    return surface.moved(surface.start @ turn + shift, surface.end @ turn + shift)
+    return replace(surface, start=surface.start @ turn + shift, end=surface.end @ turn + shift)
 
 
 def voronoi(cells, seed):
@@ -67,7 +67,7 @@ def shaken(surface: Surface, move: float, turn: float, seed: int) -> Surface:
         x, y = (points - middle).T
         return shift + np.stack([c * x - s * y, s * x + c * y], axis=1)
 
-    return surface.moved(go(surface.start), go(surface.end))
+    return replace(surface, start=go(surface.start), end=go(surface.end))
 
 
 def upward(surface, contacts, body):
@@ -452,7 +452,7 @@ def test_contacts_do_not_depend_on_where_the_scene_is(angle, shift):
 def test_scaled_scenes_have_scaled_contacts():
     cells = shaken(voronoi(100, 4), 1e-3, 1e-3, 5)
     here = search(cells, 1e-3)
-    big = search(cells.moved(1e5 * cells.start, 1e5 * cells.end), 1e2)
+    big = search(replace(cells, start=1e5 * cells.start, end=1e5 * cells.end), 1e2)
     np.testing.assert_array_equal(here.key, big.key)
     np.testing.assert_allclose(1e5 * here.gap, big.gap, rtol=0, atol=1e-9)
 
