@@ -71,8 +71,7 @@ class ConsistentBonds:
         Laws with a stiffness of their own keep it. Where matter is ``seamless`` (m,) across a bond
         that softens, its law acts in the mixed form.
         """
-        named = np.array([law.normal_stiffness is not None for law in laws.laws], dtype=bool)
-        wanted = joints.bonded & ~named[joints.interface]
+        wanted = joints.bonded & ~laws.has_stiffness[joints.interface]
         if not laws.consistent or not wanted.any():
             return None
         points, number = joints.take(wanted), np.where(wanted, np.cumsum(wanted) - 1, -1)

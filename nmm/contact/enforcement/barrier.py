@@ -78,46 +78,36 @@ class Barrier(IterativeEnforcement):
         well = Potential(problem, width, max(force, width / compliance) / width)
         search = Search(well, tools, self.tolerance)
         found = search.run(rough, self.max_passes, memory.again(problem))
-        return _Outcome(well, tools, self.tolerance, found).answer()
+        return _answer(well, tools, found, self.tolerance)
 
 
-@dataclass(frozen=True)
-class _Outcome:
-    """Where the search ended."""
+def _answer(well: Potential, tools: Tools, found: IterationResult, tolerance: float) -> StepAnswer:
+    """Forces under the bound of their own normal force, and the verdict on them."""
+    problem = well.problem
+    gap, slip = problem.gaps(found.increment), problem.slips(found.increment)
+    pull = well.pull(gap, slip)
+    reach = np.where(well.spring, well.bound(pull.normal) / problem.shear_stiffness, well.width / 2)
+    is_open = np.where(well.spring, gap > well.stretch, well.distance(gap) >= 1)
+    loose = is_open & (problem.limits.tension <= 0)
+    return StepAnswer(
+        increment=found.increment,
+        normal_force=pull.normal,
+        shear_force=pull.shear,
+        gap=gap,
+        slip=np.where(loose, 0.0, np.clip(slip, -reach, reach)),
+        state=label(problem, is_open, np.abs(slip) > reach),
+        passes=found.solves,
+        residual=found.size,
+        verdict=_verdict(well, tools, found, tolerance),
+        factorisations=found.factorisations,
+        solver=tools.linear.name,
+        stored=well.stored(gap, slip),
+    )
 
-    well: Potential
-    tools: Tools
-    tolerance: float
-    found: IterationResult
 
-    def answer(self) -> StepAnswer:
-        """Forces under the bound of their own normal force, and the verdict on them."""
-        well, problem = self.well, self.well.problem
-        gap, slip = problem.gaps(self.found.increment), problem.slips(self.found.increment)
-        pull = well.pull(gap, slip)
-        bound = well.bound(pull.normal)
-        reach = np.where(well.spring, bound / problem.shear_stiffness, well.width / 2)
-        is_open = np.where(well.spring, gap > well.stretch, well.distance(gap) >= 1)
-        loose = is_open & (problem.limits.tension <= 0)
-        return StepAnswer(
-            increment=self.found.increment,
-            normal_force=pull.normal,
-            shear_force=pull.shear,
-            gap=gap,
-            slip=np.where(loose, 0.0, np.clip(slip, -reach, reach)),
-            state=label(problem, is_open, np.abs(slip) > reach),
-            passes=self.found.solves,
-            residual=self.found.size,
-            verdict=self._verdict(),
-            factorisations=self.found.factorisations,
-            solver=self.tools.linear.name,
-            stored=well.stored(gap, slip),
-        )
-
-    def _verdict(self) -> Verdict:
-        if not self.found.size <= self.tolerance:
-            return unsettled(self.found, self.tools, "widen the barrier")
-        half = self.well.width / 2
-        deep = f"; {self.well.deep} contacts began deeper than that" if self.well.deep else ""
-        sentence = f"settled by {self.found.story}, gaps and slips within {half:.1e} m{deep}"
-        return Verdict(True, "converged", sentence)
+def _verdict(well: Potential, tools: Tools, found: IterationResult, tolerance: float) -> Verdict:
+    if not found.size <= tolerance:
+        return unsettled(found, tools, "widen the barrier")
+    deep = f"; {well.deep} contacts began deeper than that" if well.deep else ""
+    within = f"gaps and slips within {well.width / 2:.1e} m{deep}"
+    return Verdict(True, "converged", f"settled by {found.story}, {within}")

@@ -39,13 +39,8 @@ class InteriorIterate:
 
     def moved(self, step: "InteriorIterate", length: float) -> "InteriorIterate":
         """Point at ``length`` along ``step``."""
-        return InteriorIterate(
-            self.increment + length * step.increment,
-            self.normal + length * step.normal,
-            self.shear + length * step.shear,
-            self.slack + length * step.slack,
-            self.flow + length * step.flow,
-        )
+        pairs = zip(vars(self).values(), vars(step).values(), strict=True)
+        return InteriorIterate(*(own + length * way for own, way in pairs))
 
 
 @dataclass(frozen=True)

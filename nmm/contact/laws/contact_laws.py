@@ -9,7 +9,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.points.contact_points import TIED, ContactPoints
-from nmm.contact.points.kept import KeptOfPairs
+from nmm.contact.points.kept import of_pairs
 from nmm.contact.problem.step_problem import Limits
 from nmm.interfaces.base import InterfaceLaw
 from nmm.interfaces.history import KEPT, History, HistoryColumn
@@ -62,20 +62,20 @@ class ContactLaws:
         ``stiffness`` (m,) is that of the whole bonds (N/m).
         """
         if not self.evolving and stiffness is self.springs(contacts)[0]:
-            return self._responses.of(contacts)
+            return self._lasting_response(contacts)
         return self._response_of(contacts, stiffness)
 
-    @cached_property
-    def _responses(self) -> KeptOfPairs[InterfaceResponse]:
-        """Responses of laws that remember nothing but their bonds."""
-        return KeptOfPairs(lambda points: self._response_of(points, self.springs(points)[0]))
+    @of_pairs
+    def _lasting_response(self, contacts: ContactPoints) -> InterfaceResponse:
+        """Return the response of laws that remember nothing but their bonds."""
+        return self._response_of(contacts, self.springs(contacts)[0])
 
     def _response_of(self, contacts: ContactPoints, stiffness: Floats) -> InterfaceResponse:
         m = len(contacts)
         tension, cohesion, friction, rise = (np.zeros(m) for _ in range(4))
         open_share = np.ones(m)
         # Cohesion is lost with the joint: what is found by search has none.
-        area = self._areas.of(contacts)
+        area = self._areas(contacts)
         for law, index, history in self.by_law(contacts):
             own = law.response(history, _over(stiffness, area)[index])
             tension[index] = _times(own.limits.tension, area[index])
@@ -91,7 +91,7 @@ class ContactLaws:
 
         ``stiffness`` (m,) is that of the whole bonds (N/m). Columns that stay are the same objects.
         """
-        after, spring = dict(contacts.history), _over(stiffness, self._areas.of(contacts))
+        after, spring = dict(contacts.history), _over(stiffness, self._areas(contacts))
         for law, index, history in self.by_law(contacts):
             if len(index) == len(contacts):
                 after |= law.evolved(history, gap, sliding, spring)
@@ -129,15 +129,9 @@ class ContactLaws:
         """(n,) which laws have a column."""
         return np.array([name in law.columns for law in self.laws], dtype=bool)
 
+    @of_pairs
     def springs(self, contacts: ContactPoints) -> Springs:
         """Return the springs of whole bonds."""
-        return self._springs.of(contacts)
-
-    @cached_property
-    def _springs(self) -> KeptOfPairs[Springs]:
-        return KeptOfPairs(self._springs_of)
-
-    def _springs_of(self, contacts: ContactPoints) -> Springs:
         own = contacts.is_joint.copy()
         normal = np.where(own, self.normal_bond, self.normal_penalty) * contacts.spring_factor
         shear = np.where(own, self.shear_bond, self.shear_penalty) * contacts.spring_factor
@@ -192,13 +186,10 @@ class ContactLaws:
         """(n,) whether joints of each law hold together at the start."""
         return np.array([law.bonded for law in self.laws], dtype=bool)
 
+    @of_pairs
     def hold(self, contacts: ContactPoints) -> bool:
         """Return whether bonds hold any of the contacts."""
-        return self._holding.of(contacts)
-
-    @cached_property
-    def _holding(self) -> KeptOfPairs[bool]:
-        return KeptOfPairs(lambda points: bool(points.bonded.any()))
+        return bool(contacts.bonded.any())
 
     @cached_property
     def damps(self) -> bool:
@@ -218,35 +209,29 @@ class ContactLaws:
             found[number] = np.isinf(law.response(whole, np.ones(1)).limits.tension[0])
         return found
 
-    @cached_property
-    def _areas(self) -> KeptOfPairs[Floats]:
+    @of_pairs
+    def _areas(self, contacts: ContactPoints) -> Floats:
         """Areas (m,) in m2 of joints; zero of what is found by search."""
-        return KeptOfPairs(
-            lambda points: np.where(points.is_joint, points.length * self.thickness, 0.0)
-        )
+        return np.where(contacts.is_joint, contacts.length * self.thickness, 0.0)
 
     def stiff_laws(self, contacts: ContactPoints) -> list[tuple[InterfaceLaw, Ints]]:
         """Return the laws that have a stiffness of their own, each with its contacts."""
-        return [one for one in self._members.of(contacts) if one[0].normal_stiffness is not None]
+        return [one for one in self._members(contacts) if one[0].normal_stiffness is not None]
 
     def by_law(self, contacts: ContactPoints) -> Iterator[tuple[InterfaceLaw, Ints, History]]:
         """Yield each law with its contacts and their history, columns of its own alone."""
-        for law, index in self._members.of(contacts):
+        for law, index in self._members(contacts):
             names, known = (*KEPT, *law.columns), contacts.history
             if len(index) == len(contacts):
                 yield law, index, {name: known[name] for name in names}
             else:
                 yield law, index, {name: known[name][index] for name in names}
 
-    @cached_property
-    def _members(self) -> KeptOfPairs[list[tuple[InterfaceLaw, Ints]]]:
+    @of_pairs
+    def _members(self, contacts: ContactPoints) -> list[tuple[InterfaceLaw, Ints]]:
         """Each law with its contacts."""
-        return KeptOfPairs(
-            lambda points: [
-                (law, np.flatnonzero(points.interface == number))
-                for number, law in enumerate(self.laws)
-            ]
-        )
+        index = (np.flatnonzero(contacts.interface == number) for number in range(len(self.laws)))
+        return list(zip(self.laws, index, strict=True))
 
 
 def _over(force: Floats, area: Floats) -> Floats:

@@ -1,6 +1,7 @@
 """What is made of which contacts there are, kept while they stay: springs, limits, patterns."""
 
 from collections.abc import Callable
+from functools import partial
 from operator import is_
 from typing import Any, Generic, TypeVar
 
@@ -32,3 +33,19 @@ class KeptOfPairs(Generic[T]):
         value = self._make(points)
         self._known = now, value
         return value
+
+
+class of_pairs(Generic[T]):
+    """A method of contact points whose last value is kept, see `KeptOfPairs`."""
+
+    def __init__(self, make: Callable[[Any, ContactPoints], T]) -> None:
+        self.make, self.__doc__ = make, make.__doc__
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    def __get__(self, value: Any, owner: type | None = None) -> Callable[[ContactPoints], T]:
+        if value is None:
+            return self  # type: ignore[return-value]  # of the class: its documentation
+        found = value.__dict__[self.name] = KeptOfPairs[T](partial(self.make, value)).of
+        return found

@@ -3,7 +3,6 @@
 import numpy as np
 from scipy.sparse import csc_array
 
-from integration.arrays import Floats
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.problem.step_problem import StepAnswer, Verdict
 from nmm.contact.solution.record import ContactSolution
@@ -47,12 +46,7 @@ class Untouched:
             self.matrix = request.matrix
         increment = factor.solve(request.force)
         residual = factor.relative_residual(increment, request.force)
-        answer = _answer(increment, residual, int(not kept), request.solver.name)
+        none, states = np.zeros(0), np.zeros(0, dtype=np.int64)
+        told = 1, residual, SETTLED, int(not kept), request.solver.name
+        answer = StepAnswer(increment, none, none, none, none, states, *told)
         return ContactSolution(contacts, answer, passes=1, loss=0.0)
-
-
-def _answer(increment: Floats, residual: float, made: int, solver: str) -> StepAnswer:
-    """Return the answer of a step of no contacts."""
-    none, states = np.zeros(0), np.zeros(0, dtype=np.int64)
-    forces = none, none, none, none
-    return StepAnswer(increment, *forces, states, 1, residual, SETTLED, made, solver)
