@@ -202,7 +202,7 @@ class Contact(Effect):
 
     def commit(self, solved: ContactSolution, state: State) -> ContactPoints:
         """Keep the accepted contacts as the start of the next step, and return them."""
-        self.record, done = self._candidates.left(self.record, self._sought, solved, state)
+        self.record, done = self._candidates.accepted(self.record, self._sought, solved, state)
         return done
 
     def restore(self, record: ContactRecord) -> None:

@@ -146,7 +146,7 @@ class Candidates:
         new &= ~over_seams(found, motion, (known.edge_a, known.edge_b))
         return (found.vertex[new], found.edge[new]) if new.any() else None
 
-    def left(
+    def accepted(
         self,
         record: ContactRecord,
         sought: tuple[Contacts | None, Crossed | None],

@@ -23,8 +23,8 @@ What these rules overlook is found afterwards: a step that lets a vertex through
 again with that pair (`with_pairs`), and what still overlaps as it appears stores no energy
 (`nmm.contact.points.continued.reference_gap`).
 
-`ANGLE`, `DEPTH` and `FLUSH` stand in `rules`; the last two are fractions of the thickness (twice
-the area over the perimeter) of the thinner of the two bodies.
+`ANGLE`, `DEPTH` and `FLUSH` stand in `tolerances`; the last two are fractions of the thickness
+(twice the area over the perimeter) of the thinner of the two bodies.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def find_contacts(
     surface
         The edges where they are now.
     vertex, edge
-        (m,) candidates, complete up to the reach, as `search.NeighbourList` gives them for a skin
+        (m,) candidates, complete up to the reach, as `NeighbourList` gives them for a skin
         of twice the reach or more.
     reach
         Largest gap of a contact (m): how far two points can approach each other in a step.

@@ -14,8 +14,8 @@ class NeighbourList:
 
     Built, the list holds all pairs of a vertex and an edge within the skin; it is built anew once
     two points may have moved apart by half the skin (Verlet 1967). So `update` misses no gap up to
-    half the skin, and no vertex that is in another body by less than `rules.DEPTH` of the thinner
-    body's thickness.
+    half the skin, and no vertex that is in another body by less than `DEPTH` of the thinner body's
+    thickness.
 
     Parameters
     ----------

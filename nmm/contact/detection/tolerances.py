@@ -83,7 +83,7 @@ MIDPOINT_GAPS = 1e-4
 
 
 class Rules(NamedTuple):
-    """Numbers of the narrow phase, see `narrow.find_contacts`.
+    """Numbers of the narrow phase, see `narrow_phase.find_contacts`.
 
     Attributes
     ----------

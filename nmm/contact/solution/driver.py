@@ -91,7 +91,7 @@ class ContactSolver:
         self.untouched.forget()
         self.last = None
 
-    def apart(self, contacts: ContactPoints, request: StepRequest) -> ContactSolution | None:
+    def alone(self, contacts: ContactPoints, request: StepRequest) -> ContactSolution | None:
         """Solve a step in time in which nothing is near anything; None where something is."""
         if len(contacts) or request.step is None or request.null_space is not None:
             return None

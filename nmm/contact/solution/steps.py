@@ -45,9 +45,9 @@ class ContactSteps:
 
         ``end`` is where the step is foreseen to end, of bodies that bend by any angle.
         """
-        apart = self.solver.apart(contacts, request)
-        if apart is not None:
-            return apart
+        alone = self.solver.alone(contacts, request)
+        if alone is not None:
+            return alone
         if end is None:
             rows = self.geometry.rows(contacts, state, midpoint)
         else:

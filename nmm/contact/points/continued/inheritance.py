@@ -40,7 +40,7 @@ class Heirs:
     same: Bools
 
     def only_same(self, chosen: Bools) -> "Heirs":
-        """Return the kin without those of ``chosen`` (m,) new points that lie beside their parents.
+        """Return the heirs but for those of ``chosen`` (m,) that lie beside their parents.
 
         What a crack has grown by continues nothing, however near its old end is.
         """
