@@ -153,8 +153,13 @@ def body_checks(found: Ran) -> Checks:
     }
 
 
-def momentum_checks(scene: Document, found: Ran) -> Checks:
-    """Without loads and supports momentum stays as it began."""
+def momentum_checks(
+    scene: Document,
+    found: Ran,
+    to: float = 1e-9,
+    reason: str = "rounding of the solver over hundreds of steps",
+) -> Checks:
+    """Without loads and supports momentum stays as it began, ``to`` a share for a ``reason``."""
     from types import SimpleNamespace
     from typing import cast
 
@@ -168,7 +173,7 @@ def momentum_checks(scene: Document, found: Ran) -> Checks:
     scale = mass * speed * np.array([1.0, 1.0, run.stepper.size])
     off = np.abs(last - first) / scale
     return {
-        name: Check(float(error), 0.0, 1e-9, "rounding of the solver over hundreds of steps", 1.0)
+        name: Check(float(error), 0.0, to, reason, 1.0)
         for name, error in zip(("momentum x", "momentum y", "angular momentum"), off, strict=True)
     }
 
