@@ -6,10 +6,12 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
+from nmm.assembly.kept import KeptOfStates
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Setup, Span, StepForce
 from nmm.effects.members.ends import ends_of
+from nmm.effects.members.kept_matrix import LIKE, KeptMatrix, parts
 from nmm.effects.members.links import Links
 from nmm.quantity import MemberSegments
 
@@ -30,6 +32,7 @@ class PointDashpots(Effect):
         self.names, self.links, self.viscosity = names, links, viscosity
         self.external = links.grounded
         self._model = model
+        self._stretch, self._kept = KeptOfStates(links.stretch), KeptMatrix()
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -49,16 +52,26 @@ class PointDashpots(Effect):
         lines = self.links.mean_lines(before, after)
         pull = self.links.pull(before, lines, force)
         pull += self.links.owed(self._model, before, after, lines, force)
-        tangent = csr_array(diags_array(self.viscosity / span.step))
+        tangent = self.viscosity / span.step
+
+        def made() -> csc_array:
+            whole = csr_array(diags_array(tangent))
+            return self.links.stiffness(before, lines, whole, force)
 
         def stiffness() -> csc_array:
-            return self.links.stiffness(before, lines, tangent, force)
+            made_of = parts(self.links, before, lines, force, tangent)
+            return self._kept.of(made_of, 0.0 if self.links.small else LIKE, made)
 
         return StepForce(pull, stiffness, self._remembered(force))
 
     def loss(self, before: State, after: State) -> float:
         """See `Effect.loss`."""
         return float(self._mean(before, after) @ self._elongation(before, after))
+
+    def forget(self) -> None:
+        """See `Effect.forget`."""
+        self._stretch.forget()
+        self._kept.forget()
 
     def history(self, state: State) -> dict[str, float]:
         """Return the force (N) of each in the last step."""
@@ -78,7 +91,7 @@ class PointDashpots(Effect):
         return {name: force[at : at + 1] for at, name in enumerate(self.names)}
 
     def _elongation(self, before: State, after: State) -> Floats:
-        return self.links.stretch(after) - self.links.stretch(before)
+        return self._stretch.of(after) - self._stretch.of(before)
 
     def _mean(self, before: State, after: State) -> Floats:
         """Force (m,) in a step (N); none without time."""

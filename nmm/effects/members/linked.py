@@ -13,6 +13,7 @@ from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.base import Effect, Instant, Span, StepForce
 from nmm.effects.members.chains import ChainAnswer
+from nmm.effects.members.kept_matrix import LIKE, KeptMatrix, parts
 from nmm.effects.members.member_set import AXIAL, BOND, SLIP, WIDTH, Members
 from nmm.errors import SolveError
 from nmm.quantity import MemberSegments
@@ -21,9 +22,6 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
 
 
-# Where members turn the matrix of an earlier step serves while what it is made of is off by no more
-# than this share of the largest: what it misses is solved for within the step.
-LIKE = 1e-3
 # Share of the largest size by which rounding parts sizes that are alike, at either end of a bar.
 ALIKE = 1e-6
 
@@ -39,7 +37,7 @@ class Linked(Effect):
         self._answers = KeptOfStates(self._answered)
         self._matrices = KeptOfStates(self._stiffness)
         self._forces = KeptOfStates(self._force)
-        self._made: tuple[tuple[Floats, ...], csc_array] | None = None
+        self._kept = KeptMatrix()
 
     @property
     def bends(self) -> bool:
@@ -75,18 +73,12 @@ class Linked(Effect):
             raise SolveError(self._lost(found))
         links, force = members.links, found.axial.force
         lines = links.lines(state)
-        # Small turns count beside one of 1 rad, and forces that turn beside what stretches.
-        made_of = (
-            np.append(state.frames.angle[links.bodies], 1.0),
-            lines.along,
-            found.axial.tangent,
-            found.bond.tangent,
-            np.append(force * lines.across, found.axial.tangent),
-        )
-        if self._made is None or not _alike(self._made[0], made_of, LIKE if self.bends else 0.0):
-            tangent = members.chains.tangent(found)
-            self._made = made_of, links.stiffness(state, lines, tangent, force)
-        return self._made[1]
+        made_of = *parts(links, state, lines, force, found.axial.tangent), found.bond.tangent
+
+        def made() -> csc_array:
+            return links.stiffness(state, lines, members.chains.tangent(found), force)
+
+        return self._kept.of(made_of, LIKE if self.bends else 0.0, made)
 
     def through(self, before: State, after: State, span: Span) -> StepForce:
         """See `Effect.through`."""
@@ -168,7 +160,7 @@ class Linked(Effect):
         self._answers.forget()
         self._matrices.forget()
         self._forces.forget()
-        self._made = None
+        self._kept.forget()
 
     def follow(self, change: "Change") -> Self:
         """Return the members on the new model; those that are new are put in as all stands."""
@@ -211,14 +203,6 @@ class Linked(Effect):
             f"{self.name} {', '.join(names)}: the bond loses force faster than the bar unloads "
             "(snap-back): no stable slips under this motion of its ends"
         )
-
-
-def _alike(some: tuple[Floats, ...], others: tuple[Floats, ...], share: float) -> bool:
-    """Whether arrays differ by no more than a share of their largest numbers."""
-    return all(
-        np.abs(one - other).max(initial=0.0) <= share * np.abs(one).max(initial=0.0)
-        for one, other in zip(some, others, strict=True)
-    )
 
 
 def _largest(names: Sequence[str], owner: Ints, values: Floats, what: str) -> dict[str, float]:

@@ -1,0 +1,52 @@
+"""The matrix of members, kept from step to step while what it is made of hardly changes."""
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+from nmm.assembly.motion import State
+from nmm.effects.members.links import LinesOfAction, Links
+
+# Where members turn the matrix of an earlier step serves while what it is made of is off by no more
+# than this share of the largest: what it misses is solved for within the step.
+LIKE = 1e-3
+
+
+class KeptMatrix:
+    """A matrix of links, and what it was made of."""
+
+    def __init__(self) -> None:
+        self._made: tuple[tuple[Floats, ...], csc_array] | None = None
+
+    def of(
+        self, made_of: tuple[Floats, ...], like: float, make: Callable[[], csc_array]
+    ) -> csc_array:
+        """Return the matrix; what ``make`` makes where it would differ by more than a share."""
+        if self._made is None or not _alike(self._made[0], made_of, like):
+            self._made = made_of, make()
+        return self._made[1]
+
+    def forget(self) -> None:
+        """Keep nothing."""
+        self._made = None
+
+
+def parts(
+    links: Links, state: State, lines: LinesOfAction, force: Floats, tangent: Floats
+) -> tuple[Floats, ...]:
+    """Return what makes the matrix of forces (m,) with tangents (m,) of their own.
+
+    Small turns count beside one of 1 rad, and forces that turn beside what stretches.
+    """
+    turns = np.append(state.frames.angle[links.bodies], 1.0)
+    return turns, lines.along, tangent, np.append(force * lines.across, tangent)
+
+
+def _alike(some: tuple[Floats, ...], others: tuple[Floats, ...], share: float) -> bool:
+    """Whether arrays differ by no more than a share of their largest numbers."""
+    return all(
+        np.abs(one - other).max(initial=0.0) <= share * np.abs(one).max(initial=0.0)
+        for one, other in zip(some, others, strict=True)
+    )
