@@ -23,6 +23,7 @@ HERE = Path(__file__).parent
 DOCS = HERE.parents[1] / "docs"
 BEAM = (HERE.parent / "kitoh_beam" / "kitoh_130.toml").read_text()
 PULL_OUT = (HERE / "pull_out.toml").read_text()
+REINFORCED = (HERE.parent / "kitoh_beam" / "kitoh_reinforced.toml").read_text()
 
 EVENTS = '\n[loading.control]\ntype = "events"\nfall = 0.1\n\n[[reference]]'
 # Rigid blocks on springs as stiff as the material between their middles (Kawai 1978).
@@ -72,16 +73,46 @@ def loose() -> str:
     return text.replace('fix = ["y"]', 'fix = ["x", "y"]', 1).replace("infinity", "0", 1)
 
 
+def parted(text: str, size: str, mesh: str = "voronoi") -> str:
+    """Return a scene whose tessellations are bodies of sub-blocks that part (Ke 1996)."""
+    table = re.compile(r"\[\[tessellations\]\]\n((?:.+\n)+)")
+
+    def body(found: re.Match[str]) -> str:
+        keys = re.sub(r"(blocks|seed) = \d+\n", "", found[1])
+        return "[[blocks]]\n" + keys.replace("region =", "vertices =")
+
+    options = f'options = {{ mesh = "{mesh}", bond = "interface" }}\n'
+    cover = f'\n[formulation.cover]\ntype = "sub_blocks"\nsize = "{size}"\n{options}'
+    return table.sub(body, text) + cover
+
+
+def triangles(size: str) -> str:
+    """Return the plain beam whose sub-blocks are triangles."""
+    return plain("sub_blocks").replace("17.5 mm", size).replace('"voronoi"', '"triangles"')
+
+
 CASES: dict[str, tuple[str, Callable[[], str]]] = {
     "beam bonds": ("bonds between blocks", lambda: plain("bonds")),
     "beam springs": ("rigid blocks and springs", lambda: plain("springs")),
     "beam splitting": ("joints that break, blocks that split", lambda: plain("splitting")),
     "beam crack": ("crack that grows from a notch of 10 mm", lambda: plain("notch")),
     "beam cohesive": ("cohesive crack from a notch of 10 mm", lambda: plain("cohesive")),
+    "beam sub-blocks": ("130 sub-blocks that part", lambda: plain("sub_blocks")),
+    "beam triangles 20": ("sub-blocks, triangles of 20 mm", lambda: triangles("20 mm")),
+    "beam triangles 10": ("sub-blocks, triangles of 10 mm", lambda: triangles("10 mm")),
     "pull-out bonds": ("bonds between blocks, k = infinity", lambda: PULL_OUT),
     "pull-out free bonds": ("bonds between blocks, k = 0", loose),
     "pull-out rigid": ("rigid blocks and springs, k = infinity", lambda: PULL_OUT + RIGID),
     "pull-out free rigid": ("rigid blocks and springs, k = 0", lambda: loose() + RIGID),
+    "pull-out sub-blocks": (
+        "704 sub-blocks that part, k = infinity",
+        lambda: parted(PULL_OUT, "15.957 mm"),
+    ),
+    "pull-out free sub-blocks": (
+        "704 sub-blocks that part, k = 0",
+        lambda: parted(loose(), "15.957 mm"),
+    ),
+    "reinforced sub-blocks": ("455 sub-blocks that part", lambda: parted(REINFORCED, "9.62 mm")),
 }
 for _n in (60, 130, 455):
     CASES[f"blocks {_n}"] = f"{_n} blocks", partial(beam, blocks=_n)
