@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import nmm
+from nmm.effects.members.links import Links
 from nmm.model.effects_table import EFFECTS
 
 BENCHMARKS = Path(__file__).resolve().parents[1] / "benchmarks"
@@ -37,6 +38,15 @@ def test_an_idle_effect_changes_no_displacement_beyond_rounding(name):
     # Displacements are differences of places, with sixteen digits of the size of the scene.
     rounding = 16 * np.finfo(float).eps * np.abs(runs[0].frames[0].points).max()
     assert np.abs(with_it[:n] - without).max() <= idle.within * np.abs(without).max() + rounding
+
+
+@pytest.mark.parametrize("name", ["a bar of no stiffness", "a dashpot of no viscosity"])
+def test_an_idle_member_makes_its_matrix_once_a_run(name, monkeypatch):
+    made, stiffness = [], Links.stiffness
+    monkeypatch.setattr(Links, "stiffness", lambda *a: made.append(0) or stiffness(*a))
+    nmm.run(IDLE[name].scenes(2 * STEPS)[1])
+    # Bricks under their weight turn by far less than a thousandth in this time.
+    assert len(made) == 1
 
 
 IMPORTS = """
