@@ -17,8 +17,12 @@ def offsets(counts: npt.ArrayLike) -> Ints:
 def ranges(bounds: Ints, chosen: Ints) -> tuple[Ints, Ints]:
     """Rows (m,) of the chosen ranges (k,), one after the other, and the length (k,) of each."""
     counts = np.diff(bounds)[chosen]
-    begin = bounds[:-1][chosen] - (np.cumsum(counts) - counts)
-    return np.repeat(begin, counts) + np.arange(counts.sum()), counts
+    return np.repeat(bounds[:-1][chosen], counts) + within(counts), counts
+
+
+def within(counts: Ints) -> Ints:
+    """Place (m,) of each row in its range, of ranges of given lengths (n,)."""
+    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
 def sums(values: Floats, bounds: Ints) -> Floats:

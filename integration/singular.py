@@ -25,6 +25,7 @@ import numpy.typing as npt
 from integration import gauss
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
+from integration.ragged import within
 from integration.rules import PointRule
 
 _LONGEST_PIECE = 1.0
@@ -140,10 +141,9 @@ def _pieces(first: Floats, length: Floats, number: int) -> tuple[Ints, Floats, F
     """
     counts = np.maximum(np.ceil(length / _LONGEST_PIECE), 1).astype(np.int64)
     interval = np.repeat(np.arange(len(counts)), counts)
-    step = np.arange(len(interval)) - np.repeat(np.cumsum(counts) - counts, counts)
     width = (length / counts)[interval]
     nodes, weights = gauss.interval(number)
-    s = (first[interval] + step * width)[:, None] + width[:, None] * nodes
+    s = (first[interval] + within(counts) * width)[:, None] + width[:, None] * nodes
     return interval, s, width[:, None] * weights
 
 

@@ -37,6 +37,7 @@ from covers.small_matrices import inverses
 from integration.arrays import Bools, Floats, Ints
 from integration.monomials import affine
 from integration.polygons import diameters
+from integration.ragged import within
 from integration.rules import polygon_rule
 
 
@@ -262,8 +263,7 @@ class _Builder:
         counts: Ints,
     ) -> ElementGroup:
         carrying = np.repeat(np.arange(len(counts)), counts)
-        rank = np.arange(len(carrying)) - np.repeat(np.cumsum(counts) - counts, counts)
-        cover = active[:, carrying]
+        cover, rank = active[:, carrying], within(counts)
         which = self.carriers.points[cover, rank]
         degree = max(item.degree for item in functions) + (self.cover.weight_degree or 2)
         number = self.enrichments[0].functions.number

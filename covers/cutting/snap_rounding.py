@@ -16,6 +16,7 @@ import shapely
 
 from covers.cutting.resolution import Resolution, clusters
 from integration.arrays import Bools, Floats, Ints
+from integration.ragged import within
 
 NEAR = 0.75
 MAX_PASSES = 60
@@ -203,8 +204,7 @@ def _split(
     begin = np.cumsum(number) - number
     count = number[edge]
     piece = np.repeat(np.arange(len(edge)), count)
-    place = np.arange(len(piece)) - np.repeat(np.cumsum(count) - count, count)
-    link = begin[edge[piece]] + place
+    link = begin[edge[piece]] + within(count)
     forward = (lines.start == edges[edge, 0])[piece]
     start = np.where(forward, chain_start[link], chain_end[link])
     end = np.where(forward, chain_end[link], chain_start[link])

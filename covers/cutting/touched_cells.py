@@ -10,6 +10,7 @@ from covers.cutting.components import components
 from covers.cutting.domain import Segments
 from covers.mathematical.base import Cover
 from integration.arrays import Bools, Floats, Ints
+from integration.ragged import within
 
 
 def touched_cells(cover: Cover, lines: Segments, distance: float, size: float) -> Bools:
@@ -101,6 +102,6 @@ def _chopped(lines: Segments, size: float) -> Floats:
     along = lines.end - lines.start
     number = np.ceil(np.hypot(*along.T) / size).astype(np.int64).clip(1)
     line = np.repeat(np.arange(len(lines)), number)
-    place = np.arange(len(line)) - np.repeat(np.cumsum(number) - number, number)
+    place = within(number)
     share = np.stack([place, place + 1], axis=1) / number[line, None]
     return np.asarray(lines.start[line, None] + share[..., None] * along[line, None])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.ragged import within
 
 
 def discs_of_cells(nodes: Floats, radius: Floats, corners: Floats) -> Ints:
@@ -25,7 +26,7 @@ def discs_of_cells(nodes: Floats, radius: Floats, corners: Floats) -> Ints:
     meets = _distance(corners[cell], nodes[node]) < radius[node] * (1 - 1e-12)
     cell, node = cell[meets], node[meets]
     number = np.bincount(cell, minlength=len(corners))
-    place = np.arange(len(cell)) - np.repeat(np.cumsum(number) - number, number)
+    place = within(number)
     patches = np.full((len(corners), number.max(initial=0)), -1, dtype=np.int64)
     patches[cell, place] = node
     return patches

@@ -17,6 +17,7 @@ from covers.approximation.element_groups import ElementGroup
 from covers.approximation.manifold import Manifold
 from covers.approximation.rows import stack_groups
 from integration.arrays import Floats, Ints
+from integration.ragged import within
 
 
 @dataclass(frozen=True)
@@ -133,7 +134,7 @@ def _within(carriers: Ints) -> Ints:
     """Place (S,) of each function among those of its cover."""
     order, counts = np.argsort(carriers, kind="stable"), np.bincount(carriers)
     found = np.empty_like(carriers)
-    found[order] = np.arange(len(carriers)) - np.repeat(np.cumsum(counts) - counts, counts)
+    found[order] = within(counts)
     return found
 
 

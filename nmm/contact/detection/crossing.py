@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from integration.ragged import within
 from nmm.contact.detection.measures import cross
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import ANGLE, CROSSED_FIRST, FLUSH
@@ -173,8 +174,7 @@ def _along_another(
     """Vertices (m,) nearer to another edge of the body than ``depth``, at 0 and at ``time``."""
     first, last = np.searchsorted(pairs[0], v), np.searchsorted(pairs[0], v, side="right")
     hit = np.repeat(np.arange(len(v)), last - first)
-    within = np.arange(len(hit)) - np.repeat(np.cumsum(last - first) - (last - first), last - first)
-    other = pairs[1][first[hit] + within]
+    other = pairs[1][first[hit] + within(last - first)]
     keep = (other != e[hit]) & (before.body[other] == before.body[e[hit]])
     hit, other = hit[keep], other[keep]
     near = np.ones(len(hit), dtype=bool)

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from integration.arrays import Floats, Ints
+from integration.ragged import offsets
 from nmm.compiled import compiled
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import REENTRANT
@@ -182,7 +183,7 @@ def pairs_by_grid(surface: Surface, distance: Floats, within_bodies: bool) -> tu
     nothing = np.empty(0, np.int64)
     count = np.zeros(mask + 1, np.int64)
     _entries(start, end, reaches, cell, rows, mask, count, nothing, nothing)
-    offset = np.concatenate([[0], np.cumsum(count)])
+    offset = offsets(count)
     edges, keys = np.empty(offset[-1], np.int64), np.empty(offset[-1], np.int64)
     _entries(start, end, reaches, cell, rows, mask, offset[:-1].copy(), edges, keys)
     rings = start, end, surface.body, surface.next, surface.previous

@@ -19,6 +19,7 @@ import numpy as np
 from scipy.sparse import block_diag, csc_array, csr_array, eye_array
 
 from integration.arrays import Floats, Ints
+from integration.ragged import offsets, ranges
 from nmm.contact.detection.surface import Surface
 from nmm.contact.mortar.multiplier_basis import Entries, functions_along
 from nmm.contact.mortar.trace_space import TraceSpace
@@ -165,14 +166,12 @@ def _largest(matrix: csr_array) -> Ints:
 
 def _means(share: csr_array, rows: csr_array) -> csr_array:
     """``share @ rows`` with zeros kept, so that normal and tangent rows have one pattern."""
-    count = np.diff(rows.indptr)[share.indices]
-    bounds = np.concatenate([[0], np.cumsum(count)])
-    entry = np.arange(bounds[-1]) + np.repeat(rows.indptr[share.indices] - bounds[:-1], count)
+    entry, count = ranges(rows.indptr.astype(np.int64), share.indices.astype(np.int64))
     found = csr_array(
         (
             rows.data[entry] * np.repeat(share.data, count),
             rows.indices[entry],
-            bounds[share.indptr].astype(rows.indptr.dtype),
+            offsets(count)[share.indptr].astype(rows.indptr.dtype),
         ),
         shape=(share.shape[0], rows.shape[1]),
     )

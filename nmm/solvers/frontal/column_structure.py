@@ -8,10 +8,12 @@ from nmm.solvers.kernels.ascending import ascend, extended
 
 
 @compiled
-def elimination_tree(ptr: Index, graph: Index, order: Ints) -> tuple[Ints, Ints]:
-    """Return the parent (n,) of every node of an order, -1 at roots, and a postorder (n,)."""
+def elimination_tree(ptr: Index, graph: Index, order: Ints, place: Ints) -> tuple[Ints, Ints]:
+    """Return the parent (n,) of every node of an order, -1 at roots, and a postorder (n,).
+
+    ``place`` (n,) is where each node stands in the order.
+    """
     n = len(order)
-    place = _places(order)
     parent = np.full(n, -1)
     ancestor = np.full(n, -1)
     for k in range(n):
@@ -24,15 +26,6 @@ def elimination_tree(ptr: Index, graph: Index, order: Ints) -> tuple[Ints, Ints]
                     parent[i] = k
                 i = above
     return parent, _postorder(parent)
-
-
-@compiled
-def _places(order: Ints) -> Ints:
-    """Where each node stands in an order."""
-    place = np.empty(len(order), dtype=np.int64)
-    for k in range(len(order)):
-        place[order[k]] = k
-    return place
 
 
 @compiled
@@ -68,10 +61,11 @@ def _postorder(parent: Ints) -> Ints:
 
 
 @compiled
-def structures(ptr: Index, graph: Index, order: Ints, parent: Ints) -> tuple[Ints, Ints]:
+def structures(
+    ptr: Index, graph: Index, order: Ints, place: Ints, parent: Ints
+) -> tuple[Ints, Ints]:
     """Rows below every node in the factor, ascending."""
     n = len(order)
-    place = _places(order)
     head = np.full(n, -1)
     following = np.full(n, -1)
     start = np.zeros(n + 1, dtype=np.int64)

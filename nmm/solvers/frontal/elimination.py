@@ -15,6 +15,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Index, Ints
 from integration.permutations import inverse
+from integration.ragged import offsets, within
 from nmm.solvers.frontal.node_graph import node_graph
 from nmm.solvers.frontal.ordering import columns
 from nmm.solvers.frontal.scatter import Shape, lower_places, upper_places
@@ -86,15 +87,14 @@ class Fronts:
     def beside_start(self) -> Ints:
         """(S+1,) starts of what stands beside pivot blocks, behind the panels."""
         sizes = np.diff(self.first) * np.diff(self.row_start)
-        return np.concatenate([[0], np.cumsum(sizes)]) + int(self.panel_start[-1])
+        return offsets(sizes) + int(self.panel_start[-1])
 
     @cached_property
     def pivots(self) -> Ints:
         """(n,) places in the panels of the diagonal of the factor."""
         columns, height = np.diff(self.first), np.diff(self.first) + np.diff(self.row_start)
-        within = np.arange(self.first[-1]) - np.repeat(self.first[:-1], columns)
         places = np.repeat(self.panel_start[:-1], columns)
-        return np.asarray(places + within * np.repeat(height + 1, columns))
+        return np.asarray(places + within(columns) * np.repeat(height + 1, columns))
 
     @cached_property
     def places(self) -> tuple[Ints, Ints]:

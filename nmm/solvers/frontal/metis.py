@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from integration.arrays import Index, Ints
+from integration.ragged import offsets
 from nmm.solvers.libraries.optional import METIS
 
 
@@ -27,7 +28,7 @@ def metis_order(ptr: Index, graph: Index, weight: Ints) -> Ints:
     """
     owner = np.repeat(np.arange(len(ptr) - 1), np.diff(ptr))
     others = graph != owner
-    starts = np.concatenate([[0], np.cumsum(np.bincount(owner[others], minlength=len(ptr) - 1))])
+    starts = offsets(np.bincount(owner[others], minlength=len(ptr) - 1))
     package = metis()
     adjacency = package.CSRAdjacency(starts.astype(np.int32), graph[others])
     order, _ = package.nested_dissection(adjacency, vweights=weight.astype(np.int32))

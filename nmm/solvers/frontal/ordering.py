@@ -6,6 +6,8 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Index, Ints
+from integration.permutations import inverse
+from integration.ragged import offsets
 from nmm.solvers.frontal.column_structure import elimination_tree, structures
 from nmm.solvers.frontal.dissection import dissect
 from nmm.solvers.frontal.metis import metis, metis_order
@@ -27,15 +29,16 @@ class Columns:
     @classmethod
     def of(cls, graph_ptr: Index, graph: Index, order: Ints) -> "Columns":
         """Return the columns of a graph whose nodes are eliminated in ``order`` (n,)."""
-        _, postorder = elimination_tree(graph_ptr, graph, order)
+        _, postorder = elimination_tree(graph_ptr, graph, order, inverse(order))
         order = order[postorder]
-        parent, _ = elimination_tree(graph_ptr, graph, order)
-        return cls(order, parent, *structures(graph_ptr, graph, order, parent))
+        given = graph_ptr, graph, order, inverse(order)
+        parent, _ = elimination_tree(*given)
+        return cls(order, parent, *structures(*given, parent))
 
     def operations(self, weight: Ints) -> float:
         """Multiplications of the factorisation, nodes standing for ``weight`` (n,) unknowns."""
         own = weight[self.order]
-        sums = np.concatenate([[0], np.cumsum(own[self.structure])])
+        sums = offsets(own[self.structure])
         below = sums[self.start[1:]] - sums[self.start[:-1]]
         return float((own * (own + below).astype(np.float64) ** 2).sum())
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from integration.arrays import Ints
+from integration.ragged import offsets, ranges
 from nmm.compiled import compiled
 
 
@@ -57,20 +58,16 @@ def in_unknowns(
     first_node: Ints, start: Ints, structure: Ints, weight: Ints
 ) -> tuple[Ints, Ints, Ints, Ints]:
     """First places, row starts, rows and panel starts of supernodes, in unknowns."""
-    at = np.concatenate([[0], np.cumsum(weight)])
+    at = offsets(weight)
     last = first_node[1:] - 1
-    counts = start[last + 1] - start[last]
-    within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-    nodes = structure[np.repeat(start[last], counts) + within]
-    width = weight[nodes]
-    inner = np.arange(width.sum()) - np.repeat(np.cumsum(width) - width, width)
-    rows = np.repeat(at[nodes], width) + inner
+    below_last, counts = ranges(start, last)
+    nodes = structure[below_last]
+    rows, width = ranges(at, nodes)
     owner = np.repeat(np.arange(len(last)), counts)
     below = np.bincount(owner, weights=width, minlength=len(last)).astype(np.int64)
     first = at[first_node]
     columns = np.diff(first)
-    panels = np.concatenate([[0], np.cumsum(columns * (columns + below))])
-    return first, np.concatenate([[0], np.cumsum(below)]), rows, panels
+    return first, offsets(below), rows, offsets(columns * (columns + below))
 
 
 @compiled
