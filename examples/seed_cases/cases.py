@@ -91,6 +91,20 @@ def triangles(size: str) -> str:
     return plain("sub_blocks").replace("17.5 mm", size).replace('"voronoi"', '"triangles"')
 
 
+def opened(height: float, increment: float) -> str:
+    """Return the softening beam led by the opening of its middle third (um): nothing is jumped."""
+    places = [("right lip", 2.5 * height), ("left lip", 1.5 * height)]
+    lips = "".join(
+        f'\n[[monitors]]\nname = "{name}"\npoint = ["{x:g} mm", 0]\n' for name, x in places
+    )
+    control = (
+        '[loading.control]\ntype = "opening"\nmonitors = ["right lip", "left lip"]\n'
+        f'increment = "{increment:g} um"\nfall = 0.97\n'
+    )
+    text = beam(height, energy=100.0).replace("maximum_factor = 1000\n", "")
+    return text.replace("\n[[reference]]", f"\n{control}{lips}\n[[reference]]")
+
+
 CASES: dict[str, tuple[str, Callable[[], str]]] = {
     "beam bonds": ("bonds between blocks", lambda: plain("bonds")),
     "beam springs": ("rigid blocks and springs", lambda: plain("springs")),
@@ -112,7 +126,7 @@ CASES: dict[str, tuple[str, Callable[[], str]]] = {
         "704 sub-blocks that part, k = 0",
         lambda: parted(loose(), "15.957 mm"),
     ),
-    "reinforced sub-blocks": ("455 sub-blocks that part", lambda: parted(REINFORCED, "9.62 mm")),
+    "reinforced sub-blocks": ("457 sub-blocks that part", lambda: parted(REINFORCED, "9.6 mm")),
 }
 for _n in (60, 130, 455):
     CASES[f"blocks {_n}"] = f"{_n} blocks", partial(beam, blocks=_n)
@@ -120,6 +134,7 @@ for _h in (50, 200, 800):
     CASES[f"size brittle {_h}"] = f"h = {_h} mm, brittle", partial(beam, _h)
 for _h in (50, 100, 200, 400, 800):
     CASES[f"size soft {_h}"] = f"h = {_h} mm, 100 J/m2", partial(beam, _h, energy=100.0)
+CASES["size opened 800"] = "h = 800 mm, 100 J/m2, led by its opening", partial(opened, 800, 0.25)
 PICTURES = ("beam bonds", "pull-out bonds", "pull-out free bonds")
 
 
