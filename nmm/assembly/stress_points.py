@@ -16,6 +16,8 @@ from nmm.assembly.blocks import Part, assemble
 
 StressAt = Callable[[Ints, Floats, float], Floats]
 """Stress (m, 3) in Pa in body axes from elements, their reference points (m, 2) and a time (s)."""
+PressureAt = Callable[[Ints, Floats, float], Floats]
+"""Pressure (m,) in Pa of what fills pores, from the same."""
 
 
 @dataclass(frozen=True)

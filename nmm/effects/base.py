@@ -13,7 +13,7 @@ from scipy.sparse import csc_array, csr_array
 from integration.arrays import Floats, Ints
 from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes, PushesIn
-from nmm.assembly.stress_points import StressAt
+from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.given.setup import Acting as Acting
 from nmm.effects.given.setup import Setup as Setup
 from nmm.effects.given.steps import Instant as Instant
@@ -192,6 +192,14 @@ class Effect(ABC):
 
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         """The same (m, 3) at reference points of elements, at a time."""
+        raise NotImplementedError
+
+    def pore_pressure_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        """Pressure (m,) in Pa of what fills the pores, at reference points of elements."""
+        raise NotImplementedError
+
+    def feel_pores(self, pressures: Sequence[PressureAt]) -> None:
+        """Take the `pore_pressure_at` of the other effects: it bears on strength."""
         raise NotImplementedError
 
     def feel(self, stresses: Sequence[StressAt]) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from covers.scalar.space import ScalarSpace
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
 from nmm.diffusion.course import Course
@@ -110,6 +110,10 @@ class PoreWater(FieldEffect):
     def acting(self, time: float) -> Floats:
         """Unknowns (n,) of the pressure (Pa)."""
         return self._weight * (self.here(time).unknowns - self._ground)
+
+    def pore_pressure_at(self, elements: Ints, points: Floats, time: float) -> Floats:
+        """See `Effect.pore_pressure_at`."""
+        return np.asarray(self.space.values(elements, points) @ self.acting(time))
 
     def work(self, before: State, after: State) -> float:
         """Work (J) of the pressure on the strain of the blocks, by the mean of both ends."""

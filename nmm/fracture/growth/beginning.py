@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from integration.arrays import Floats
+from integration.rules import PointRule
 from nmm.assembly.motion import State
-from nmm.assembly.stress_points import StressAt
+from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.base import Setup
 from nmm.effects.event import Event
 from nmm.fracture.acting_stress import acting_stress
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from nmm.fracture.nucleation.nuclei import Nuclei, Nucleus
     from nmm.fracture.nucleation.rule import NucleationRule
 
+# What a pressure adds to the stress (xx, yy, xy).
+OF_PRESSURE = np.array([1.0, 1.0, 0.0])
+
 
 class Beginnings:
     """Where cracks may begin in the geometry of a setup; nowhere without a rule in its scene."""
@@ -31,6 +35,7 @@ class Beginnings:
         self._rule, self._nuclei = _places(setup, toughness)
         self._known: tuple[Floats, Nucleus | None] | None = None
         self._stresses: Sequence[StressAt] = ()
+        self._pores: Sequence[PressureAt] = ()
 
     def refuse(self) -> None:
         """Refuse what `refuse_nucleation` does."""
@@ -56,14 +61,30 @@ class Beginnings:
         """Take the stresses that effects add to that of the strain."""
         self._stresses = stresses
 
+    def feel_pores(self, pressures: Sequence[PressureAt]) -> None:
+        """Take the pressures of what fills the pores."""
+        self._pores = pressures
+
     def next(self, state: State) -> "Nucleus | None":
         """Return the place that is nearest to where a crack begins; kept for the last state."""
         if self._nuclei is None:
             return None
         if self._known is None or self._known[0] is not state.deformation:
-            acting = partial(acting_stress, self._setup.model, state, self._stresses)
-            self._known = state.deformation, self._nuclei.nearest(acting)
+            self._known = state.deformation, self._nuclei.nearest(partial(self._opening, state))
         return self._known[1]
+
+    def _opening(self, state: State, rule: PointRule) -> Floats:
+        """Return the stresses (Q, 3) that open cracks: with the pressure in the pores, or all (Pa).
+
+        Wet stone parts at its tensile strength less that pressure, whatever share of it acts on
+        the strain (Jaeger, Cook and Zimmerman 2007, section 6.4).
+        """
+        assert self._rule is not None
+        found = acting_stress(self._setup.model, state, self._stresses, rule)
+        if self._rule.effective:
+            for pressure in self._pores:  # of effects
+                found = found + OF_PRESSURE * pressure(rule.owner, rule.points, state.time)[:, None]
+        return found
 
     def event(self, state: State, held: bool) -> Event | None:
         """Ask for a crack where the mean stress has reached the strength."""

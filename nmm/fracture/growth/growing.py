@@ -11,7 +11,7 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import MaterialPoints, State, material_points
 from nmm.assembly.pushes import Pushes, PushesIn, joined
-from nmm.assembly.stress_points import StressAt
+from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.fracture.growth.advance import advanced
@@ -182,6 +182,10 @@ class GrowingCracks(Effect):
         """See `Effect.feel`."""
         self._stresses = stresses
         self._beginnings.feel(stresses)
+
+    def feel_pores(self, pressures: Sequence[PressureAt]) -> None:
+        """See `Effect.feel_pores`."""
+        self._beginnings.feel_pores(pressures)
 
     def feel_pushes(self, pushing: Sequence[PushesIn]) -> None:
         """See `Effect.feel_pushes`."""

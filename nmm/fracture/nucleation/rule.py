@@ -33,6 +33,8 @@ class NucleationRule:
         The length that goes with the toughness (m), see `mean_length`.
     most
         How many may begin; infinite without a limit.
+    effective
+        Whether the pressure in the pores helps to open cracks.
     """
 
     strength: float
@@ -40,6 +42,7 @@ class NucleationRule:
     crack_length: float
     tough: float
     most: float
+    effective: bool = True
 
     @classmethod
     def of(cls, table: "NucleationTable", toughness: Toughness, stiff: Floats) -> "NucleationRule":
@@ -49,7 +52,8 @@ class NucleationRule:
         length = tough if table.length is None else table.length
         crack_length = length if table.crack_length is None else table.crack_length
         most = np.inf if table.number is None else table.number
-        return cls(strength, length, crack_length, tough, most)
+        effective = table.stress == "effective"
+        return cls(strength, length, crack_length, tough, most, effective)
 
     @property
     def away(self) -> float:

@@ -62,6 +62,9 @@ class Plan(Hooks):
         self.hooks.clear()
         for effect in self.having("feel_pushes"):
             effect.feel_pushes([other.pushes for other in self.having("pushes")])
+        pores = [effect.pore_pressure_at for effect in self.having("pore_pressure_at")]
+        for effect in self.having("feel_pores") if pores else ():
+            effect.feel_pores(pores)
         if self.stresses:
             for effect in self.having("feel"):
                 effect.feel(self.stresses)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import Field
 
 from nmm.scene.fields import Count, Frozen, Length, Stress
@@ -31,6 +33,12 @@ class NucleationTable(Frozen):
         description="the length in m, > 0, of a crack that begins, from an edge, and both ways "
         "inside; that of the mean if not given",
         examples=["20 mm"],
+    )
+    stress: Literal["effective", "total"] = Field(
+        default="effective",
+        description='"effective" or "total": whether water in the pores helps to open cracks by its '
+        "pressure, as in stone (Terzaghi), or the stress of grains and water together does",
+        examples=["total"],
     )
     number: Count | None = Field(
         default=None, ge=1, description="how many cracks may begin, >= 1", examples=[1]

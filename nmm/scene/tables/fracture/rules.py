@@ -7,8 +7,6 @@ from collections.abc import Iterator, Mapping
 from nmm.scene.lines import Path
 from nmm.scene.unread_rows import Finding, Tables
 
-# Tables that leave open which stress meets the strength where cracks begin: of the grains, or all.
-UNKNOWN = ("seepage",)
 # What running tips alone have: cracks in equilibrium have no speed, and do not divide.
 IN_TIME = ("speed", "branching")
 # Tables beside which loads alone do not say where the next piece begins.
@@ -28,11 +26,6 @@ def fracture_contradictions(data: Tables) -> Iterator[Finding]:
         if table.get(key):
             remedy = "add [inertia], or remove it"
             yield ("fracture", key), f'"{table[key]}"', "a scene with [inertia]", remedy
-    for key in UNKNOWN if begins else ():
-        if data.get(key):
-            remedy = "which stress makes cracks begin is left open by it: remove one of the two"
-            path: Path = ("fracture", "nucleation")
-            yield path, f"[{key}]", "a scene without water in its pores", remedy
     if isinstance(table, Mapping) and table.get("control") == "toughness":
         yield from _control(data)
 
