@@ -36,8 +36,8 @@ class NucleationTable(Frozen):
     )
     stress: Literal["effective", "total"] = Field(
         default="effective",
-        description='"effective" or "total": whether water in the pores helps to open cracks by its '
-        "pressure, as in stone (Terzaghi), or the stress of grains and water together does",
+        description='"effective" or "total": whether the pressure of water in the pores helps to '
+        "open cracks, as in stone (Terzaghi), or the stress of grains and water together does",
         examples=["total"],
     )
     number: Count | None = Field(
