@@ -38,10 +38,9 @@ def parts(
 ) -> tuple[Floats, ...]:
     """Return what makes the matrix of forces (m,) with tangents (m,) of their own.
 
-    Small turns count beside one of 1 rad, and forces that turn beside what stretches.
+    Where friction alone holds a block, forces that turn are all its stiffness: they count alone.
     """
-    turns = np.append(state.frames.angle[links.bodies], 1.0)
-    return turns, lines.along, tangent, np.append(force * lines.across, tangent)
+    return state.frames.angle[links.bodies], lines.along, tangent, force * lines.across
 
 
 def _alike(some: tuple[Floats, ...], others: tuple[Floats, ...], share: float) -> bool:
