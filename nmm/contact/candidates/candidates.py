@@ -70,10 +70,11 @@ class Candidates:
 
         No point moves further than ``reach`` (m) in the step. ``step`` is its length (s), None in
         statics: bodies in flight meet where they fly to. ``crossed`` are pairs of a vertex and an
-        edge that are contacts in any case (`overlooked`).
+        edge that are contacts in any case (`overlooked`). In time so are those held back before;
+        in statics friction that they had would choose another of its many states.
         """
         joints = self.joints(record.book, state)
-        crossed = joined(record.crossed, crossed)
+        crossed = crossed if step is None else joined(record.crossed, crossed)
         found = self.partners.search(state, 2 * reach, step, record.book, record.found, crossed)
         if record.known is not None and not self._laws.stiff and continues(record.found, found):
             points = continued(record.known, found)

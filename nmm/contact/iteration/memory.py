@@ -175,8 +175,6 @@ class Memory:
 
     def started(self, problem: StepProblem) -> StepProblem:
         """The problem with the forces of its last solution, where only its rows have turned."""
-        if self.answered is None or not _alike(self.answered[0], problem, STEP):
-            return problem
         found = self.again(problem)
         if found is None:
             return problem

@@ -11,6 +11,7 @@ from nmm.scene import parse_scene
 from nmm.scene.tables.strength_reduction import StrengthReductionTable
 from nmm.stepping.strength_reduction import FactorTried, bracket, weakened
 from nmm.testing.scenes import block_on_incline
+from nmm.verification.problems.matter.slopes import ToppledSlope
 
 
 def incline(slope, friction, cohesion=0.0, lowest=0.5, highest=4.0):
@@ -110,3 +111,9 @@ def test_the_scene_of_a_run_folder_is_read_back(tmp_path):
     nmm.run(incline(20, 35), out=tmp_path / "run")
     scene = nmm.read_scene(tmp_path / "run" / "scene.toml")
     assert scene.strength_reduction == StrengthReductionTable(lowest=0.5, highest=4.0)
+
+
+def test_leaning_columns_need_the_friction_of_goodman_and_bray():
+    # A corner held back from an increment before, with its friction, let them stand at 0.71.
+    found = ToppledSlope(45.0).checks("rigid")
+    assert all(check.passed for check in found.values()), found
