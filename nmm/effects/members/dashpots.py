@@ -59,7 +59,7 @@ class PointDashpots(Effect):
             return self.links.stiffness(before, lines, whole, force)
 
         def stiffness() -> csc_array:
-            made_of = parts(self.links, before, lines, force, tangent)
+            made_of = parts(self._model, self.links, before, lines, force, tangent)
             return self._kept.of(made_of, 0.0 if self.links.small else LIKE, made)
 
         return StepForce(pull, stiffness, self._remembered(force))

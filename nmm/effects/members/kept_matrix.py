@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.members.links import LinesOfAction, Links
 
@@ -34,13 +35,16 @@ class KeptMatrix:
 
 
 def parts(
-    links: Links, state: State, lines: LinesOfAction, force: Floats, tangent: Floats
+    model: Model, links: Links, state: State, lines: LinesOfAction, force: Floats, tangent: Floats
 ) -> tuple[Floats, ...]:
     """Return what makes the matrix of forces (m,) with tangents (m,) of their own.
 
-    Where friction alone holds a block, forces that turn are all its stiffness: they count alone.
+    Small turns count beside one of 1 rad. Where friction alone holds a block, forces that turn are
+    all its stiffness: they count beside nothing but the rounding of the stiffness of the blocks.
     """
-    return state.frames.angle[links.bodies], lines.along, tangent, force * lines.across
+    turns = np.append(state.frames.angle[links.bodies], 1.0)
+    rounding = np.finfo(float).eps * model.modulus.max()
+    return turns, lines.along, tangent, np.append(force * lines.across, rounding)
 
 
 def _alike(some: tuple[Floats, ...], others: tuple[Floats, ...], share: float) -> bool:

@@ -73,7 +73,8 @@ class Linked(Effect):
             raise SolveError(self._lost(found))
         links, force = members.links, found.axial.force
         lines = links.lines(state)
-        made_of = *parts(links, state, lines, force, found.axial.tangent), found.bond.tangent
+        axial = found.axial.tangent
+        made_of = *parts(self._model, links, state, lines, force, axial), found.bond.tangent
 
         def made() -> csc_array:
             return links.stiffness(state, lines, members.chains.tangent(found), force)
