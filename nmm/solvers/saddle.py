@@ -5,7 +5,7 @@ from scipy.sparse import csc_array, csr_array, hstack, vstack
 
 from integration.arrays import Floats
 from nmm.solvers.scaling import ruiz_scale
-from nmm.solvers.unchecked import magnitudes
+from nmm.solvers.unchecked import largest
 
 # Conditions are linked to stiff unknowns over at most so many free ones.
 LINKS = 20
@@ -54,6 +54,5 @@ def equilibrated_scale(matrix: csc_array) -> Floats:
 def _links(matrix: csc_array) -> Floats:
     """Entries, zero where they are rounding beside others of their column."""
     size = np.abs(matrix.data)
-    largest = np.asarray(magnitudes(matrix).max(axis=0).todense()).ravel()
-    column = np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.indptr))
-    return np.asarray(np.where(size > ROUNDED * largest[column], matrix.data, 0.0))
+    beside = np.repeat(largest(matrix), np.diff(matrix.indptr))
+    return np.asarray(np.where(size > ROUNDED * beside, matrix.data, 0.0))

@@ -6,15 +6,15 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.solvers.unchecked import made_of, magnitudes
+from nmm.solvers.unchecked import largest, made_of, magnitudes
 
 
 def jacobi_scale(matrix: csc_array) -> Floats:
     """(n,) ``1/sqrt(|a_ii|)``; the largest entry of the column stands in for a zero diagonal."""
     diagonal = np.abs(matrix.diagonal())
     if (diagonal == 0.0).any():
-        largest = np.asarray(magnitudes(matrix).max(axis=0).todense()).ravel()
-        diagonal = np.where(diagonal > 0, diagonal, np.where(largest > 0, largest, 1.0))
+        column = largest(matrix)
+        diagonal = np.where(diagonal > 0, diagonal, np.where(column > 0, column, 1.0))
     return np.asarray(1.0 / np.sqrt(diagonal))
 
 
@@ -29,9 +29,8 @@ def ruiz_scale(matrix: csc_array) -> Floats:
     for _ in range(SWEEPS):
         now = scaled(size, scale, 0.0)
         rows = np.asarray(now.max(axis=1).todense()).ravel()
-        columns = np.asarray(now.max(axis=0).todense()).ravel()
-        largest = np.maximum(rows, columns)
-        scale = scale / np.sqrt(np.where(largest > 0, largest, 1.0))
+        size_now = np.maximum(rows, largest(now))
+        scale = scale / np.sqrt(np.where(size_now > 0, size_now, 1.0))
     return scale
 
 

@@ -31,6 +31,17 @@ def magnitudes(matrix: Matrix) -> Matrix:
     return made_of(type(matrix), data, *pattern, matrix.shape)
 
 
+def largest(matrix: Matrix) -> Floats:
+    """Return the size of the largest entry (k,) of each column of csc, each row of csr; 0 of none.
+
+    scipy's ``max`` would sort indices that `magnitudes` shares with the matrix, and not its data.
+    """
+    found, (some,) = np.zeros(len(matrix.indptr) - 1), np.diff(matrix.indptr).nonzero()
+    if len(some):
+        found[some] = np.maximum.reduceat(np.abs(matrix.data), matrix.indptr[some])
+    return found
+
+
 def made_of(
     kind: type[Matrix],
     data: Floats,

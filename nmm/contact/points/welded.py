@@ -14,7 +14,7 @@ from integration.arrays import Bools, Ints
 from nmm.contact.detection.face_contacts import FaceContacts
 from nmm.contact.detection.narrow_phase import Contacts
 from nmm.contact.points.boundary_points import Sides
-from nmm.solvers.unchecked import magnitudes
+from nmm.solvers.unchecked import largest
 
 # Rows of two faces that differ by no more than this part of their entries are one.
 ALIKE = 1e-12
@@ -49,8 +49,7 @@ class Welded:
         across, n = boundary.next[boundary.opposite[face]], len(boundary)
         one = _moved(sides, face) - _moved(sides, across)
         size = ALIKE * np.abs(sides.start.rows.values[face]).max(axis=(1, 2))
-        largest = magnitudes(one).max(axis=1)
-        alike = largest.toarray().reshape(-1, 2).max(axis=1) <= size
+        alike = largest(one).reshape(-1, 2).max(axis=1) <= size
         pairs = (np.ones(int(alike.sum())), (face[alike], across[alike]))
         _, place = connected_components(csr_array(pairs, shape=(n, n)), directed=False)
         before = boundary.previous
