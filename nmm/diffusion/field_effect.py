@@ -6,7 +6,7 @@ place.
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -19,15 +19,28 @@ from nmm.diffusion.course import Course, FieldAt
 from nmm.diffusion.field_stress import FieldStress
 from nmm.diffusion.matrices import element_slopes
 from nmm.diffusion.problem import DiffusionProblem
-from nmm.effects.base import Effect, Instant, Setup
+from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.formulation import Diffusion
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
 
 
+class StressThatTurns(Protocol):
+    """The stress of a field in bodies that bend by any angle: it follows the material."""
+
+    def force(self, state: State, end: Instant) -> Floats:
+        """See `Effect.force`."""
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`."""
+
+    def mean(self, state: State) -> Floats:
+        """See `Effect.mean_stress`."""
+
+
 class FieldEffect(Effect):
-    """A field and its stress.
+    """A field and its stress; ``_turned`` is that of bodies that bend by any angle.
 
     Parameters
     ----------
@@ -43,6 +56,7 @@ class FieldEffect(Effect):
     """
 
     external = False
+    _turned: StressThatTurns | None = None
 
     def __init__(
         self,
@@ -83,10 +97,22 @@ class FieldEffect(Effect):
         """Unknowns (n,) of what makes the stress, at a time of the run: the field itself."""
         return self.here(time).unknowns
 
+    @property
+    def bends(self) -> bool:
+        """See `Effect.bends`: it does in bodies that bend by any angle."""
+        return self._turned is not None
+
+    def through(self, before: State, after: State, span: Span) -> StepForce:
+        """See `Effect.through`."""
+        assert self._turned is not None
+        return self._turned.through(before, after, span)
+
     def force(self, state: State, end: Instant) -> Floats:
         """Return the force of the field's stress at the end of the step."""
         if end.time > state.time:
             self.course.begin(state.time * self._second)
+        if self._turned is not None:
+            return self._turned.force(state, end)
         unknowns = self.acting(end.time)
         if self.stress is None:
             return np.zeros(len(state.deformation))
@@ -100,6 +126,8 @@ class FieldEffect(Effect):
 
     def mean_stress(self, state: State) -> Floats:
         """See `Effect.mean_stress`."""
+        if self._turned is not None:
+            return self._turned.mean(state)
         if self.stress is None:
             return np.zeros((len(self._conductivity), 3))
         return self.stress.mean(self.acting(state.time))

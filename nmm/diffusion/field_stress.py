@@ -15,9 +15,6 @@ from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.diffusion.matrices import element_means, stress_coupling
 
-# Strain or stress (xx, yy, xy) of one in all directions of the plane.
-EVEN = np.array([1.0, 1.0, 0.0])
-
 
 @dataclass(frozen=True)
 class FieldStress:

@@ -9,7 +9,7 @@ from nmm.assembly.motion import State
 from nmm.diffusion.course import Course
 from nmm.diffusion.field_effect import FieldEffect, course_of
 from nmm.diffusion.from_scene import of_elements
-from nmm.effects.base import Instant, Setup, Span, StepForce
+from nmm.effects.base import Setup
 from nmm.errors import Fault, SceneError
 from nmm.heat.from_scene import heat_problem
 from nmm.heat.thermal_strain import ThermalStrain
@@ -23,6 +23,7 @@ class Heat(FieldEffect):
     """Temperature of the blocks."""
 
     name = "heat"
+    _turned: "TurningStress | None"
 
     def __init__(
         self,
@@ -57,25 +58,6 @@ class Heat(FieldEffect):
     def with_axes(self) -> str:
         """See `Effect.with_axes`: nothing; its stress turns with what it strains."""
         return ""
-
-    @property
-    def bends(self) -> bool:
-        """See `Effect.bends`: it does in bodies that bend by any angle."""
-        return self._turned is not None
-
-    def force(self, state: State, end: Instant) -> Floats:
-        """See `Effect.force`."""
-        found = super().force(state, end)
-        return found if self._turned is None else self._turned.force(state, end)
-
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`."""
-        assert self._turned is not None
-        return self._turned.through(before, after, span)
-
-    def mean_stress(self, state: State) -> Floats:
-        """See `Effect.mean_stress`."""
-        return super().mean_stress(state) if self._turned is None else self._turned.mean(state)
 
     def energy(self, state: State) -> float:
         """Energy (J) of the elastic strain beyond that of the whole strain, ``1/2 e : D e``."""

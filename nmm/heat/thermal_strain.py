@@ -15,7 +15,8 @@ from scipy.sparse import csc_array
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
 from nmm.assembly.model import Model
-from nmm.diffusion.field_stress import EVEN, FieldStress
+from nmm.assembly.stress_points import ISOTROPIC
+from nmm.diffusion.field_stress import FieldStress
 from nmm.diffusion.matrices import products
 
 
@@ -34,11 +35,11 @@ class ThermalStrain(FieldStress):
     @classmethod
     def of(cls, space: ScalarSpace, model: Model, expansion: Floats) -> Self:
         """Make the stress of a strain (E,) for each kelvin."""
-        stress = np.einsum("eij,ej->ei", model.elasticity, expansion[:, None] * EVEN)
+        stress = np.einsum("eij,ej->ei", model.elasticity, expansion[:, None] * ISOTROPIC)
         return cls(space, model, stress, expansion=expansion)
 
     @cached_property
     def held(self) -> csc_array:
         """(n, n) energy of material that is held: half the square of it in the temperature."""
-        density = self.expansion * (self.stress @ EVEN)
+        density = self.expansion * (self.stress @ ISOTROPIC)
         return products(self.space, self.model.thickness * density)

@@ -15,6 +15,7 @@ from integration.arrays import Floats
 from nmm.assembly.finite_strain.finite_matter import FiniteMatter
 from nmm.assembly.finite_strain.gradients import volumes
 from nmm.assembly.motion import State
+from nmm.assembly.stress_points import ISOTROPIC
 from nmm.effects.base import Instant, Span, StepForce
 
 # Derivative of the cofactors (xx, xy, yx, yy) by the gradient.
@@ -61,7 +62,7 @@ class PoreStress:
         points, volume = self.matter.points, volumes(self.matter.points.strain(state.deformation))
         _, found = points.means((self.at(state.time) * volume)[:, None])
         _, area = points.means(volume[:, None])
-        return np.asarray(-found / area * np.array([1.0, 1.0, 0.0]))
+        return np.asarray(-found / area * ISOTROPIC)
 
     def _pushed(self, pressure: Floats, deformation: Floats) -> Floats:
         a, b, c, d = self.matter.points.strain(deformation).T

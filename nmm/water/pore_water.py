@@ -15,9 +15,10 @@ from covers.scalar.space import ScalarSpace
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
+from nmm.assembly.stress_points import ISOTROPIC
 from nmm.diffusion.course import Course
 from nmm.diffusion.field_effect import FieldEffect, course_of
-from nmm.diffusion.field_stress import EVEN, FieldStress
+from nmm.diffusion.field_stress import FieldStress
 from nmm.diffusion.from_scene import (
     FieldTables,
     Given,
@@ -28,7 +29,7 @@ from nmm.diffusion.from_scene import (
     sloping,
 )
 from nmm.diffusion.problem import DiffusionProblem
-from nmm.effects.base import Instant, Setup, Span, StepForce
+from nmm.effects.base import Instant, Setup
 from nmm.errors import Fault, FormulationError, SceneError
 from nmm.quantity import Quantity
 
@@ -43,6 +44,8 @@ LOOSE = ("seepage", "head", "add [[heads]], or transient = true")
 
 class PoreWater(FieldEffect):
     """Head of the water in the pores; ``ground`` (n,) are the unknowns of the height y itself."""
+
+    _turned: "PoreStress | None"
 
     def __init__(
         self,
@@ -76,7 +79,7 @@ class PoreWater(FieldEffect):
                 initial = fitted(setup, space, everything, partial(filling.at_rest, level))
         ground = fitted(setup, space, everything, lambda points: points[:, 1])
         biot = of_elements(setup, "biot", missing=1.0)
-        stress = FieldStress(space, setup.model, biot[:, None] * EVEN)
+        stress = FieldStress(space, setup.model, biot[:, None] * ISOTROPIC)
         course = course_of(setup, problem, initial, second)
         conductivity = of_elements(setup, "hydraulic_conductivity")
         weight = table.unit_weight
@@ -87,25 +90,6 @@ class PoreWater(FieldEffect):
     def with_axes(self) -> str:
         """See `Effect.with_axes`: the pressure follows the material in plane strain."""
         return "" if self._turned is not None else super().with_axes
-
-    @property
-    def bends(self) -> bool:
-        """See `Effect.bends`: it does in bodies that bend by any angle."""
-        return self._turned is not None
-
-    def force(self, state: State, end: Instant) -> Floats:
-        """See `Effect.force`."""
-        found = super().force(state, end)
-        return found if self._turned is None else self._turned.force(state, end)
-
-    def through(self, before: State, after: State, span: Span) -> StepForce:
-        """See `Effect.through`."""
-        assert self._turned is not None
-        return self._turned.through(before, after, span)
-
-    def mean_stress(self, state: State) -> Floats:
-        """See `Effect.mean_stress`."""
-        return super().mean_stress(state) if self._turned is None else self._turned.mean(state)
 
     def acting(self, time: float) -> Floats:
         """Unknowns (n,) of the pressure (Pa)."""

@@ -10,7 +10,7 @@ import numpy as np
 from integration.arrays import Floats
 from integration.rules import PointRule
 from nmm.assembly.motion import State
-from nmm.assembly.stress_points import PressureAt, StressAt
+from nmm.assembly.stress_points import ISOTROPIC, PressureAt, StressAt
 from nmm.effects.base import Setup
 from nmm.effects.event import Event
 from nmm.fracture.acting_stress import acting_stress
@@ -22,9 +22,6 @@ from nmm.fracture.toughness import Toughness
 if TYPE_CHECKING:
     from nmm.fracture.nucleation.nuclei import Nuclei, Nucleus
     from nmm.fracture.nucleation.rule import NucleationRule
-
-# What a pressure adds to the stress (xx, yy, xy).
-OF_PRESSURE = np.array([1.0, 1.0, 0.0])
 
 
 class Beginnings:
@@ -83,7 +80,7 @@ class Beginnings:
         found = acting_stress(self._setup.model, state, self._stresses, rule)
         if self._rule.effective:
             for pressure in self._pores:  # of effects
-                found = found + OF_PRESSURE * pressure(rule.owner, rule.points, state.time)[:, None]
+                found = found + ISOTROPIC * pressure(rule.owner, rule.points, state.time)[:, None]
         return found
 
     def event(self, state: State, held: bool) -> Event | None:

@@ -5,6 +5,7 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats
 from nmm.effects.base import Instant
+from nmm.solvers.unchecked import magnitudes
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 
 
@@ -22,7 +23,7 @@ def balance(run: Ended) -> Findings:
     if plan.border(state, now) is not None:
         return
     modes, turn = model.manifold.rigid_modes, state.frames.rotation
-    sizes = _sizes(modes)
+    sizes = magnitudes(modes)
     total, largest = np.zeros(2), 0.0
     for (_, effect), force in zip(plan.named("force"), plan.forces(state, now), strict=True):
         total += np.einsum("bij,bj->i", turn, _of_bodies(modes, force))
@@ -43,7 +44,3 @@ def _of_bodies(modes: csc_array, force: Floats) -> Floats:
     """Return the force (B, 2) of unknowns on each body."""
     forces: Floats = (modes.T @ force).reshape(-1, 3)[:, :2]
     return forces
-
-
-def _sizes(modes: csc_array) -> csc_array:
-    return csc_array((np.abs(modes.data), modes.indices, modes.indptr), shape=modes.shape)
