@@ -220,6 +220,8 @@ def _who(moving: Stepper, attempt: Attempt | None, names: Sequence[str]) -> str:
     """Name the block that moves most, and how; one that nothing touches moves freely."""
     if attempt is None:
         return "no step converged"
+    if not attempt.increment.any():
+        return "nothing moves, yet the contact forces of what stands still were not found"
     model = moving.model
     body, how = largest_mover(model, attempt.state, attempt.increment)
     name = block_name(model, body, names)

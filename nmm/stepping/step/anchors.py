@@ -79,6 +79,8 @@ def manner(state: State, body: int, rigid: Floats, radius: float) -> str:
     shift = float(np.hypot(*rigid[:2]))
     if abs(rigid[2]) * radius > shift:
         return f"it turns {'counter-clockwise' if rigid[2] > 0 else 'clockwise'}"
+    if shift == 0:
+        return "it stays where it is"
     x, y = state.frames.to_global(np.array([body]), rigid[None, :2])[0] / shift
     return f"it moves along ({x:.2f}, {y:.2f})"
 
