@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.solvers.unchecked import largest, made_of, magnitudes
+from nmm.solvers.unchecked import largest, made_of
 
 
 def jacobi_scale(matrix: csc_array) -> Floats:
@@ -24,13 +24,11 @@ SWEEPS = 3
 
 def ruiz_scale(matrix: csc_array) -> Floats:
     """(n,) factors that bring the largest entry of every row and column near one (Ruiz 2001)."""
-    size = magnitudes(matrix)
     scale = np.ones(matrix.shape[0])
     for _ in range(SWEEPS):
-        now = scaled(size, scale, 0.0)
-        rows = np.asarray(now.max(axis=1).todense()).ravel()
-        size_now = np.maximum(rows, largest(now))
-        scale = scale / np.sqrt(np.where(size_now > 0, size_now, 1.0))
+        now = scaled(matrix, scale, 0.0)
+        entry = np.maximum(largest(now.tocsr()), largest(now))
+        scale = scale / np.sqrt(np.where(entry > 0, entry, 1.0))
     return scale
 
 

@@ -11,7 +11,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Setup, Span, StepForce
 from nmm.effects.members.ends import ends_of
-from nmm.effects.members.kept_matrix import LIKE, KeptMatrix, parts
+from nmm.effects.members.kept_matrix import LIKE, KeptMatrix
 from nmm.effects.members.links import Links
 from nmm.quantity import MemberSegments
 
@@ -32,7 +32,7 @@ class PointDashpots(Effect):
         self.names, self.links, self.viscosity = names, links, viscosity
         self.external = links.grounded
         self._model = model
-        self._stretch, self._kept = KeptOfStates(links.stretch), KeptMatrix()
+        self._stretch, self._kept = KeptOfStates(links.stretch), KeptMatrix(model)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -59,7 +59,7 @@ class PointDashpots(Effect):
             return self.links.stiffness(before, lines, whole, force)
 
         def stiffness() -> csc_array:
-            made_of = parts(self._model, self.links, before, lines, force, tangent)
+            made_of = self._kept.parts(self.links, before, lines, force, tangent)
             return self._kept.of(made_of, 0.0 if self.links.small else LIKE, made)
 
         return StepForce(pull, stiffness, self._remembered(force))

@@ -16,10 +16,22 @@ LIKE = 1e-3
 
 
 class KeptMatrix:
-    """A matrix of links, and what it was made of."""
+    """A matrix of links between the blocks of a model, and what it was made of."""
 
-    def __init__(self) -> None:
+    def __init__(self, model: Model) -> None:
         self._made: tuple[tuple[Floats, ...], csc_array] | None = None
+        self._rounding = float(np.finfo(float).eps * model.modulus.max())
+
+    def parts(
+        self, links: Links, state: State, lines: LinesOfAction, force: Floats, tangent: Floats
+    ) -> tuple[Floats, ...]:
+        """Return what makes the matrix of forces (m,) with tangents (m,) of their own.
+
+        Small turns count beside one of 1 rad. Where friction alone holds a block, forces that turn
+        are all its stiffness: they count beside nothing but the rounding of that of the blocks.
+        """
+        turns = np.append(state.frames.angle[links.bodies], 1.0)
+        return turns, lines.along, tangent, np.append(force * lines.across, self._rounding)
 
     def of(
         self, made_of: tuple[Floats, ...], like: float, make: Callable[[], csc_array]
@@ -32,19 +44,6 @@ class KeptMatrix:
     def forget(self) -> None:
         """Keep nothing."""
         self._made = None
-
-
-def parts(
-    model: Model, links: Links, state: State, lines: LinesOfAction, force: Floats, tangent: Floats
-) -> tuple[Floats, ...]:
-    """Return what makes the matrix of forces (m,) with tangents (m,) of their own.
-
-    Small turns count beside one of 1 rad. Where friction alone holds a block, forces that turn are
-    all its stiffness: they count beside nothing but the rounding of the stiffness of the blocks.
-    """
-    turns = np.append(state.frames.angle[links.bodies], 1.0)
-    rounding = np.finfo(float).eps * model.modulus.max()
-    return turns, lines.along, tangent, np.append(force * lines.across, rounding)
 
 
 def _alike(some: tuple[Floats, ...], others: tuple[Floats, ...], share: float) -> bool:

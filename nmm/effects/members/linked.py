@@ -13,7 +13,7 @@ from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes, joined
 from nmm.effects.base import Effect, Instant, Span, StepForce
 from nmm.effects.members.chains import ChainAnswer
-from nmm.effects.members.kept_matrix import LIKE, KeptMatrix, parts
+from nmm.effects.members.kept_matrix import LIKE, KeptMatrix
 from nmm.effects.members.member_set import AXIAL, BOND, SLIP, WIDTH, Members
 from nmm.errors import SolveError
 from nmm.quantity import MemberSegments
@@ -37,7 +37,7 @@ class Linked(Effect):
         self._answers = KeptOfStates(self._answered)
         self._matrices = KeptOfStates(self._stiffness)
         self._forces = KeptOfStates(self._force)
-        self._kept = KeptMatrix()
+        self._kept = KeptMatrix(model)
 
     @property
     def bends(self) -> bool:
@@ -74,7 +74,7 @@ class Linked(Effect):
         links, force = members.links, found.axial.force
         lines = links.lines(state)
         axial = found.axial.tangent
-        made_of = *parts(self._model, links, state, lines, force, axial), found.bond.tangent
+        made_of = *self._kept.parts(links, state, lines, force, axial), found.bond.tangent
 
         def made() -> csc_array:
             return links.stiffness(state, lines, members.chains.tangent(found), force)
