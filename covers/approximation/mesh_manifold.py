@@ -245,13 +245,15 @@ class _Builder:
     ) -> ElementGroup:
         degree = max(item.degree for item in functions)
         order = 2 * (self.cover.precision + degree) + RATIONAL
+        shapes = self._shapes(elements, slots, active)
         return QuadratureGroup(
             elements=elements,
             unknowns=unknowns_of(functions, self.covers, active),
             combination=combined(functions),
-            shape=np.arange(len(elements)),
+            shape=shapes.shape,
             fields=self._fields(elements, slots, active, functions),
             rule=polygon_rule(self.cut.elements.take(elements), order),
+            first=shapes.first,
         )
 
     def _enriched(
@@ -295,6 +297,7 @@ class _Builder:
                 bearing.reshape(which.shape),
             ),
             rule=singular_rule(self.cut.elements.take(elements), self.enrichments, which, degree),
+            first=np.arange(len(elements)),
         )
 
     def _fields(

@@ -58,10 +58,13 @@ class QuadratureGroup(ElementGroup):
         The functions.
     rule
         Points and weights; ``owner`` counts within the group.
+    first
+        (d,) for each shape the first element of the group that has it, which is integrated.
     """
 
     fields: Fields
     rule: PointRule
+    first: Ints
 
     @property
     def shape_degree(self) -> int:
@@ -97,10 +100,10 @@ class QuadratureGroup(ElementGroup):
 
     def lumped_products(self) -> Floats:
         """See `ElementGroup.lumped_products`."""
-        found = np.zeros((len(self.elements), self._size, self._size))
+        found = np.zeros((self.n_shapes, self._size, self._size))
         for some, points in self._batches():
             value, _, weight = self._at(some, points)
-            flat = np.repeat(some, points.shape[1])
+            flat = np.repeat(self.first[some], points.shape[1])
             local = self.fields.local_values(flat, self.rule.points[points.ravel()])
             heavy = weight[:, :, None] * value
             found[some] = np.swapaxes(heavy, 1, 2) @ local.reshape(value.shape)
@@ -112,7 +115,7 @@ class QuadratureGroup(ElementGroup):
 
     def value_gradients(self, of: Ints) -> Floats:
         """See `ElementGroup.value_gradients`."""
-        found = np.zeros((len(self.elements), len(of), self._size, 2))
+        found = np.zeros((self.n_shapes, len(of), self._size, 2))
         for some, points in self._batches():
             value, slope, weight = self._at(some, points)
             heavy = np.swapaxes(weight[:, :, None] * value[:, :, of], 1, 2)
@@ -133,7 +136,7 @@ class QuadratureGroup(ElementGroup):
 
     @cached_property
     def _integrals(self) -> tuple[Floats, Floats, Floats, Floats]:
-        n, size = len(self.elements), self._size
+        n, size = self.n_shapes, self._size
         products, gradient_products = np.zeros((n, size, size)), np.zeros((n, 3, size, size))
         integrals, gradient_integrals = np.zeros((n, size)), np.zeros((n, size, 2))
         for some, points in self._batches():
@@ -148,20 +151,20 @@ class QuadratureGroup(ElementGroup):
         return products, gradient_products, integrals, gradient_integrals
 
     def _batches(self) -> Iterator[tuple[Ints, Ints]]:
-        """Elements (k,) and their points (k, q), in batches of equal numbers of points."""
-        counts = np.bincount(self.rule.owner, minlength=len(self.elements))
-        begin = np.cumsum(counts) - counts
-        for number in np.unique(counts[counts > 0]):  # elements of equal numbers of points
+        """Shapes (k,) and their points (k, q), in batches of equal numbers of points."""
+        of_all = np.bincount(self.rule.owner, minlength=len(self.elements))
+        begin, counts = (np.cumsum(of_all) - of_all)[self.first], of_all[self.first]
+        for number in np.unique(counts[counts > 0]):  # shapes of equal numbers of points
             alike = np.flatnonzero(counts == number)
             most = max(CHUNK // int(number), 1)
             for first in range(0, len(alike), most):
                 some = alike[first : first + most]
                 yield some, begin[some, None] + np.arange(number)
 
-    def _at(self, elements: Ints, points: Ints) -> tuple[Floats, Floats, Floats]:
+    def _at(self, shapes: Ints, points: Ints) -> tuple[Floats, Floats, Floats]:
         n, q = points.shape
-        flat = points.ravel()
-        value, slope = self.fields.evaluate(np.repeat(elements, q), self.rule.points[flat])
+        flat, element = points.ravel(), np.repeat(self.first[shapes], q)
+        value, slope = self.fields.evaluate(element, self.rule.points[flat])
         size = value.shape[1]
         return (
             value.reshape(n, q, size),

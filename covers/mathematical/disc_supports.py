@@ -57,7 +57,7 @@ def fitted_discs(cover: MovingLeastSquares, cut: CutCells) -> tuple[MovingLeastS
         cover,
         cell_vertices=cover.cell_vertices[source],
         cell_patches=patches,
-        cell_shape=np.full(len(source), -1),
+        cell_shape=np.where(gone[first].any(axis=1), -1, cover.cell_shape[source]),
         left_out=int(lost.sum()),
     )
     return kept, replace(

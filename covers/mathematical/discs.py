@@ -7,6 +7,9 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from integration.ragged import within
 
+# Of the farthest: centres of discs no further apart are in one place but for rounding.
+LIKE = 1e-6
+
 
 def discs_of_cells(nodes: Floats, radius: Floats, corners: Floats) -> Ints:
     """Patches (C, k) whose open disc meets each cell, filled up with -1.
@@ -30,6 +33,20 @@ def discs_of_cells(nodes: Floats, radius: Floats, corners: Floats) -> Ints:
     patches = np.full((len(corners), number.max(initial=0)), -1, dtype=np.int64)
     patches[cell, place] = node
     return patches
+
+
+def with_discs_alike(shape: Ints, patches: Ints, nodes: Floats, corner: Floats) -> Ints:
+    """Shapes (C,) of cells, parted where their patches (C, k) do not lie alike; -1 stays.
+
+    Cells have a first ``corner`` (C, 2), discs ``nodes`` (V, 2), m. A disc that just touches cells
+    is one of some of them alone, for rounding.
+    """
+    away = np.where(patches[:, :, None] >= 0, nodes[patches] - corner[:, None], 0.0)
+    grain = LIKE * np.abs(away).max(initial=0.0)
+    places = np.round(away / (grain if grain > 0 else 1.0)).reshape(len(patches), -1)
+    key = np.column_stack([shape, patches >= 0, places])
+    parted = np.unique(key, axis=0, return_inverse=True)[1].ravel()
+    return np.where(shape >= 0, parted, -1)
 
 
 def _distance(corners: Floats, points: Floats) -> Floats:

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from covers.mathematical.base import Cover
-from covers.mathematical.discs import discs_of_cells
+from covers.mathematical.discs import discs_of_cells, with_discs_alike
 from covers.mathematical.kernels import kernel
 from covers.mathematical.regular_grids import grid_cells, grid_vertices, regular_net
 from integration.arrays import Floats, Ints
@@ -157,7 +157,11 @@ class MovingLeastSquares(Cover):
         used = patches[patches >= 0]
         kept = np.unique(used)
         patches = np.where(patches >= 0, np.searchsorted(kept, patches), -1)
-        shape = np.full(len(cell_vertices), -1) if cell_shape is None else cell_shape
+        shape = np.full(len(cell_vertices), -1)
+        if cell_shape is not None:
+            shape = with_discs_alike(
+                cell_shape, patches, nodes[kept], vertices[cell_vertices[:, 0]]
+            )
         return cls(
             vertices=vertices,
             cell_vertices=cell_vertices,

@@ -1,5 +1,7 @@
 """Manifolds on cut meshes against finite elements, exact polynomials and closed-form nullities."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from covers.approximation.mesh_manifold import mesh_manifold
 from covers.approximation.uncut import uncut
 from covers.cutting.cut import cut
 from covers.local_functions.polynomials import Kinds, Monomials, RigidStrain
+from covers.mathematical.base import Cover
 from covers.mathematical.bspline import BSplines
 from covers.mathematical.moving_least_squares import MovingLeastSquares
 from covers.mathematical.quads import Quads
@@ -70,17 +73,48 @@ def test_meshless_covers_reproduce_the_degree_of_basis_and_covers() -> None:
     assert residue(manifold, 2) < 1e-9
 
 
-def test_congruent_cells_share_their_integrals_and_give_the_same_matrices() -> None:
-    cover = Triangles.regular(_bounds(SQUARE), 0.1, angle=0.4)
-    pieces = cut(cover, SQUARE)
+def far(regions: Polygons, away: float) -> Polygons:
+    return Polygons.from_vertices([regions.points + away])
+
+
+@pytest.mark.parametrize(
+    ("lay", "away", "within"),
+    [
+        (lambda box: Triangles.regular(box, 0.1, angle=0.4), 0.0, 1e-13),
+        (lambda box: MovingLeastSquares.regular(box, 0.1, degree=0), 0.0, 1e-13),
+        # Discs of two spacings just touch cells two away, or just do not: rounding says, and places
+        # that are rounded to 1e-11 of 0.1 move no entry by more than some 1e-9.
+        (lambda box: MovingLeastSquares.regular(box, 0.1, degree=1), 1e5, 1e-9),
+    ],
+)
+def test_congruent_cells_share_their_integrals_and_give_the_same_matrices(
+    lay: Callable[[Floats], Cover], away: float, within: float
+) -> None:
+    square = far(SQUARE, away)
+    cover = lay(_bounds(square))
+    pieces = cut(cover, square)
     manifold = mesh_manifold(cover, pieces, Monomials(1))
     group = manifold.groups[0]
     assert group.n_shapes < 0.6 * len(group.elements)
     object.__setattr__(cover, "cell_shape", np.full(len(cover.cell_shape), -1))
     alone = mesh_manifold(cover, pieces, Monomials(1))
     assert alone.groups[0].n_shapes == len(group.elements)
-    difference = abs(model(manifold).stiffness - model(alone).stiffness).max()
-    assert difference < 1e-13 * abs(model(alone).stiffness).max()
+    for name in ("stiffness", "mass"):
+        one, other = (getattr(model(item), name) for item in (manifold, alone))
+        assert abs(one - other).max() < within * abs(other).max(), name
+
+
+def test_cells_that_other_discs_touch_are_not_congruent() -> None:
+    square = far(SQUARE, 1e5)
+    cover = MovingLeastSquares.regular(_bounds(square), 0.1, degree=1)
+    shapes = [np.flatnonzero(cover.cell_shape == one) for one in np.unique(cover.cell_shape)]
+    assert len(shapes) > 1
+    for cells in shapes:
+        first = cover.vertices[cover.cell_vertices[cells, 0]]
+        away = cover.patch_centre[cover.cell_patches[cells]] - first[:, None]
+        here = cover.cell_patches[cells] >= 0
+        assert (here == here[0]).all()
+        assert np.abs((away - away[0])[here]).max() < 1e-9
 
 
 @pytest.mark.parametrize(
