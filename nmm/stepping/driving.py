@@ -11,7 +11,7 @@ from nmm.stepping.checkpoints import Checkpoints
 from nmm.stepping.compiled import CompiledScene
 from nmm.stepping.drive.in_time import Schedule
 from nmm.stepping.drive.phases import Ended, Phases
-from nmm.stepping.drive.statics import with_neutral
+from nmm.stepping.drive.statics import with_unheld
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, UnderLoad, unseen
 from nmm.stepping.drive.verdict import CONVERGED, FAILURE
 from nmm.stepping.reports.recorder import Recorder
@@ -66,7 +66,7 @@ class Drive:
         state, verdict = self._phases.in_balance(start, loads, times, at)
         if verdict.code == CONVERGED:  # as where loads alone grow: some place may be any
             names = self.made.regions.name
-            verdict = with_neutral(verdict, self.made.stepper, state, names)
+            verdict = with_unheld(verdict, self.made.stepper, state, names)
         return state, verdict
 
     def _along_path(

@@ -10,6 +10,7 @@ import numpy as np
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.stepping.step.anchors import unopposed
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -115,6 +116,11 @@ def may_be_loose(stepper: Stepper, found: "Settled") -> bool:
     solved = found.attempt.solved
     stopped = found.attempt.converged or (solved is not None and solved.stopped)
     return stepper.plan.contact is not None and not stepper.anchored and not stopped
+
+
+def is_adrift(stepper: Stepper) -> bool:
+    """Whether rounding chose the place of a body that nothing holds: none touches another."""
+    return stepper.plan.contact is None and not stepper.anchored and bool(unopposed(stepper))
 
 
 def anchored(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> "Settled":

@@ -14,7 +14,7 @@ from nmm.progress import Progress
 from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.evidence import evidence
 from nmm.stepping.drive.relaxation import Relaxed, relax
-from nmm.stepping.drive.settling import Settled, anchored, may_be_loose, settle
+from nmm.stepping.drive.settling import Settled, anchored, is_adrift, may_be_loose, settle
 from nmm.stepping.drive.under_load import Beyond, LoadSchedule, Rest, Trial, UnderLoad, unseen
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import (
@@ -25,7 +25,7 @@ from nmm.stepping.drive.verdict import (
     RunVerdict,
 )
 from nmm.stepping.reports.recorder import Recorder
-from nmm.stepping.step.anchors import ANCHOR, neutral
+from nmm.stepping.step.anchors import ANCHOR, unheld
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt
 
@@ -124,6 +124,10 @@ class _Raising:
         if last and may_be_loose(stepper, found):
             stepper.restore(start)
             found = anchored(stepper, state, end, breaking)
+        if found.attempt.converged and is_adrift(stepper):
+            stepper.restore(start)
+            held = anchored(stepper, state, end, breaking)
+            found = held if held.attempt.converged else settle(stepper, state, end, breaking)
         stands = Stands(found.attempt.state, found.contacts)
         events = asked(self.recorder, stands) if found.attempt.converged else ()
         return Trial(factor, fine, last, found, stepper.broken_bonds > bonds, events)
@@ -170,7 +174,7 @@ class _Raising:
         verdict = _no_equilibrium(
             at, trial.factor, trial.found, self.schedule, self.stepper, self.names, self.beyond
         )
-        return with_neutral(verdict, self.stepper, at.state, self.names)
+        return with_unheld(verdict, self.stepper, at.state, self.names)
 
     def arrived(self, at: UnderLoad) -> RunVerdict:
         """Return the verdict at the end of the path."""
@@ -183,18 +187,19 @@ class _Raising:
                     f", on which friction, bonds or matter took {at.rest.lost:.3g} J: by another "
                     "way they may rest under other forces"
                 )
-        return with_neutral(RunVerdict(CONVERGED, sentence), self.stepper, at.state, self.names)
+        return with_unheld(RunVerdict(CONVERGED, sentence), self.stepper, at.state, self.names)
 
 
 def _breaking(fine: bool) -> "Breaking":
     return "worst" if fine else "stop"
 
 
-def with_neutral(
+def with_unheld(
     verdict: RunVerdict, stepper: Stepper, state: State, names: Sequence[str]
 ) -> RunVerdict:
     """Add which blocks nothing but anchors would hold, and whether anchors were used."""
-    said = [verdict.sentence, *neutral(stepper, state, names)]
+    balanced = verdict.code == CONVERGED
+    said = [verdict.sentence, *unheld(stepper, state, names, balanced)]
     if stepper.anchored:
         said.append(f"anchors of {ANCHOR:.0e} of the blocks' stiffness were used and carry nothing")
     return replace(verdict, sentence="; ".join(said))

@@ -13,7 +13,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, diags_array
 
 from integration.arrays import Floats
 from nmm.assembly.model import Model
@@ -36,33 +36,67 @@ def anchors(model: Model) -> csc_array:
     return csc_array(ANCHOR * replace(model, density=model.modulus / area).mass)
 
 
-def neutral(stepper: "Stepper", state: State, names: Sequence[str]) -> list[str]:
-    """Say which blocks could move though no load moves them, and how.
+def unheld(stepper: "Stepper", state: State, names: Sequence[str], balanced: bool) -> list[str]:
+    """Say which blocks nothing holds, and how they could move, though no load does if ``balanced``.
 
-    Anchors drag a motion of all bodies along where nothing else holds them, and only there. A
-    solver may leave a part without load where it stands, so they are asked where none were used.
+    A solver may leave a part without load where it stands, so they are asked where no anchors were
+    used too.
     """
-    model, contact = stepper.model, stepper.plan.contact
-    matrix = None if contact is None else contact.solver.acting()
-    # Conditions held by multipliers leave a system of fewer unknowns, which is not judged.
-    if matrix is None or matrix.shape[0] != model.manifold.n_unknowns:
-        return []
-    soft = anchors(model)
-    factor = stepper.solver.factorise(matrix if stepper.anchored else csc_array(matrix + soft))
-    modes = model.manifold.rigid_modes
-    found: dict[int, str] = {}
+    model, found = stepper.model, unopposed(stepper)
     radius = np.sqrt(model.manifold.body_area)
+    stands = "in neutral equilibrium" if balanced else "held by nothing"
+    return [
+        f"block {block_name(model, body, names)} is {stands}: "
+        f"{manner(state, body, motion, float(radius[body]))} unopposed"
+        for body, motion in sorted(found.items())[:NAMED]
+    ] + ([f"and {len(found) - NAMED} blocks more"] if len(found) > NAMED else [])
+
+
+def unopposed(stepper: "Stepper") -> dict[int, Floats]:
+    """Return the bodies that nothing holds, each with a rigid motion (3,) that nothing opposes.
+
+    Anchors drag a motion of all bodies along where nothing else holds them, and only there. Strain
+    makes none stiffer, so that rigid motions alone are asked.
+    """
+    stiffness = _against_rigid_motions(stepper)
+    if stiffness is None:
+        return {}
+    model, manifold = stepper.model, stepper.model.manifold
+    radius, areas = np.sqrt(manifold.body_area), manifold.elements.areas
+    strong = np.bincount(manifold.element_body, model.modulus * areas, minlength=len(radius))
+    # Of Young's modulus times thickness: as stiff as `anchors` are.
+    soft = ANCHOR * model.thickness * strong[:, None] / (radius[:, None] ** [2, 2, 0])
+    soft = soft.ravel()
+    factor = stepper.solver.factorise(csc_array(stiffness + diags_array(soft)))
+    found: dict[int, Floats] = {}
     for kind, size in enumerate((np.ones_like(radius), np.ones_like(radius), radius)):
         motion = np.zeros((model.manifold.n_bodies, 3))
         motion[:, kind] = 1 / size
-        dragged = factor.refined(np.asarray(soft @ (modes @ motion.ravel())))
-        rigid = np.asarray(model.rigid_projection @ dragged).reshape(-1, 3)
-        for body in np.flatnonzero(np.abs(rigid[:, kind]) * size > FREE).tolist():
-            found.setdefault(body, manner(state, body, rigid[body], float(radius[body])))
-    return [
-        f"block {block_name(model, body, names)} is in neutral equilibrium: {how} unopposed"
-        for body, how in sorted(found.items())[:NAMED]
-    ] + ([f"and {len(found) - NAMED} blocks more"] if len(found) > NAMED else [])
+        dragged = factor.refined(soft * motion.ravel()).reshape(-1, 3)
+        for body in np.flatnonzero(np.abs(dragged[:, kind]) * size > FREE).tolist():
+            found.setdefault(body, dragged[body])
+    return found
+
+
+def _against_rigid_motions(stepper: "Stepper") -> csc_array | None:
+    """Return the stiffness (3 B, 3 B) of the last system but for anchors; None where not known."""
+    model, contact = stepper.model, stepper.plan.contact
+    if contact is not None:
+        matrix = contact.solver.acting()
+    else:
+        matrix = None if stepper.factor is None else stepper.factor.matrix
+    n, modes = model.manifold.n_unknowns, model.manifold.rigid_modes
+    # Conditions that multipliers hold beside contact leave fewer unknowns, which are not judged.
+    if matrix is None or matrix.shape[0] < n:
+        return None
+    own = matrix if matrix.shape[0] == n else csc_array(matrix[:n, :n])
+    if stepper.anchored:
+        own = csc_array(own - anchors(model))
+    stiffness = modes.T @ (own @ modes)
+    if matrix.shape[0] > n:
+        held = csc_array(matrix[n:, :n]) @ modes
+        stiffness = stiffness + abs(own.diagonal()).max() * (held.T @ held)
+    return csc_array(stiffness)
 
 
 def largest_mover(model: Model, state: State, increment: Floats) -> tuple[int, str]:
