@@ -11,6 +11,8 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.places import Place
 
+Density = Callable[[Ints, Floats], Floats]
+
 
 @dataclass(frozen=True)
 class Pushes:
@@ -25,17 +27,26 @@ class Pushes:
         same place twice where it acts at a point.
     force
         (m, 2) in global axes (N).
+    densities
+        Of forces on the volume: (m, 2) at points (m, 2) of elements (m,), in global axes (N/m3).
     """
 
     element: Ints
     start: Floats
     end: Floats
     force: Floats
+    densities: tuple[Density, ...] = ()
 
     @classmethod
     def at(cls, element: Ints, position: Floats, force: Floats) -> Self:
         """Return forces (m, 2) at points (m, 2) within elements (m,)."""
         return cls(element, position, position, force)
+
+    @classmethod
+    def through(cls, *densities: Density) -> Self:
+        """Return forces on the volume."""
+        none = np.zeros((0, 2))
+        return cls(np.zeros(0, dtype=np.int64), none, none, none, densities)
 
     @classmethod
     def on(cls, model: Model, place: Place, force: Floats) -> Self:
@@ -50,16 +61,19 @@ class Pushes:
         return len(self.element)
 
     def take(self, index: Ints | Bools) -> "Pushes":
-        """Return some of them."""
+        """Return some of those at places."""
         return Pushes(self.element[index], self.start[index], self.end[index], self.force[index])
 
 
 def joined(parts: Iterable[Pushes]) -> Pushes:
     """Return all of several."""
-    none = np.zeros((0, 2))
-    some = [Pushes.at(np.zeros(0, dtype=np.int64), none, none), *parts]
-    fields = ("element", "start", "end", "force")
-    return Pushes(*(np.concatenate([getattr(one, name) for one in some]) for name in fields))
+    some = [Pushes.through(), *parts]
+    element, start, end, force = (
+        np.concatenate([getattr(one, name) for one in some])
+        for name in ("element", "start", "end", "force")
+    )
+    densities = tuple(density for one in some for density in one.densities)
+    return Pushes(element, start, end, force, densities)
 
 
 PushesIn = Callable[[State], Pushes]

@@ -2,22 +2,17 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Self
 
 import numpy as np
 
 from integration.arrays import Floats
-from integration.rules import PointRule, polygon_rule
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes
 from nmm.effects.base import Effect, Instant, Setup
 from nmm.effects.dead_loads import DeadLoad
 from nmm.effects.load_factor import load_factor
-
-# Degree to which what stress intensities weigh loads by is integrated, away from the tip itself.
-ORDER = 4
 
 
 @dataclass(frozen=True)
@@ -66,15 +61,8 @@ class BodyLoads(Effect):
 
     def pushes(self, state: State) -> Pushes:
         """See `Effect.pushes`."""
-        rule = self._rule
-        share = rule.weights[:, None] * self._model.thickness
-        return Pushes.at(
-            rule.owner, rule.points, share * self._density(Instant.of(state))[rule.owner]
-        )
-
-    @cached_property
-    def _rule(self) -> PointRule:
-        return polygon_rule(self._model.manifold.elements, ORDER)
+        density = self._density(Instant.of(state))
+        return Pushes.through(lambda elements, points: density[elements])
 
     @property
     def steady(self) -> bool:

@@ -1,14 +1,15 @@
 """Stress intensities at a tip as linear functions of the displacement: found once for a model."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import Frames
-from nmm.assembly.pushes import Pushes
+from nmm.assembly.pushes import Density, Pushes
 from nmm.assembly.stress_points import StressAt
 from nmm.fracture.auxiliary import Auxiliary
 from nmm.fracture.interaction import Field, Interaction, Pulled, Traction, Weighed
@@ -116,14 +117,25 @@ class IntensityRows:
 
     def of_forces(self, density: Field) -> Floats:
         """Part (2,) of forces on the volume, a function of points (N/m3)."""
-        parts = [np.einsum("mni,mi->n", p.force, density(p.points)) for p in self.pulled]
+        return self._of_densities(lambda part: density(part.points))
+
+    def _of_densities(self, density: Callable[[Pulled], Floats]) -> Floats:
+        parts = [np.einsum("mni,mi->n", p.force, density(p)) for p in self.pulled]
         return np.asarray(self.stiff / 2 * np.sum(parts, axis=0))
 
     def of_pushes(self, pushes: Pushes, frames: Frames) -> Floats:
-        """Part (2,) of forces at places."""
+        """Part (2,) of forces at places and on the volume."""
         body = np.full(len(pushes), self.body)
         turned = replace(pushes, force=frames.to_body(body, pushes.force))
-        return self.stiff / 2 * self.about.pushed(turned) / self.model.thickness
+        found = self.stiff / 2 * self.about.pushed(turned) / self.model.thickness
+        for density in pushes.densities:  # one an effect or a field
+            found = found + self._of_densities(partial(self._within, density, frames))
+        return found
+
+    def _within(self, density: Density, frames: Frames, part: Pulled) -> Floats:
+        """Density (m, 2) at the places of a part, in the axes of the body."""
+        body = np.full(len(part.owner), self.body)
+        return frames.to_body(body, density(part.owner, part.points))
 
     def of_stress(self, stress: StressAt, time: float) -> Floats:
         """Part (2,) of a stress that is no strain's: of eigenstrain, or of water in the pores.

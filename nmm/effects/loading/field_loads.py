@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from integration.arrays import Bools, Floats
+from integration.arrays import Bools, Floats, Ints
 from integration.rules import polygon_rule
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State, material_points
@@ -36,6 +36,8 @@ class SpreadLoad:
         Force over that area or volume, and its factor.
     steady
         Whether neither depends on the time.
+    inside
+        (E,) which elements it fills; None along edges.
     """
 
     place: Place
@@ -43,11 +45,24 @@ class SpreadLoad:
     field: ValueField
     factor: Callable[[Instant], float]
     steady: bool
+    inside: Bools | None = None
 
     def forces(self, end: Instant) -> Floats:
         """Forces (m, 2) on the points at an instant (N)."""
         values = self.field.values(self.place.position, end.time)
         return np.asarray(self.factor(end) * self.share[:, None] * values)
+
+    def pushes(self, model: Model, end: Instant) -> Pushes:
+        """Forces at an instant as stress intensities know them."""
+        inside = self.inside
+        if inside is None:
+            return Pushes.on(model, self.place, self.forces(end))
+
+        def density(elements: Ints, points: Floats) -> Floats:
+            values = self.field.values(points, end.time)
+            return np.asarray(self.factor(end) * inside[elements, None] * values)
+
+        return Pushes.through(density)
 
     @classmethod
     def over_volume(
@@ -65,13 +80,14 @@ class SpreadLoad:
         """
         manifold = model.manifold
         rule = polygon_rule(manifold.elements, order)
-        inside = np.ones(len(rule.owner), dtype=bool)
+        inside = np.ones(len(manifold.elements), dtype=bool)
         if regions is not None:
-            inside = regions[manifold.element_region[rule.owner]]
-        owner, position = rule.owner[inside], rule.points[inside]
-        share = rule.weights[inside] * model.thickness
+            inside = regions[manifold.element_region]
+        kept = inside[rule.owner]
+        owner, position = rule.owner[kept], rule.points[kept]
+        share = rule.weights[kept] * model.thickness
         place = Place(material_points(manifold, owner, position), owner, share, position)
-        return cls(place, share, field, factor, steady)
+        return cls(place, share, field, factor, steady, inside)
 
 
 class FieldLoads(Effect):
@@ -111,7 +127,7 @@ class FieldLoads(Effect):
     def pushes(self, state: State) -> Pushes:
         """See `Effect.pushes`."""
         now = Instant.of(state)
-        return joined(Pushes.on(self._model, one.place, one.forces(now)) for one in self.loads)
+        return joined(load.pushes(self._model, now) for load in self.loads)
 
 
 def _load(setup: Setup, load: "LoadTable") -> SpreadLoad:
