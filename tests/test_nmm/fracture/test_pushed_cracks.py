@@ -178,7 +178,7 @@ def test_a_force_on_volume_counts_as_weight_does() -> None:
     weight = intensities("[gravity]\nacceleration = [0, -50]\n", 60)
     given = '[[loads]]\nname = "b"\nkind = "body"\ndensity = [0, -1e5]\n'
     field = '[[loads]]\nname = "b"\nkind = "body"\nfield = ["0", "-1e5"]\n'
-    # The same integrals; a field is brought to the covers by points of some degree, 1e-7 of K apart.
+    # The same integrals; fields are brought to the covers by points, to 1e-7 of K.
     for acting, near in ((given, 1e-12), (field, 1e-6)):
         for one, other in zip(intensities(acting, 60), weight, strict=True):
             assert one == pytest.approx(other, abs=near * K)
