@@ -55,7 +55,8 @@ sys.path.insert(0, {benchmarks!r})
 import numba, scipy.optimize, scipy.spatial, skfem
 import nmm.contact.candidates.candidates, nmm.contact.solution.driver
 import idle_effects
-from nmm.model.effects_table import EFFECTS, called_for
+from nmm.model.called_for import called_for
+from nmm.model.effects_table import EFFECTS
 from nmm.stepping.prepare import prepare
 
 idle_effects.COURSES, idle_effects.CELL = 5, 1.0

@@ -9,50 +9,18 @@ import typer
 from nmm.cli.terminal import console, tell_next
 
 if TYPE_CHECKING:
+    from rich.table import Table
+
     from nmm.formulation import Formulation
     from nmm.scene import Scene
     from nmm.scene.stages import StageTable
     from nmm.stepping.simulation import Simulation
 
-CALLED_BY = {
-    "loads": "[[loads]] with force or traction",
-    "body loads": '[[loads]] of kind "body"',
-    "field loads": "[[loads]] with a field",
-    "pressures": '[[loads]] of kind "pressure"',
-    "moving loads": '[[loads]] of kind "moving"',
-    "supports": "[[supports]]",
-    "unreleased forces": "[[stages]] with release",
-    "changed materials": "[[stages]] with materials",
-    "bonded interfaces": "bonded interface without contact",
-    "initial velocity": "[[initial_velocities]]",
-    "initial stress": "[[initial_stresses]]",
-    "water pressures": "[[water_pressures]]",
-    "joint flow": "[joint_flow]",
-    "transient joint flow": "[joint_flow] with transient",
-    "viscous boundaries": "[[viscous_boundaries]]",
-    "free fields": "[[free_fields]]",
-    "springs": "[[springs]]",
-    "dashpots": "[[dashpots]]",
-    "bars": "[[bars]]",
-    "dowels": "[bars.dowel]",
-    "foundations": "[[foundations]]",
-    "masses": "[[masses]]",
-    "splitting": "[splitting.MATERIAL]",
-    "viscous damping": "[damping] with mass, stiffness or ratios, and no ground",
-    "damping against the ground": "[damping] with ground",
-    "local damping": "[damping] with local",
-}
-"""How a scene names an effect, where that is not `[effect]`."""
-
 
 def told(place: Path, given: "Formulation | None", cost: bool) -> None:
     """Print what a scene simulates under a formulation, its own where none is ``given``."""
-    from rich.markup import escape
-    from rich.table import Table
-
     import nmm
     from nmm.formulation import Formulation
-    from nmm.model.effects_table import called_for
     from nmm.model.tips import tip_lines
     from nmm.stepping.prepare import prepare
 
@@ -60,18 +28,8 @@ def told(place: Path, given: "Formulation | None", cost: bool) -> None:
     chosen = given or scene.formulation or Formulation()
     prepared = prepare(scene, chosen)
     manifold = prepared.stepper.model.manifold
-    effects = Table(title=escape(scene.title), title_justify="left", show_header=False)
-    for name, named in called_for(scene).items():
-        key = CALLED_BY.get(name, f"[{name}]")
-        effects.add_row(
-            name,
-            "simulated" if named else f"not simulated: the scene has no {escape(key)}",
-            style=None if named else "dim",
-        )
-    for name, table in scene.effects.items():
-        effects.add_row(escape(name), f"simulated: {escape(table.type)}")
     out = console()
-    out.print(effects)
+    out.print(_effects(scene))
     for line in _sizes(scene, chosen, len(prepared.regions), len(manifold.elements)):
         out.print(line, highlight=False)
     for name, effect in prepared.stepper.plan.effects.items():
@@ -86,6 +44,29 @@ def told(place: Path, given: "Formulation | None", cost: bool) -> None:
     if cost:
         _tell_cost(prepared)
     tell_next(f"nmm run {place}")
+
+
+def _effects(scene: "Scene") -> "Table":
+    """Return the effects that are simulated, those that are not, and what would call for them."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    from nmm.model.called_for import CALLS
+
+    made = Table(title=escape(scene.title), title_justify="left")
+    made.add_column("simulated")
+    made.add_column("called for by")
+    named = {name: call.key for name, call in CALLS.items() if call.made_by(scene)}
+    own = {name: f"[effects.{name}]: {table.type}" for name, table in scene.effects.items()}
+    for name, key in (named | own).items():
+        made.add_row(escape(name), escape(key))
+    made.add_section()
+    made.add_row("[bold]not simulated[/bold]", "[bold]would be called for by[/bold]")
+    made.add_section()
+    for name, call in CALLS.items():
+        if name not in named:
+            made.add_row(name, escape(call.key), style="dim")
+    return made
 
 
 def _steps(chosen: "Formulation") -> str:

@@ -103,7 +103,8 @@ def _is_number(annotation: str) -> bool:
 def _damping(scene: "Scene") -> list[str]:
     """Names of the effects that a scene names whose losses are booked as those of dampers."""
     from nmm.effects.base import Effect
-    from nmm.model.effects_table import EFFECTS, called_for
+    from nmm.model.called_for import called_for
+    from nmm.model.effects_table import EFFECTS
 
     named = [name for name, wanted in called_for(scene).items() if wanted]
     hooks = [(name, EFFECTS.load(name)) for name in named]

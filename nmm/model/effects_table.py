@@ -1,9 +1,8 @@
-"""Which effects there are, which key of a scene calls for each, and those of one's own.
+"""Which effects there are, and those of one's own.
 
 An effect that a scene does not name is not imported.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -62,59 +61,11 @@ EFFECTS: Registry[type[Effect]] = Registry(
 )
 """Built-in effects by name, or a user's own."""
 
-NAMED: dict[str, Callable[["Scene"], bool]] = {
-    "initial velocity": lambda s: bool(s.initial_velocities),
-    "initial stress": lambda s: bool(s.initial_stresses),
-    "changed materials": lambda s: any(one.materials for one in s.stages),
-    "gravity": lambda s: s.gravity is not None,
-    "heat": lambda s: s.heat is not None,
-    "seepage": lambda s: s.seepage is not None and not s.seepage.coupled,
-    "consolidation": lambda s: s.seepage is not None and s.seepage.coupled,
-    "joint flow": lambda s: s.joint_flow is not None and not s.joint_flow.transient,
-    "transient joint flow": lambda s: s.joint_flow is not None and s.joint_flow.transient,
-    "water pressures": lambda s: bool(s.water_pressures),
-    "loads": lambda s: any(load.force or load.traction for load in s.loads if not load.speed),
-    "body loads": lambda s: any(load.density is not None for load in s.loads),
-    "field loads": lambda s: any(load.field is not None for load in s.loads),
-    "pressures": lambda s: any(load.kind == "pressure" for load in s.loads),
-    "moving loads": lambda s: any(load.kind == "moving" for load in s.loads),
-    "supports": lambda s: bool(s.supports),
-    "bonded interfaces": lambda s: (
-        s.contact is None and any(i.bonded for i in s.interfaces.values())
-    ),
-    "inertia": lambda s: s.inertia is not None,
-    "viscous boundaries": lambda s: bool(s.viscous_boundaries),
-    "free fields": lambda s: bool(s.free_fields),
-    "viscous damping": lambda s: (
-        s.damping is not None and s.damping.coefficients is not None and s.damping.ground is None
-    ),
-    "damping against the ground": lambda s: s.damping is not None and s.damping.ground is not None,
-    "local damping": lambda s: s.damping is not None and s.damping.local is not None,
-    "springs": lambda s: bool(s.springs),
-    "dashpots": lambda s: bool(s.dashpots),
-    "bars": lambda s: bool(s.bars),
-    "dowels": lambda s: any(bar.dowel is not None for bar in s.bars),
-    "foundations": lambda s: bool(s.foundations),
-    "masses": lambda s: bool(s.masses),
-    "contact": lambda s: s.contact is not None,
-    "fracture": lambda s: s.fracture is not None and s.inertia is None,
-    "fracture in time": lambda s: s.fracture is not None and s.inertia is not None,
-    "cohesive zones": lambda s: s.cohesive_zones is not None,
-    "splitting": lambda s: bool(s.splitting),
-    "unreleased forces": lambda s: any(one.release is not None for one in s.stages),
-}
-"""When a scene calls for a built-in effect, in the order in which they act."""
-
 GLUE = "artificial joints"
 """Not the scene's but the formulation's: what holds sub-blocks together."""
 
 OWN = "effects."
 """Before the names of effects of one's own, which are those of their tables."""
-
-
-def called_for(scene: "Scene") -> dict[str, bool]:
-    """Say for every built-in effect whether a scene names it."""
-    return {name: named(scene) for name, named in NAMED.items()}
 
 
 def own_effect(scene: "Scene", name: str) -> tuple[type[Effect], Frozen]:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 from nmm.effects.base import Effect, Setup, defines
 from nmm.errors import Fault, FormulationError
 from nmm.geometry.tessellation.cover_types import piece_glue
-from nmm.model.effects_table import EFFECTS, GLUE, OWN, called_for, make_own, with_table
+from nmm.model.called_for import called_for
+from nmm.model.effects_table import EFFECTS, GLUE, OWN, make_own, with_table
 from nmm.model.planning.out_of_balance import out_of_balance
 from nmm.model.planning.plan import Plan
 

@@ -8,7 +8,8 @@ import tomllib
 import pytest
 
 from nmm.errors import NmmError
-from nmm.model.effects_table import EFFECTS, GLUE, called_for
+from nmm.model.called_for import called_for
+from nmm.model.effects_table import EFFECTS, GLUE
 from nmm.scene import build_scene
 from nmm.stepping.prepare import prepare
 from nmm.testing.stopping import check_goes_on

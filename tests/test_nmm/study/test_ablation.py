@@ -6,7 +6,7 @@ import pytest
 import nmm
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
-from nmm.model.effects_table import NAMED
+from nmm.model.called_for import CALLS
 from nmm.study.ablation.ablate import ablate
 from nmm.study.ablation.omissions import TABLES, omissions
 from nmm.study.ablation.page import ablation_table
@@ -76,7 +76,7 @@ def test_every_effect_can_be_left_out_or_is_known_to_be_left_out_by_its_loads_or
     as_damping = {"viscous damping", "damping against the ground", "local damping"}
     kept = {"supports", "bonded interfaces"}  # without them nothing is left of a structure
     within_tables = {"dowels", "unreleased forces", "changed materials"}
-    assert set(NAMED) - set(TABLES) == by_load | as_damping | kept | within_tables
+    assert set(CALLS) - set(TABLES) == by_load | as_damping | kept | within_tables
 
 
 def test_forces_that_a_stage_holds_back_are_released_and_the_stages_stay():
