@@ -11,8 +11,8 @@ from inspect import getmembers, isabstract, isclass
 from pathlib import Path
 from typing import Any
 
-from nmm.contact.controls.base import CONTROLS
 from nmm.contact.enforcement.base import ENFORCEMENTS
+from nmm.controls.base import CONTROLS
 from nmm.fracture.criteria.base import CRITERIA
 from nmm.geometry.tessellation.cover_types import COVER_TYPES
 from nmm.integrators.base import INTEGRATORS

@@ -44,6 +44,7 @@ ROOMS = (
     "integrators",
     "solvers",
     "assembly",
+    "controls",
     "contact",
     "effects",
     "constraints",

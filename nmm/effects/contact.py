@@ -19,7 +19,6 @@ from nmm.assembly.stress_points import StressAt
 from nmm.contact.candidates.candidates import Candidates
 from nmm.contact.candidates.held_back import Crossed
 from nmm.contact.detection.narrow_phase import Contacts
-from nmm.contact.laws.failing_bonds import overload
 from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.joint_book import follow_joints
 from nmm.contact.solution.geometry import ContactGeometry
@@ -30,11 +29,9 @@ from nmm.effects.contact_parts import ContactParts, contact_parts
 
 if TYPE_CHECKING:
     from nmm.contact.detection.crossing import Motion
-    from nmm.contact.following.path_equation import PathEquation
-    from nmm.contact.problem.step_problem import Limits, StepAnswer
+    from nmm.contact.problem.step_problem import Limits
     from nmm.contact.solution.driver import ContactSolver
     from nmm.contact.solution.momentum import Momentum
-    from nmm.contact.solution.request import StepRequest
     from nmm.contact.solution.steps import ContactSteps
     from nmm.effects.change import Change
 
@@ -53,6 +50,8 @@ class Contact(Effect):
         Which laws act, and which points may meet.
     exact
         Whether nothing penetrates, so that speeds jump at an impact.
+    bonds
+        Those that consistent terms hold.
     geometry, momentum, solver
         Rows of contact points, what keeps momentum, and the solver of a problem;
         what solves is made in the first step.
@@ -75,7 +74,7 @@ class Contact(Effect):
             parts.cracks,
         )
         seamless = parts.mixed & parts.cracks.points(model.manifold, book.points)
-        self._bonds, points = StepBonds.of(model, book.points, self.laws, seamless)
+        self.bonds, points = StepBonds.of(model, book.points, self.laws, seamless)
         book = replace(book, points=points)
         self.laws.refuse_soft(book.points.take(~book.points.tied))
         self.record, self._unbonded = ContactRecord(book), book.broken
@@ -111,7 +110,7 @@ class Contact(Effect):
         from nmm.contact.solution.steps import ContactSteps
 
         surface = self.partners.surface
-        return ContactSteps(self.laws, self.geometry, self._bonds, self.solver, surface)
+        return ContactSteps(self.laws, self.geometry, self.bonds, self.solver, surface)
 
     def follow(self, change: "Change") -> "Contact":
         """Return the contact of the new model: joints and contacts go on."""
@@ -141,50 +140,6 @@ class Contact(Effect):
         found, points = self._candidates.sought(self.record, state, reach, step, crossed)
         self._sought = found, crossed
         return points
-
-    def solve_path(
-        self, contacts: ContactPoints, state: State, request: "StepRequest", path: "PathEquation"
-    ) -> tuple[ContactSolution, float]:
-        """Solve a step along a path; return it and by how much the load factor changes."""
-        from nmm.contact.following.path_solution import path_solution
-
-        rows = self.geometry.rows(contacts, state)
-        tied = self._bonds.tied(contacts, state, rows, request.weight, request.time)
-        mixed = self._bonds.mixed(contacts, state, request.time)
-        posed = contacts, rows, request
-        posed = posed if mixed is None else mixed.posed(*posed)
-        whole = self._bonds.unsoftened(contacts, self.record.book.points)
-        solved, change = path_solution(self.laws, *posed, tied, path, whole)
-        return solved if mixed is None else mixed.told(solved, contacts), change
-
-    def gaps(self, contacts: ContactPoints, before: State, after: State) -> Floats:
-        """Gaps (m,) after a step: measured where contacts act, as solved elsewhere."""
-        gap = contacts.distance
-        acts = (contacts.normal_force < 0) & ~contacts.is_joint
-        surface = self.partners.surface(after)
-        gap[acts] = self.geometry.gaps(contacts.take(acts), before, after, surface)
-        return gap
-
-    def overload(
-        self, contacts: ContactPoints, answer: "StepAnswer | ContactPoints | None" = None
-    ) -> Floats:
-        """Return load over strength (m,) of bonds that break or begin to soften above one.
-
-        Of an ``answer``, or of contacts as they stand. Bonds of the mixed form count until the
-        first of them softens.
-        """
-        answer = contacts if answer is None else answer
-        whole = self._bonds.unsoftened(contacts, self.record.book.points)
-        return overload(self.laws, contacts, answer, whole)
-
-    @property
-    def may_give_way(self) -> bool:
-        """Whether any bond is left that breaks at once, or begins to soften, at a limit."""
-        points = self.standing
-        brittle = points.bonded & self.laws.brittle[points.interface]
-        if (points.tied | brittle).any():
-            return True
-        return self._bonds.unsoftened(points, self.record.book.points) is not None
 
     def release(self, solved: ContactSolution, gone: Bools) -> float:
         """Let bonds (m,) give way before the next step, though the solution be no step.
@@ -264,4 +219,4 @@ class Contact(Effect):
 
     def feel(self, stresses: Sequence[StressAt]) -> None:
         """See `Effect.feel`: the tractions of whole bonds are of the whole stress."""
-        self._bonds.stresses = stresses
+        self.bonds.stresses = stresses

@@ -136,7 +136,7 @@ def _interface(part: Any) -> None:
 
 
 def _control(part: Any) -> None:
-    from nmm.contact.controls.base import CONTROLS
+    from nmm.controls.base import CONTROLS
 
     CONTROLS.load(part.type).of(part)
 

@@ -159,9 +159,9 @@ class Simulation(CompiledScene):
         stepper = self.stepper
         n = stepper.model.manifold.n_unknowns
         if stepper.plan.contact is not None and not stepper.solver.in_full(n):
-            from nmm.contact.enforcement import ahead  # what only checks a scene compiles nothing
+            from nmm.stepping import kernels_ahead  # what only checks a scene compiles nothing
 
-            ahead.begin()
+            kernels_ahead.begin()
 
     @property
     def topology(self) -> Topology:

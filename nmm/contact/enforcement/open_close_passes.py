@@ -13,7 +13,7 @@ from nmm.contact.iteration.open_close import (
     next_active_set,
     words,
 )
-from nmm.contact.problem.balance import relative_residual, weights
+from nmm.contact.problem.balance import relative_residual
 from nmm.contact.problem.coulomb import label, project, shear_bound
 from nmm.contact.problem.matrix_pattern import SpringPattern
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem, Verdict
@@ -37,7 +37,6 @@ class OpenClosePasses:
         self.max_passes, self.tolerance = max_passes, tolerance
         self.problem, self.linear = problem, linear
         self.pattern = pattern
-        self.weight = weights(problem)
         self.trail: list[ActiveSet] = []
         self.increment = np.zeros_like(problem.force)
         self.factorisations = 0
@@ -86,7 +85,7 @@ class OpenClosePasses:
         p = self.problem
         gap, slip = p.gaps(self.increment), p.slips(self.increment)
         normal, shear = forces(p, springs, gap, slip)
-        residual = relative_residual(p, self.weight, self.increment, normal, shear)
+        residual = relative_residual(p, p.weight, self.increment, normal, shear)
         passes = len(self.trail) - (verdict is not None and verdict.code in ("cycle", "passes"))
         if verdict is None:
             good = residual <= self.tolerance and self._admissible(normal, shear, gap, slip)

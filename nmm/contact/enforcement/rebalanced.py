@@ -6,7 +6,6 @@ from integration.arrays import Ints
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.iteration.memory import Memory
 from nmm.contact.iteration.options import SMALL
-from nmm.contact.problem.balance import weights
 from nmm.contact.problem.residual_kernel import unevenness
 from nmm.contact.problem.row_products import compressed
 from nmm.contact.problem.step_problem import StepAnswer, StepProblem
@@ -65,5 +64,5 @@ def imbalance_of_bodies(problem: StepProblem, answer: StepAnswer, body: Ints) ->
     scene to `FLOOR` does not count.
     """
     forces = answer.normal_force, answer.shear_force
-    given = answer.increment, problem.force, weights(problem), forces, compressed(problem.matrix)
+    given = answer.increment, problem.force, problem.weight, forces, compressed(problem.matrix)
     return float(unevenness(*given, problem.compressed_rows, body, FLOOR))

@@ -13,8 +13,8 @@ from dataclasses import replace
 import numpy as np
 
 from nmm.contact.following.newton import newton
-from nmm.contact.following.path_equation import PathEquation
 from nmm.contact.following.path_problem import PathProblem, PathStep
+from nmm.controls.path_equation import PathEquation
 from nmm.solvers.linear import LinearSolver
 
 # The first part of the way, and the smallest.

@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.following.path_equation import PathEquation
 from nmm.contact.following.path_problem import ROUNDED, PathProblem, PathStep
+from nmm.controls.path_equation import PathEquation
 from nmm.errors import SolveError
 from nmm.solvers.linear import LinearSolver
 

@@ -7,9 +7,9 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
-from nmm.contact.following.path_equation import PathEquation
 from nmm.contact.laws.tractions import ContactForces
 from nmm.contact.points.contact_rows import ContactRows
+from nmm.controls.path_equation import PathEquation
 
 # Out-of-balance force over the largest one below which iterations without gain are rounding.
 ROUNDED = 1e-8

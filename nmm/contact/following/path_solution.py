@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from nmm.assembly.motion import State
 from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.following.by_parts import follow
-from nmm.contact.following.path_equation import PathEquation
 from nmm.contact.following.path_problem import PathProblem, PathStep
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.history_iteration import HistoryIteration
@@ -17,40 +17,60 @@ from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.problem.step_problem import BONDED, OPEN, SLIDE, STICK, StepAnswer, Verdict
 from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.request import StepRequest
+from nmm.contact.solution.steps import ContactSteps
+from nmm.controls.path_equation import PathEquation
 
 # Elastic slips that differ by less than this share of the largest are the same: nothing slid.
 STILL = 1e-12
 
 
 def path_solution(
-    laws: ContactLaws,
+    steps: ContactSteps,
     contacts: ContactPoints,
-    rows: ContactRows,
+    state: State,
     request: StepRequest,
-    tied: TiedBonds | None,
     path: PathEquation,
-    whole: Bools | None = None,
+    joints: ContactPoints,
 ) -> tuple[ContactSolution, float]:
     """Solve a step; return it, and by how much its load factor changes.
 
     Parameters
     ----------
-    laws, contacts, rows
-        Of all contacts of the step.
+    steps
+        What steps are put together from.
+    contacts, state
+        All contacts of the step, and where it starts.
     request
         Matrix and force of all but contacts, and the solver.
-    tied
-        Those among them that consistent terms hold; None without any.
     path
         The equation beside balance.
-    whole
-        (m,) bonds whose limits others judge: none softens in the step.
+    joints
+        All of the scene as they stand: until one softens limits are judged by others.
 
     Raises
     ------
     SolveError
         Where nothing holds a part.
     """
+    rows, bonds = steps.geometry.rows(contacts, state), steps.bonds
+    tied = bonds.tied(contacts, state, rows, request.weight, request.time)
+    mixed, whole = bonds.mixed(contacts, state, request.time), bonds.unsoftened(contacts, joints)
+    given = contacts, rows, request
+    posed = given if mixed is None else mixed.posed(*given)
+    solved, change = _solved(steps.laws, *posed, tied, path, whole)
+    return solved if mixed is None else mixed.told(solved, contacts), change
+
+
+def _solved(
+    laws: ContactLaws,
+    contacts: ContactPoints,
+    rows: ContactRows,
+    request: StepRequest,
+    tied: TiedBonds | None,
+    path: PathEquation,
+    whole: Bools | None,
+) -> tuple[ContactSolution, float]:
+    """Solve a step with bonds that are tied, and ``whole`` ones (m,), none of which softens."""
     index = np.zeros(0, dtype=np.int64) if tied is None else tied.index
     free = np.ones(len(contacts), dtype=bool)
     free[index] = False

@@ -83,20 +83,10 @@ class FaceMeans(Transform):
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """Return the problem of the means."""
-        return self._wider(problem.n_contacts)._means(problem)
-
-    def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
-        """Return the answer at the points; forces are those of the pressure there.
-
-        Gaps are those of the points: only their means are zero. What slid under load is made of
-        the functions, so that its work and the means of the slip that is left are right.
-        """
-        return self._wider(problem.n_contacts)._at_points(answer, problem)
-
-    def _means(self, problem: StepProblem) -> StepProblem:
-        functions, share, limits = self.functions, self.share, problem.limits
+        wide, limits = self._wider(problem.n_contacts), problem.limits
+        functions, share, nearest = wide.functions, wide.share, wide.nearest
         # Forces to start from: the pressure at the nearest point over all of the function.
-        part = share[np.arange(len(self.nearest)), self.nearest]
+        part = share[np.arange(len(nearest)), nearest]
         return replace(
             problem,
             normal_rows=_means(share, problem.normal_rows),
@@ -110,16 +100,22 @@ class FaceMeans(Transform):
                 cohesion=functions @ limits.cohesion,
                 friction=share @ limits.friction,
             ),
-            state=problem.state[self.nearest],
-            normal_force=problem.normal_force[self.nearest] / part,
-            shear_force=problem.shear_force[self.nearest] / part,
-            compliant=problem.own_stiffness[self.nearest],
+            state=problem.state[nearest],
+            normal_force=problem.normal_force[nearest] / part,
+            shear_force=problem.shear_force[nearest] / part,
+            compliant=problem.own_stiffness[nearest],
         )
 
-    def _at_points(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
-        share, increment = self.share, answer.increment
+    def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:
+        """Return the answer at the points; forces are those of the pressure there.
+
+        Gaps are those of the points: only their means are zero. What slid under load is made of
+        the functions, so that its work and the means of the slip that is left are right.
+        """
+        wide, increment = self._wider(problem.n_contacts), answer.increment
+        share = wide.share
         normal, shear = share.T @ answer.normal_force, share.T @ answer.shear_force
-        slid = self._made_of_functions(share @ problem.slips(increment) - answer.slip)
+        slid = wide._made_of_functions(share @ problem.slips(increment) - answer.slip)
         # The function with the largest part in a point's force says what the point does.
         size = np.abs(answer.normal_force) + np.abs(answer.shear_force)
         felt = csr_array(share.T)

@@ -12,7 +12,6 @@ integration over the overlaps), and a body that tilts still turns about its corn
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -106,7 +105,7 @@ def faced(
     replaced = np.isin(own, pairs[is_overlap]).any(axis=0)
     rest = found.take(np.flatnonzero(~replaced))
     zero = np.zeros(len(rest))
-    parts = [_widened(rest, zero, zero)]
+    parts = [FaceContacts(**vars(rest), parameter_a=zero, length=zero)]
     if len(overlaps.a):
         parts += [_ends(surface, overlaps, points), _inside(surface, overlaps, points)]
     return joined(parts)
@@ -229,11 +228,3 @@ def _measured(
         parameter_a=s,
         length=length,
     )
-
-
-def _widened(contacts: Contacts, parameter_a: Floats, length: Floats) -> FaceContacts:
-    parts: dict[str, Any] = {name: getattr(contacts, name) for name in _NAMES}
-    return FaceContacts(**parts | {"parameter_a": parameter_a, "length": length})
-
-
-_NAMES = tuple(Contacts.__dataclass_fields__)

@@ -7,18 +7,6 @@ from integration.arrays import Floats
 from nmm.contact.problem.step_problem import StepProblem
 
 
-def weights(problem: StepProblem, stiffness: Floats | None = None) -> Floats:
-    """(n,) inverse roots of the diagonal of matrix plus all contact springs.
-
-    Forces on translations, rotations and strains become comparable: ``|weights * r|`` is
-    invariant under a change of the units of single unknowns. ``stiffness`` (2, m) stands in for
-    that of the problem.
-    """
-    if stiffness is None or stiffness is problem.stiffness:
-        return problem.weight
-    return problem.weight_with(stiffness)
-
-
 def relative_residual(
     problem: StepProblem, weight: Floats, increment: Floats, normal: Floats, shear: Floats
 ) -> float:

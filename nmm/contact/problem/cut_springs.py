@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from integration.arrays import Bools, Floats
-from nmm.contact.problem.balance import weights
 from nmm.contact.problem.coulomb import project, states, tangent
 from nmm.contact.problem.residual_kernel import SpringColumns, residual
 from nmm.contact.problem.row_products import compressed
@@ -46,14 +45,13 @@ class CutSprings:
     @MadeOnce
     def weight(self) -> Floats:
         """(n,) weights of out-of-balance forces."""
-        return weights(self.problem, self.stiffness)
+        problem, stiffness = self.problem, self.stiffness
+        own = stiffness is problem.stiffness
+        return problem.weight if own else problem.weight_with(stiffness)
 
     def trial(self, increment: Floats) -> tuple[Floats, Floats]:
         """Normal and shear force of uncut springs."""
-        return self.stretched(self.problem.gaps(increment), self.problem.slips(increment))
-
-    def stretched(self, gap: Floats, slip: Floats) -> tuple[Floats, Floats]:
-        """The same at gaps and slips (m,) in m."""
+        gap, slip = self.problem.gaps(increment), self.problem.slips(increment)
         normal = self.stiffness[0] * gap + self.shift[0]
         return normal, self.stiffness[1] * slip + self.shift[1]
 
@@ -63,16 +61,12 @@ class CutSprings:
 
     def states(self, increment: Floats) -> tuple[Bools, Bools]:
         """(m,) open contacts, (m,) closed contacts that slide."""
-        return self.states_of(*self.trial(increment))
+        is_open, sliding, _ = states(*self.trial(increment), self.problem.limits)
+        return is_open, sliding
 
     def cut(self, normal: Floats, shear: Floats) -> tuple[Floats, Floats]:
         """Admissible forces of those of uncut springs."""
         return project(normal, shear, self.problem.limits)
-
-    def states_of(self, normal: Floats, shear: Floats) -> tuple[Bools, Bools]:
-        """The `states` that the forces of uncut springs mean."""
-        is_open, sliding, _ = states(normal, shear, self.problem.limits)
-        return is_open, sliding
 
     def tangent(self, increment: Floats) -> tuple[Floats, Floats, Floats]:
         """(m,) normal, shear and mixed stiffness (N/m) of the cut springs."""

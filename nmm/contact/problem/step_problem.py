@@ -109,7 +109,11 @@ class StepProblem:
 
     @MadeOnce
     def weight(self) -> Floats:
-        """(n,) weights of out-of-balance forces: see `nmm.contact.problem.balance.weights`."""
+        """(n,) weights of out-of-balance forces: inverse roots of the diagonal with all springs.
+
+        Forces on translations, rotations and strains become comparable: ``|weight * r|`` is
+        invariant under a change of the units of single unknowns.
+        """
         return self.weight_with(self.stiffness)
 
     @MadeOnce

@@ -3,15 +3,17 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from integration.arrays import Bools
+from integration.arrays import Bools, Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.bonds.consistent_bonds import ConsistentBonds
 from nmm.contact.bonds.tied_step import TiedBonds
 from nmm.contact.laws.contact_laws import ContactLaws
+from nmm.contact.laws.failing_bonds import overload
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
+from nmm.contact.problem.step_problem import StepAnswer
 from nmm.contact.solution.mixed_bonds import MixedBonds
 
 
@@ -71,3 +73,18 @@ class StepBonds:
             return None
         begun = mixed & ((joints.history["damage"] > 0) | ~joints.bonded)
         return None if begun.any() else self.terms.mixed_among(contacts)
+
+    def overload(
+        self, contacts: ContactPoints, answer: StepAnswer | ContactPoints, joints: ContactPoints
+    ) -> Floats:
+        """Return load over strength (m,) of bonds that break or begin to soften above one.
+
+        Those of the mixed form count until the first of all ``joints`` has softened.
+        """
+        return overload(self.laws, contacts, answer, self.unsoftened(contacts, joints))
+
+    def may_give_way(self, points: ContactPoints, joints: ContactPoints) -> bool:
+        """Return whether any bond is left that breaks at once, or begins to soften, at a limit."""
+        brittle = points.bonded & self.laws.brittle[points.interface]
+        anywhere = (points.tied | brittle).any()
+        return bool(anywhere or self.unsoftened(points, joints) is not None)

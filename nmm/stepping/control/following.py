@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nmm.assembly.motion import State
-from nmm.contact.controls.base import Control, Standing
-from nmm.contact.controls.events import NextEvent
+from nmm.controls.base import Control, Standing
+from nmm.controls.events import NextEvent
 from nmm.progress import Progress
 from nmm.stepping.control.events import Reached, next_event
 from nmm.stepping.control.locating import ABOVE, Tried, located

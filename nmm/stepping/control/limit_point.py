@@ -1,9 +1,9 @@
 """Whether a path falls beyond the last load that was solved: a limit point, seen by following."""
 
 from nmm.assembly.motion import State
-from nmm.contact.controls.base import Control
-from nmm.contact.controls.dissipation import Dissipation
-from nmm.contact.controls.events import NextEvent
+from nmm.controls.base import Control
+from nmm.controls.dissipation import Dissipation
+from nmm.controls.events import NextEvent
 from nmm.results.tee import Tee
 from nmm.stepping.control.following import run_path
 from nmm.stepping.control.position import OnPath, PathEnd

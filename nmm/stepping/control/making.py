@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from nmm.contact.controls.base import CONTROLS, Control
 from nmm.contact.enforcement.base import make_enforcement
+from nmm.controls.base import CONTROLS, Control
 from nmm.errors import FormulationError
 from nmm.stepping.control.trials import Trials
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import MaterialPoints
-from nmm.contact.controls.base import Standing
-from nmm.contact.following.path_equation import PathEquation
+from nmm.controls.base import Standing
+from nmm.controls.path_equation import PathEquation
 from nmm.stepping.control.locating import Tried
 from nmm.stepping.control.position import OnPath
 from nmm.stepping.step.stepper import Stepper
@@ -53,13 +53,13 @@ class Trials:
         contact = self.stepper.plan.contact
         assert contact is not None
         points = contact.record.book.points
-        return _in_order(points, contact.overload(points))
+        return _in_order(points, contact.bonds.overload(points, points, points))
 
     def may_give_way(self) -> bool:
         """Whether any bond is left that breaks at once, or begins to soften, at a limit."""
         contact = self.stepper.plan.contact
         assert contact is not None
-        return contact.may_give_way
+        return contact.bonds.may_give_way(contact.standing, contact.record.book.points)
 
     def give_way(self, attempt: Attempt) -> tuple[bool, float]:
         """Let the bonds that are loaded most give way.
@@ -84,7 +84,8 @@ class Trials:
         contact, solved = self.stepper.plan.contact, attempt.solved
         assert contact is not None
         assert solved is not None
-        return contact.overload(solved.contacts, solved.answer)
+        joints = contact.record.book.points
+        return contact.bonds.overload(solved.contacts, solved.answer, joints)
 
 
 def _in_order(contacts: "ContactPoints", load: Floats) -> Floats:

@@ -29,7 +29,9 @@ def tallied(
     overlap = ends = -float(least(gap, initial=0.0))
     turned = float(largest(np.abs(after.frames.angle - before.frames.angle), initial=0.0))
     if turned * attempt.motion > MIDPOINT_GAPS * overlap:  # gaps are solved along straight ways
-        gap = contact.gaps(contacts, before, after)
+        acts = (contacts.normal_force < 0) & ~contacts.is_joint
+        surface = contact.partners.surface(after)
+        gap[acts] = contact.geometry.gaps(contacts.take(acts), before, after, surface)
         ends = -float(least(gap, initial=0.0))
     if ends > totals.overlap:
         deepest = _pair(stepper, contacts, int(gap.argmin()), after.time)

@@ -33,10 +33,10 @@ if TYPE_CHECKING:
     from nmm.contact.candidates.held_back import Crossed
     from nmm.contact.detection.crossing import Motion
     from nmm.contact.enforcement.null_space import NullSpace
-    from nmm.contact.following.path_equation import PathEquation
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.momentum import Momentum
     from nmm.contact.solution.record import Breaking, ContactSolution
+    from nmm.controls.path_equation import PathEquation
     from nmm.effects.change import Change
     from nmm.effects.contact import Contact
 
@@ -184,11 +184,14 @@ class Touching:
         SolveError
             Where nothing holds a part.
         """
-        state, still = equations.state, equations.end
+        from nmm.contact.following.path_solution import path_solution
+
+        state, still, contact = equations.state, equations.end, self.contact
         request = StepRequest(equations.matrix, equations.force, self.solver, time=still.time)
+        given, joints = (state, request, path), contact.record.book.points
         for _ in range(PATH_SOLUTIONS):
             contacts = self.candidates(state, reach, None)
-            solved, change = self.contact.solve_path(contacts, state, request, path)
+            solved, change = path_solution(contact.steps, contacts, *given, joints)
             end = Instant(still.time, still.load_factor + change)
             result = self._mover.after(replace(equations, end=end), solved.answer.increment)
             if result.motion <= reach or not solved.answer.verdict.converged:

@@ -25,9 +25,9 @@ from nmm.stepping.step.newton import Solution, Solve, newton
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
-    from nmm.contact.following.path_equation import PathEquation
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import Breaking
+    from nmm.controls.path_equation import PathEquation
     from nmm.effects.change import Change
     from nmm.stepping.step.contact_step import Touching
 

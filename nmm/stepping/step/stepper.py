@@ -24,9 +24,9 @@ from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
-    from nmm.contact.following.path_equation import PathEquation
     from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import Breaking, ContactRecord
+    from nmm.controls.path_equation import PathEquation
     from nmm.effects.change import Change
     from nmm.geometry.geometry import Geometry
     from nmm.model.planning.plan import Plan

@@ -8,10 +8,10 @@ from scipy.sparse import csc_array, csr_array
 
 from nmm.contact.following.by_parts import follow
 from nmm.contact.following.newton import newton
-from nmm.contact.following.path_equation import PathEquation
 from nmm.contact.following.path_problem import PathProblem
 from nmm.contact.laws.tractions import ContactForces
 from nmm.contact.points.contact_rows import ContactRows
+from nmm.controls.path_equation import PathEquation
 from nmm.solvers.linear import make_solver
 
 SPRING, FRICTION, UNKNOWNS, CONTACTS, CHANGE = 1e3, 0.5, 8, 5, 2.0

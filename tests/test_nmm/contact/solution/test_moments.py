@@ -4,7 +4,7 @@ import numpy as np
 from scipy.sparse import csr_array, random_array
 
 from nmm.contact.points.contact_rows import ContactRows
-from nmm.contact.solution.moments import moments
+from nmm.contact.solution.turning import moments
 
 
 def test_forces_on_unknowns_are_products_with_the_transposed_rows() -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.contact.controls.base import Control, Standing
+from nmm.controls.base import Control, Standing
 
 if TYPE_CHECKING:
     from nmm.scene.tables.loading.control import ControlTable

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nmm.contact.following.path_equation import PathEquation
+from nmm.controls.path_equation import PathEquation
 from nmm.errors import SolveError
 
 

@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from nmm.contact.enforcement import ahead
 from nmm.contact.enforcement.penalty import Penalty
 from nmm.solvers.linear import make_solver
+from nmm.stepping import kernels_ahead
 
 
 def test_each_contact_of_the_column_carries_the_blocks_above_it():
-    problem = ahead.column_of_blocks()
+    problem = kernels_ahead.column_of_blocks()
     held = np.zeros(len(problem.force))
     held[1] = 1e12  # the lowest block on the ground
     matrix = problem.matrix.copy()
@@ -23,17 +23,19 @@ def test_each_contact_of_the_column_carries_the_blocks_above_it():
         replace(problem, matrix=matrix.tocsc(), force=np.where(
             np.arange(len(held)) % 6 == 1, -1.0, 0.0)), make_solver("superlu"))  # fmt: skip
     assert answer.verdict.converged
-    above = np.arange(ahead.BLOCKS - 1, 0, -1)
+    above = np.arange(kernels_ahead.BLOCKS - 1, 0, -1)
     np.testing.assert_allclose(answer.normal_force, -above, rtol=1e-5)
 
 
 def test_no_process_is_started_where_the_loops_are_compiled_or_no_core_is_idle(monkeypatch):
-    monkeypatch.setattr(ahead.subprocess, "Popen", lambda *given, **more: pytest.fail("started"))
-    monkeypatch.setattr(ahead, "kept", lambda loop: True)
-    ahead.begin.__wrapped__()
-    monkeypatch.setattr(ahead, "kept", lambda loop: False)
-    monkeypatch.setattr(ahead, "_cores", lambda: 1)
-    ahead.begin.__wrapped__()
+    monkeypatch.setattr(
+        kernels_ahead.subprocess, "Popen", lambda *given, **more: pytest.fail("started")
+    )
+    monkeypatch.setattr(kernels_ahead, "kept", lambda loop: True)
+    kernels_ahead.begin.__wrapped__()
+    monkeypatch.setattr(kernels_ahead, "kept", lambda loop: False)
+    monkeypatch.setattr(kernels_ahead, "_cores", lambda: 1)
+    kernels_ahead.begin.__wrapped__()
 
 
 LEFT = """
@@ -51,13 +53,13 @@ print(*{event.data["dispatcher"].py_func.__module__ for _, event in counted.buff
 @pytest.mark.slow
 def test_a_run_after_it_compiles_no_loop_of_the_solution_again(tmp_path):
     place = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    subprocess.run([sys.executable, "-m", ahead.__name__], check=True, env=place)
+    subprocess.run([sys.executable, "-m", kernels_ahead.__name__], check=True, env=place)
     found = subprocess.run(
         [sys.executable, "-c", LEFT], check=True, env=place, capture_output=True, text=True
     )
     left = set(found.stdout.split())
     assert not left & {
-        "nmm.solvers.frontal.fronts",
+        "nmm.solvers.frontal.numbers.fronts",
         "nmm.contact.iteration.compiled_newton",
         "nmm.contact.islands.warm_start",
         "nmm.contact.islands.partition",

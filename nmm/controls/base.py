@@ -9,7 +9,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.assembly.motion import MaterialPoints, State
-from nmm.contact.following.path_equation import PathEquation
+from nmm.controls.path_equation import PathEquation
 from nmm.registry import Registry
 
 if TYPE_CHECKING:
@@ -91,9 +91,9 @@ CONTROLS: Registry[type[Control]] = Registry(
     "control",
     Control,
     {
-        "displacement": "nmm.contact.controls.displacement:Displacement",
-        "opening": "nmm.contact.controls.displacement:Opening",
-        "dissipation": "nmm.contact.controls.dissipation:Dissipation",
-        "events": "nmm.contact.controls.events:NextEvent",
+        "displacement": "nmm.controls.displacement:Displacement",
+        "opening": "nmm.controls.displacement:Opening",
+        "dissipation": "nmm.controls.dissipation:Dissipation",
+        "events": "nmm.controls.events:NextEvent",
     },
 )
