@@ -120,6 +120,14 @@ def legend_below(axes: "Axes", handles: Sequence[Any]) -> None:
     )
 
 
+def colour_bar(axes: "Axes", drawn: Any, text: str, arrows: str = "neither") -> None:
+    """Put a bar beside a picture that says what its colours are; ``arrows``: ends that go on."""
+    bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02, fraction=0.05, aspect=15, extend=arrows)
+    bar.set_label(text, fontsize=9.0)
+    bar.ax.tick_params(labelsize=9.0, width=0.6)
+    bar.outline.set_visible(False)
+
+
 def extent_of(*points: Floats) -> Floats:
     """(2, 2) lower left and upper right corner of all points."""
     together = np.concatenate(points)

@@ -4,9 +4,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nmm.plots.canvas import PathLike, axes_grid, extent_of, finished, frame_plane, legend_below
-from nmm.plots.results.deformed import magnified, moment
-from nmm.plots.shapes import draw_blocks
+from nmm.plots.canvas import PathLike, extent_of, finished, frame_plane, legend_below
+from nmm.plots.results.deformed import moment
+from nmm.plots.results.faint_blocks import faint_blocks
 from nmm.plots.units import prefixed
 from nmm.results.sink import RunData
 from nmm.results.viewing.paraview import contact_vectors
@@ -42,18 +42,13 @@ def contact_forces(
     """
     from matplotlib.collections import LineCollection
 
-    shown = run.frames[frame]
-    topology = run.topologies[shown.topology]
-    polygons = magnified(shown, topology, 1.0)
-    extent = extent_of(polygons.points)
-    axes = ax or axes_grid(1, 1, 4.0)[0]
-    draw_blocks(axes, topology, polygons, facecolors="#f4f2ed", edgecolors="#c9c5ba")
+    axes, shown, polygons = faint_blocks(run, frame, ax)
     vectors = contact_vectors(shown)
     sizes = np.hypot(*vectors.T)
     largest = float(sizes.max(initial=0.0))
     kept = sizes > SMALLEST * largest
     vectors, sizes = vectors[kept], sizes[kept]
-    reach = 0.3 * float(np.sqrt(np.mean(topology.elements.areas)))
+    reach = 0.3 * float(np.sqrt(np.mean(run.topologies[shown.topology].elements.areas)))
     arms = reach * vectors / sizes[:, None]
     middle = shown.contact_position[kept]
     pull = shown.contact_force[kept, 0] > 0
@@ -67,7 +62,7 @@ def contact_forces(
     )
     factor, unit = prefixed(np.array([largest]), "N")
     text = f"largest {factor * largest:.3g} {unit}" if len(sizes) else "none acts"
-    frame_plane(axes, extent, f"contact forces, {moment(shown)}, {text}")
+    frame_plane(axes, extent_of(polygons.points), f"contact forces, {moment(shown)}, {text}")
     legend_below(axes, _handles(bool(pull.any()), bool((~pull).any())))
     return finished(axes, path, fit=ax is None)
 

@@ -4,9 +4,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nmm.plots.canvas import BESIDE, PathLike, axes_grid, extent_of, finished, frame_plane
-from nmm.plots.results.deformed import magnified, moment
-from nmm.plots.shapes import draw_blocks
+from nmm.plots.canvas import BESIDE, PathLike, colour_bar, extent_of, finished, frame_plane
+from nmm.plots.results.deformed import moment
+from nmm.plots.results.faint_blocks import faint_blocks
 from nmm.plots.units import label, prefixed
 from nmm.quantity import MemberSegments
 from nmm.results.sink import RunData
@@ -40,14 +40,11 @@ def members(
     """
     from matplotlib.collections import LineCollection
 
-    shown = run.frames[frame]
-    topology, known = run.topologies[shown.topology], shown.on("members")
-    polygons = magnified(shown, topology, 1.0)
+    axes, shown, polygons = faint_blocks(run, frame, ax)
+    known = shown.on("members")
     ends = known[MemberSegments.ENDS].values.reshape(-1, 2, 2) if known else np.zeros((0, 2, 2))
     force = known["members:force"].values if known else np.zeros(0)
     factor, unit = prefixed(force, "N")
-    axes = ax or axes_grid(1, 1, 4.0)[0]
-    draw_blocks(axes, topology, polygons, facecolors="#f4f2ed", edgecolors="#c9c5ba")
     pulled = bool((force >= 0).all())
     drawn = LineCollection(
         list(ends), linewidths=WIDTH, capstyle="butt", cmap="viridis_r" if pulled else "RdBu_r"
@@ -61,8 +58,5 @@ def members(
     frame_plane(
         axes, extent_of(polygons.points, ends.reshape(-1, 2)), f"axial forces, {moment(shown)}"
     )
-    bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02, fraction=0.05, aspect=15)
-    bar.set_label(label("axial force", unit), fontsize=9.0)
-    bar.ax.tick_params(labelsize=9.0, width=0.6)
-    bar.outline.set_visible(False)
+    colour_bar(axes, drawn, label("axial force", unit))
     return finished(axes, path, fit=ax is None, beside=BESIDE + 0.9)

@@ -8,7 +8,15 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import NmmError
 from nmm.outputs.stresses import principal, von_mises
-from nmm.plots.canvas import BESIDE, PathLike, axes_grid, extent_of, finished, frame_plane
+from nmm.plots.canvas import (
+    BESIDE,
+    PathLike,
+    axes_grid,
+    colour_bar,
+    extent_of,
+    finished,
+    frame_plane,
+)
 from nmm.plots.results.deformed import magnified, moment
 from nmm.plots.shapes import draw_lines, fill, line_width
 from nmm.plots.units import label, prefixed
@@ -96,13 +104,10 @@ def stress(
     above = bool(beyond and (values > limit).any())
     below = bool(beyond and signed and (values < -limit).any())
     arrows = ("neither", "max", "min", "both")[above + 2 * below]
-    bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02, fraction=0.05, aspect=15, extend=arrows)
     beside = label(SHORT.get(component, words), unit)
     if beyond:
         beside += f"\n{100 * beyond:.2g} % of the area beyond, up to {np.abs(values).max():.3g}"
-    bar.set_label(beside, fontsize=9.0)
-    bar.ax.tick_params(labelsize=9.0, width=0.6)
-    bar.outline.set_visible(False)
+    colour_bar(axes, drawn, beside, arrows)
     return finished(axes, path, fit=ax is None, beside=BESIDE + 0.9)
 
 

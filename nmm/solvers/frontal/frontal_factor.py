@@ -14,7 +14,7 @@ from integration.arrays import Floats, Index, Ints
 from nmm.solvers.frontal.elimination import Fronts
 from nmm.solvers.frontal.numbers import fronts, inverted, substitution
 from nmm.solvers.frontal.numbers.blas import Inside, Outside, addresses, words
-from nmm.solvers.frontal.numbers.workspace import Loan
+from nmm.solvers.frontal.numbers.workspace import Workspace
 from nmm.solvers.threads import OneThread
 
 CHOLESKY_KERNELS = "dpotrf", "dtrsm", "dsyrk", "dtrsv", "dgemv"
@@ -50,21 +50,21 @@ class FrontalFactor:
     """
 
     plan: Fronts
-    panels: Loan
+    panels: Workspace
     swaps: Index
     turns: Iterator[int] = field(default_factory=count, compare=False, repr=False)
 
     @classmethod
     def cholesky(cls, matrix: csc_array, plan: Fronts) -> Self | None:
         """Return ``L`` of a symmetric matrix; None where it is not positive definite."""
-        made = cls(plan, Loan(plan.panel_start[-1]), NO_SWAPS)
+        made = cls(plan, Workspace(plan.panel_start[-1]), NO_SWAPS)
         return made if made._filled(matrix, (plan.source, plan.target)) else None
 
     @classmethod
     def lu(cls, matrix: csc_array, plan: Fronts) -> Self | None:
         """Return ``L`` and ``U`` of a matrix; None at a zero pivot."""
         swaps = np.empty(matrix.shape[0], dtype=np.int32)
-        made = cls(plan, Loan(plan.beside_start[-1]), swaps)
+        made = cls(plan, Workspace(plan.beside_start[-1]), swaps)
         return made if made._filled(matrix, plan.places) else None
 
     def solve(self, rhs: Floats) -> Floats:
@@ -90,8 +90,8 @@ class FrontalFactor:
 
         In single precision where that keeps digits enough for a correction that later ones mend:
         a solution is as long as its factor takes to be read. They hold the factor, whose panels
-        are lent, as long as they use it. A factor that is asked for again goes on being so: from
-        then on its pivot blocks are inverted.
+        are a workspace, as long as they use it. A factor that is asked for again goes on being so:
+        from then on its pivot blocks are inverted.
         """
         if next(self.turns) > 0 and self.symmetric:
             return self._again
@@ -113,8 +113,8 @@ class FrontalFactor:
         return (kernels, *words(single)), (*places, panels, self.swaps, inverted)
 
     @cached_property
-    def _single(self) -> tuple[Loan, npt.NDArray[np.float32]] | None:
-        """Panels in single precision, in room that is lent; None where few, or pivots too small."""
+    def _single(self) -> tuple[Workspace, npt.NDArray[np.float32]] | None:
+        """Panels in single precision, in a workspace; None where few, or pivots too small."""
         panels = self.panels.numbers[: self.plan.panel_start[-1]]
         if (
             not self.symmetric
@@ -122,32 +122,32 @@ class FrontalFactor:
             or panels[self.plan.pivots].min(initial=1.0) ** 2 < SINGLE
         ):
             return None
-        loan = Loan((len(panels) + 1) // 2)
-        rounded = loan.numbers.view(np.float32)[: len(panels)]
+        workspace = Workspace((len(panels) + 1) // 2)
+        rounded = workspace.numbers.view(np.float32)[: len(panels)]
         rounded[:] = panels
-        return loan, rounded
+        return workspace, rounded
 
     @cached_property
-    def _inverted(self) -> tuple[Loan, npt.NDArray[Any]]:
+    def _inverted(self) -> tuple[Workspace, npt.NDArray[Any]]:
         """Panels with inverted pivot blocks, in the room of those in single precision if any."""
-        loan, panels = self._single or self._copied
+        workspace, panels = self._single or self._copied
         first, row_start, _, panel_start = self.plan.shape
         single = panels.dtype == np.float32
         kernels = addresses(*(SINGLE_INVERTING if single else INVERTING))
         with OneThread():
             inverted.invert((kernels, *words(single)), first, row_start, panel_start, panels)
-        return loan, panels
+        return workspace, panels
 
     @property
-    def _copied(self) -> tuple[Loan, npt.NDArray[Any]]:
+    def _copied(self) -> tuple[Workspace, npt.NDArray[Any]]:
         size = self.plan.panel_start[-1]
-        loan = Loan(size)
-        loan.numbers[:size] = self.panels.numbers[:size]
-        return loan, loan.numbers
+        workspace = Workspace(size)
+        workspace.numbers[:size] = self.panels.numbers[:size]
+        return workspace, workspace.numbers
 
     def _filled(self, matrix: csc_array, places: tuple[Ints, Ints]) -> bool:
         """Factorise a matrix whose entries go to ``places``; say whether all pivots will do."""
-        plan, stack = self.plan, Loan(self.plan.stack_size)
+        plan, stack = self.plan, Workspace(self.plan.stack_size)
         with OneThread():
             bad = fronts.factorise(
                 (addresses(*self._kernels), *words()),

@@ -1,4 +1,4 @@
-"""Room for factors that is used again: fresh memory costs as much as the numbers put into it.
+"""Workspace for factors that is used again: fresh memory costs as much as the numbers put into it.
 
 A factor of a thousand bricks takes 6 MB. The allocator returns as much to the system at once, and
 the next factorisation pays for every page of it again.
@@ -15,10 +15,10 @@ SPARE_NUMBERS = 2**25
 SPARE: deque[Floats] = deque()
 
 
-class Loan:
-    """At least ``size`` numbers of any value, free to be lent again once nobody holds the loan.
+class Workspace:
+    """At least ``size`` numbers of any value, used by others once nobody holds it.
 
-    Those who use ``numbers`` must hold the loan for as long. Threads may take and leave loans at
+    Those who use ``numbers`` must hold it for as long. Threads may take and leave workspaces at
     the same time: a deque is changed in one piece.
     """
 

@@ -11,7 +11,7 @@ from nmm.solvers.frontal import symbolic
 from nmm.solvers.frontal.cholesky import Cholesky
 from nmm.solvers.frontal.lu import FrontalLU
 from nmm.solvers.frontal.numbers import workspace
-from nmm.solvers.frontal.numbers.workspace import Loan
+from nmm.solvers.frontal.numbers.workspace import Workspace
 from nmm.solvers.libraries.superlu import SuperLU
 from nmm.solvers.linear import LinearSolver, jacobi_scale, make_solver
 from nmm.testing.solvers import is_cholesky, is_lu
@@ -179,7 +179,7 @@ def test_room_of_a_factor_that_is_gone_is_used_again() -> None:
 def test_room_without_a_user_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(workspace, "SPARE_NUMBERS", 1000)
     for size in (300, 500, 800, 2000):
-        one, other = Loan(size), Loan(size)
+        one, other = Workspace(size), Workspace(size)
         del one, other
         assert sum(map(len, workspace.SPARE)) <= 1000
 
