@@ -20,7 +20,7 @@ from integration.polygons import Polygons, areas
 from integration.rules import PointRule, polygon_rule
 
 # Points evaluated at once.
-CHUNK = 8192
+POINTS_AT_ONCE = 8192
 
 
 @dataclass(frozen=True)
@@ -261,8 +261,10 @@ class PolynomialGroup(ElementGroup):
         shape = self.shape[index]
         xi = np.einsum("mij,mj->mi", self.matrix[shape], points - self.origin[index])
         out = np.empty((len(index), table.shape[1]))
-        for begin in range(0, len(index), CHUNK):  # rows of tables are large: a chunk at a time
-            part = slice(begin, begin + CHUNK)
+        for begin in range(
+            0, len(index), POINTS_AT_ONCE
+        ):  # rows of tables are large: a chunk at a time
+            part = slice(begin, begin + POINTS_AT_ONCE)
             monomials = evaluate(xi[part], degree)
             out[part] = np.einsum("msk,mk->ms", table[shape[part]], monomials)
         return out

@@ -13,7 +13,7 @@ from integration.polygons import Polygons
 from integration.rules import PointRule
 
 # Points whose functions are held in memory at once.
-CHUNK = 40_000
+FUNCTIONS_AT_ONCE = 40_000
 
 
 class Fields(ABC):
@@ -156,7 +156,7 @@ class QuadratureGroup(ElementGroup):
         begin, counts = (np.cumsum(of_all) - of_all)[self.first], of_all[self.first]
         for number in np.unique(counts[counts > 0]):  # shapes of equal numbers of points
             alike = np.flatnonzero(counts == number)
-            most = max(CHUNK // int(number), 1)
+            most = max(FUNCTIONS_AT_ONCE // int(number), 1)
             for first in range(0, len(alike), most):
                 some = alike[first : first + most]
                 yield some, begin[some, None] + np.arange(number)

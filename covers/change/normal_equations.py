@@ -14,7 +14,7 @@ from integration.arrays import Floats
 # out again by refinement.
 SHIFT = 1e-12
 # Most steps of refinement. They end when the correction no longer falls by half.
-STEPS = 40
+REFINEMENTS = 40
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class NormalEquations:
         ``kept`` takes out of each correction what must stay as it was at the start.
         """
         found, last = start, np.inf
-        for _ in range(STEPS):
+        for _ in range(REFINEMENTS):
             change = kept(self._once(side - matrix @ found))
             size = float(np.linalg.norm(change / self._scale))
             if not size < last / 2:

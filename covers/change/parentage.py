@@ -21,7 +21,7 @@ from integration.polygons import Polygons
 ROUNDING = 1e-12
 # Edges nearer than this share of the domain are the same: far above the resolution of cuts, far
 # below any cell.
-NEAR = 1e-9
+SAME_EDGE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -182,7 +182,7 @@ def _kept(old: Manifold, new: Manifold) -> tuple[Ints, Ints]:
 def _along(old: Manifold, new: Manifold) -> Relation:
     """Boundary edges of the same region that lie on each other and have the same sense."""
     a, b = old.boundary, new.boundary
-    near = NEAR * float(np.hypot(*np.ptp(old.elements.points, axis=0)))
+    near = SAME_EDGE * float(np.hypot(*np.ptp(old.elements.points, axis=0)))
     first, second = (
         [shapely.LineString(ends) for ends in np.stack([e.start, e.end], axis=1)] for e in (a, b)
     )

@@ -25,7 +25,7 @@ from integration.rules import polygon_rule
 SINGULAR = 8
 # Share of the mass, in units of the stiffness, that makes rigid motions unique where strains are
 # matched; it is taken out again.
-HELD = 1e-8
+MADE_UNIQUE = 1e-8
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ class Transfer:
         stiff, heavy = matrix.diagonal().sum(), mass.diagonal().sum()
         if not stiff > 0:  # no material that both have is strained
             return found
-        held = NormalEquations(csc_array(matrix + HELD * stiff / heavy * mass))
+        held = NormalEquations(csc_array(matrix + MADE_UNIQUE * stiff / heavy * mass))
         start = found[free]
         found[free] = held.iterated(matrix, side[free], start, self._without_rigid)
         return found

@@ -24,7 +24,7 @@ from integration.arrays import Bools, Floats, Ints
 TIP, LEFT, RIGHT, TOUCH = 0, 1, 2, 3
 # A closure that would end this near to a point, in parts of its length, ends in the point.
 SNAP = 1e-3
-MAX_PASSES = 30
+CLOSURE_PASSES = 30
 
 
 @dataclass(frozen=True)
@@ -49,10 +49,10 @@ def closed_faces(
     Raises
     ------
     ValueError
-        No end after `MAX_PASSES` passes.
+        No end after `CLOSURE_PASSES` passes.
     """
     shot = np.empty(0, dtype=np.int64)
-    for _ in range(MAX_PASSES):  # one pass without tips and holes, two or three with them
+    for _ in range(CLOSURE_PASSES):  # one pass without tips and holes, two or three with them
         faces = faces_of(lines, sources, cells)
         rays = _unseen(_rays_of_blocks(faces), shot)
         if not len(rays.origin):
@@ -62,7 +62,7 @@ def closed_faces(
         shot = np.concatenate([shot, rays.origin * 4 + rays.kind])
         lines = _with_closures(lines, faces, rays, resolution, reach / resolution.step)
     raise ValueError(
-        f"cracks: faces with slits left after {MAX_PASSES} closures: simple cracks and holes "
+        f"cracks: faces with slits left after {CLOSURE_PASSES} closures: simple cracks and holes "
         "expected: remove cracks that wind around one another inside a cell"
     )
 

@@ -23,7 +23,7 @@ from covers.cutting.cracks import crack_segments
 from covers.cutting.cut_cells import CutCells, assembled
 from covers.cutting.domain import domain_of
 from covers.cutting.layers.arranged import arranged
-from covers.cutting.layers.lines import TOUCH, CutLines, lines_of
+from covers.cutting.layers.lines import TOUCHING_STEPS, CutLines, lines_of
 from covers.cutting.resolution import Resolution, resolution_of
 from covers.mathematical.base import Cover
 from integration.arrays import Floats, Ints
@@ -128,8 +128,8 @@ def cutting(
             f"cover: cells of {size.min():.2g} m: more than {COARSE * resolution.step:.2g} m "
             "expected at these coordinates: move the model towards the origin or use larger cells"
         )
-    domain = domain_of(polygons, glue, TOUCH * resolution.step)
-    moved = max(tolerance * float(size.min()), TOUCH * resolution.step)
+    domain = domain_of(polygons, glue, TOUCHING_STEPS * resolution.step)
+    moved = max(tolerance * float(size.min()), TOUCHING_STEPS * resolution.step)
     segments = crack_segments(cracks)
     layers = tuple(
         lines_of(cover, domain, layer, segments, resolution, moved)

@@ -19,7 +19,7 @@ from integration.arrays import Bools, Floats, Ints
 from integration.ragged import within
 
 NEAR = 0.75
-MAX_PASSES = 60
+SNAP_PASSES = 60
 
 
 @dataclass(frozen=True)
@@ -87,9 +87,9 @@ def node(lines: Lines, fresh: Bools, resolution: Resolution) -> Lines:
     Raises
     ------
     ValueError
-        No end after `MAX_PASSES` passes.
+        No end after `SNAP_PASSES` passes.
     """
-    for _ in range(MAX_PASSES):  # passes over all lines: two to four in practice
+    for _ in range(SNAP_PASSES):  # passes over all lines: two to four in practice
         kept = lines.start != lines.end
         lines = replace(
             lines, start=lines.start[kept], end=lines.end[kept], source=lines.source[kept]
@@ -102,7 +102,7 @@ def node(lines: Lines, fresh: Bools, resolution: Resolution) -> Lines:
             return lines
         lines, fresh = _split(lines, edges, edge, is_fresh, resolution)
     raise ValueError(
-        f"lines: still meeting between points after {MAX_PASSES} passes: lines apart or crossing "
+        f"lines: still meeting between points after {SNAP_PASSES} passes: lines apart or crossing "
         "expected: remove cracks that lie on one another within rounding"
     )
 

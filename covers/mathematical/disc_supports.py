@@ -31,7 +31,7 @@ POOR = {0: 0.05, 1: 1e-3, 2: 1e-3, 3: 1e-3}
 # Degree of polynomials to which shares are integrated.
 ORDER = 8
 # Points whose kernels are held in memory at once.
-CHUNK = 20_000
+KERNELS_AT_ONCE = 20_000
 
 
 def fitted_discs(cover: MovingLeastSquares, cut: CutCells) -> tuple[MovingLeastSquares, CutCells]:
@@ -74,8 +74,8 @@ def shares(cover: MovingLeastSquares, cut: CutCells) -> Floats:
     """Integral (P,) of the squared kernel over the material by that over the whole disc."""
     total = np.zeros(cut.n_covers + 1)
     rule = polygon_rule(cut.elements, ORDER)
-    for first in range(0, len(rule.points), CHUNK):  # so many points in memory
-        part = slice(first, first + CHUNK)
+    for first in range(0, len(rule.points), KERNELS_AT_ONCE):  # so many points in memory
+        part = slice(first, first + KERNELS_AT_ONCE)
         element = rule.owner[part]
         values = cover.kernels(cut.element_cell[element], rule.points[part])
         np.add.at(total, cut.covers[element], rule.weights[part, None] * values**2)
@@ -98,8 +98,8 @@ def loose_discs(cover: MovingLeastSquares, cut: CutCells) -> Bools:
     rule = polygon_rule(cut.elements, ORDER)
     points = np.concatenate([rule.points, cut.elements.points])
     owner = np.concatenate([rule.owner, cut.elements.polygon_of_point])
-    for first in range(0, len(points), CHUNK):  # so many points in memory
-        part = slice(first, first + CHUNK)
+    for first in range(0, len(points), KERNELS_AT_ONCE):  # so many points in memory
+        part = slice(first, first + KERNELS_AT_ONCE)
         cells = cut.element_cell[owner[part]]
         found[cover.cell_patches[cells[~cover.determined(cells, points[part])]]] = True
     return np.asarray(found[:-1])

@@ -8,7 +8,7 @@ from covers.mathematical.base import Cover
 from covers.small_matrices import inverses
 from integration.arrays import Floats, Ints
 
-MAX_PASSES = 30
+NEWTON_PASSES = 30
 PRECISION = 1e-14
 
 
@@ -57,7 +57,7 @@ def _to_reference(corners: Floats, points: Floats) -> Floats:
     xi = np.full(points.shape, 0.5)
     size = np.ptp(corners, axis=1).max(axis=1, initial=0.0)
     far = np.zeros(len(points), dtype=bool)
-    for _ in range(MAX_PASSES):  # Newton's passes over all points at once
+    for _ in range(NEWTON_PASSES):  # Newton's passes over all points at once
         miss = points - np.einsum("mk,mki->mi", _bilinear(xi), corners)
         far = ~(np.abs(miss).max(axis=1, initial=0.0) <= PRECISION * size)
         jacobian = np.einsum("mkj,mki->mij", _slopes(xi), corners)

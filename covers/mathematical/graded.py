@@ -14,7 +14,7 @@ from covers.mathematical.triangles import Triangles
 from integration.arrays import Floats
 
 # Most lines of one direction.
-MOST = 20_000
+MOST_LINES = 20_000
 
 
 class Graded(Triangles):
@@ -122,16 +122,16 @@ def _lines(
     least, most = sizes
     reach = np.concatenate([[0.0], np.geomspace(min(least, length), length, 4000)])
     around = np.concatenate([focus[:, None] + reach, focus[:, None] - reach]).ravel()
-    even = np.linspace(0.0, length, 1 + min(int(4 * length / least) + 1, MOST))
+    even = np.linspace(0.0, length, 1 + min(int(4 * length / least) + 1, MOST_LINES))
     place = np.unique(np.clip(np.concatenate([around, even]), 0.0, length))
     off = np.maximum(np.abs(place[:, None] - focus).min(axis=1) - radius, 0.0)
     density = 1.0 / np.minimum(least + growth * off, most)
     steps = np.diff(place) * (density[1:] + density[:-1]) / 2
     count = np.concatenate([[0.0], np.cumsum(steps)])
     number = max(int(np.ceil(count[-1] * (1 - 1e-9))), 1)
-    if number > MOST:
+    if number > MOST_LINES:
         raise ValueError(
-            f"size {least}: {number} lines over {length} m: at most {MOST} expected: let the size "
-            "grow away from a focus"
+            f"size {least}: {number} lines over {length} m: at most {MOST_LINES} expected: let the "
+            "size grow away from a focus"
         )
     return np.asarray(np.interp(np.linspace(0.0, count[-1], number + 1), count, place))

@@ -24,7 +24,7 @@ RADII = {0: 1.5, 1: 2.0, 2: 3.0, 3: 4.0}
 # Weights that miss the sum one by more come from a singular fit.
 UNDETERMINED = 1e-6
 # Least sum of kernels at a point, and least eigenvalue of scaled moments by degree of the basis.
-HELD = 0.02
+LEAST_KERNELS = 0.02
 FIXED = {0: 0.0, 1: 1e-2, 2: 1e-3, 3: 1e-4}
 # Discs that are wanted beyond their reach grow by this factor, at most so many times.
 GROWTH, ROUNDS = 1.25, 8
@@ -197,7 +197,7 @@ class MovingLeastSquares(Cover):
         return self._kernel(away, self.radius[patches], patches >= 0)[0]
 
     def determined(self, cells: Ints, points: Floats) -> npt.NDArray[np.bool_]:
-        """Whether (m,) the discs of ``cells`` hold at least `HELD` of a point and fix its fit well.
+        """Whether (m,) discs of ``cells`` hold `LEAST_KERNELS` of a point, and fix its fit well.
 
         The fit is well fixed when the moments of the basis, scaled to a diagonal of ones, have no
         eigenvalue below `FIXED` of the degree.
@@ -211,7 +211,7 @@ class MovingLeastSquares(Cover):
         moment = np.einsum("mk,mka,mkb->mab", value, basis, basis)
         scale = 1 / np.sqrt(np.maximum(np.einsum("maa->ma", moment), 1e-300))
         least = np.linalg.eigvalsh(moment * scale[:, :, None] * scale[:, None, :])[:, 0]
-        return np.asarray((value.sum(axis=1) >= HELD) & (least >= FIXED[self.degree]))
+        return np.asarray((value.sum(axis=1) >= LEAST_KERNELS) & (least >= FIXED[self.degree]))
 
     def settled(self, cut: CutCells, again: Recut) -> tuple[MovingLeastSquares, CutCells]:
         """See `Cover.settled`: leave out discs that reach too little, enlarge the others there.

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from integration.arrays import Floats, Ints
 
 # Steps along a side, far more than memory holds.
-MOST = 1e8
+MOST_STEPS = 1e8
 
 
 @dataclass(frozen=True)
@@ -68,10 +68,10 @@ def regular_net(
     corners = np.array([[0, 0], [high[0] - low[0], 0], high - low, [0, high[1] - low[1]]]) @ frame.T
     first = corners.min(axis=0) / step
     extent = corners.max(axis=0) / step - first
-    if extent.max() > MOST:
+    if extent.max() > MOST_STEPS:
         raise ValueError(
-            f"size: {step}: {extent.max():.3g} steps along a side: at most {MOST:g} expected: take "
-            "a larger size"
+            f"size: {step}: {extent.max():.3g} steps along a side: at most {MOST_STEPS:g} "
+            "expected: take a larger size"
         )
     begin = np.mod(shift, 1.0)
     begin[begin > 0] -= 1.0

@@ -8,7 +8,7 @@ from nmm.errors import FormulationError
 
 # Least eigenvalue of the mass of a cover, of unit diagonal, that is zero but for rounding: that of
 # functions that depend on one another in a sliver.
-ROUNDING = 1e-12
+NO_MASS = 1e-12
 
 
 def check_positive(mass: csc_array, offset: Ints) -> None:
@@ -23,7 +23,7 @@ def check_positive(mass: csc_array, offset: Ints) -> None:
     for size in np.unique(sizes):  # a handful of sizes
         chosen = np.flatnonzero(sizes == size)
         least = np.linalg.eigvalsh(_blocks(mass, offset[chosen], int(size)))[:, 0]
-        bad = np.flatnonzero(least < -ROUNDING)
+        bad = np.flatnonzero(least < -NO_MASS)
         if len(bad):
             raise FormulationError(
                 f'[integrator] mass: "lumped": cover {chosen[bad[0]]} has a mass of '

@@ -23,7 +23,7 @@ INITIAL = "initial_strain"
 """Elastic strain (Q, 3) of the initial stress; absent where there is none."""
 
 # Tangents off by this share of the elastic one are that one, rounded.
-ROUNDING = 16 * float(np.finfo(float).eps)
+ROUNDED_TANGENT = 16 * float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -159,7 +159,7 @@ class Matter:
         """
         if symmetric:
             tangent = (tangent + np.swapaxes(tangent, 1, 2)) / 2
-        if np.abs(tangent - self.elastic).max() <= ROUNDING * np.abs(self.elastic).max():
+        if np.abs(tangent - self.elastic).max() <= ROUNDED_TANGENT * np.abs(self.elastic).max():
             return self.elastic_stiffness
         return self._stiffness(tangent, symmetric)
 

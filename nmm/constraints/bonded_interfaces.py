@@ -18,7 +18,7 @@ from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
 from nmm.constraints.nitsche import Nitsche
-from nmm.constraints.shared_edges import ORDER, gauss_interface, shared_edges
+from nmm.constraints.shared_edges import EDGE_ORDER, gauss_interface, shared_edges
 from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
@@ -160,7 +160,7 @@ def glue_edges(model: Model, joints: Joints, part: "Glue", size: float | None) -
     asked = method_for(model, part.method, "spring")
     kind = "nitsche" if asked == "auto" else asked
     method = Method(kind, size, degree, part.stiffness, part.gamma)
-    interface = gauss_interface(model, joints, max(ORDER, 2 * degree + 2))
+    interface = gauss_interface(model, joints, max(EDGE_ORDER, 2 * degree + 2))
     tie = method.impose(model, [interface])[0]
     free = tie.free
     if not free.any():

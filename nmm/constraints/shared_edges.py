@@ -12,7 +12,7 @@ from nmm.contact.detection.joints import Joints, find_joints, joint_points
 from nmm.contact.points.boundary_points import sides
 
 # Least degree of the work along shared edges that is integrated exactly.
-ORDER = 8
+EDGE_ORDER = 8
 
 
 def shared_edges(model: Model) -> Joints:
@@ -21,7 +21,7 @@ def shared_edges(model: Model) -> Joints:
     return find_joints(sides(model.manifold).surface(start.frames, start.deformation))
 
 
-def gauss_interface(model: Model, joints: Joints, order: int = ORDER) -> Interface:
+def gauss_interface(model: Model, joints: Joints, order: int = EDGE_ORDER) -> Interface:
     """Interface of Gauss points of shared edges; its pieces are the joints."""
     points, weight = segment_rule(joints.start, joints.end, order)
     joint = np.repeat(np.arange(len(joints)), weight.shape[1])

@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from nmm.scene.actions import SupportTable
 
 # Of the size of a body: points of one coordinate.
-ALIKE = 1e-6
+SAME_COORDINATE = 1e-6
 # Degree of polynomials that points along edges of blocks integrate exactly.
-ORDER = 4
+BLOCK_ORDER = 4
 
 
 class Supports(TiedInterfaces):
@@ -214,7 +214,7 @@ def _lets_turn(model: Model, interfaces: Sequence[Interface]) -> bool:
         np.minimum.at(low, body, other)
         np.maximum.at(high, body, other)
         reached[body] = True
-        held |= high - low > ALIKE * size
+        held |= high - low > SAME_COORDINATE * size
     return bool((reached & ~held).any())
 
 
@@ -234,7 +234,7 @@ def _rate(tie: Imposition) -> Floats | None:
 
 def _interface(setup: Setup, support: "SupportTable", method: Method) -> Interface:
     model = setup.model
-    order = ORDER if method.size is None else method.order(model)
+    order = BLOCK_ORDER if method.size is None else method.order(model)
     place = acting_place(setup, "supports", support, order)
     ground = Ground.of(setup, support, place)
     held = np.array(("x" in support.fix, "y" in support.fix))

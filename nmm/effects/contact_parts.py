@@ -25,7 +25,7 @@ from nmm.interfaces.from_scene import interface_law
 # Lengths by which a cut may move a crack, within which an edge lies on it.
 MOVED = 4.0
 # Points of a joint between cells that leave nothing of splines and moving least squares to see.
-MOST = 4
+MOST_POINTS = 4
 
 
 @dataclass(frozen=True)
@@ -125,7 +125,7 @@ def _joint_rule(method: ContactMethod, laws: ContactLaws, manifold: Manifold) ->
     """
     auto = "gauss" if laws.consistent or manifold.degree > 1 else "corners"
     degree = manifold.degree
-    count = min(max(2, degree), MOST) if manifold.shared_covers else max(2, degree + 1)
+    count = min(max(2, degree), MOST_POINTS) if manifold.shared_covers else max(2, degree + 1)
     return auto if method.joint_points == "auto" else method.joint_points, count
 
 

@@ -24,7 +24,7 @@ Field = Callable[[Floats], Floats]
 Traction = Callable[[Floats, Floats], Floats]
 
 # Degree to which smooth parts are integrated.
-ORDER = 12
+SMOOTH_ORDER = 12
 # Elements whose middle is nearer to the tip than so many of their sizes are integrated about it.
 BESIDE = 1.5
 # Edges off the line behind the tip by more than this part of their distance are kinked.
@@ -128,7 +128,11 @@ class Interaction:
             if not len(index):
                 continue
             part = polygons.take(index)
-            rule = tip_rule(part, point, ORDER) if singular else polygon_rule(part, ORDER)
+            rule = (
+                tip_rule(part, point, SMOOTH_ORDER)
+                if singular
+                else polygon_rule(part, SMOOTH_ORDER)
+            )
             yield self._density(near[index][rule.owner], rule.points, rule.weights)
 
     def _density(self, owner: Ints, points: Floats, weights: Floats) -> tuple[Weighed, Pulled]:
@@ -182,7 +186,7 @@ class Interaction:
         if not near.any():
             return np.zeros(2)
         found = pushes.take(near)
-        points, weights = spread_rule(found.start, found.end, tip, ORDER)
+        points, weights = spread_rule(found.start, found.end, tip, SMOOTH_ORDER)
         q = weights.shape[1]
         force = weights.reshape(-1, 1) * np.repeat(found.force, q, axis=0)
         return self._of_forces(np.repeat(found.element, q), points.reshape(-1, 2), force)
@@ -190,11 +194,13 @@ class Interaction:
     def _graded(self, edges: Ints) -> tuple[Floats, Floats]:
         """Rule for edges behind the tip: in ``sqrt(r)`` the integrand is smooth."""
         boundary = self.model.cut.boundary
-        return graded_rule(boundary.start[edges], boundary.end[edges], self.fields.tip.point, ORDER)
+        return graded_rule(
+            boundary.start[edges], boundary.end[edges], self.fields.tip.point, SMOOTH_ORDER
+        )
 
     def _even(self, edges: Ints) -> tuple[Floats, Floats]:
         boundary = self.model.cut.boundary
-        return segment_rule(boundary.start[edges], boundary.end[edges], ORDER)
+        return segment_rule(boundary.start[edges], boundary.end[edges], SMOOTH_ORDER)
 
     def _pushed(self, edges: Ints, points: Floats, weights: Floats, traction: Traction) -> Floats:
         """Part (2,) of a traction on edges."""

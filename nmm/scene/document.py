@@ -21,7 +21,7 @@ OWN_KEYS = {
 }
 
 # Bytes of a file.
-LONGEST = 256_000_000
+LARGEST_FILE = 256_000_000
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -38,8 +38,8 @@ def read_text(path: str | Path, error: type[NmmError]) -> str:
         size = Path(path).stat().st_size
         if not Path(path).is_file():
             raise error(Fault(str(path), "no file", "a TOML file", "check the path"))
-        if size > LONGEST:
-            found, most = f"{size / 1e6:.0f} MB", f"at most {LONGEST / 1e6:.0f} MB"
+        if size > LARGEST_FILE:
+            found, most = f"{size / 1e6:.0f} MB", f"at most {LARGEST_FILE / 1e6:.0f} MB"
             raise error(Fault(str(path), found, most, "let a program build the scene"))
         # Windows marks UTF-8 by three bytes in front.
         return Path(path).read_text(encoding="utf-8-sig")

@@ -12,7 +12,7 @@ from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats, Ints
 
 # A vertex this near to a point, in sizes of the domain, is the point.
-NEAR = 1e-9
+SAME_VERTEX = 1e-9
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ def touching_covers(cut: CutCells, point: Floats) -> Ints:
     owner = cut.elements.polygon_of_point
     away = np.hypot(*(cut.elements.points - point).T)
     size = np.hypot(*np.ptp(cut.elements.points, axis=0))
-    found = np.unique(owner[away <= NEAR * size])
+    found = np.unique(owner[away <= SAME_VERTEX * size])
     if not len(found):  # a point inside an element
         low = np.minimum.reduceat(cut.elements.points, cut.elements.first_point, axis=0)
         high = np.maximum.reduceat(cut.elements.points, cut.elements.first_point, axis=0)

@@ -16,7 +16,7 @@ from integration.arrays import Bools, Ints
 from integration.polygons import diameters
 
 # Lines within this many steps of the resolution of a cell touch it.
-TOUCH = 8
+TOUCHING_STEPS = 8
 # Cells within so many tolerances of a crack are touched by it, wherever it settles.
 REACH = 3
 
@@ -63,7 +63,9 @@ def lines_of(
     margin, chop = float(size.max()), float(np.median(size))
     drawn = within(cracks, boundary, margin)
     near = touched_cells(cover, drawn, REACH * tolerance, chop)
-    rim = touched_cells(cover, boundary, TOUCH * resolution.step, chop) | _at_the_rim(cover)
+    rim = touched_cells(cover, boundary, TOUCHING_STEPS * resolution.step, chop) | _at_the_rim(
+        cover
+    )
     cracks = settled_on(cover, drawn, boundary, near, tolerance)
     touched = near | rim
     cells = Cells(cover.edges, touched, region_of_cells(cover, domain.shapes, members, touched))

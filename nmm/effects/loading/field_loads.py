@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from nmm.scene.tables.loading.loads import LoadTable
 
 # Degree of polynomials that fields times functions of the covers are integrated to, beyond theirs.
-BEYOND = 6
+BEYOND_FUNCTIONS = 6
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ class FieldLoads(Effect):
 def _load(setup: Setup, load: "LoadTable") -> SpreadLoad:
     assert load.field is not None
     model, regions = setup.model, setup.regions(load.block)
-    order = model.manifold.degree + BEYOND
+    order = model.manifold.degree + BEYOND_FUNCTIONS
     field = ValueField.named(setup, load.field, f"[[loads]] {load.name}")
     steady = load.history is None and not field.varies
     factor = load_factor(setup, load)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from nmm.scene.tables.loading.loads import LoadTable
 
 # Degree of polynomials that a spread force is integrated to, beyond that of the displacements.
-BEYOND = 4
+BEYOND_DISPLACEMENTS = 4
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,9 @@ class MovingLoad:
         if high <= low:
             return None
         part = self._at([low / length, high / length])
-        place = on_segment(model.manifold, part, self.regions, model.manifold.degree + BEYOND)
+        place = on_segment(
+            model.manifold, part, self.regions, model.manifold.degree + BEYOND_DISPLACEMENTS
+        )
         return place.points, place.weight[:, None] / self.spread * force
 
     def _at(self, shares: list[float]) -> Floats:

@@ -20,7 +20,7 @@ from nmm.assembly.model import Model
 # Length over the standard deviation of the weights.
 DEVIATIONS = 2.0
 # Degree to which stress times weight is integrated in an element.
-ORDER = 6
+STRESS_ORDER = 6
 
 
 @dataclass(frozen=True)
@@ -84,5 +84,5 @@ def _points(model: Model, places: Floats, length: float) -> PointRule:
     tree = shapely.STRtree(shapes)
     found = tree.query(shapely.points(places), predicate="dwithin", distance=length)[1]
     near = np.unique(found)
-    rule = polygon_rule(model.manifold.elements.take(near), ORDER)
+    rule = polygon_rule(model.manifold.elements.take(near), STRESS_ORDER)
     return PointRule(rule.points, rule.weights, near[rule.owner])

@@ -12,7 +12,7 @@ from nmm.fracture.principal import LargestPrincipal
 from nmm.geometry.geometry import Geometry
 
 # Distance from cracks below which nothing begins, in lengths of the mean.
-AWAY = 3.0
+CLEAR_OF_CRACKS = 3.0
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class ZoneNuclei:
         kept = np.isfinite(strength[element])
         if geometry.cracks:
             lines = shapely.MultiLineString([line.tolist() for line in geometry.cracks])
-            kept &= ~shapely.dwithin(shapely.points(place), lines, AWAY * length)
+            kept &= ~shapely.dwithin(shapely.points(place), lines, CLEAR_OF_CRACKS * length)
         place, edge, element = place[kept], edge[kept], element[kept]
         body = model.manifold.element_body[element]
         means = StressMeans.about(model, place, body, length)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from nmm.effects.change import Change
 
 # Degree to which tractions are integrated, in the root of the distance from the tip.
-ORDER = 8
+TRACTION_ORDER = 8
 # Points nearer to an element than this share of the domain lie in it.
 NEAR = 1e-9
 
@@ -134,7 +134,7 @@ def newly_held(change: "Change", tip: Floats, span: Floats, added: Sequence[Stre
     start, end = edges.start[one], edges.end[one]
     away = np.hypot(*np.moveaxis(((start + end) / 2)[:, None] - tip, -1, 0))
     front = np.argmin(away, axis=1)
-    points, weights = graded_rule(start, end, tip[front], ORDER)
+    points, weights = graded_rule(start, end, tip[front], TRACTION_ORDER)
     q = weights.shape[1]
     flat, along = points.reshape(-1, 2), (end - start) / np.hypot(*(end - start).T)[:, None]
     out = np.repeat(np.stack([along[:, 1], -along[:, 0]], axis=1), q, axis=0)

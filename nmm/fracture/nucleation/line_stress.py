@@ -13,7 +13,7 @@ from nmm.assembly.model import Model
 from nmm.fracture.acting_stress import StressOn
 
 # Gauss points along a line, as parts of it.
-SHARES, WEIGHTS = (1 + leggauss(8)[0]) / 2, leggauss(8)[1] / 2
+SHARES, LINE_WEIGHTS = (1 + leggauss(8)[0]) / 2, leggauss(8)[1] / 2
 # Points nearer to an element than this share of the domain lie in it.
 NEAR = 1e-9
 
@@ -43,13 +43,13 @@ class LineStress:
         found = np.zeros((len(points), 3))
         rule = PointRule(points[known], np.ones(int(known.sum())), element[known])
         found[known] = stress(rule)
-        mean = np.einsum("q,kqi->ki", WEIGHTS, found.reshape(-1, len(WEIGHTS), 3))
-        return mean, np.asarray(known.reshape(-1, len(WEIGHTS)).all(axis=1))
+        mean = np.einsum("q,kqi->ki", LINE_WEIGHTS, found.reshape(-1, len(LINE_WEIGHTS), 3))
+        return mean, np.asarray(known.reshape(-1, len(LINE_WEIGHTS)).all(axis=1))
 
     def stays(self, begin: Floats, way: Floats, body: Ints) -> Bools:
         """Which lines (k,) stay in their body; see `means`."""
         _, element = self._located(begin, way, body)
-        return np.asarray((element.reshape(-1, len(WEIGHTS)) >= 0).all(axis=1))
+        return np.asarray((element.reshape(-1, len(LINE_WEIGHTS)) >= 0).all(axis=1))
 
     def _located(self, begin: Floats, way: Floats, body: Ints) -> tuple[Floats, Ints]:
         """Gauss points (k Q, 2) of lines, and the element of each; -1 where it has none."""

@@ -18,7 +18,7 @@ from nmm.frozen import with_parts
 if TYPE_CHECKING:
     from nmm.formulation import IntegratorTable
 
-ERROR, SHORTEST, LONGEST, FIRST = 0.01, 1e-7, 0.1, 1e-3
+ERROR, SHORTEST_STEP, LONGEST, FIRST = 0.01, 1e-7, 0.1, 1e-3
 """What is asked for by default: the error, and the bounds and the first of the steps as shares of
 the duration."""
 # Of the bound, what the next step aims at; and the exponents of the controller, over the order of
@@ -90,7 +90,7 @@ class StepControl:
     ) -> "StepControl":
         """Return what a formulation asks for; ``resolves`` (s) no step exceeds."""
         longest = min(table.longest or LONGEST * duration, resolves, duration)
-        shortest = min(table.shortest or SHORTEST * duration, longest)
+        shortest = min(table.shortest or SHORTEST_STEP * duration, longest)
         first = min(max(FIRST * duration, shortest), longest)
         error = ERROR if table.error is None else table.error
         return cls(error, order, shortest, longest, first)

@@ -18,7 +18,7 @@ from nmm.assembly.motion import State
 from nmm.stepping.step.trial import Attempt
 
 # Share of a step within which bodies meet where it ends; solutions that the root is sought by.
-NEAR, SOLUTIONS = 1e-6, 8
+MEETING, SOLUTIONS = 1e-6, 8
 # Share of the way to a foreseen root that is gone: roots are met from below.
 SHORT = 1 - 1e-3
 
@@ -68,7 +68,7 @@ class Meeting:
         close is found to ``least`` (s) or nearer.
         """
         low, high, known = start.time, end, None
-        near = min(NEAR * (end - start.time), least)
+        near = min(MEETING * (end - start.time), least)
         gap, rate = self.gap, self.rows @ start.velocity
         begun = rate
         for _ in range(SOLUTIONS):

@@ -20,7 +20,7 @@ from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.trial import Attempt
 
 # A step that would end so near a stop, as a share of itself, ends there.
-NEAR = 1e-9
+AT_STOP = 1e-9
 # Share of the largest speed in the run: bodies that meet faster make an impact.
 SUDDEN = 0.1
 
@@ -191,6 +191,6 @@ class TrialStep:
 def _landing(start: float, asked: float, stop: float) -> float:
     """Return where a step of ``asked`` (s) ends: at a stop that it reaches, or half way to one."""
     rest = stop - start
-    if asked >= (1 - NEAR) * rest:
+    if asked >= (1 - AT_STOP) * rest:
         return stop
     return start + (asked if 2 * asked <= rest else rest / 2)

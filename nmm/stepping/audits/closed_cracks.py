@@ -6,7 +6,7 @@ from nmm.fracture.growth.faces import CrackFaces
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 
 # Of the displacements, and of coordinates: faces that no function parts differ by less.
-ROUNDING, PLACES = 1e-9, 64 * float(np.finfo(float).eps)
+ROUNDED_DISPLACEMENT, ROUNDED_PLACE = 1e-9, 64 * float(np.finfo(float).eps)
 NAME = "faces_overlap"
 REMEDY = "add [contact], and an interface of the material with itself"
 
@@ -18,8 +18,10 @@ def closed_cracks(run: Ended) -> Findings:
         return
     faces = CrackFaces.of(run.stepper.model)
     _, opening, sliding = faces.apart(run.state)
-    known = ROUNDING * np.abs(faces.left.rows.apply(run.state.deformation)).max(initial=0.0)
-    known += PLACES * np.abs(run.stepper.model.manifold.elements.points).max()
+    known = ROUNDED_DISPLACEMENT * np.abs(faces.left.rows.apply(run.state.deformation)).max(
+        initial=0.0
+    )
+    known += ROUNDED_PLACE * np.abs(run.stepper.model.manifold.elements.points).max()
     deep, most = -opening.min(initial=0.0), np.hypot(opening, sliding).max(initial=0.0)
     if most > known:
         share = float(deep / most)

@@ -6,7 +6,7 @@ from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.drive.verdict import FAILURE
 
 # Share of the turnover lost by contact from which on its duration counts.
-LOST = 0.01
+LOST_BY_CONTACT = 0.01
 # Increments in which friction may slide unseen.
 FEW = 10
 
@@ -62,7 +62,7 @@ def _impacts(run: Ended) -> Findings:
     lasts = impact_lasts(run)
     if run.formulation.integrator.kinetic_factor < 1 or lasts is None or step is None:
         return
-    if ledger.contact_loss <= LOST * ledger.throughput:
+    if ledger.contact_loss <= LOST_BY_CONTACT * ledger.throughput:
         return
     yield AuditFinding(
         "contact_duration",

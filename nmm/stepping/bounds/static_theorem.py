@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from nmm.stepping.step.stepper import Stepper
 
 # Contacts open by less than this share of the domain count as if they could carry.
-NEAR = 1e-4
+MAY_CARRY = 1e-4
 # Stiffness of what holds a body below this share of the largest holds nothing.
 HOLDS = 1e-9
 # Bodies tied to each other in larger groups than this are taken as held.
@@ -105,7 +105,7 @@ def _largest_share(
     plan, contact = stepper.plan, stepper.plan.contact
     if contact is None or any(effect.limited for effect in plan.effects.values()):
         return None
-    (normal, tangent), limits = contact.near(state, NEAR * stepper.size)
+    (normal, tangent), limits = contact.near(state, MAY_CARRY * stepper.size)
     balance = _directions(stepper, state)
     fixed, whole = (plan.force(state, Instant(at, at)) for at in (0.0, asked))
     fixed, gain = balance @ fixed, balance @ (whole - fixed)

@@ -36,11 +36,11 @@ if TYPE_CHECKING:
 
 # A step that was cut to this share of the largest is not cut further, nor are so many between two
 # of full length: a path that must creep does not come to its end.
-SMALLEST, LOST = 2.0**-12, 20
+SMALLEST, CREEPING = 2.0**-12, 20
 # Iterations of a step up to which the next is longer.
 EASY = 8
 # A step from this share of the largest load to below none, by more than that share, is a jump.
-TURNS, LEAST = 0.5, 1e-6
+JUMPS_FROM, LEAST = 0.5, 1e-6
 
 
 def run_path(
@@ -76,7 +76,7 @@ def _ahead(at: OnPath, found: Tried) -> Tried:
     A control that is not the motion itself may have a second answer there, however short the step.
     """
     before, after = at.state.load_factor, found.attempt.state.load_factor
-    jumps = before > TURNS * at.peak and after < -LEAST * at.peak
+    jumps = before > JUMPS_FROM * at.peak and after < -LEAST * at.peak
     if not found.attempt.converged or not jumps:
         return found
     sentence = f"the load would turn round in one step, from {before:.6g} to {after:.6g}"
@@ -164,7 +164,7 @@ class _Following:
 
     def _shorter(self, at: OnPath, step: float, attempt: Attempt) -> OnPath | RunVerdict:
         """Try half of a step, or end."""
-        if step / 2 >= SMALLEST * self.control.increment and at.lost < LOST:
+        if step / 2 >= SMALLEST * self.control.increment and at.lost < CREEPING:
             return replace(at, advance=step / 2, lost=at.lost + 1)
         return no_balance(at, attempt)
 

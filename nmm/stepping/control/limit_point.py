@@ -14,7 +14,7 @@ from nmm.stepping.step.stepper import Stepper
 
 # Share of the largest load to which a path must fall, and of the stored energy that a step of it
 # dissipates where bonds soften.
-FALLEN, PART = 0.98, 0.01
+PEAK_PASSED, PART = 0.98, 0.01
 
 
 class LimitPoints:
@@ -49,7 +49,7 @@ def limit_point(stepper: Stepper, state: State, factor: float) -> LimitPoint | N
     record, taken, energy = stepper.remember(), stepper.budget.taken, _energy(stepper, state)
     soft = not contact.laws.brittle.all()
     control: Control = Dissipation(PART * energy) if soft else NextEvent(1.0)
-    end, quiet = PathEnd(factor, FALLEN), Recorder(stepper, Tee([]), [])
+    end, quiet = PathEnd(factor, PEAK_PASSED), Recorder(stepper, Tee([]), [])
     at = OnPath.at_start(state, control.increment)
     last, verdict = run_path(stepper, quiet, at, control, end, lambda share, said: None)
     stepper.restore(record)

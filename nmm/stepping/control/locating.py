@@ -9,7 +9,7 @@ from integration.arrays import Floats
 from nmm.stepping.step.trial import Attempt
 
 # Load over strength that is as good as one, and trials before the nearest one is taken.
-CLOSE, MOST = 1e-10, 60
+CLOSE, MOST_TRIALS = 1e-10, 60
 # Load over strength beyond one above which a bond cannot hold.
 ABOVE = 1e-9
 # How far off one the nearest trial may be, where balance is rounded: beyond it loads jump.
@@ -45,7 +45,7 @@ def located(try_: Callable[[float], Tried], low: Tried, high: Tried) -> Tried:
     where loads pass one by a jump, the nearest trial as one that has not converged and says so.
     """
     best, stays, beyond = high, [1.0, 1.0], None
-    for _ in range(MOST):
+    for _ in range(MOST_TRIALS):
         if abs(best.over) <= CLOSE or low.way == high.way:
             break
         found = try_(_crossing(low, high, stays))
@@ -85,7 +85,7 @@ def outward(try_: Callable[[float], Tried], still: Tried, way: float) -> Tried |
     None where there is none, as loads do not change; a trial without a solution where one is met.
     """
     before, now = still, try_(way)
-    for _ in range(MOST):
+    for _ in range(MOST_TRIALS):
         if not now.attempt.converged:
             return now
         if np.sign(now.over) != np.sign(still.over) or abs(now.over) <= CLOSE:

@@ -22,7 +22,7 @@ Correction = Callable[[Attempt], Attempt]
 
 # A correction of this share of the step's motion leaves its square behind: a step is in balance so
 # far though the next one fails. So is one of so many times what is rounded.
-NEARLY, SEVERAL = 1e-5, 1e3
+LAST_CORRECTION, SEVERAL = 1e-5, 1e3
 
 
 def settled(
@@ -47,7 +47,7 @@ def settled(
         total = replace(joined(total, then), increment=way)
         if left <= SETTLED * total.motion + least:
             break
-    if left > NEARLY * total.motion + SEVERAL * least:
+    if left > LAST_CORRECTION * total.motion + SEVERAL * least:
         stepper.return_to(before)
         sentence = f"the moved place is not in equilibrium: {then.sentence}"
         return replace(total, converged=False, sentence=sentence), state, contacts

@@ -8,7 +8,7 @@ from nmm.stepping.step.trial import Attempt
 # the largest for a limit point to have been passed.
 NOTHING = 1e-9
 # Relative rounding of the sums by which a path comes to its end.
-ROUNDING = 1e-12
+ROUNDED_END = 1e-12
 
 
 def arrived(at: OnPath, length: float, end: PathEnd) -> RunVerdict | None:
@@ -18,8 +18,8 @@ def arrived(at: OnPath, length: float, end: PathEnd) -> RunVerdict | None:
     """
     factor, peak = at.state.load_factor, at.peak
     fallen = peak > 0 and factor <= max(end.fall, NOTHING) * peak
-    through = at.gone >= length * (1 - ROUNDING)
-    if not fallen and not through and factor < end.factor * (1 - ROUNDING):
+    through = at.gone >= length * (1 - ROUNDED_END)
+    if not fallen and not through and factor < end.factor * (1 - ROUNDED_END):
         return None
     if fell(at):
         sentence = (

@@ -7,7 +7,7 @@ from nmm.effects.base import Instant
 from nmm.frozen import with_parts
 from nmm.progress import Progress
 from nmm.stepping.drive.changes import Stands, asked, with_events
-from nmm.stepping.drive.in_time import ROUNDING, InTime, Schedule
+from nmm.stepping.drive.in_time import ROUNDED_TIME, InTime, Schedule
 from nmm.stepping.drive.stable_step import longest_step, singular_mass
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
@@ -18,7 +18,7 @@ from nmm.stepping.step.trial import Attempt
 # The state before the last attempt of a step, the attempt, how the run goes on, and why it was cut.
 Taken = tuple[State, Attempt, InTime, str]
 # A step is halved down to this power of two of the chosen step before the run is given up: 1/1024.
-CUTS = 10
+DEEPEST_HALVING = 10
 
 
 def run_in_time(
@@ -102,7 +102,7 @@ def _next(
 def _fixed(recorder: Recorder, at: InTime, schedule: Schedule) -> Taken:
     """Take a step of the length that was chosen, or shorter where it must be."""
     state, rest = at.state, at.rest(schedule)
-    length = rest if rest < (1 + ROUNDING) * at.step else at.step
+    length = rest if rest < (1 + ROUNDED_TIME) * at.step else at.step
     attempt, why = _step_or_cut(recorder.stepper, state, length, schedule)
     taken = attempt.state.time - state.time
     # After a cut the step grows back slowly: what made it fail is rarely over at once.
@@ -136,7 +136,7 @@ def _step_or_cut(
 ) -> tuple[Attempt, str]:
     """Solve a step, shorter where it must be; and why, if it must."""
     why = ""
-    for length in _halves(step, schedule.step / 2**CUTS):
+    for length in _halves(step, schedule.step / 2**DEEPEST_HALVING):
         end = Instant(state.time + length, schedule.load_factor)
         attempt = stepper.attempt(state, end, length)
         if attempt.converged:
@@ -155,7 +155,7 @@ def _halves(step: float, smallest: float) -> Iterator[float]:
 
 def _failure(attempt: Attempt, state: State, schedule: Schedule) -> str:
     control = schedule.control
-    shortest = schedule.step / 2**CUTS if control is None else control.shortest
+    shortest = schedule.step / 2**DEEPEST_HALVING if control is None else control.shortest
     return (
         f"the step at {state.time:.6g} s did not converge, though cut to "
         f"{shortest:.3g} s: {attempt.sentence}"

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 # Of a step, about what sums of many steps are off by: 20 000 steps are 20 000, not one more of
 # 1e-12 s at the end.
-ROUNDING = 1e-6
+ROUNDED_TIME = 1e-6
 
 
 @dataclass(frozen=True)
@@ -117,4 +117,4 @@ class InTime:
     def rest(self, schedule: Schedule) -> float:
         """Return the time that is left (s); zero at the end."""
         rest = self.begin + schedule.duration - self.state.time
-        return rest if rest > ROUNDING * schedule.step else 0.0
+        return rest if rest > ROUNDED_TIME * schedule.step else 0.0

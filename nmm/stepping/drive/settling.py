@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 # share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain,
 # or of its distance from the origin: see `rounding`).
 SETTLED = 1e-8
-ROUNDING = 1e-13
+ROUNDED_BALANCE = 1e-13
 CORRECTIONS = 12
 # While corrections shrink by this factor each they go on to so many.
 SHRINKS, PATIENCE = 0.9, 60
@@ -93,7 +93,7 @@ def _remembering(moved: State, start: State) -> State:
 def rounding(stepper: Stepper) -> float:
     """How far points must move to be known to have moved (m)."""
     farthest = float(np.abs(stepper.reference).max())
-    still = max(ROUNDING * stepper.size, 4 * float(np.finfo(float).eps) * farthest)
+    still = max(ROUNDED_BALANCE * stepper.size, 4 * float(np.finfo(float).eps) * farthest)
     # Rounding of the loads, over anchors.
     return WANDER * still if stepper.anchored else still
 

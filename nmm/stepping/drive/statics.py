@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from nmm.contact.solution.record import Breaking
 
 # A load increment that was cut to this share of the largest is not cut further.
-SMALLEST = 2.0**-30
+SMALLEST_INCREMENT = 2.0**-30
 # Share of the tolerance to which increments are cut where matter flows to a given load.
 FLOWING = 1e-6
 # Share of the stored energy from which on what was lost on the way to rest is told.
@@ -112,7 +112,7 @@ class _Raising:
         """Look for equilibrium under one increment more, with anchors where nothing else helps."""
         stepper, schedule, state = self.stepper, self.schedule, at.state
         factor = min(state.load_factor + at.rise, schedule.target)
-        finest = max(schedule.tolerance * factor, SMALLEST * schedule.increment)
+        finest = max(schedule.tolerance * factor, SMALLEST_INCREMENT * schedule.increment)
         fine = schedule.at_once or at.rise <= finest
         start, bonds = stepper.remember(), stepper.broken_bonds
         # A bond that breaks in a coarse increment is no news yet: the increment is cut first.

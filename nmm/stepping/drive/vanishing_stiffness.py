@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from nmm.stepping.step.stepper import Stepper
 
 # Part of the load step without equilibrium over which the change of the tangent is measured.
-NEAR = 1e-2
+MEASURED_OVER = 1e-2
 # How far beyond that step the stiffness may vanish, in such steps.
 BEYOND = 2.0
 # A tangent is symmetric up to this share of its largest entry; others have no least eigenvalue.
@@ -53,10 +53,12 @@ def vanishing_stiffness(stepper: "Stepper", state: State, factor: float) -> str 
     from scipy.sparse.linalg import splu
 
     step = factor - state.load_factor
-    way = splu(stiffness).solve(NEAR * step * stepper.plan.unit_load(state))
+    way = splu(stiffness).solve(MEASURED_OVER * step * stepper.plan.unit_load(state))
     moved = _tangent(stepper, replace(state, deformation=state.deformation + way), shift)
     change = float(mode @ (moved @ mode)) - least
-    limit = state.load_factor - least * NEAR * step / (2 * change) if change < 0 else np.inf
+    limit = (
+        state.load_factor - least * MEASURED_OVER * step / (2 * change) if change < 0 else np.inf
+    )
     if not (least > 0 and limit <= factor + BEYOND * step):
         return None
     return (

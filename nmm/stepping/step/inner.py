@@ -33,9 +33,9 @@ STAYS = 1e-13
 # Forces of effects below this share of those of a step count as so large.
 HARDLY = 1e-6
 # What effects miss is rounding up to so many times that of their stiffness times the motion.
-ROUNDING = 1e3 * float(np.finfo(float).eps)
+ROUNDED_STIFFNESS = 1e3 * float(np.finfo(float).eps)
 # ... and up to so many times what rounding of places makes of their forces.
-PLACES = 10.0
+ROUNDED_FORCES = 10.0
 
 
 @dataclass(frozen=True)
@@ -231,9 +231,12 @@ class Inner:
             known = now.pull, then.pull, HARDLY * applied
             size = max(_size(scale * one) for one in known)
             left = _size(scale * missed)
-            rounded = ROUNDING * self._gross(then.increment), PLACES * then.rounding
+            rounded = (
+                ROUNDED_STIFFNESS * self._gross(then.increment),
+                ROUNDED_FORCES * then.rounding,
+            )
             least = sum(_size(scale * one) for one in rounded)
-            if left > least and left > least + PLACES * _size(scale * self._of_places):
+            if left > least and left > least + ROUNDED_FORCES * _size(scale * self._of_places):
                 shares.append(left / size if size else np.inf)
         return max(shares)
 

@@ -38,7 +38,7 @@ FRUITLESS, FRUIT = 8, 0.7
 NEARLY, FALLS = 1e-3, 0.1
 # A full step is taken when it leaves at most this share of its slope; else it is shortened, at most
 # so often, down to this share of it.
-SLOPE, TRIALS, SHORTEST = 0.8, 6, 0.05
+SLOPE, TRIALS, SHORTEST_PART = 0.8, 6, 0.05
 # Stiffness against the last iteration's motion, as a share of the elastic one, that shows flow.
 FLOWS = 1e-2
 
@@ -161,10 +161,10 @@ def _searched(
     found, part, ends = then, 1.0, [(0.0, -curved), (1.0, slope(then, 1.0))]
     for _ in range(TRIALS):
         last = ends[1][1]
-        if curved <= 0 or last <= SLOPE * curved or part <= SHORTEST:
+        if curved <= 0 or last <= SLOPE * curved or part <= SHORTEST_PART:
             break
         (low, falls), (high, rises) = ends
-        part = max(low - falls * (high - low) / (rises - falls), SHORTEST)
+        part = max(low - falls * (high - low) / (rises - falls), SHORTEST_PART)
         found = at(now.increment + part * way, now)
         now_slope = slope(found, part)
         if abs(now_slope) <= SLOPE * curved:

@@ -15,7 +15,7 @@ from nmm.stepping.step.equations import Equations
 from nmm.stepping.step.trial import Attempt
 
 # Turns of inverse iteration: each brings out the softest motion by the ratio of two stiffnesses.
-TURNS = 4
+INVERSE_ITERATIONS = 4
 # Stiffness of a motion, as a share of the elastic one, that is none but rounding.
 NONE = 1e-12
 
@@ -49,7 +49,7 @@ def unstable(factor: Factor, elastic: csc_array, increment: Floats) -> bool:
     way, tangent = increment, factor.matrix
     if tangent.shape != elastic.shape:  # conditions join it, and no pivot tells
         return False
-    for _ in range(TURNS):
+    for _ in range(INVERSE_ITERATIONS):
         size = float(way @ (elastic @ way))
         if not 0 < size < np.inf:
             return False

@@ -18,7 +18,7 @@ PEER_ENDINGS = (".at2", ".vt2", ".dt2")
 # A step that is longer than this times the usual one is a gap.
 GAP = 1.5
 # Bytes of a file.
-LONGEST = 256_000_000
+LARGEST_FILE = 256_000_000
 
 Row = tuple[int, list[float]]
 
@@ -120,7 +120,7 @@ def _check_times(path: Path, rows: list[Row]) -> None:
 
 def _lines(path: Path) -> list[str]:
     try:
-        if path.stat().st_size > LONGEST:
+        if path.stat().st_size > LARGEST_FILE:
             raise SceneError(Fault(str(path), "too long", "at most 256 MB", "cut the file"))
         return path.read_text(encoding="utf-8-sig").splitlines()
     except OSError as cause:

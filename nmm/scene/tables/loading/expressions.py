@@ -18,7 +18,7 @@ from pydantic import BeforeValidator
 from nmm.scene.fields import fault
 
 # Signs and nodes of an expression, and how deep its brackets may lie in one another.
-LONGEST, MOST_NODES, DEEPEST = 1000, 500, 200
+MOST_SIGNS, MOST_NODES, DEEPEST_BRACKETS = 1000, 500, 200
 
 VARIABLES = ("x", "y", "t")
 CONSTANTS = {"pi": math.pi, "e": math.e}
@@ -71,8 +71,8 @@ class Expression:
     @cached_property
     def tree(self) -> ast.expr:
         """What Python's parser makes of the text."""
-        if len(self.text) > LONGEST:
-            raise ExpressionError(f"{len(self.text)} signs, more than {LONGEST}")
+        if len(self.text) > MOST_SIGNS:
+            raise ExpressionError(f"{len(self.text)} signs, more than {MOST_SIGNS}")
         try:
             return ast.parse(self.text.strip(), mode="eval").body
         except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -87,8 +87,8 @@ def _check(tree: ast.expr) -> None:
 
 
 def _check_node(node: ast.AST, depth: int) -> None:
-    if depth > DEEPEST:
-        raise ExpressionError(f"brackets deeper than {DEEPEST}")
+    if depth > DEEPEST_BRACKETS:
+        raise ExpressionError(f"brackets deeper than {DEEPEST_BRACKETS}")
     for part in _parts(node):
         _check_node(part, depth + 1)
 

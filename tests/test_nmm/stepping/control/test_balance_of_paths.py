@@ -92,7 +92,7 @@ def test_a_path_whose_reactions_do_not_bear_its_loads_is_unbalanced(monkeypatch)
         return attempt, *stepper.accept(attempt)
 
     monkeypatch.setattr(following, "settled", kept)
-    monkeypatch.setattr(following, "TURNS", np.inf)
+    monkeypatch.setattr(following, "JUMPS_FROM", np.inf)
     run = nmm.run(parse_scene(SCENE))
     assert out_of_balance(run.history)[-1] > 1e-2
     assert run.summary.status == "unbalanced"
