@@ -6,6 +6,9 @@ runs at half the speed of Rayleigh's wave. This is a rule of the project: a boun
 which leaves out how G falls as the tip divides. With the fields of both branches the least speed is
 0.39 of that of shear waves in antiplane strain (Adda-Bedia 2004). Both branches then grow by the
 criterion on their own.
+
+Energy alone knows no distance from one division to the next, and would divide a tip at every piece.
+So twice the fracture energy must have come in along a length that the tip has run since it divided.
 """
 
 from collections.abc import Sequence
@@ -14,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from covers.cutting.cut_cells import CutCells
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from nmm.fracture.growth.advance import new_ends, with_pieces
 from nmm.fracture.growth.fronts import CrackFronts
 from nmm.fracture.growth.intensities import Intensities
@@ -25,9 +28,18 @@ TWO = 2.0
 
 @dataclass(frozen=True)
 class Branching:
-    """Tips divide into two, either to one side by an ``angle`` (rad) of where it would go."""
+    """Tips divide into two.
+
+    Attributes
+    ----------
+    angle
+        Of either from where the tip would go (rad).
+    length
+        Along which twice the fracture energy must have come in (m).
+    """
 
     angle: float
+    length: float
 
     def laid(
         self,
@@ -35,13 +47,14 @@ class Branching:
         cracks: Sequence[Floats],
         fronts: CrackFronts,
         found: Intensities,
+        twice: Bools,
         length: float,
     ) -> tuple[tuple[Floats, ...], str]:
         """Return the polylines with new pieces at all fronts ``found``, and what happened.
 
-        A branch to the left goes on in the polyline of its crack, one to the right begins another.
+        Those that are fed ``twice`` (k,) divide. A branch to the left goes on in the polyline of
+        its crack, one to the right begins another.
         """
-        twice = found.share**2 >= TWO
         begin = fronts.points(cracks)[found.front]
         angle = found.kink.angle + self.angle * twice
         ends = new_ends(

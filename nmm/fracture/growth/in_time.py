@@ -15,11 +15,12 @@ from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes
 from nmm.effects.base import Instant, Setup
-from nmm.fracture.growth.branching import Branching
+from nmm.fracture.growth.branching import TWO, Branching
 from nmm.fracture.growth.growing import GrowingCracks
 from nmm.fracture.growth.grown import GrownSoFar, nearest_elements
 from nmm.fracture.growth.held_faces import HeldFaces, newly_held
 from nmm.fracture.growth.intensities import Intensities, tip_moduli
+from nmm.fracture.growth.rule import ROUNDING
 from nmm.fracture.growth.running import Running
 from nmm.fracture.growth.speed import SPEEDS, rayleigh_speeds
 from nmm.fracture.intensity_rows import IntensityRows
@@ -36,8 +37,8 @@ class GrowthInTime(GrowingCracks):
     def __init__(self, setup: Setup, sofar: GrownSoFar | None = None) -> None:
         super().__init__(setup, sofar)
         self._law = SPEEDS[self._table.speed or "freund"]
-        angle = self._table.branching
-        self._branching = None if angle is None else Branching(angle)
+        angle, length = self._table.branching, self._table.branching_length
+        self._branching = None if angle is None else Branching(angle, length or 0.0)
         self._running = Running.at_rest(len(self._fronts), setup.start.time)
         self._held = HeldFaces.none(setup.model)
 
@@ -101,7 +102,12 @@ class GrowthInTime(GrowingCracks):
         if self._branching is None:
             return super()._laid(found)
         cut, cracks = self._setup.model.cut, self._setup.geometry.cracks
-        return self._branching.laid(cut, cracks, self._fronts, found, self.rule.increment)
+        length = self.rule.increment
+        twice = found.share**2 >= TWO
+        gained = np.where(self._sofar.length[found.front] > 0, length, 0.0)
+        self._running = self._running.fed_by(found.front, twice, gained)
+        fed = self._running.fed[found.front] >= self._branching.length * (1 - ROUNDING)
+        return self._branching.laid(cut, cracks, self._fronts, found, twice & fed, length)
 
     @property
     def _points(self) -> Floats:

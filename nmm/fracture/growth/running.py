@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from integration.arrays import Floats, Ints
+from integration.arrays import Bools, Floats, Ints
 
 
 @dataclass(frozen=True)
@@ -21,22 +21,26 @@ class Running:
         At that time (m/s); zero where a tip still runs through its last piece.
     until
         When each has run through its last piece (s).
+    fed
+        How far each has run since it divided while twice the fracture energy came in (m).
     """
 
     time: float
     way: Floats
     speed: Floats
     until: Floats
+    fed: Floats
 
     @classmethod
     def at_rest(cls, number: int, time: float) -> "Running":
         """Return tips that have not begun to run."""
-        return cls(time, np.zeros(number), np.zeros(number), np.full(number, -np.inf))
+        zero = np.zeros(number)
+        return cls(time, zero, zero, np.full(number, -np.inf), zero)
 
     @property
-    def arrays(self) -> tuple[float, Floats, Floats, Floats]:
+    def arrays(self) -> tuple[float, Floats, Floats, Floats, Floats]:
         """All of it."""
-        return self.time, self.way, self.speed, self.until
+        return self.time, self.way, self.speed, self.until, self.fed
 
     def advanced(self, time: float, speed: Floats) -> "Running":
         """Return the tips at a later time at which their speeds (n,) would be so much (m/s)."""
@@ -48,18 +52,26 @@ class Running:
             self, time=time, way=self.way + mean * rest, speed=np.where(there, speed, 0.0)
         )
 
+    def fed_by(self, front: Ints, twice: Bools, length: Floats) -> "Running":
+        """Return the tips where fronts (k,) have run on by lengths (k,), fed ``twice`` or not."""
+        fed = self.fed.copy()
+        fed[front] = np.where(twice, fed[front] + length, 0.0)
+        return replace(self, fed=fed)
+
     def divided(self, parents: Ints) -> "Running":
-        """Return the tips with branches (k,) that run as their parents."""
+        """Return the tips with branches (k,) that run as their parents; both are fed anew."""
         way, speed, until = (
             np.append(values, values[parents]) for values in (self.way, self.speed, self.until)
         )
-        return Running(self.time, way, speed, until)
+        fed = np.pad(self.fed, (0, len(parents)))
+        fed[parents] = 0.0
+        return Running(self.time, way, speed, until, fed)
 
     def begun(self, number: int, speed: float) -> "Running":
         """Return the tips with so many that begin, at a speed (m/s)."""
         way, speeds = np.zeros(number), np.full(number, speed)
         until = np.full(number, -np.inf)
-        pairs = ((self.way, way), (self.speed, speeds), (self.until, until))
+        pairs = ((self.way, way), (self.speed, speeds), (self.until, until), (self.fed, way))
         return Running(self.time, *(np.concatenate(pair) for pair in pairs))
 
     def cut(self, front: Ints, length: Floats) -> tuple["Running", Floats]:

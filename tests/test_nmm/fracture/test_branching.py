@@ -86,6 +86,24 @@ def test_without_being_asked_to_a_tip_stays_one() -> None:
     assert len(run.stepper.discretisation.setup.geometry.cracks) == 1
 
 
+@pytest.mark.parametrize("pieces", [2, 3])
+def test_a_tip_divides_after_the_length_that_is_asked_for_whatever_its_pieces(pieces: int) -> None:
+    asked = 'branching = "25 deg"\nbranching_length = 0.24'
+    plate = PULLED.format(cracks=NOTCH).replace("= 0.16", f"= {0.24 / pieces}")
+    scene = parse_scene(f"duration = 0.0204\n{plate}{asked}\n{TIME}")
+    run = nmm.run(scene, net())
+    whole, right = run.stepper.discretisation.setup.geometry.cracks
+    # By 0.24 straight on, each piece within a cut's 1e-3 of a cell.
+    assert right[0] == pytest.approx([0.5 + 0.24, 0.0], abs=0.02)
+    assert len(whole) >= pieces + 3
+
+
+def test_a_length_of_branching_without_branching_is_refused() -> None:
+    text = PULLED.format(cracks=NOTCH) + f"branching_length = 0.1\n{TIME}"
+    with pytest.raises(NmmError, match="branching_length"):
+        parse_scene(f"duration = 0.01\n{text}")
+
+
 def test_branches_of_cracks_in_equilibrium_are_refused() -> None:
     text = PULLED.format(cracks=NOTCH) + 'branching = "25 deg"\n[gravity]\n'
     with pytest.raises(NmmError, match="branching"):

@@ -177,6 +177,20 @@ def test_what_growth_does_not_go_with_is_refused(table: str, said: str) -> None:
         parse_scene(text + table)
 
 
+MOVED = '[[supports]]\nname = "d"\npoint = [1, 0.4]\nfix = ["y"]\ndisplacement = [0, {way}]\n'
+
+
+@pytest.mark.parametrize(
+    ("way", "more"), [("1e-3", ""), ('"1 mm"', "history = [[0, 0], [1, 1]]\n")]
+)
+def test_displacements_that_no_factor_scales_are_refused(way: str, more: str) -> None:
+    # Loads beside them are scaled, they are not: no factor would bring tips to their toughness.
+    text = notched_plate(FOLLOW) + MOVED.format(way=way) + more + "[loading]\n"
+    with pytest.raises(NmmError, match="the displacement of 'd'"):
+        parse_scene(text)
+    parse_scene(notched_plate(FOLLOW) + MOVED.format(way="0.0") + "[loading]\n")
+
+
 @pytest.mark.parametrize(
     ("points", "said"),
     [

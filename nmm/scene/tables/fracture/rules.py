@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from nmm.scene.lines import Path
-from nmm.scene.unread_rows import Finding, Tables
+from nmm.scene.unread_rows import Finding, Tables, rows
 
 # What running tips alone have: cracks in equilibrium have no speed, and do not divide.
 IN_TIME = ("speed", "branching")
@@ -26,6 +26,14 @@ def fracture_contradictions(data: Tables) -> Iterator[Finding]:
         if table.get(key):
             remedy = "add [inertia], or remove it"
             yield ("fracture", key), f'"{table[key]}"', "a scene with [inertia]", remedy
+    if isinstance(table, Mapping) and table.get("branching_length") and not table.get("branching"):
+        remedy = "add branching, the angle of branches, or remove it"
+        yield ("fracture", "branching_length"), "no branching", "tips that divide", remedy
+    if isinstance(begins, Mapping) and begins.get("criterion") == "coupled":
+        for key in ("length", "crack_length"):
+            if key in begins:
+                value, expected = f'{key} with criterion = "coupled"', "lengths that energy finds"
+                yield ("fracture", "nucleation", key), value, expected, f"remove {key}"
     if isinstance(table, Mapping) and table.get("control") == "toughness":
         yield from _control(data)
 
@@ -41,3 +49,18 @@ def _control(data: Tables) -> Iterator[Finding]:
     if scaled != "all":
         remedy = 'use control = "loads", or scaled = "all"'
         yield path, f'"toughness" with scaled = {scaled}', "loads that one factor scales", remedy
+    alone = isinstance(loading, Mapping) and not data.get("loads")
+    for _, row in rows(data, "supports"):
+        if _driven(row) and not (alone and row.get("history") is None):
+            value = (
+                f'"toughness" with the displacement of {row.get("name")!r}, which is there in full'
+            )
+            remedy = "add [loading], without [[loads]] and history beside it, or drive by loads"
+            yield path, value, "loads that one factor scales", remedy
+
+
+def _driven(support: Mapping[str, object]) -> bool:
+    """Whether a support has a displacement."""
+    way = support.get("displacement")
+    parts = way if isinstance(way, list | tuple) else ()
+    return support.get("field") is not None or any(part not in (0, 0.0) for part in parts)

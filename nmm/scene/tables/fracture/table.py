@@ -67,6 +67,14 @@ class FractureTable(Frozen):
         "a tip divides in two; that is where G reaches twice the fracture energy",
         examples=["25 deg"],
     )
+    branching_length: Length | None = Field(
+        default=None,
+        gt=0,
+        description="a length in m, > 0, that a tip must have run since it divided last, with "
+        "twice the fracture energy coming in all along, before it divides; none if not given, so "
+        "that the number of branches hangs on the length of pieces",
+        examples=["10 mm"],
+    )
     together: Number = Field(
         default=0.02,
         ge=0,
