@@ -42,3 +42,25 @@ class KeptOfPlaces(KeptOfStates[T]):
         value = self._make(state)
         self._known = [*self._known[-1:], (state, value)]
         return value
+
+
+class KeptOfInstants(Generic[T]):
+    """Values made of a place and a time, of which the last two are kept."""
+
+    def __init__(self, make: Callable[["State", float], T]) -> None:
+        self._make = make
+        self._known: list[tuple[State, float, T]] = []
+
+    def of(self, state: "State", time: float) -> T:
+        """Return the value of a state's place at a time, made where it is not kept."""
+        frames, deformation = state.frames, state.deformation
+        for known, then, value in self._known:
+            if then == time and known.frames is frames and known.deformation is deformation:
+                return value
+        value = self._make(state, time)
+        self._known = [*self._known[-1:], (state, time, value)]
+        return value
+
+    def forget(self) -> None:
+        """Keep nothing: what values are made with has changed."""
+        self._known = []

@@ -103,9 +103,9 @@ class JointStorage(JointWater):
         if end.time > state.time and state.time * self._second == self._end.time:
             self._began = self._end
         time = end.time * self._second
-        self._step, self._time = step_between(self._began.time, time), time
-        if time == self._began.time:
+        if time == self._began.time:  # what acts as the step begins, whose length stays
             return super().force(state, end)
+        self._step, self._time = step_between(self._began.time, time), time
         head = self._at(state, time).head
         pressure = self.weight * np.maximum(head - self.sites.places[:, 1], 0.0)
         forces = self.sites.forces(state, pressure[self.sites.nodes])

@@ -11,6 +11,7 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.kept import KeptOfInstants, KeptOfPlaces
 from nmm.assembly.motion import State
 from nmm.constraints.shared_edges import shared_edges
 from nmm.diffusion.edges import Factor, of_history, steadily
@@ -62,7 +63,9 @@ class JointWater(Effect):
         self.sites, self.network, self.held = sites, network, held
         self._drawn, self._least = aperture
         self.weight, self.n_unknowns = weight, n_unknowns
-        self._known: list[tuple[State, float, Floats]] = []
+        self._openings = KeptOfPlaces(sites.opening)
+        self._heads = KeptOfInstants(self._flowing)
+        self._pushed = KeptOfInstants(self._pushing)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -97,23 +100,22 @@ class JointWater(Effect):
 
     def apertures(self, state: State) -> Floats:
         """Apertures (j, 2) at the ends of the joints (m)."""
-        return np.maximum(self._drawn[:, None] + self.sites.opening(state), self._least[:, None])
+        opening = self._openings.of(state)
+        return np.maximum(self._drawn[:, None] + opening, self._least[:, None])
 
     def heads(self, state: State, time: float) -> Floats:
         """Heads (n,) of the nodes with the apertures of a state; nan where no joint is open."""
-        for known, at, found in self._known:  # at most two
-            if known is state and at == time:
-                return found
+        return self._heads.of(state, 0.0 if self.steady else time)
+
+    def _flowing(self, state: State, time: float) -> Floats:
         nodes, given = self.given(time)
         conductance = self.network.conductance(self.apertures(state))
         try:
-            found = self.network.heads(conductance, nodes, given)
+            return self.network.heads(conductance, nodes, given)
         except SolveError as fault:
             lost = self.network.isolated(conductance, nodes)
             x, y = self.sites.places[lost][0]
             raise SolveError(f"joint flow: at ({x:.6g}, {y:.6g}): {fault}") from fault
-        self._known = [*self._known[-1:], (state, time, found)]
-        return found
 
     def pressures(self, state: State, time: float) -> Floats:
         """Pressures (n,) at the nodes (Pa); zero above the water table and where none is open."""
@@ -122,13 +124,16 @@ class JointWater(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the pressure on both faces of the joints, in the bodies' axes."""
-        return self.sites.interface.spread(state, self._forces(state, end.time))
+        forces = self._forces(state, end.time)
+        if not forces.any():
+            return np.zeros(self.n_unknowns)
+        return self.sites.interface.spread(state, forces)
 
     def work(self, before: State, after: State) -> float:
         """Mean of the forces at both ends times the way the faces moved apart."""
-        first, last = (self._forces(one, one.time) for one in (before, after))
-        motion = self.sites.interface.motion
-        return float(np.sum((first + last) / 2 * (motion(after) - motion(before))))
+        forces, motion = self._forces, self.sites.interface.motion
+        mean = (forces(before, before.time) + forces(after, after.time)) / 2
+        return float(np.sum(mean * (motion(after) - motion(before)))) if mean.any() else 0.0
 
     def history(self, state: State) -> Mapping[str, float]:
         """Return inflows (m3/s) at held heads, the largest pressure (Pa) and aperture (m)."""
@@ -158,11 +163,18 @@ class JointWater(Effect):
 
     def forget(self) -> None:
         """See `Effect.forget`."""
-        self._known = []
+        for kept in (self._openings, self._heads, self._pushed):
+            kept.forget()
 
     def _forces(self, state: State, time: float) -> Floats:
-        pressure = self.pressures(state, time)[self.sites.nodes]
-        return self.sites.forces(state, pressure)
+        """Forces (m, 2) in N on the first sides of the joints."""
+        return self._pushed.of(state, 0.0 if self.steady else time)
+
+    def _pushing(self, state: State, time: float) -> Floats:
+        pressure = self.pressures(state, time)
+        if not pressure.any():
+            return np.zeros((len(self.sites.interface), 2))
+        return self.sites.forces(state, pressure[self.sites.nodes])
 
 
 def _apertures(setup: Setup, edge_a: Ints, edge_b: Ints) -> tuple[Floats, Floats]:

@@ -52,15 +52,14 @@ class JointNetwork:
         SolveError
             A part of open joints that no given head reaches.
         """
-        part, wet = self._parts(conductance)
-        _refuse(_unreached(part, wet, fixed))
         heads = np.full(self.n, np.nan)
         heads[fixed] = given
-        known = np.zeros(self.n, dtype=bool)
+        wet, known = self._wet(conductance), np.zeros(self.n, dtype=bool)
         known[fixed] = True
         sought = np.flatnonzero(wet & ~known)
         if not len(sought):
             return heads
+        _refuse(self.isolated(conductance, fixed))
         number = np.full(self.n, -1)
         number[sought] = np.arange(len(sought))
         # Heads are counted from the least one, so that all that is summed is positive.
@@ -89,24 +88,22 @@ class JointNetwork:
 
     def isolated(self, conductance: Floats, fixed: Ints) -> Bools:
         """Which nodes (n,) have open joints and none that leads to a given head."""
-        return _unreached(*self._parts(conductance), fixed)
+        part = self._parts(conductance)
+        reached = np.zeros(part.max(initial=-1) + 1, dtype=bool)
+        reached[part[fixed]] = True
+        return np.asarray(self._wet(conductance) & ~reached[part])
 
-    def _parts(self, conductance: Floats) -> tuple[Ints, Bools]:
-        """Connected part (n,) of each node, and which have open joints."""
-        is_open = conductance > 0
-        a, b = self.ends[is_open].T
-        graph = coo_array((np.ones(len(a)), (a, b)), shape=(self.n, self.n))
-        part = connected_components(graph, directed=False)[1].astype(np.int64)
+    def _wet(self, conductance: Floats) -> Bools:
+        """Which nodes (n,) have open joints."""
         wet = np.zeros(self.n, dtype=bool)
-        wet[a] = wet[b] = True
-        return part, wet
+        wet[self.ends[conductance > 0]] = True
+        return wet
 
-
-def _unreached(part: Ints, wet: Bools, fixed: Ints) -> Bools:
-    """Which wet nodes (n,) are of a connected part without a given head."""
-    reached = np.zeros(part.max(initial=-1) + 1, dtype=bool)
-    reached[part[fixed]] = True
-    return np.asarray(wet & ~reached[part])
+    def _parts(self, conductance: Floats) -> Ints:
+        """Part (n,) of each node, connected by open joints."""
+        a, b = self.ends[conductance > 0].T
+        graph = coo_array((np.ones(len(a)), (a, b)), shape=(self.n, self.n))
+        return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
 
 
 def _refuse(loose: Bools) -> None:

@@ -52,6 +52,21 @@ def test_a_joint_that_opens_much_lets_more_in():
     assert shares[1] > 1.3 * shares[0]
 
 
+def test_water_spreads_in_a_run_with_inertia_as_in_one_without():
+    """Blocks that swing a thousand times faster than water spreads rest: the series of a slab."""
+    given = SHORT.scene()
+    lasts = float(re.search(r"duration = (\S+)", given).group(1))
+    text = re.sub(r"\[loading\][^\[]*", "", given.replace(f"duration = {lasts!r}\n", ""))
+    text = text.replace("[contact]", f"duration = {lasts!r}\n[inertia]\n[contact]", 1)
+    text = text.replace("poisson_ratio = 0.0", "poisson_ratio = 0.0\ndensity = 2500.0")
+    steps = f'[formulation.integrator]\ntype = "shi"\nstep = {lasts / 40!r}'
+    text = text.replace("[formulation.loading]\nincrement = 0.025", steps)
+    run = nmm.run(nmm.parse_scene(text))
+    assert run.summary.status == "converged"
+    checks = SHORT.measure(run)  # of order 1 in forty steps, as there
+    assert all(check.passed for check in checks.values()), checks
+
+
 def test_transient_water_in_joints_keeps_what_every_effect_promises():
     text = SHORT.scene().replace("increment = 0.025", "increment = 0.5")
     check_effect_of(nmm.parse_scene(text), "transient joint flow")
