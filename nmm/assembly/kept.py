@@ -1,7 +1,9 @@
-"""What is made of a state, kept while it is the start or the end of a step."""
+"""What is made of a state or of an array of it, kept while it is asked for again."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, TypeVar
+
+from integration.arrays import Floats
 
 if TYPE_CHECKING:
     from nmm.assembly.motion import State
@@ -64,3 +66,17 @@ class KeptOfInstants(Generic[T]):
     def forget(self) -> None:
         """Keep nothing: what values are made with has changed."""
         self._known = []
+
+
+class KeptOfArray(Generic[T]):
+    """A value made of an array that nobody changes, kept while that array is asked for."""
+
+    def __init__(self, make: Callable[[Floats], T]) -> None:
+        self._make = make
+        self._known: tuple[Floats, T] | None = None
+
+    def of(self, array: Floats) -> T:
+        """Return the value of an array, made where it is not that of the last one."""
+        if self._known is None or self._known[0] is not array:
+            self._known = array, self._make(array)
+        return self._known[1]

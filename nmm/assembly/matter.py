@@ -13,6 +13,7 @@ from scipy.sparse import csc_array
 
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
+from nmm.assembly.kept import KeptOfArray
 from nmm.assembly.stress_points import StressPoints, nearest
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Law, Response
@@ -132,6 +133,12 @@ class Matter:
         after[STRESS] = stress
         return Response(stress, tangent, after)
 
+    def at_rest(self, history: History) -> Response | None:
+        """Return the answer to a step without strain; None where laws must be asked for it."""
+        if not all(law.rests for law in self.laws):
+            return None
+        return Response(history[STRESS], self.elastic, history)
+
     def internal(self, deformation: Floats, history: History) -> Floats:
         """Return the internal force (n,) of an accepted state."""
         return self.force(deformation, history[STRESS])
@@ -145,7 +152,12 @@ class Matter:
 
     def force(self, deformation: Floats, stress: Floats) -> Floats:
         """Return the internal force (n,) of unknowns (n,) and of the stress (Q, 3) of points."""
-        return self.rest @ deformation + self.thickness * self.points.force(stress)
+        return self.rest @ deformation + self._summed.of(stress)
+
+    @cached_property
+    def _summed(self) -> KeptOfArray[Floats]:
+        """Force (n,) of the last stress, at the end of a step and the start of the next one."""
+        return KeptOfArray(lambda stress: self.thickness * self.points.force(stress))
 
     @property
     def symmetric(self) -> bool:
@@ -157,6 +169,8 @@ class Matter:
 
         It is the same object where matter is elastic.
         """
+        if tangent is self.elastic:
+            return self.elastic_stiffness
         if symmetric:
             tangent = (tangent + np.swapaxes(tangent, 1, 2)) / 2
         if np.abs(tangent - self.elastic).max() <= ROUNDED_TANGENT * np.abs(self.elastic).max():

@@ -74,6 +74,14 @@ class Law(ABC):
         """Whether tangents are symmetric, as where flow follows from the yield surface itself."""
         return True
 
+    @property
+    def rests(self) -> bool:
+        """Whether a step without strain leaves points as they are and elastic, whatever it lasts.
+
+        Iterations then begin there without asking the law; where they end it is asked.
+        """
+        return False
+
     def variables(self, plane: str) -> History:
         """Return the internal variables of one point at the start, (h,) each."""
         return {}

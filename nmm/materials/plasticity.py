@@ -19,6 +19,11 @@ class Plastic(Elastic):
     and ``stress_zz`` (Pa).
     """
 
+    @property
+    def rests(self) -> bool:
+        """See `Law.rests`."""
+        return True
+
     def variables(self, plane: str) -> History:
         """See `Law.variables`."""
         return {

@@ -81,6 +81,9 @@ class FiniteMatter:
         """Return what is remembered: nothing."""
         return {}
 
+    def at_rest(self, history: History) -> None:
+        """See `Matter.at_rest`: a strain has no rest."""
+
     def update(
         self, deformation: Floats, history: History, step: float, before: Floats | None = None
     ) -> Response:

@@ -103,7 +103,7 @@ class Viscous(Elastic):
             "branch_stress": (kept + gains).reshape(len(strain), 4 * len(times)),
             "stress_zz": stress[:, 3:],
         }
-        tangent = np.tile(_tangent(stiff, self.bulk, share), (len(strain), 1, 1))
+        tangent = np.broadcast_to(_tangent(stiff, self.bulk, share), (len(strain), 3, 3))
         return Response(stress[:, :3], tangent, variables)
 
     def energy(self, stress: Floats, history: History, plane: str) -> Floats:

@@ -7,7 +7,7 @@ integrator gives to the end of the step, so that it enters the step as it is.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -198,12 +198,10 @@ class Inner:
 
     def _first(self, still: Floats, matter: InnerPart, history: Mapping[str, Floats]) -> Iterate:
         """Return the iterate at no increment, where effects are on their lines."""
-        nothing = csc_array(self.elastic.shape)
-        pull = sum((force for force, _ in self._lines.values()), start=np.zeros_like(still))
-        effects = InnerPart(np.zeros_like(still), lambda: nothing)
-        return Iterate(
-            still, matter, effects, pull, np.zeros_like(still), history, self._state.memory
-        )
+        zero = np.zeros_like(still)
+        pull = sum((force for force, _ in self._lines.values()), start=zero)
+        effects = InnerPart(zero, partial(_nothing, len(still)))
+        return Iterate(still, matter, effects, pull, zero, history, self._state.memory)
 
     def imbalance(
         self,
@@ -263,7 +261,9 @@ class Inner:
         if self._conserves:
             return self._conserving(whole), state.history
         last = None if before is None else state.deformation + before.increment
-        answer = matter.update(whole, state.history, self._step or 0.0, last)
+        answer = matter.at_rest(state.history) if before is None and not increment.any() else None
+        if answer is None:
+            answer = matter.update(whole, state.history, self._step or 0.0, last)
         stays = not increment.any() and _rounding(answer.stress, state.history.get(STRESS))
         force = self.start if stays else matter.force(whole, answer.stress)
         tangent = answer.tangent
@@ -296,10 +296,18 @@ class Inner:
         return csc_array((total + total.T) / 2 if self.symmetric and not self._even else total)
 
 
+@lru_cache(maxsize=2)
+def _nothing(n: int) -> csc_array:
+    """Return the matrix (n, n) without entries, which nobody changes."""
+    return csc_array((n, n))
+
+
 def _rounding(stress: Floats, known: Floats | None) -> bool:
     """Whether a stress is one that is known, to rounding."""
     if known is None:
         return False
+    if stress is known:
+        return True
     off, size = (float(np.abs(one).max(initial=0.0)) for one in (stress - known, known))
     return off <= STAYS * size
 

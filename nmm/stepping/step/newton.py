@@ -105,7 +105,7 @@ def _goes_on(found: Attempt) -> bool:
 def _line(inner: Inner, at: Iterate, clock: Clock) -> Linearisation:
     with clock.phase("assembly"):
         stiffness = at.stiffness
-    force = at.force - stiffness @ at.increment
+    force = at.force - stiffness @ at.increment if at.increment.any() else at.force
     return Linearisation(stiffness, force, inner.start, inner.symmetric)
 
 
