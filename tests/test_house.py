@@ -35,6 +35,7 @@ ROOMS = (
     "registry",
     "quantity",
     "capacity",
+    "plain_file",
     "compiled",
     "shipped",
     "scene",

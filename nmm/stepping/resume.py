@@ -11,7 +11,6 @@ from nmm.progress import Progress
 from nmm.results.sink import MemorySink
 from nmm.results.storage import files
 from nmm.results.storage.history import read_history
-from nmm.results.storage.mark import Mark
 from nmm.results.storage.run_folder import RunFolder
 from nmm.results.storage.stored_run import StoredRun, read_run
 from nmm.results.summary import RUNNING, STOPPED, UNKNOWN
@@ -106,11 +105,15 @@ def _refuse_altered(stored: StoredRun) -> None:
             f"{path}: its run has ended ({status}): expected one that was stopped: nothing is left "
             "to go on with; run the scene again"
         )
-    mark = Mark.from_json((path / files.MARK).read_text(encoding="utf-8"))
+    if stored.mark is None:
+        raise _altered(path / files.MARK)
     texts = {files.SCENE: stored.scene, files.FORMULATION: stored.formulation}
     for name, text in texts.items():
-        if not text or mark.differs(name, text):
-            raise StorageError(
-                f"{path / name}: missing or altered: expected it as it was run: restore it, or run "
-                "the scene again"
-            )
+        if not text or stored.mark.differs(name, text):
+            raise _altered(path / name)
+
+
+def _altered(path: Path) -> StorageError:
+    return StorageError(
+        f"{path}: missing or altered: expected it as it was run: restore it, or run the scene again"
+    )

@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import warnings
+from contextlib import suppress
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -474,3 +475,39 @@ def test_a_damaged_run_is_drawn_as_far_as_it_can_be(tmp_path, name, write_run):
     else:
         assert all("topology.npz: damaged" in one for one in said)
         assert said
+
+
+@pytest.mark.parametrize("name", [*NAMES, ".lock"])
+def test_a_pipe_or_a_device_in_the_place_of_a_file_is_told_and_never_waited_for(
+    tmp_path, name, write_run
+):
+    memory = write_run(MemorySink(), blocks=10, frames=4)
+    folder = tmp_path / "run"
+    write_all(folder, memory, {"rows": 0, "frames": 0})
+    for put in (os.mkfifo, lambda path: path.symlink_to("/dev/zero")):
+        (folder / name).unlink(missing_ok=True)
+        put(folder / name)
+        stored = read(folder)
+        assert stored.history == {} or list(stored.history["step"]) == [0, 1, 2, 3]
+        assert name == ".lock" or any(f"{name}: cannot be read" in one for one in stored.faults)
+    with suppress(StorageError):  # a run there is refused, or takes its place
+        RunFolder(folder, scene="a", formulation="b").close()
+
+
+@pytest.mark.parametrize("lost", [1, 4, "all"])
+def test_a_history_that_lacks_steps_of_a_run_that_ended_is_told(tmp_path, lost, write_run):
+    memory = write_run(MemorySink(), blocks=10, frames=4)
+    write_all(tmp_path, memory, {"rows": 0, "frames": 0})
+    path = tmp_path / "history.csv"
+    kept = "".join(path.read_text().splitlines(keepends=True)[: 5 - (lost if lost != "all" else 0)])
+    path.unlink() if lost == "all" else path.write_text(kept)
+    (fault,) = read(tmp_path).faults
+    assert f"{4 - lost if lost != 'all' else 0} steps in it, 4 in the summary" in fault
+
+
+def test_a_frame_in_the_place_of_another_is_told(tmp_path, write_run):
+    memory = write_run(MemorySink(), blocks=10, frames=4)
+    write_all(tmp_path, memory, {"rows": 0, "frames": 0})
+    shutil.copy(tmp_path / "frames/000000.npz", tmp_path / "frames/000003.npz")
+    with pytest.raises(DamageError, match=r"000003\.npz: damaged \(it is frame 0\)"):
+        read(tmp_path).frames[-1]

@@ -292,6 +292,16 @@ def test_devices_and_folders_are_no_scenes(tmp_path):
             nmm.read_scene(place)
 
 
+@pytest.mark.parametrize("kind", ["records", "fields"])
+def test_devices_and_pipes_beside_a_scene_are_no_files_of_numbers(tmp_path, kind):
+    os.mkfifo(tmp_path / "pipe")
+    for place in ("/dev/zero", "pipe"):
+        text = tomli_w.dumps({**SCENE, kind: {"q": {"file": place}}})
+        (tmp_path / "scene.toml").write_text(text)
+        with pytest.raises(nmm.NmmError, match=rf"{kind}.q.file: .*: a pipe or a device, no file"):
+            nmm.read_scene(tmp_path / "scene.toml")
+
+
 @pytest.mark.parametrize("name", ["a\nb", "[red]x", "../x", "a/b", "a\\b", "\x1b[31mx", "x\u202ey"])
 def test_names_that_are_no_words_are_refused(name):
     for key in ("blocks", "supports", "monitors"):

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from nmm.capacity import limit
+from nmm.plain_file import plain
 
 KINDS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 """How arrays may be stored."""
@@ -42,7 +43,7 @@ def from_file(path: Path) -> dict[str, npt.NDArray[Any]]:
         When it is packed in another way, or unfolds to more than a run may take. Members never
         unfold to more than their table of contents says.
     """
-    with zipfile.ZipFile(path) as archive:
+    with zipfile.ZipFile(plain(path)) as archive:
         members = archive.infolist()
         if any(member.compress_type not in KINDS for member in members):
             raise ValueError("an array in it is packed in a way that none knows")

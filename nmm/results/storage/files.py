@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from integration.polygons import Polygons
 from nmm.errors import DamageError
+from nmm.plain_file import plain
 from nmm.quantity import Quantity
 from nmm.results.frame import Frame, Topology
 from nmm.results.storage.archive import from_file
@@ -73,7 +74,7 @@ def read_arrays(path: Path) -> dict[str, npt.NDArray[Any]]:
 def archive_fault(path: Path) -> str | None:
     """Return why a frame cannot be whole, from its table of contents alone; None if it may be."""
     try:
-        with _read(path), zipfile.ZipFile(path) as archive:
+        with _read(path), zipfile.ZipFile(plain(path)) as archive:
             _same_names([n for n in archive.namelist() if not _of_fields(n)], _FRAME_FILES)
     except DamageError as fault:
         return str(fault)
@@ -106,6 +107,9 @@ def read_frame(path: Path) -> Frame:
         _same_names([name for name in stored if not _of_fields(name)], _IN_FRAME)
         if (wrong := frame_misfit(stored)) is not None:
             raise ValueError(wrong)
+        named = FRAME_NAME.fullmatch(path.name)
+        if named is not None and int(named[1]) != stored["index"]:
+            raise ValueError(f"it is frame {stored['index']}")
     known = {name: stored[name] for name in _IN_FRAME}
     plain = {name: a.item() if a.ndim == 0 else a for name, a in known.items()}
     return Frame(**plain, fields=_fields(stored))

@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 from nmm.errors import DamageError, StorageError
+from nmm.plain_file import plain
 from nmm.results.storage import files
 from nmm.results.storage.mark import Mark
 from nmm.results.storage.writing import told
@@ -98,7 +99,7 @@ def _is_run(folder: Path) -> bool:
     """Whether the mark or the summary is one that a run wrote."""
     for name, read in ((files.MARK, Mark.from_json), (files.SUMMARY, Summary.from_json)):
         try:
-            read((folder / name).read_text(encoding="utf-8"))
+            read(plain(folder / name).read_text(encoding="utf-8"))
         except (OSError, ValueError):
             continue
         return True

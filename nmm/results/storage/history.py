@@ -14,6 +14,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import DamageError
+from nmm.plain_file import plain
 from nmm.results.storage.writing import told, write_text
 
 
@@ -49,8 +50,11 @@ class HistoryFile:
             path.unlink(missing_ok=True)
             return made
         with told(path):
-            lines = path.read_text(encoding="utf-8").split("\n")[:-1] if path.exists() else []
-        table = list(csv.reader(lines[: rows + 1]))
+            text = plain(path).read_text("utf-8", errors="replace") if path.exists() else ""
+        lines = text.split("\n")[:-1][: rows + 1]
+        if faults := read_history(path, "\n".join([*lines, ""]))[1]:
+            raise DamageError(faults[0])
+        table = list(csv.reader(lines))
         wide = len(columns)
         if len(table) <= rows or table[0][:wide] != list(columns):
             raise DamageError(

@@ -17,6 +17,7 @@ from io import TextIOWrapper
 from pathlib import Path
 
 from nmm.errors import StorageError
+from nmm.plain_file import plain
 from nmm.results.storage.writing import told
 
 TRIES, PAUSE = 5, 0.02  # s; a reader holds the lock for a moment to see whether it is free
@@ -83,7 +84,7 @@ class FolderLock:
 def owner(path: Path) -> Owner | None:
     """Return who holds a lock file now; None when it is free or its process is gone."""
     try:
-        with path.open() as file:
+        with plain(path).open() as file:
             found = _parsed(file.read())
             if found is None or found.host != socket.gethostname():
                 return found

@@ -12,6 +12,7 @@ from warnings import warn
 
 from integration.arrays import Floats
 from nmm.errors import DamageError, NmmError, NmmWarning, StorageError
+from nmm.plain_file import plain
 from nmm.results.frame import Frame, Topology
 from nmm.results.storage import files
 from nmm.results.storage.history import read_history
@@ -88,6 +89,8 @@ class StoredRun:
     summary
         The summary. Its status is "running" while the run goes on, "stopped" when it ended before
         its end, "unknown" when the summary is lost.
+    mark
+        What its texts add up to; None where that is missing or damaged.
     faults
         What of the folder is damaged or missing, one sentence each.
     """
@@ -99,6 +102,7 @@ class StoredRun:
     frames: StoredFrames
     history: dict[str, Floats]
     summary: Summary
+    mark: Mark | None = None
     faults: tuple[str, ...] = ()
 
 
@@ -121,6 +125,7 @@ def read_run(path: str | os.PathLike[str]) -> StoredRun:
     mark = reader.mark()
     history = reader.history()
     summary = reader.summary(history)
+    reader.compare(history, summary)
     frames = reader.frames(summary)
     topologies = reader.topologies(frames)
     stored = StoredRun(
@@ -131,6 +136,7 @@ def read_run(path: str | os.PathLike[str]) -> StoredRun:
         frames=StoredFrames(frames, topologies),
         history=history,
         summary=summary,
+        mark=mark,
         faults=tuple(reader.faults),
     )
     for fault in stored.faults:
@@ -151,16 +157,16 @@ class _Reader:
                 "the folder that `nmm run` named at its end"
             )
 
-    def mark(self) -> Mark:
+    def mark(self) -> Mark | None:
         """Return the mark; folders of before it was introduced have none."""
         path = self.folder / files.MARK
         if not path.exists():
-            return Mark()
+            return None
         try:
             mark = Mark.from_json(self.text(files.MARK))
         except NmmError:
             self._fault(path, "damaged", "what is read may be of another version")
-            return Mark()
+            return None
         if mark.format > FORMAT:
             raise StorageError(
                 f"{path}: format {mark.format}: expected {FORMAT} at most: read it with the "
@@ -172,20 +178,20 @@ class _Reader:
         """Return the text of a file; none, and a fault, where it cannot be read."""
         path = self.folder / name
         try:
-            return path.read_text(encoding="utf-8")
+            return plain(path).read_text(encoding="utf-8")
         except OSError as fault:
             self.faults.append(files.unreadable(path, fault))
         except UnicodeDecodeError:
             self._fault(path, "damaged, no UTF-8 text", "the other files can be read")
         return ""
 
-    def own_text(self, name: str, mark: Mark, frames: Sequence[Path]) -> str:
+    def own_text(self, name: str, mark: Mark | None, frames: Sequence[Path]) -> str:
         """Return scene or formulation as run; a run killed at its start has none yet."""
         if not frames and not (self.folder / name).exists():
             return ""
         known = len(self.faults)
         text = self.text(name)
-        if len(self.faults) == known and mark.differs(name, text):
+        if len(self.faults) == known and mark is not None and mark.differs(name, text):
             self._fault(self.folder / name, "altered or cut off", "it is not what was run")
         return text
 
@@ -220,6 +226,17 @@ class _Reader:
         if found.status != RUNNING or (held := owner(self.folder / files.LOCK)) is None:
             return _stopped(found, history) if found.status == RUNNING else found
         return replace(found, sentence=f"the run has not ended: {held} writes to it")
+
+    def compare(self, history: dict[str, Floats], summary: Summary) -> None:
+        """Tell of a history that holds other steps than the run had when it ended."""
+        rows = len(history.get("step", ()))
+        known = summary.status not in (RUNNING, REPLACING, UNKNOWN)
+        if known and rows != summary.steps and not self._tells(files.HISTORY):
+            what = f"{rows} steps in it, {summary.steps} in the summary"
+            self._fault(self.folder / files.HISTORY, what, "steps are missing or altered")
+
+    def _tells(self, name: str) -> bool:
+        return any(fault.startswith(str(self.folder / name)) for fault in self.faults)
 
     def frames(self, summary: Summary) -> list[Path]:
         """Return the frames that may be whole, and tell of the others."""

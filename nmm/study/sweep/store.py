@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from nmm.plain_file import plain
 from nmm.study.cases.record import Record
 from nmm.study.cases.variants import StudyCase
 
@@ -40,7 +41,7 @@ class Store:
         A file that cannot be read, or lacks a quantity that is asked for, counts as none.
         """
         try:
-            record = Record.from_json(self.path(case.key).read_text(encoding="utf-8"))
+            record = Record.from_json(plain(self.path(case.key)).read_text(encoding="utf-8"))
         except (OSError, ValueError, TypeError, KeyError):
             return None
         if record.valid and not set(quantities) <= set(record.quantities):

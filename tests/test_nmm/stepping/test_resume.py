@@ -219,6 +219,20 @@ def test_what_was_written_before_the_checkpoint_must_be_there(stopped):
         nmm.resume(stopped)
 
 
+@pytest.mark.parametrize(("name", "said"), [("run.json", "altered"), ("history.csv", "line 2")])
+def test_bytes_that_are_no_text_before_the_checkpoint_are_told(stopped, name, said):
+    lines = (stopped / name).read_bytes().split(b"\n")
+    (stopped / name).write_bytes(b"\n".join([lines[0], b"\xff" + lines[1][1:], *lines[2:]]))
+    with pytest.raises(StorageError, match=f"{name}.*{said}"):
+        nmm.resume(stopped)
+
+
+def test_a_run_that_has_lost_its_mark_is_not_gone_on_with(stopped):
+    (stopped / "run.json").unlink()
+    with pytest.raises(StorageError, match=r"run.json: missing or altered"):
+        nmm.resume(stopped)
+
+
 def test_a_checkpoint_makes_no_object_that_its_reader_does_not_know(stopped):
     path = stopped / "checkpoint.npz"
     with np.load(path) as stored:

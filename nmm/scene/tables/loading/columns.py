@@ -11,6 +11,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from nmm.errors import Fault, SceneError
+from nmm.plain_file import plain
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _PEER = re.compile(r"NPTS\s*=?\s*(\d+)\s*,?.*?DT\s*=?\s*([\d.eE+-]+)", re.IGNORECASE)
@@ -122,7 +123,7 @@ def _lines(path: Path) -> list[str]:
     try:
         if path.stat().st_size > LARGEST_FILE:
             raise SceneError(Fault(str(path), "too long", "at most 256 MB", "cut the file"))
-        return path.read_text(encoding="utf-8-sig").splitlines()
+        return plain(path).read_text(encoding="utf-8-sig").splitlines()
     except OSError as cause:
         reason = cause.strerror or str(cause)
         remedy = "check the path, which counts from the scene's folder"
