@@ -1,6 +1,6 @@
 """The effect: temperature in the course of a run, and what it does to the blocks."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Self
 
 from covers.scalar.space import ScalarSpace
@@ -23,7 +23,7 @@ class Heat(FieldEffect):
     """Temperature of the blocks."""
 
     name = "heat"
-    _turned: "TurningStress | None"
+    _turned: "TurningStress | None" = None
 
     def __init__(
         self,
@@ -36,7 +36,10 @@ class Heat(FieldEffect):
     ) -> None:
         super().__init__(course, strain, conductivity, second)
         self.strain, self._reference = strain, reference
-        self._turned = _turned(strain, self.acting) if bends and strain is not None else None
+        if bends and strain is not None:
+            from nmm.effects.initial.turning_stress import TurningStress
+
+            self._turned = TurningStress.of(strain.model, self.stress_at)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -97,19 +100,6 @@ class Heat(FieldEffect):
 
     def _values(self, state: State) -> Floats:
         return self._reference + self.space.vertices @ self.acting(state.time)
-
-
-def _turned(strain: ThermalStrain, rise: Callable[[float], Floats]) -> "TurningStress":
-    """Return the stress of a temperature at the points of bodies that bend by any angle."""
-    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
-    from nmm.assembly.finite_strain.given_stress import GivenStress
-    from nmm.effects.initial.turning_stress import TurningStress
-
-    matter = strain.model.matter
-    assert isinstance(matter, FiniteMatter)
-    rule = matter.points.rule
-    rows, unit = strain.space.values(rule.owner, rule.points), strain.stress[rule.owner]
-    return TurningStress(GivenStress(matter), lambda time: -(rows @ rise(time))[:, None] * unit)
 
 
 def _strain(setup: Setup, space: ScalarSpace) -> ThermalStrain | None:

@@ -6,7 +6,6 @@ second Piola-Kirchhoff stress, ``-b p cof F`` of the first, so that its work is 
 give its change exactly.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +14,7 @@ from integration.arrays import Floats
 from nmm.assembly.finite_strain.finite_matter import FiniteMatter
 from nmm.assembly.finite_strain.gradients import volumes
 from nmm.assembly.motion import State
-from nmm.assembly.stress_points import ISOTROPIC
+from nmm.assembly.stress_points import ISOTROPIC, StressAt
 from nmm.effects.base import Instant, Span, StepForce
 
 # Derivative of the cofactors (xx, xy, yx, yy) by the gradient.
@@ -30,12 +29,17 @@ class PoreStress:
     ----------
     matter
         Whose points they are.
-    at
-        From a time of the run (s) to ``b p`` (Q,) at the points (Pa).
+    stress_at
+        The same as a stress in all directions, see `Effect.stress_at`.
     """
 
     matter: FiniteMatter
-    at: Callable[[float], Floats]
+    stress_at: StressAt
+
+    def at(self, time: float) -> Floats:
+        """Return ``b p`` (Q,) at the points (Pa)."""
+        rule = self.matter.points.rule
+        return -self.stress_at(rule.owner, rule.points, time)[:, 0]
 
     def force(self, state: State, end: Instant) -> Floats:
         """See `Effect.force`."""

@@ -5,7 +5,7 @@ With Darcy's law the head ``h`` obeys ``S dh/dt = div (k grad h)``; the pressure
 (Terzaghi 1936; Biot 1941 for ``b``). What pores gain by strain `nmm.water.consolidation` adds.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Self
 
@@ -34,7 +34,6 @@ from nmm.errors import Fault, FormulationError, SceneError
 from nmm.quantity import Quantity
 
 if TYPE_CHECKING:
-    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
     from nmm.scene.tables.seepage import HeadTable
     from nmm.water.free_surface import Filling, FreeSurface
     from nmm.water.pore_stress import PoreStress
@@ -45,7 +44,7 @@ LOOSE = ("seepage", "head", "add [[heads]], or transient = true")
 class PoreWater(FieldEffect):
     """Head of the water in the pores; ``ground`` (n,) are the unknowns of the height y itself."""
 
-    _turned: "PoreStress | None"
+    _turned: "PoreStress | None" = None
 
     def __init__(
         self,
@@ -56,11 +55,15 @@ class PoreWater(FieldEffect):
         weight: float,
         second: float = 1.0,
         filling: "Filling | None" = None,
-        matter: "FiniteMatter | None" = None,
+        bends: bool = False,
     ) -> None:
         super().__init__(course, stress, conductivity, second)
         self._ground, self._weight, self._filling = ground, weight, filling
-        self._turned = None if matter is None else _turned(stress, matter, self.acting)
+        if bends:
+            from nmm.assembly.finite_strain.finite_matter import finite_matter
+            from nmm.water.pore_stress import PoreStress
+
+            self._turned = PoreStress(finite_matter(stress.model), self.stress_at)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -83,8 +86,8 @@ class PoreWater(FieldEffect):
         course = course_of(setup, problem, initial, second)
         conductivity = of_elements(setup, "hydraulic_conductivity")
         weight = table.unit_weight
-        matter = _bending(setup)
-        return cls(course, stress, conductivity, ground, weight, second, filling, matter)
+        bends = _bends(setup)
+        return cls(course, stress, conductivity, ground, weight, second, filling, bends)
 
     @property
     def with_axes(self) -> str:
@@ -134,30 +137,14 @@ class PoreWater(FieldEffect):
         return {**extremes, **self.amounts(state)}
 
 
-def _bending(setup: Setup) -> "FiniteMatter | None":
-    """Return matter that bends by any angle, where water in it knows how: in plane strain, one way.
+def _bends(setup: Setup) -> bool:
+    """Whether bodies bend by any angle and water in them knows how: in plane strain, one way.
 
     In plane stress the pores would have to know how thick the plate has become.
     """
     table = setup.scene.seepage
     assert table is not None
-    if not setup.kinematics.finite or table.coupled or setup.scene.plane != "strain":
-        return None
-    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
-
-    assert isinstance(setup.model.matter, FiniteMatter)
-    return setup.model.matter
-
-
-def _turned(
-    stress: FieldStress, matter: "FiniteMatter", pressure: Callable[[float], Floats]
-) -> "PoreStress":
-    """Return the stress of a pressure at the points of bodies that bend by any angle."""
-    from nmm.water.pore_stress import PoreStress
-
-    rule = matter.points.rule
-    rows, share = stress.space.values(rule.owner, rule.points), stress.stress[rule.owner, 0]
-    return PoreStress(matter, lambda time: share * (rows @ pressure(time)))
+    return setup.kinematics.finite and not table.coupled and setup.scene.plane == "strain"
 
 
 def _filling(setup: Setup, space: ScalarSpace) -> "Filling":

@@ -28,11 +28,15 @@ class InitialStress(Effect):
     placed = False
     stays = True
 
-    def __init__(
-        self, model: Model, given: StressAtStart, turned: "TurningStress | None" = None
-    ) -> None:
-        self.given, self._turned, self._model = given, turned, model
+    _turned: "TurningStress | None" = None
+
+    def __init__(self, model: Model, given: StressAtStart, bends: bool = False) -> None:
+        self.given, self._model = given, model
         self._force = -given.force(model)
+        if bends:
+            from nmm.effects.initial.turning_stress import TurningStress
+
+            self._turned = TurningStress.of(model, self.stress_at, stands=True)
 
     @property
     def stress(self) -> Floats:
@@ -52,8 +56,7 @@ class InitialStress(Effect):
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """Build from ``[[initial_stresses]]``; later tables overwrite earlier ones."""
-        given = StressAtStart.declared(setup)
-        return cls(setup.model, given, _turned(setup, given))
+        return cls(setup.model, StressAtStart.declared(setup), setup.kinematics.finite)
 
     def follow(self, change: "Change") -> Effect:
         """Return the stress of each element from those that it comes from; else as declared."""
@@ -62,7 +65,7 @@ class InitialStress(Effect):
             mean = given.mean.copy()
             mean[:, :3] = change.parentage.elements.mean(self.stress, mean[:, :3])
             given = replace(given, mean=mean)
-        return InitialStress(change.new, given, _turned(change.setup, given))
+        return InitialStress(change.new, given, change.setup.kinematics.finite)
 
     def begin(self, state: State) -> State:
         """Return the start with material points that know of the stress."""
@@ -96,18 +99,3 @@ class InitialStress(Effect):
         if self._turned is not None:
             return self._stored + self._turned.energy(state)
         return self._stored - float(self._force @ state.deformation)
-
-
-def _turned(setup: Setup, given: StressAtStart) -> "TurningStress | None":
-    """Return the stress at the points of bodies that bend by any angle; None of others."""
-    if not setup.kinematics.finite:
-        return None
-    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
-    from nmm.assembly.finite_strain.given_stress import GivenStress
-    from nmm.effects.initial.turning_stress import TurningStress
-
-    matter = setup.model.matter
-    assert isinstance(matter, FiniteMatter)
-    rule = matter.points.rule
-    at_points = given.at(setup.model, rule.owner, rule.points)[:, :3]
-    return TurningStress(GivenStress(matter), lambda time: at_points)

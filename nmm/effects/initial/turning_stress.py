@@ -1,10 +1,15 @@
 """The stress of an effect on bodies that bend by any angle: it turns and stretches with them."""
 
 from collections.abc import Callable
+from functools import partial
+from typing import Self
 
 from integration.arrays import Floats
+from nmm.assembly.finite_strain.finite_matter import finite_matter
 from nmm.assembly.finite_strain.given_stress import GivenStress
+from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.assembly.stress_points import StressAt
 from nmm.effects.base import Instant, Span, StepForce
 
 
@@ -21,6 +26,17 @@ class TurningStress:
 
     def __init__(self, given: GivenStress, at: Callable[[float], Floats]) -> None:
         self._given, self._at = given, at
+
+    @classmethod
+    def of(cls, model: Model, stress_at: StressAt, stands: bool = False) -> Self:
+        """Return that of an effect, see `Effect.stress_at`; one that ``stands`` is asked once."""
+        matter = finite_matter(model)
+        rule = matter.points.rule
+        at = partial(stress_at, rule.owner, rule.points)
+        if stands:
+            once = at(0.0)
+            return cls(GivenStress(matter), lambda time: once)
+        return cls(GivenStress(matter), at)
 
     def force(self, state: State, end: Instant) -> Floats:
         """See `Effect.force`."""
