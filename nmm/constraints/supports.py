@@ -133,14 +133,16 @@ class Supports(TiedInterfaces):
     def work(self, before: State, after: State) -> float:
         """Mean reaction of each driven support times the way it is driven."""
         total = super().work(before, after)
-        still = self._in_time and self.steady
-        for number, start, end in () if still else self._driven(before, after):
-            if (end != start).any():
-                first, last = self._ends(number, before, after)
-                total += float(np.sum((first + last) / 2 * (end - start)))
+        for first, last, way in self._pushed(before, after):
+            total += float(np.sum((first + last) / 2 * way))
         for shared in self._spaces:
             shared.before = shared.values
         return total
+
+    def work_of_rise(self, before: State, after: State) -> float:
+        """Rise of the reaction of each driven support in a step times the way it is driven (J)."""
+        pushed = self._pushed(before, after)
+        return sum(float(np.sum((last - first) * way)) for first, last, way in pushed)
 
     def first_work(self, before: State, after: State) -> float:
         """See `Effect.first_work`.
@@ -170,6 +172,13 @@ class Supports(TiedInterfaces):
         if not self._stresses:
             return forces
         return forces + tie.interface.held * self._added(tie, state, Instant.of(state))
+
+    def _pushed(self, before: State, after: State) -> Iterator[tuple[Floats, Floats, Floats]]:
+        """Forces (m, 2) of a support at both ends of a step and its way; of those that move."""
+        still = self._in_time and self.steady
+        for number, start, end in () if still else self._driven(before, after):
+            if (end != start).any():
+                yield *self._ends(number, before, after), end - start
 
     def _driven(self, before: State, after: State) -> Iterator[tuple[int, Floats, Floats]]:
         """Number of each support and its displacements, (2,) or (m, 2), at both ends of a step."""

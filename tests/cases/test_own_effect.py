@@ -243,5 +243,5 @@ def test_explain_names_effects_of_ones_own():
     words = ["explain", str(RAFT), "--allow-code", "foundation", "--allow-code", "steepness"]
     result = CliRunner().invoke(app, words)
     assert result.exit_code == 0, result.output
-    assert "simulated: foundation:Winkler" in result.output
+    assert "[effects.ground]: foundation:Winkler" in result.output
     assert CliRunner().invoke(app, words[:2]).exit_code == 1

@@ -121,6 +121,7 @@ class Ledger:
         work += plan.work(before, after)
         if grows:
             work -= standing(plan, before, after)
+        work += 0.0 if attempt.booked is None else attempt.booked.late
         loss = 0.0 if attempt.solved is None else attempt.solved.loss
         dissipated = model.dissipated(before, after)
         found = with_parts(

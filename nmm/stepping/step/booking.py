@@ -2,8 +2,8 @@
 
 A step's equations, multiplied by its increment ``d``, are a balance of work: inertia took ``i``,
 contact forces ``N`` did ``N d``, and elastic, holding and applied forces act with the weight ``w``
-at the end. What the mean of both ends would not have done is the integrator's own, and so is what
-the velocity does not show of ``i``.
+at the end. What springs and matter lose by it beside the mean of both ends is the integrator's own,
+and so is what the velocity does not show of ``i``. Applied forces do the work of those that acted.
 """
 
 from collections.abc import Mapping
@@ -32,6 +32,9 @@ class Booked:
         Work of contact forces on the bodies.
     contact_factor
         `Integrator.contact_factor`.
+    late
+        What applied forces and driven supports do more than the mean of both ends, as they act
+        nearer the end of a step: `Effect.work` does not know the rule.
     damping
         Taken by dampers, by effect.
     """
@@ -40,12 +43,13 @@ class Booked:
     beyond: float
     contact: float
     contact_factor: float
+    late: float = 0.0
     damping: Mapping[str, float] = field(default_factory=dict)
 
     def integration_loss(self, kinetic_gain: float) -> float:
         """Energy (J) that the integrator took, but for contact; negative if it gave some."""
         more = (self.contact_factor - 1) * self.contact
-        return self.inertia - kinetic_gain + self.beyond - more
+        return self.inertia - kinetic_gain + self.beyond + self.late - more
 
     def contact_loss(self, stored_gain: float, loss: float) -> float:
         """Energy (J) that contact springs lost beyond the ``loss`` of friction; negative: made."""
@@ -58,18 +62,20 @@ def booked(
     solved: "ContactSolution | None",
     missed: float = 0.0,
     off_line: float = 0.0,
+    driven: float = 0.0,
 ) -> Booked | None:
     """Return the work in a step in time, None in statics.
 
     ``missed`` (J) is what the mean force of matter at both ends does beyond what it stores,
-    ``off_line`` what forces of effects seem to do in it and do not (`Effect.off_line`).
+    ``off_line`` what forces of effects seem to do in it and do not (`Effect.off_line`), and
+    ``driven`` what the rise of reactions does on the way of driven supports.
     """
     terms = equations.inertia
     if terms is None:
         return None
     heavy = terms.factor * float(increment @ product(terms.mass, increment))
     taken = heavy - float(increment @ terms.momentum)
-    beyond = missed
+    beyond, late = missed, 0.0
     lost: Mapping[str, float] = {}
     damped = added = 0.0
     if terms.damping is not None:
@@ -83,7 +89,9 @@ def booked(
         whole = share * float(increment @ product(equations.matrix, increment))
         elastic = whole - heavy - damped - added
         beyond += (terms.weight - 0.5) * (elastic / terms.weight - off_line - more)
+        applied = 0.0 if terms.applied is None else float(increment @ terms.applied)
+        late = (terms.weight - 0.5) * (applied + driven)
     work = 0.0
     if solved is not None and solved.rows is not None:
         work = -float(solved.push @ increment)
-    return Booked(taken, beyond, work, terms.contact_factor, lost)
+    return Booked(taken, beyond, work, terms.contact_factor, late, lost)

@@ -67,6 +67,8 @@ class InertiaTerms:
     gain
         (n,) by how much all forces but the matrix grow in the step, what its tangent misses of
         the material among them; None where nothing does.
+    applied
+        (n,) of it what is no way of supports and no material: loads, and stresses of effects.
     damping
         Dampers; None without any.
     elastic
@@ -80,6 +82,7 @@ class InertiaTerms:
     weight: float
     contact_factor: float
     gain: Floats | None
+    applied: Floats | None = None
     damping: Damping | None = None
     elastic: csc_array | None = None
 
@@ -185,11 +188,15 @@ class Assembly:
         plan, rule, state, step = self._solved.plan, static.rule, static.state, static.step
         assert step is not None
         assert plan.inertia is not None
-        weight, force, gain, mass = rule.end_weight, static.force, None, plan.inertia.mass
+        weight, force, mass = rule.end_weight, static.force, plan.inertia.mass
+        gain: Floats | None = None
+        applied: Floats | None = None
         steady = plan.steady and linear
         if weight < 1 or not steady:
             earlier = plan.force(state, Instant.of(state)) - line.start
-            gain = None if steady else force - earlier
+            if not steady:
+                gain = force - earlier
+                applied = gain + line.force - line.start - self._driven(state, static.end)
             force = force if weight == 1 else weight * force + (1 - weight) * earlier
         velocity = rule.kinetic_factor * state.velocity
         rates = rule.momentum(velocity, state.acceleration, step)
@@ -203,7 +210,8 @@ class Assembly:
             pushed += damping.force()
             pushed += sum(one @ rates for one in damping.masses.values())
         share = 1.0 if plan.contact is None else rule.contact_factor
-        terms = InertiaTerms(mass, factor, momentum, rates, weight, share, gain, damping)
+        given = mass, factor, momentum, rates, weight, share
+        terms = InertiaTerms(*given, gain, applied, damping)
         if not weight:  # explicit: what is elastic joins no matrix
             elastic = plan.matrix(state, line.stiffness)
             matrix = self._sum([(factor / share, one) for one in heavy])
@@ -214,6 +222,13 @@ class Assembly:
             parts += [(damping.rate / weight, one) for one in damping.dampers.values()]
         matrix = self._times(weight / share, plan.matrix(state, self._sum(parts)))
         return with_parts(static, matrix=matrix, force=pushed / share, inertia=terms)
+
+    def _driven(self, state: State, end: Instant) -> Floats | float:
+        """Return by how much the ground's motion in a step stretches what holds bodies (n,)."""
+        supports = self._solved.plan.supports
+        if supports is None:
+            return 0.0
+        return supports.force(state, end) - supports.force(state, Instant.of(state))
 
     def _anchored(self, stiffness: csc_array) -> csc_array:
         """Return a stiffness with anchors."""

@@ -136,11 +136,13 @@ class StepSolver:
         if not found.converged or equations.inertia is None:
             return found
         missed = 0.0 if equations.rule.conserves else model.missed_work(state, found.state)
-        off = 0.0
+        off = driven = 0.0
         if equations.inertia.weight != 0.5:
             span = Span(step, equations.inertia.weight, half=not equations.rule.carries)
             off = plan.off_line(state, found.state, found.increment, span)
-        work = booked(equations, found.increment, found.solved, missed, off)
+            if plan.supports is not None:
+                driven = plan.supports.work_of_rise(state, found.state)
+        work = booked(equations, found.increment, found.solved, missed, off, driven)
         return with_parts(found, booked=work)
 
     def _bent(

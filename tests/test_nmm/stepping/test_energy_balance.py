@@ -189,6 +189,41 @@ def test_the_loss_of_shis_integrator_is_that_of_its_recursion():
     assert found.history["integration_loss"][-1] == pytest.approx(mass / 2 - energies[-1], rel=1e-6)
 
 
+HISTORY = [[0, 0], [0.04, 1.0], [0.1, 0.2]]
+FACTOR = "history = [[0, 0], [0.04, 1.0], [0.1, 0.2]]\n"
+SHAKEN = "duration = 0.1\n" + COLUMN + FOOT + "displacement = [0, 0.01]\n" + FACTOR
+LOADED = (
+    "duration = 0.1\n" + COLUMN + FOOT + '[[loads]]\nname = "p"\nkind = "edge"\n'
+    "segment = [[0, 2], [1, 2]]\ntraction = [0, 1e5]\n" + FACTOR
+)
+LOADED += "".join(f'[[monitors]]\nname = "{x}"\npoint = [{x}, 2]\n' for x in (0, 1))
+
+
+def share(times):
+    return np.interp([0.0, *times], *np.transpose(HISTORY))
+
+
+def taken_late(history, force, way):
+    """Work of a force, 0 at the start, that acts all through a step as at its end."""
+    made = np.diff(stored(history) - history["external_work"])
+    # Rounding of a hundred sums.
+    assert made.max() <= ROUNDED * np.abs(history["external_work"]).max()
+    return np.sum(force * np.diff(way))
+
+
+def test_the_ground_does_the_work_of_the_reactions_that_acted():
+    history = run(SHAKEN + "[inertia]\n", update="small").history
+    work = taken_late(history, history["reaction:s:y"], 0.01 * share(history["time"]))
+    assert history["external_work"][-1] == pytest.approx(work, rel=ROUNDED)
+
+
+def test_a_load_with_a_history_does_the_work_of_the_force_that_acted():
+    history = run(LOADED + "[inertia]\n", update="small").history
+    way = (history["monitor:0:uy"] + history["monitor:1:uy"]) / 2  # the edge stays straight
+    work = taken_late(history, 1e5 * share(history["time"])[1:], np.array([0.0, *way]))
+    assert history["external_work"][-1] == pytest.approx(work, rel=ROUNDED)
+
+
 DROP = text.scene(
     'plane = "stress"\nduration = 0.4\n[contact]\n[inertia]\n[gravity]\n',
     [
