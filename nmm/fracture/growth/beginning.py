@@ -44,9 +44,12 @@ class Beginnings:
         """How cracks begin, in words."""
         if self._rule is None:
             return ""
+        strength = f"{self._rule.strength:g} Pa"
+        if self._rule.crack_length is None:
+            return f"; cracks begin where the mean stress is {strength} and energy suffices"
         return (
             f"; cracks of {self._rule.crack_length:g} m begin where the mean stress over "
-            f"{self._rule.length:g} m is {self._rule.strength:g} Pa"
+            f"{self._rule.length:g} m is {strength}"
         )
 
     @property

@@ -77,7 +77,7 @@ def refuse_nucleation(setup: Setup, nuclei: "Nuclei") -> None:
 
 def short_nuclei(setup: Setup, rule: "NucleationRule") -> str:
     """Say what is wrong with cracks that begin so short; empty where nothing is."""
-    size, length = setup.formulation.cover.finest, rule.crack_length
+    size, length = setup.formulation.cover.finest, rule.crack_length or rule.tough
     said = []
     if size is not None and min(length, rule.length) < size * (1 - 1e-9):
         said.append(

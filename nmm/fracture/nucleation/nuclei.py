@@ -1,8 +1,8 @@
 """Which place is nearest to where a crack begins, and the crack that does.
 
-At a place the criterion has reached the smaller of two shares of the strength: of the largest
-principal stress there, and of that of the mean stress along a line (Whitney and Nuismer 1974). The
-line runs in the plane that this mean opens.
+At a place the criterion has reached the smaller of two shares: of the strength by the largest
+principal stress there, and of what it takes by the stress along a line. The line runs in the plane
+that the mean along it opens.
 """
 
 from dataclasses import dataclass
@@ -18,6 +18,7 @@ from nmm.fracture.acting_stress import StressOn
 from nmm.fracture.clear_way import LIGAMENT, clear_length
 from nmm.fracture.nucleation.line_stress import LineStress
 from nmm.fracture.nucleation.places import Places, outline
+from nmm.fracture.nucleation.reached import SHARES, OpeningLines
 from nmm.fracture.nucleation.rule import NucleationRule
 from nmm.fracture.principal import LargestPrincipal
 from nmm.geometry.geometry import Geometry
@@ -38,7 +39,7 @@ class Nucleus:
     Attributes
     ----------
     share
-        Of the strength that the criterion has reached there.
+        Of what it takes that the criterion has reached there.
     point
         (2,) where it is (m).
     way
@@ -47,6 +48,8 @@ class Nucleus:
         In which it lies.
     inside
         Whether it is on no edge.
+    length
+        Of the crack (m), as long both ways inside.
     """
 
     share: float
@@ -54,6 +57,7 @@ class Nucleus:
     way: Floats
     body: int
     inside: bool
+    length: float
 
 
 @dataclass(frozen=True)
@@ -101,25 +105,25 @@ class Nuclei:
 
     def _best(self, stress: StressOn, rows: Ints, pulled: LargestPrincipal) -> Nucleus | None:
         """Return the best of some places (k,), the first of even ones."""
-        places, whole = self.places.take(rows), self.rule.length
+        places = self.places.take(rows)
         inside, body = places.inside, self.model.manifold.element_body[places.element]
         way = _inwards(pulled.plane[rows], places.inward)
         for _ in range(TURNS):
-            begin = places.point - (inside * whole)[:, None] * way
-            along = (whole * (1 + inside))[:, None] * way
-            mean, known = self._lines.means(stress, begin, along, body)
-            opened = LargestPrincipal.of(mean)
-            last, way = way, _inwards(opened.plane, places.inward)
+            lines = OpeningLines(places.point, way, body, inside)
+            found = self.rule.criterion.reached(self._lines, stress, lines)
+            last, known = way, found.known
+            way = _inwards(LargestPrincipal.of(found.mean).plane, places.inward)
             turned = np.abs(last[:, 0] * way[:, 1] - last[:, 1] * way[:, 0])
             if float(turned[known].max(initial=0.0)) < STILL:
                 break
-        known &= inside | self._ends_deep(places.point + whole * last)
+        known &= inside | self._ends_deep(places.point + found.length[:, None] * last)
         if not known.any():
             return None
-        bound = np.minimum(opened.size, pulled.size[rows])
-        one = np.flatnonzero(known)[np.argmax(_levels(bound[known]))]
-        found = float(bound[one]) / self.rule.strength
-        return Nucleus(found, places.point[one], way[one], int(body[one]), bool(inside[one]))
+        share = np.minimum(found.share, pulled.size[rows] / self.rule.strength)
+        one = np.flatnonzero(known)[np.argmax(_levels(share[known]))]
+        length = self.rule.crack_length or float(found.length[one])
+        where = places.point[one], way[one], int(body[one]), bool(inside[one])
+        return Nucleus(float(share[one]), *where, length)
 
     def _ends_deep(self, points: Floats) -> Bools:
         """Which ends (k, 2) leave a ligament."""
@@ -134,8 +138,8 @@ class Nuclei:
     def _end(self, nucleus: Nucleus, way: Floats) -> Floats:
         edges, one = self.model.cut.boundary, nucleus.point
         near = edges.body == nucleus.body
-        length = self.rule.crack_length
-        return one + clear_length(one, way, edges.start[near], edges.end[near], length) * way
+        whole = clear_length(one, way, edges.start[near], edges.end[near], nucleus.length)
+        return one + whole * way
 
     @property
     def fits(self) -> bool:
@@ -144,7 +148,7 @@ class Nuclei:
         inward = edges.inward / np.maximum(np.hypot(*edges.inward.T), 1e-300)[:, None]
         body = self.model.manifold.element_body[edges.element]
         ends = edges.point + self.rule.length * inward
-        stays = self._lines.stays(edges.point, self.rule.length * inward, body)
+        stays = self._lines.stays(edges.point, self.rule.length * inward, body, SHARES)
         return bool((stays & self._ends_deep(ends)).any())
 
     @cached_property

@@ -7,6 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.fracture.clear_way import LIGAMENT
+from nmm.fracture.nucleation.reached import LineCriterion, MeanOnLine
 from nmm.fracture.toughness import Toughness
 
 if TYPE_CHECKING:
@@ -25,10 +26,13 @@ class NucleationRule:
     ----------
     strength
         Tensile strength (Pa).
+    criterion
+        When a line opens.
     length
-        Along which stress is averaged (m): from an edge inwards, or both ways from a place inside.
+        Along which stress is averaged (m): from an edge inwards, or both ways from a place inside;
+        where the criterion asks several, that of the toughness.
     crack_length
-        Of a crack that begins (m), as long both ways inside.
+        Of a crack that begins (m), as long both ways inside; None where the criterion says.
     tough
         The length that goes with the toughness (m), see `mean_length`.
     most
@@ -38,8 +42,9 @@ class NucleationRule:
     """
 
     strength: float
+    criterion: LineCriterion
     length: float
-    crack_length: float
+    crack_length: float | None
     tough: float
     most: float
     effective: bool = True
@@ -49,11 +54,16 @@ class NucleationRule:
         """Return the rule of a scene's table where E' is ``stiff`` (n,) (Pa)."""
         strength = table.tensile_strength
         tough = mean_length(float(toughness.intensities(stiff).max()), strength)
-        length = tough if table.length is None else table.length
-        crack_length = length if table.crack_length is None else table.crack_length
         most = np.inf if table.number is None else table.number
         effective = table.stress == "effective"
-        return cls(strength, length, crack_length, tough, most, effective)
+        if table.criterion == "coupled":
+            from nmm.fracture.nucleation.coupled import Coupled
+
+            return cls(strength, Coupled(strength, tough), tough, None, tough, most, effective)
+        length = tough if table.length is None else table.length
+        crack_length = length if table.crack_length is None else table.crack_length
+        mean = MeanOnLine(strength, length)
+        return cls(strength, mean, length, crack_length, tough, most, effective)
 
     @property
     def away(self) -> float:

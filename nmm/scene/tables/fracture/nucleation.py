@@ -14,8 +14,16 @@ class NucleationTable(Frozen):
 
     The line runs from an edge inwards, or both ways from a place inside, normal to the largest
     principal stress of the mean; the stress where it begins must have reached the strength too. The
-    crack is laid along it.
+    crack is laid along it. By the coupled criterion lines of all lengths are asked, and a crack
+    must free what its faces take by the toughness, too.
     """
+
+    criterion: Literal["strength", "coupled"] = Field(
+        default="strength",
+        description='"strength": the mean over one length reaches the strength; "coupled": over a '
+        "length at which a crack frees what its faces take, too, and which it then has",
+        examples=["coupled"],
+    )
 
     tensile_strength: Stress = Field(
         gt=0, description="a tensile strength in Pa, > 0", examples=["3 MPa"]

@@ -1,0 +1,87 @@
+"""Cracks that begin where stress and energy both suffice, against closed forms."""
+
+import numpy as np
+import pytest
+
+import nmm
+from integration.arrays import Floats
+from nmm.errors import NmmError
+from nmm.formulation import parse_formulation
+from nmm.fracture.nucleation.coupled import EDGE, LADDER, MEANS, PLANE, RUNGS, TILTED
+from nmm.scene.read import parse_scene
+from nmm.stepping.run import Run
+from nmm.testing.scenes import turned_net
+from nmm.verification.problems.nucleation import KIRSCH, led, ring
+
+from .nucleating_scenes import ONCE, body, plate
+
+
+def begun(tables: list[str], toughness: float, strength: float, net: str) -> Run:
+    """Return the run of a scene up to where one crack begins."""
+    rule = f'tensile_strength = {strength}\ncriterion = "coupled"\nnumber = 1'
+    text = body(tables, ONCE, rule).replace("toughness = 1.0", f"toughness = {toughness!r}")
+    return nmm.run(parse_scene(text), parse_formulation(net))
+
+
+def test_intensities_along_a_line_are_those_of_the_handbook() -> None:
+    # The integral of K^2 over all lengths; K is f sqrt(pi a) under even stress, f a sqrt(pi a)
+    # under a stress of x: f is 1.1215 and 0.683 at an edge (Tada), 1 and 1 / 2 in a plane.
+    even, longest = np.ones(len(LADDER)), LADDER[-1]
+    area = np.pi * longest**2 / 2
+    assert RUNGS @ (EDGE @ even) ** 2 == pytest.approx(1.1215**2 * area, rel=1e-4)
+    assert RUNGS @ (PLANE @ (2 * even)) ** 2 == pytest.approx(area, rel=1e-9)
+    # Stress is even below the first length, 1 / 1000 of the last.
+    area = np.pi * longest**4 / 4
+    tilted = 2 * TILTED @ LADDER
+    assert RUNGS @ (EDGE @ LADDER) ** 2 / area == pytest.approx(0.683**2, rel=1e-3)
+    assert RUNGS @ tilted**2 / area == pytest.approx(0.5**2, rel=1e-3)
+    assert MEANS @ even == pytest.approx(even)
+    assert (MEANS @ LADDER)[-1] == pytest.approx(longest / 2, rel=1e-5)
+
+
+@pytest.mark.parametrize(("strength", "size"), [(4.0, 0.025), (2.0, 0.08)])
+def test_a_bar_begins_a_crack_at_its_strength_as_long_as_energy_asks(
+    strength: float, size: float
+) -> None:
+    box = ((0.0, 0.0), (2.0, 0.5))
+    run = begun([plate(box), *led(box, ["1", "0", "0"])], 1.0, strength, turned_net(size))
+    assert run.history["load_factor"][0] == pytest.approx(strength, rel=1e-9)
+    # An edge crack of that length frees its toughness on the mean: f_t^2 1.1215^2 pi l / 2 = 1.
+    length = 2 / np.pi / (1.1215 * strength) ** 2
+    assert run.history["fracture:nucleus 1:length"][1] == pytest.approx(length, rel=2e-3)
+    # What it frees is the integral of K^2 / E' (Gross' polynomial for a strip pulled freely).
+    a = length * (np.arange(1000) + 0.5) / 1000
+    gross = np.polyval([30.39, -21.72, 10.55, -0.231, 1.12], a / 0.5)
+    freed = length * np.mean(np.pi * a * (gross * strength) ** 2) * (1 - 0.3**2)
+    # Cells are as long as three quarters of the crack.
+    assert run.summary.freed_energy == pytest.approx(freed, rel=0.02)
+
+
+def tada(a: Floats) -> Floats:
+    """K over that in a plane of one crack from a hole of radius 1 (Tada, Paris, Irwin 2000)."""
+    s = a / (1 + a)
+    part = 2.243 - 2.64 * s + 1.352 * s**2 - 0.248 * s**3
+    return (1 + 0.2 * (1 - s) + 0.3 * (1 - s) ** 6) * part
+
+
+@pytest.mark.parametrize(("tough", "below"), [(0.05, 0.0173), (0.2, 0.0342)])
+def test_a_hole_begins_a_crack_near_the_load_of_finite_fracture_mechanics(
+    tough: float, below: float
+) -> None:
+    a = np.linspace(1e-5, 2.0, 200_001)
+    x = 1 / (1 + a)
+    mean = (2 - x**2 - x**4) / (2 * (1 - x))
+    square = np.cumsum(np.pi * a * tada(a) ** 2) * (a[1] - a[0]) / a
+    expected = 1 / np.minimum(mean, np.sqrt(square / (tough * np.pi / 2))).max()
+    box = ((-3.0, -3.0), (3.0, 3.0))
+    tables = [f"{plate(box)}holes = [{ring(128).tolist()}]\n", *led(box, KIRSCH)]
+    run = begun(tables, float(np.sqrt(tough * np.pi / 2)), 1.0, turned_net(0.15))
+    # The weight function is that of a straight edge: so much below, and 1 % of the net's.
+    assert run.history["load_factor"][0] == pytest.approx(expected * (1 - below), rel=0.012)
+
+
+@pytest.mark.parametrize("key", ["length", "crack_length"])
+def test_lengths_beside_energy_that_finds_them_are_refused(key: str) -> None:
+    rule = f'tensile_strength = 3.0\ncriterion = "coupled"\n{key} = 0.1'
+    with pytest.raises(NmmError, match="lengths that energy finds"):
+        parse_scene(body([plate(((0.0, 0.0), (2.0, 0.5)))], ONCE, rule))
