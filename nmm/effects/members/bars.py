@@ -88,7 +88,7 @@ class BarMembers(Linked):
             place[first],
             place[slips],
         )
-        return cls(setup.model, members)
+        return cls(setup, members)
 
     @property
     def about(self) -> str:

@@ -142,15 +142,26 @@ class Chains:
         return row, column
 
     def _at(self, stretch: Floats, slip: Floats, memory: tuple[Floats, Floats]) -> ChainAnswer:
-        axial = self.axial.answer(stretch + self.opening @ slip, memory[0])
+        axial = self.axial.answer(stretch + self._opened(slip), memory[0])
         return ChainAnswer(axial, self.bond.answer(slip, memory[1]), slip, NONE)
 
     def _out(self, at: ChainAnswer) -> tuple[Floats, float]:
         """Out-of-balance forces (p,) and the size of forces, or of their rounding (N)."""
-        out = at.bond.force + self.opening.T @ at.axial.force
+        out = at.bond.force + self._pulled(at.axial.force)
         rounded = self._stiffest * float(np.abs(at.slip).max(initial=0.0)) * ROUNDING / BALANCED
         forces = (at.axial.force, at.bond.force)
         return out, max(rounded, *(float(np.abs(one).max(initial=0.0)) for one in forces))
+
+    def _opened(self, slip: Floats) -> Floats:
+        """How much slips (p,) lengthen links (m,)."""
+        ends = np.append(slip, 0.0)  # the last, -1, is fixed
+        return np.asarray(ends[self.right] - ends[self.left])
+
+    def _pulled(self, force: Floats) -> Floats:
+        """How links of forces (m,) pull at slips (p,)."""
+        slips = len(self.bond)
+        pulled = np.bincount(self.right % (slips + 1), force, slips + 1)
+        return np.asarray(pulled - np.bincount(self.left % (slips + 1), force, slips + 1))[:-1]
 
     @cached_property
     def _stiffest(self) -> float:

@@ -7,7 +7,6 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from integration.arrays import Floats
 from nmm.assembly.kept import KeptOfStates
-from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Setup, Span, StepForce
 from nmm.effects.members.ends import ends_of
@@ -27,12 +26,12 @@ class PointDashpots(Effect):
     name = "dashpots"
 
     def __init__(
-        self, model: Model, names: tuple[str, ...], links: Links, viscosity: Floats
+        self, setup: Setup, names: tuple[str, ...], links: Links, viscosity: Floats
     ) -> None:
         self.names, self.links, self.viscosity = names, links, viscosity
         self.external = links.grounded
-        self._model = model
-        self._stretch, self._kept = KeptOfStates(links.stretch), KeptMatrix(model)
+        self._model = setup.model
+        self._stretch, self._kept = KeptOfStates(links.stretch), KeptMatrix(setup)
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -40,7 +39,7 @@ class PointDashpots(Effect):
         dashpots = setup.scene.dashpots
         links = Links.of(*ends_of(setup, "dashpots", dashpots), setup.small)
         viscosity = np.array([one.viscosity for one in dashpots])
-        return cls(setup.model, tuple(one.name for one in dashpots), links, viscosity)
+        return cls(setup, tuple(one.name for one in dashpots), links, viscosity)
 
     def through(self, before: State, after: State, span: Span) -> StepForce:
         """See `Effect.through`."""

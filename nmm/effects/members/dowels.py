@@ -42,7 +42,7 @@ class Dowels(Linked):
     name = "dowels"
 
     def __init__(self, setup: Setup, members: Members, decay: Floats) -> None:
-        super().__init__(setup.model, members)
+        super().__init__(setup, members)
         self._decay = decay
 
     @classmethod

@@ -2,12 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 import shapely
 
 from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.kept import KeptOfPlaces
 from nmm.assembly.motion import Frames, MaterialPoints, State, material_points
 from nmm.assembly.places import NEAR
 from nmm.assembly.pushes import Pushes
@@ -57,6 +59,13 @@ class Ends:
 
     def way(self, state: State) -> Floats:
         """Return how far they have come from where they are drawn (m, 2)."""
+        return self._ways.of(state)
+
+    @cached_property
+    def _ways(self) -> KeptOfPlaces[Floats]:
+        return KeptOfPlaces(self._way)
+
+    def _way(self, state: State) -> Floats:
         return self.held[:, None] * self.points.moved(state.frames, state.deformation)
 
     def pushed(self, force: Floats) -> Pushes:
@@ -70,13 +79,11 @@ class Ends:
 
     def arm(self, before: State, after: State) -> Floats:
         """Arms (m, 2) half way through a step, less those that rows at its start have (m)."""
-        points, frames = self.points, before.frames
-        arms = [
-            points.place(one.frames, one.deformation) - one.frames.centre[points.body]
-            for one in (before, after)
-        ]
-        first = frames.to_global(points.body, points.arm)
-        return np.asarray(self.held[:, None] * ((arms[0] + arms[1]) / 2 - first))
+        body, frames = self.points.body, before.frames
+        way = (self.way(before) + self.way(after)) / 2
+        centre = (frames.centre[body] + after.frames.centre[body]) / 2
+        first = frames.to_global(body, self.points.arm)
+        return np.asarray(self.held[:, None] * (self.position + way - centre - first))
 
 
 def ends_of(setup: Setup, key: str, members: "Sequence[Between]") -> tuple[Ends, Ends]:

@@ -60,7 +60,7 @@ class Fibres:
         """(m,) which have no yield value."""
         return np.array([law.elastic for law in self.laws], dtype=bool)[self.law]
 
-    @property
+    @cached_property
     def linear(self) -> bool:
         """Whether all forces are lines in the ways."""
         return all(law.linear for law in self.laws)
@@ -69,7 +69,7 @@ class Fibres:
     def _modulus(self) -> Floats:
         return np.array([law.stiffness for law in self.laws])[self.law]
 
-    @property
+    @cached_property
     def stiffness(self) -> Floats:
         """(m,) elastic (N/m)."""
         return np.asarray(self.area * self._modulus / self.length)
@@ -77,6 +77,8 @@ class Fibres:
     def answer(self, way: Floats, memory: Floats) -> FibreAnswer:
         """Return the answer to ways (m,) in m, with memory (m, 2) of the start of the step."""
         trial = self.start + self._modulus * (way / self.length - memory[:, 0])
+        if self.linear:
+            return FibreAnswer(self.area * trial, self.stiffness, memory)
         force, tangent, after = np.empty_like(way), np.empty_like(way), np.empty_like(memory)
         for number, law in enumerate(self.laws):  # a handful of laws
             at = np.flatnonzero(self.law == number)

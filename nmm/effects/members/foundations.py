@@ -52,7 +52,7 @@ class Foundations(Linked):
         area = np.concatenate([area for *_, area in sides])
         names = tuple(one.name for one, _ in parts)
         axial = Fibres.of(laws, np.ones(len(area)), area)
-        return cls(setup.model, Members.without_slip(names, places, links, axial))
+        return cls(setup, Members.without_slip(names, places, links, axial))
 
     def _offset_on(self, members: Members, change: "Change") -> Floats:
         """See `Linked`: that of the nearest point of the edge; points of new material have none."""

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.effects.base import Setup
 from nmm.effects.members.links import LinesOfAction, Links
 
 # Where members turn the matrix of an earlier step serves while what it is made of is off by no more
@@ -18,20 +18,23 @@ LIKE = 1e-3
 class KeptMatrix:
     """A matrix of links between the blocks of a model, and what it was made of."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, setup: Setup) -> None:
         self._made: tuple[tuple[Floats, ...], csc_array] | None = None
-        self._rounding = float(np.finfo(float).eps * model.modulus.max())
+        self._rounding = float(np.finfo(float).eps * setup.model.modulus.max())
+        self._moves = setup.scene.inertia is not None
 
     def parts(
         self, links: Links, state: State, lines: LinesOfAction, force: Floats, tangent: Floats
     ) -> tuple[Floats, ...]:
         """Return what makes the matrix of forces (m,) with tangents (m,) of their own.
 
-        Small turns count beside one of 1 rad. Where friction alone holds a block, forces that turn
-        are all its stiffness: they count beside nothing but the rounding of that of the blocks.
+        Small turns count beside one of 1 rad. Where friction alone holds a block that rests, forces
+        that turn are all its stiffness: they count beside nothing but the rounding of that of the
+        blocks. Blocks that move have their mass: there they count beside the stiffness along.
         """
         turns = np.append(state.frames.angle[links.bodies], 1.0)
-        return turns, lines.along, tangent, np.append(force * lines.across, self._rounding)
+        least = tangent.max(initial=self._rounding) if self._moves else self._rounding
+        return turns, lines.along, tangent, np.append(force * lines.across, least)
 
     def of(
         self, made_of: tuple[Floats, ...], like: float, make: Callable[[], csc_array]

@@ -8,10 +8,9 @@ from scipy.sparse import csc_array
 
 from integration.arrays import Floats, Ints
 from nmm.assembly.kept import KeptOfStates
-from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes, joined
-from nmm.effects.base import Effect, Instant, Span, StepForce
+from nmm.effects.base import Effect, Instant, Setup, Span, StepForce
 from nmm.effects.members.chains import ChainAnswer
 from nmm.effects.members.kept_matrix import LIKE, KeptMatrix
 from nmm.effects.members.member_set import AXIAL, BOND, SLIP, WIDTH, Members
@@ -29,15 +28,15 @@ ALIKE = 1e-6
 class Linked(Effect):
     """Members that pull their ends together by laws of the stretch between them."""
 
-    def __init__(self, model: Model, members: Members) -> None:
+    def __init__(self, setup: Setup, members: Members) -> None:
         self.members = members
         self.external = members.links.grounded
-        self._model = model
+        self._model = setup.model
         self._offset = np.zeros(len(members.links))
         self._answers = KeptOfStates(self._answered)
         self._matrices = KeptOfStates(self._stiffness)
         self._forces = KeptOfStates(self._force)
-        self._kept = KeptMatrix(model)
+        self._kept = KeptMatrix(setup)
 
     @property
     def bends(self) -> bool:

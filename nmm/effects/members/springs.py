@@ -29,7 +29,7 @@ class PointSprings(Linked):
         laws = [_law(spring) for spring in springs]
         one, names = np.ones(len(springs)), tuple(spring.name for spring in springs)
         axial = Fibres.of(laws, one, one, np.array([spring.force for spring in springs]))
-        return cls(setup.model, Members.without_slip(names, (1,) * len(names), links, axial))
+        return cls(setup, Members.without_slip(names, (1,) * len(names), links, axial))
 
 
 def _law(spring: "SpringTable") -> Uniaxial:

@@ -3,7 +3,7 @@
 Hooks that no effect has are never called.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from math import isfinite
@@ -125,9 +125,13 @@ class Plan(Hooks):
             self.timed(name, partial(effect.matrix, state)) for name, effect in self.named("matrix")
         )
         parts = [base, *added]
-        kept = self.sums.get("matrix")
+        return self.total("matrix", parts, lambda: sum(parts[1:], start=base))
+
+    def total(self, name: str, parts: list[csc_array], make: Callable[[], csc_array]) -> csc_array:
+        """Return what is made of matrices, the same object as long as they are the same ones."""
+        kept = self.sums.get(name)
         if kept is None or not _are(kept[0], parts):
-            kept = self.sums["matrix"] = parts, csc_array(sum(parts[1:], start=base))
+            kept = self.sums[name] = parts, csc_array(make())
         return kept[1]
 
     def damping(self, state: State) -> dict[str, csc_array]:

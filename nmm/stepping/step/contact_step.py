@@ -67,6 +67,7 @@ class Touching:
         self._current, self._mover, self.solver, self._clock = current, mover, solver, clock
         self._size, self._carries = size, carries
         self._held: NullSpace | None = None
+        self._last: tuple[State, Sought] | None = None
 
     def follow(self, change: "Change") -> None:
         """Forget the conditions of the old model; how far bodies move in a step stays known."""
@@ -78,7 +79,7 @@ class Touching:
 
     def forget(self) -> None:
         """Drop what is kept for speed alone."""
-        self._held = None
+        self._held = self._last = None
 
     def attempt(
         self,
@@ -99,9 +100,8 @@ class Touching:
         """
         contact, state = self.contact, equations.state
         near, passes = self._near(equations, foreseen), 0
-        contacts = self.candidates(state, reach, equations.step)
-        ahead = self._ahead(equations, contacts, contact.momentum)
-        sought, held = Sought(reach, contacts, ahead, ahead), self._conditions(equations)
+        again = foreseen is not None and near is None
+        sought, held = self._found(equations, reach, again), self._conditions(equations)
         while True:
             solved = self._solve(equations, sought, breaking, held, near)
             passes += solved.passes
@@ -110,10 +110,11 @@ class Touching:
             good = verdict.converged and result.motion <= self._size and not solved.stopped
             if good and result.motion <= sought.reach:
                 motion = contact.partners.motion(state, result.state)
-            again = self._again(equations, sought, solved, result, motion) if good else None
-            if again is not None:
-                sought = again
+            further = self._again(equations, sought, solved, result, motion) if good else None
+            if further is not None:
+                sought = further
                 continue
+            self._last = state, sought
             if good and self._turns(equations) and solved.rows is not None:
                 result = self._kept(equations, solved, result, rest)
             if good and near is not None and solved.rows is not None:
@@ -121,6 +122,18 @@ class Touching:
             passage = "" if motion is None else contact.partners.passage(motion)
             sentence = passage or self._why(verdict.sentence, result, solved)
             return result.told(good and not passage, sentence, solved, passes)
+
+    def _found(self, equations: Equations, reach: float, again: bool) -> Sought:
+        """Return the contacts of a step: those of its last iteration where it is solved ``again``.
+
+        Forces that bend move bodies by little from one iteration to the next.
+        """
+        state = equations.state
+        if again and self._last is not None and self._last[0] is state:
+            return replace(self._last[1], crossings=0, midpoints=0)
+        contacts = self.candidates(state, reach, equations.step)
+        ahead = self._ahead(equations, contacts, self.contact.momentum)
+        return Sought(reach, contacts, ahead, ahead)
 
     def _again(
         self,

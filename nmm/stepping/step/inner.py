@@ -169,10 +169,13 @@ class Inner:
             force = weight * force + (1 - weight) * begun
         return force, matrix
 
-    def at(self, increment: Floats, before: Iterate | None = None) -> Iterate:
+    def at(
+        self, increment: Floats, before: Iterate | None = None, after: State | None = None
+    ) -> Iterate:
         """Return the internal forces at an increment (n,) of the step.
 
-        ``before`` is the iterate from which it was found.
+        ``before`` is the iterate from which it was found, ``after`` the state that it leads to
+        where that is known.
 
         Raises
         ------
@@ -183,7 +186,7 @@ class Inner:
             matter, history = self._of_matter(increment, before)
         if self._lined and not increment.any():
             return self._first(increment, matter, history)
-        pulls = self._pulls(increment)
+        pulls = self._pulls(increment, after)
         memory = dict(self._state.memory)
         total, beyond, rounding = (np.zeros_like(increment) for _ in range(3))
         for name, one in pulls.items():
@@ -240,10 +243,13 @@ class Inner:
 
     def _gross(self, increment: Floats) -> Floats:
         """(n,) what stiffnesses of effects times the motion are made of."""
-        total = np.zeros_like(increment)
-        for _, matrix in self._lines.values():
-            total = total + abs(matrix) @ np.abs(increment)
-        return total
+        return np.asarray(self._sizes @ np.abs(increment))
+
+    @cached_property
+    def _sizes(self) -> csc_array:
+        """(n, n) sum of the entries of the stiffnesses of effects, without their signs."""
+        matrices = [matrix for _, matrix in self._lines.values()]
+        return self._plan.total("sizes of lines", matrices, lambda: sum(abs(m) for m in matrices))
 
     @cached_property
     def _of_places(self) -> Floats:
@@ -280,12 +286,13 @@ class Inner:
             lambda: matter.stiffness(tangent, self.symmetric),
         )
 
-    def _pulls(self, increment: Floats) -> dict[str, StepForce]:
+    def _pulls(self, increment: Floats, after: State | None) -> dict[str, StepForce]:
         if not self._lines:
             return {}
         state = self._state
-        after = self._kinematics.move(self._model, state, increment)
-        after = replace(after, time=self._end.time, load_factor=self._end.load_factor)
+        if after is None:
+            moved = self._kinematics.move(self._model, state, increment)
+            after = replace(moved, time=self._end.time, load_factor=self._end.load_factor)
         return {name: self._plan.through(name, state, after, self._span) for name in self._lines}
 
     def _beyond(self, pulls: Mapping[str, StepForce]) -> csc_array:

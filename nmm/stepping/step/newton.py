@@ -69,7 +69,7 @@ def newton(
         if not found.converged and not _goes_on(found):
             found = _failed(found, found.sentence, _flow(elastic, line, way))
             return equations, replace(found, passes=passes, imbalances=tuple(imbalances))
-        then = at(found.increment, now)
+        then = at(found.increment, now, found.state)
         imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
         found = replace(found, passes=passes, imbalances=tuple(imbalances))
         if _balanced(imbalances, inner.tolerance, found.residual):
