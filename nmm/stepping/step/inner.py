@@ -249,7 +249,11 @@ class Inner:
     def _sizes(self) -> csc_array:
         """(n, n) sum of the entries of the stiffnesses of effects, without their signs."""
         matrices = [matrix for _, matrix in self._lines.values()]
-        return self._plan.total("sizes of lines", matrices, lambda: sum(abs(m) for m in matrices))
+
+        def made() -> csc_array:
+            return sum((abs(one) for one in matrices), start=_nothing(len(self.start)))
+
+        return self._plan.total("sizes of lines", matrices, made)
 
     @cached_property
     def _of_places(self) -> Floats:
