@@ -92,6 +92,8 @@ class ContactLaws:
         ``stiffness`` (m,) is that of the whole bonds (N/m). Columns that stay are the same objects.
         """
         after, spring = dict(contacts.history), _over(stiffness, self._areas(contacts))
+        if TIED in after:  # no spring of whole bonds may be too soft: terms hold them
+            spring = np.where(contacts.tied, np.inf, spring)
         for law, index, history in self.by_law(contacts):
             if len(index) == len(contacts):
                 after |= law.evolved(history, gap, sliding, spring)

@@ -48,6 +48,16 @@ def test_a_bar_of_two_materials_is_as_long_as_its_materials_make_it(bond_stiffne
     assert np.ptp(run.displacement[:, 0]) == pytest.approx(series, rel=1e-6)
 
 
+@pytest.mark.parametrize("energy", [1.0, 100.0, 1e4])
+def test_a_whole_bond_is_not_asked_how_soft_its_spring_would_be(energy):
+    """Springs of 3e9 Pa/m hold nothing here; 100 J/m2 would ask for 5e10, 1 J/m2 for 5e12."""
+    law = f'law = "linear_softening"\nfracture_energy = {energy}\n'
+    run = nmm.run(parse_scene(bar(law=law)))
+    assert run.summary.status == "converged"
+    series = 1e6 * (0.5 / 1e9 + 2.0 / 10e9)
+    assert np.ptp(run.displacement[:, 0]) == pytest.approx(series, rel=1e-6)
+
+
 @pytest.mark.parametrize("degree", [1, 2])
 def test_random_blocks_under_uniform_tension_are_all_strained_alike(degree):
     scene = text.scene(
