@@ -109,19 +109,28 @@ def _came(name: str, rise: Rise, share: float) -> str:
 
 
 def _cause(run: Ended) -> str:
-    ledger = run.recorder.ledger
+    ledger, keeps = run.recorder.ledger, _what_keeps(run)
     if ledger.contact_loss < -abs(ledger.integration_loss):
-        return "it came from contact: take smaller steps or another enforcement and compare"
+        return f"it came from contact: take smaller steps or another enforcement and compare{keeps}"
     if ledger.integration_loss < -SHARE * max(ledger.in_step.energy, ledger.in_run.energy):
         return (
             f'it came from the integrator "{run.formulation.integrator.type}": take smaller steps, '
-            "or one without gain"
+            f"or one without gain{keeps}"
         )
     smaller = "take smaller steps and compare"
     if run.stepper.kinematics.finite:
         return smaller
     # Supports and loads act on the body as it was laid: an exchange that no step makes smaller.
     return f'{smaller}; if they change nothing, bodies bend too far: [rotation] update = "finite"'
+
+
+def _what_keeps(run: Ended) -> str:
+    """Name what keeps energy where meshes turn as they touch: their forces act as a step begins."""
+    stepper = run.stepper
+    meshes = stepper.kinematics.turns and stepper.model.manifold.shared_covers
+    if not meshes or stepper.plan.contact is None:
+        return ""
+    return ', or type = "energy_momentum" with [rotation] update = "finite", which keeps it'
 
 
 def _lost(run: Ended) -> Findings:
