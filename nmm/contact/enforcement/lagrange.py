@@ -107,8 +107,7 @@ def _saddle(
     """Unknowns, normal and shear forces of an active set."""
     limits, own = problem.limits, problem.own_stiffness
     closed = np.flatnonzero(active.closed)
-    carries = ~active.sliding & (active.closed | (limits.tension > 0))
-    stuck = np.flatnonzero(carries)
+    stuck = np.flatnonzero(active.sticks(limits))
     normal_rows, shear_rows = problem.normal_rows[closed], problem.tangent_rows[stuck]
     drag = np.where(active.sliding, active.sign * limits.friction, 0.0)[closed]
     pressing = normal_rows.T - problem.tangent_rows[closed].T @ diags_array(drag)

@@ -146,8 +146,7 @@ class OpenClosePasses:
 
 def _stiffness(problem: StepProblem, springs: ActiveSet) -> tuple[Floats, Floats]:
     normal = np.where(springs.closed, problem.normal_stiffness, 0.0)
-    sticks = ~springs.sliding & (springs.closed | (problem.limits.tension > 0))
-    return normal, np.where(sticks, problem.shear_stiffness, 0.0)
+    return normal, np.where(springs.sticks(problem.limits), problem.shear_stiffness, 0.0)
 
 
 def _constant_forces(

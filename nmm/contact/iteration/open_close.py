@@ -6,7 +6,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.contact.problem.coulomb import frictionless, shear_bound
-from nmm.contact.problem.step_problem import BONDED, SLIDE, STICK, StepProblem
+from nmm.contact.problem.step_problem import BONDED, SLIDE, STICK, Limits, StepProblem
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,10 @@ class ActiveSet:
     closed: Bools
     sliding: Bools
     sign: Floats
+
+    def sticks(self, limits: Limits) -> Bools:
+        """Return which contacts (m,) have a shear spring that acts."""
+        return ~self.sliding & (self.closed | (limits.tension > 0))
 
     @property
     def code(self) -> bytes:
@@ -73,8 +77,7 @@ def forces(
     normal = np.where(springs.closed, problem.normal_stiffness * gap, limits.tension)
     bound = shear_bound(normal, springs.closed, limits)
     at_bound = springs.sign * np.where(springs.sliding, bound, 0.0)
-    carries = ~springs.sliding & (springs.closed | (limits.tension > 0))
-    return normal, np.where(carries, problem.shear_stiffness * slip, at_bound)
+    return normal, np.where(springs.sticks(limits), problem.shear_stiffness * slip, at_bound)
 
 
 def changes(problem: StepProblem, old: ActiveSet, new: ActiveSet) -> Bools:

@@ -7,7 +7,7 @@ to guess which of the two it is. The shear force stays with the first, whose fri
 """
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from scipy.sparse import csr_array, vstack
@@ -44,37 +44,35 @@ class AsymmetricSprings(Transform):
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """Return the problem with the second contacts added at its end."""
-        at = self.index
-        whole = problem.normal_stiffness[at]
-        first = problem.normal_stiffness.copy()
-        first[at] = self.share * whole
-        friction = problem.limits.friction.copy()
-        friction[at] /= self.share
-        none = np.zeros(len(at))
-        pressed = problem.normal_force[at] < 0
+        at, share, none = self.index, self.share, np.zeros(len(self.index))
+        whole, pressed = problem.normal_stiffness[at], problem.normal_force[at] < 0
         force = np.where(pressed, problem.normal_force[at], 0.0)
-        normal_force = problem.normal_force.copy()
-        normal_force[at] -= (1 - self.share) * force
-        limits = Limits(
-            tension=np.concatenate([problem.limits.tension, none]),
-            cohesion=np.concatenate([problem.limits.cohesion, none]),
-            friction=np.concatenate([friction, none]),
+        first, friction, left = (
+            column.copy()
+            for column in (problem.normal_stiffness, problem.limits.friction, problem.normal_force)
         )
+        first[at], friction[at] = share * whole, friction[at] / share
+        left[at] -= (1 - share) * force
+        limits, rows = problem.limits, (problem.normal_rows, problem.tangent_rows)
+        pairs: dict[str, tuple[Any, Any]] = {
+            "gap": (problem.gap, problem.gap[at]),
+            "slip": (problem.slip, none),
+            "normal_stiffness": (first, (1 - share) * whole),
+            "shear_stiffness": (problem.shear_stiffness, FAINT * problem.shear_stiffness[at]),
+            "state": (problem.state, np.where(pressed, STICK, OPEN)),
+            "normal_force": (left, (1 - share) * force),
+            "shear_force": (problem.shear_force, none),
+            "compliant": (problem.own_stiffness, np.ones(len(at), dtype=bool)),
+        }
+        bounds = ((limits.tension, none), (limits.cohesion, none), (friction, none))
+        normal_rows, tangent_rows = (csr_array(vstack([part, part[at]])) for part in rows)
+        joined: dict[str, Any] = {name: np.concatenate(pair) for name, pair in pairs.items()}
         return replace(
             problem,
-            normal_rows=csr_array(vstack([problem.normal_rows, problem.normal_rows[at]])),
-            tangent_rows=csr_array(vstack([problem.tangent_rows, problem.tangent_rows[at]])),
-            gap=np.concatenate([problem.gap, problem.gap[at]]),
-            slip=np.concatenate([problem.slip, none]),
-            normal_stiffness=np.concatenate([first, (1 - self.share) * whole]),
-            shear_stiffness=np.concatenate(
-                [problem.shear_stiffness, FAINT * problem.shear_stiffness[at]]
-            ),
-            limits=limits,
-            state=np.concatenate([problem.state, np.where(pressed, STICK, OPEN)]),
-            normal_force=np.concatenate([normal_force, (1 - self.share) * force]),
-            shear_force=np.concatenate([problem.shear_force, none]),
-            compliant=np.concatenate([problem.own_stiffness, np.ones(len(at), dtype=bool)]),
+            normal_rows=normal_rows,
+            tangent_rows=tangent_rows,
+            limits=Limits(*map(np.concatenate, bounds)),
+            **joined,
         )
 
     def undo(self, answer: StepAnswer, problem: StepProblem) -> StepAnswer:

@@ -85,7 +85,7 @@ def _sides(
 
     And which are beside a place where both faces of a crack are one.
     """
-    a, b, before = some.edge_a, some.edge_b, space.previous[some.edge_a]
+    a, b, before = some.edge_a, some.edge_b, surface.previous[some.edge_a]
     # A corner belongs to the face that looks at the other body.
     looks = dot(surface.normal[a], some.normal) <= dot(surface.normal[before], some.normal)
     own = (some.parameter_a > 0) | looks

@@ -42,8 +42,6 @@ class TraceSpace:
         (q,) the same that are less unlike, for stretches of faces with few of the others.
     softness
         (n,) one over Young's modulus at each edge (1/Pa).
-    previous
-        (n,) the edge before each in its ring.
     welded
         (n,) which edges begin or end where both faces of a crack are one.
     """
@@ -54,7 +52,6 @@ class TraceSpace:
     node: Floats
     fine: Floats
     softness: Floats
-    previous: Ints
     welded: Bools
 
     @classmethod
@@ -88,7 +85,6 @@ class TraceSpace:
             np.array(nodes),
             np.array(fine),
             1 / modulus[edges.element],
-            edges.previous,
             np.zeros(len(edges), dtype=bool) if welded is None else welded.beside,
         )
 

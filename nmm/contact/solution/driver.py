@@ -17,7 +17,6 @@ from nmm.assembly.model import Model
 from nmm.contact.bonds.release import released, tied_energy
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.enforcement.rebalanced import solve_rebalanced
-from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import RigidMass
 from nmm.contact.laws.failing_bonds import break_bonds, breaking
@@ -51,29 +50,25 @@ class ContactSolver:
 
     Parameters
     ----------
-    laws, softness
-        Interface laws, and how soft the bodies are that they join.
+    posing
+        Poses them.
     enforcement
-        Solves problems.
-    mass
-        Of the bodies, for dampers.
+        Solves them.
     unknown_body
         (n,) body of each unknown.
     """
 
     def __init__(
         self,
-        laws: ContactLaws,
-        softness: Softness,
+        posing: Posing,
         enforcement: Enforcement,
-        mass: RigidMass,
         unknown_body: Ints,
     ) -> None:
         self.memory = enforcement.memory()
         self.last: tuple[StepProblem, StepAnswer] | None = None
         self.untouched = Untouched()
-        self._laws, self._enforcement, self._unknown_body = laws, enforcement, unknown_body
-        self._posing = Posing(laws, softness, mass, enforcement.exact)
+        self._laws, self._posing = posing.laws, posing
+        self._enforcement, self._unknown_body = enforcement, unknown_body
 
     @classmethod
     def of(
@@ -83,7 +78,8 @@ class ContactSolver:
         manifold = model.manifold
         mass = RigidMass(manifold.boundary.body, manifold.rigid_modes, compliance)
         unknown_body = np.repeat(manifold.cover_body, np.diff(manifold.cover_offset))
-        return cls(laws, Softness.of(model), enforcement, mass, unknown_body)
+        softness = model.modulus[manifold.boundary.element] / model.modulus.max()
+        return cls(Posing(laws, softness, mass, enforcement.exact), enforcement, unknown_body)
 
     def forget(self) -> None:
         """Drop what is kept for speed alone, and the last problem with its answer."""

@@ -7,7 +7,6 @@ import numpy as np
 
 from integration.arrays import Floats
 from integration.contraction import some
-from nmm.contact.laws.compliance import Softness
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.laws.dashpots import Dashpots, RigidMass
 from nmm.contact.laws.history_iteration import HistoryIteration
@@ -63,8 +62,11 @@ class Posing:
 
     Attributes
     ----------
-    laws, softness
-        Interface laws, and how soft the bodies are that they join.
+    laws
+        Interface laws.
+    softness
+        (n,) Young's moduli of the edges over the largest (-): of two bodies that are 1e9 times
+        softer than the stiffest of a scene, that one says nothing.
     mass
         Of the bodies, for dampers.
     exact
@@ -72,7 +74,7 @@ class Posing:
     """
 
     laws: ContactLaws
-    softness: Softness
+    softness: Floats
     mass: RigidMass
     exact: bool
 
@@ -105,7 +107,9 @@ class Posing:
     ) -> StepProblem:
         contacts, (normal, shear, own) = iteration.start, iteration.springs
         if self.exact:
-            share = self.softness.of_contacts(contacts, own)
+            # Exact enforcements take stiffnesses for a measure of the bodies there.
+            one, other = self.softness[contacts.edge_a], self.softness[contacts.edge_b]
+            share = np.where(own, 1.0, np.minimum(one, other))
             normal, shear = share * normal, share * shear
         return StepProblem(
             matrix=request.matrix,

@@ -9,7 +9,17 @@ from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.continued.predecessors import Predecessors
 from nmm.contact.points.continued.reference_gap import counted, counted_on
 from nmm.contact.points.continued.tracking import continued, continues, remember, searched_points
-from nmm.contact.points.kept import KeptOfPairs, of_pairs
+from nmm.contact.points.kept import of_pairs
+
+
+class Counting:
+    def __init__(self) -> None:
+        self.made = 0
+
+    @of_pairs
+    def value(self, some: ContactPoints) -> int:
+        self.made += 1
+        return self.made
 
 
 def contacts(keys: list[int], gap: float = 0.0) -> Contacts:
@@ -51,26 +61,16 @@ def test_other_pairs_do_not_go_on() -> None:
 
 
 def test_a_value_of_pairs_is_made_once_while_gaps_move_and_anew_as_a_bond_breaks() -> None:
-    made = []
-    kept = KeptOfPairs(lambda some: made.append(some) or len(made))
+    kept = Counting()
     first = points(contacts([12, 34]))
     moved = replace(first, gap=first.gap + 1.0)
-    assert [kept.of(one) for one in (first, moved, moved)] == [1, 1, 1]
+    assert [kept.value(one) for one in (first, moved, moved)] == [1, 1, 1]
     broken = replace(moved, history={**moved.history, "bonded": np.ones(2, dtype=bool)})
-    assert kept.of(broken) == 2
-    assert kept.of(points(contacts([12, 34]))) == 3
+    assert kept.value(broken) == 2
+    assert kept.value(points(contacts([12, 34]))) == 3
 
 
 def test_a_method_of_pairs_is_made_once_by_each_object() -> None:
-    class Counting:
-        def __init__(self) -> None:
-            self.made = 0
-
-        @of_pairs
-        def value(self, some: ContactPoints) -> int:
-            self.made += 1
-            return self.made
-
     first, other, some = Counting(), Counting(), points(contacts([12, 34]))
     assert [first.value(some), first.value(some), other.value(some)] == [1, 1, 1]
     assert first.value(points(contacts([12]))) == 2
