@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 block_functions = local_functions
 
+ROUNDING = 1e-9
+"""Of the largest entry of a stiffness, which constants give to some twelve digits."""
+
 # Constants of a scene's material that not every law has.
 WHERE_GIVEN = (
     *("yield_stress", "hardening_modulus"),
@@ -112,7 +115,7 @@ def build_model(
     if scene.fracture is not None:
         cover = with_growing_tips(cover)
     sheet = Sheet(
-        [_finite(name, material_law(item), scene) for name, item in scene.materials.items()],
+        [_sound(name, material_law(item), scene) for name, item in scene.materials.items()],
         np.array([(item.density or 0.0) * has_mass for item in materials]),
         scene.plane,
         scene.thickness,
@@ -122,16 +125,23 @@ def build_model(
     return covered(geometry, cover, sheet, before)
 
 
-def _finite(name: str, law: Law, scene: "Scene") -> Law:
-    """Return a law whose matrix is one of numbers; refuse another by the material's name."""
+def _sound(name: str, law: Law, scene: "Scene") -> Law:
+    """Return a law whose matrix stores energy; refuse another by the material's name."""
     stiffness = np.asarray(law.stiffness(scene.plane), dtype=float)
     fits = stiffness.shape == (3, 3) and bool(np.isfinite(stiffness).all())
-    if not (fits and 0 < law.modulus < np.inf):
+    if not (fits and _stores(stiffness) and 0 < law.modulus < np.inf):
         place = scene.source.place("materials", name)
         value = f"stiffness {stiffness.tolist()} Pa, modulus {law.modulus} Pa"
-        expected = "a matrix (3, 3) of finite numbers, and a modulus above zero"
+        expected = "a symmetric matrix (3, 3) under which no strain gives energy, and a modulus > 0"
         raise SceneError(Fault(place, value, expected, "correct the constants or the law"))
     return law
+
+
+def _stores(stiffness: Floats) -> bool:
+    """Whether a matrix is symmetric and no strain has less than no energy, but for rounding."""
+    rounding = ROUNDING * np.abs(stiffness).max()
+    symmetric = np.abs(stiffness - stiffness.T).max() <= rounding
+    return bool(symmetric and np.linalg.eigvalsh(stiffness).min() >= -rounding)
 
 
 def material_law(item: "Material") -> Law:

@@ -1,8 +1,13 @@
 """What a run would refuse in its midst is refused as it is prepared, so that a check tells it."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
 from nmm.errors import NmmError
+from nmm.interfaces.mohr_coulomb import MohrCoulomb
+from nmm.materials.elastic import Elastic
 from nmm.scene import parse_scene
 from nmm.stepping.prepare import prepare
 
@@ -69,3 +74,32 @@ def test_a_spring_of_a_bond_that_is_too_soft_for_its_energy():
     The curve is one of straight pieces, whose steepest falls a little less.
     """
     assert "expected above 9.6" in refusal(f"{BEAM}{SOFTENS}[formulation.contact]\n")
+
+
+def one_sided(stiffness):
+    return stiffness * [[1, 2, 1], [1, 1, 1], [1, 1, 1]]
+
+
+@pytest.mark.parametrize(
+    "change", [np.negative, one_sided, lambda one: one * np.nan, lambda one: one[:2]]
+)
+def test_a_stiffness_that_stores_no_energy(change, monkeypatch):
+    plain = Elastic.stiffness
+    monkeypatch.setattr(Elastic, "stiffness", lambda law, plane: change(plain(law, plane)))
+    told = refusal(BEAM + "[formulation]\n")
+    assert told.startswith("scene:3: materials.m: stiffness")
+    assert "a symmetric matrix (3, 3) under which no strain gives energy" in told
+
+
+@pytest.mark.parametrize("change", [np.negative, lambda one: one * np.nan, lambda one: one[:1]])
+def test_limits_of_an_interface_that_no_contact_can_have(change, monkeypatch):
+    plain = MohrCoulomb.response
+
+    def changed(law, history, stiffness):
+        found = plain(law, history, stiffness)
+        limits = replace(found.limits, friction=change(found.limits.friction))
+        return replace(found, limits=limits)
+
+    monkeypatch.setattr(MohrCoulomb, "response", changed)
+    told = refusal(BEAM + "[formulation]\n")
+    assert "interfaces.i: law MohrCoulomb: friction of a bond and of a contact" in told
