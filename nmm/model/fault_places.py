@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from nmm.errors import Fault, NmmError
@@ -25,6 +26,22 @@ def placed(scene: "Scene", formulation: "Formulation") -> Iterator[None]:
             raise
         error.faults = tuple(told)
         error.args = ("\n".join(str(fault) for fault in told),)
+        raise
+
+
+@contextmanager
+def of_stage(name: str) -> Iterator[None]:
+    """Say of faults in which stage they are: what they are about is there in others."""
+    try:
+        yield
+    except NmmError as error:
+        error.faults = tuple(
+            replace(fault, value=f'{fault.value} in stage "{name}"')
+            if isinstance(fault, Fault)
+            else f'{fault} (stage "{name}")'
+            for fault in error.faults
+        )
+        error.args = ("\n".join(str(fault) for fault in error.faults),)
         raise
 
 

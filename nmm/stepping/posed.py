@@ -21,7 +21,7 @@ from nmm.integrators.base import Integrator, make_integrator
 from nmm.model.build import block_functions, geometry_of, named, setup_of
 from nmm.model.consistency import check_kinematics, check_together
 from nmm.model.discretisation import Discretisation
-from nmm.model.fault_places import placed
+from nmm.model.fault_places import of_stage, placed
 from nmm.model.origin import own_origin, shifted, shifted_regions
 from nmm.model.parts import check_parts
 from nmm.model.planning.making import compile_plan
@@ -102,7 +102,8 @@ def _posed(scene: "Scene", formulation: Formulation) -> Posed:
     check_kinematics(formulation, setup.kinematics)
     discretisation = Discretisation.of(setup)
     for later in stages[1:]:
-        compile_plan(later.setup)  # its faults are told before anything is solved
+        with of_stage(later.stage.name):  # its faults are told before anything is solved
+            compile_plan(later.setup)
     plan = discretisation.plan
     _refuse_events(scene, plan)
     solver = solver_for(model.manifold, formulation.solver, plan.contact is not None)

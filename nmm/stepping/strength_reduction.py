@@ -32,6 +32,7 @@ Bound = Callable[[float, float], float | None]
 """From the highest factor and the width of the bracket to one that fails; None is none shown."""
 
 SHOWN = "no contact forces within friction and strength carry the loads (static theorem)"
+FRICTION = ("friction_angle", "residual_friction_angle")
 # While no bracket is known factors go up and down by this.
 STRIDE = 2.0
 
@@ -192,12 +193,12 @@ def _weaker(part: Any, factor: float) -> Any:
     }
     over = ("cohesion", "tensile_strength", "yield_stress")
     found = {name: given[name] / factor for name in over if name in given}
-    for name in ("friction_angle", "residual_friction_angle"):
+    for name in FRICTION:
         if name in given:
             found[name] = atan(tan(given[name]) / factor)
     if "dilation_angle" in given:
-        least = found.get("friction_angle", given["dilation_angle"])
-        found["dilation_angle"] = min(given["dilation_angle"], least)
+        friction = [found[name] for name in FRICTION if name in found]
+        found["dilation_angle"] = min([given["dilation_angle"], *friction])
     return part.model_copy(update=found)
 
 

@@ -111,6 +111,7 @@ def _resolved(
         there = {
             one for one in blocks_named(scene, formulation) if present[regions.select(one)].any()
         }
+        _refuse_absent(table, there, place)
         named, names, faded = named_in(scene, table, listed, there, before)
         yield Stage(
             table.name,
@@ -162,6 +163,17 @@ def _present(table: "StageTable", before: Bools, regions: "Regions", place: _Pla
         remedy = "keep one, or remove the stage"
         raise SceneError(place.fault("name", "no block is left", "at least one block", remedy))
     return present
+
+
+def _refuse_absent(table: "StageTable", there: set[str], place: _Place) -> None:
+    """Refuse what a stage lists on a block that is not there, which would act on nothing."""
+    for kind, keys in KINDS.items():
+        items = [one for key in keys for one in getattr(place.scene, key)]
+        for one in items:
+            if one.name in (table.lists(kind) or ()) and one.block not in (None, "all", *there):
+                value = f'"{one.name}" is on block "{one.block}", which is not there'
+                remedy = "take it off the list, or keep the block"
+                raise SceneError(place.fault(kind, value, "what is on blocks of the stage", remedy))
 
 
 def _chosen(name: str, regions: "Regions", place: _Place, key: str) -> Any:

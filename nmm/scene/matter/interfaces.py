@@ -153,4 +153,13 @@ class InterfaceTable(Frozen):
         if self.dilation_slip is not None and self.dilation_angle is None:
             remedy = "add dilation_angle, or leave dilation_slip out"
             raise fault("dilation_slip without dilation_angle", "an angle that it ends", remedy)
+        # Where faces slide by s under N friction takes N s tan(phi) and lifting N s tan(psi) of it.
+        residual = self.residual_friction_angle
+        friction = self.friction_angle if residual is None else min(self.friction_angle, residual)
+        if self.dilation_angle is not None and self.dilation_angle > friction:
+            expected = (
+                f"at most the friction angle, {friction:.6g} rad: beyond it sliding gives energy"
+            )
+            value = f"dilation_angle = {self.dilation_angle:.6g} rad"
+            raise fault(value, expected, "lower it, or raise friction")
         return self

@@ -98,6 +98,16 @@ def test_all_faults_are_reported_at_once_with_line_value_and_remedy() -> None:
         ('"2.9 MPa"', "-1", (":11:", "-1.0", ">= 0")),
         ("bonded = true", "bonded = false", ("interfaces.crack", "add bonded = true")),
         ("bonded = true", 'between = ["concrete", "stone"]\nbonded = true', ("stone", "known")),
+        (
+            "bonded = true",
+            'bonded = true\ndilation_angle = "38 deg"',
+            ("interfaces.crack", "0.663225", "friction angle, 0.645772", "gives energy"),
+        ),
+        (
+            "bonded = true",
+            'bonded = true\nresidual_friction_angle = "5 deg"\ndilation_angle = "6 deg"',
+            ("interfaces.crack", "friction angle, 0.0872665", "gives energy"),
+        ),
         ('fix = ["x", "y"]', 'fix = ["z"]', (":19:", "'z'", '["x", "y"]')),
         ('fix = ["x", "y"]', 'fix = ["y"]\ndisplacement = [1, 0]', ("supports.0", "x in fix")),
         ("point = [0.05, 0]", "", ("supports.0", "no place", "point, segment or block")),

@@ -309,6 +309,39 @@ def test_wrong_stages_are_told_by_their_place(stages, told):
     assert told in str(fault.value)
 
 
+ON_UPPER = """
+[[supports]]
+name = "wall"
+block = "upper"
+fix = ["x"]
+[[water_pressures]]
+name = "uplift"
+block = "upper"
+level = 2.0
+"""
+LEAVING = '[[stages]]\nname = "both"\n[[stages]]\nname = "one"\nremove = ["upper"]\n'
+
+
+@pytest.mark.parametrize("listed", ['supports = ["floor", "wall"]', 'water = ["uplift"]'])
+def test_what_a_stage_lists_on_a_block_that_leaves_is_refused_by_line(listed):
+    with pytest.raises(SceneError, match=r'stages.1.\w+: ".*is on block "upper", .* not there'):
+        run(STACKED + ON_UPPER + LEAVING + listed, MESHES["quads"])
+
+
+def test_what_is_not_listed_leaves_with_its_block():
+    found = run(STACKED + ON_UPPER + LEAVING, MESHES["quads"])
+    assert found.history["reaction:floor:y"][-1] == pytest.approx(LOWER, rel=1e-9)
+
+
+def test_a_bolt_whose_block_leaves_is_refused_with_the_stage():
+    bolt = (
+        '[[bars]]\nname = "bolt"\npoints = [[0.3, 0.5], [0.3, 2.5]]\narea = 1e-4\n'
+        'young_modulus = 2e11\nends = ["fixed", "fixed"]\n'
+    )
+    with pytest.raises(SceneError, match='"bolt": no block at .* in stage "one"'):
+        run(STACKED + bolt + LEAVING, MESHES["quads"])
+
+
 def test_keys_that_no_cover_has_are_told():
     with pytest.raises((FormulationError, SceneError), match="sise"):
         run(STACKED + '[[stages]]\nname = "one"\ncover = { sise = 1 }\n', MESHES["quads"])

@@ -73,5 +73,6 @@ def joints(site: Site) -> Document:
     if site.seldom(0.1):
         table |= {"residual_friction_angle": 0.5 * table["friction_angle"]}
     if site.seldom(0.1):
-        table |= {"dilation_angle": 0.1, "dilation_slip": 1e-3 * site.height}
+        least = table.get("residual_friction_angle", table["friction_angle"])
+        table |= {"dilation_angle": min(0.1, least), "dilation_slip": 1e-3 * site.height}
     return {"interfaces": {"joint": table}}
