@@ -350,6 +350,16 @@ def test_a_room_holds_no_more_files_than_a_reader_can_survey(room):
     assert len(files) <= 17
 
 
+def test_tests_stand_in_the_rooms_that_they_test():
+    """So that a fault is located by where it shows."""
+    tests = ROOT / "tests"
+    folders = {path.parent.relative_to(tests) for path in tests.rglob("test_*.py")}
+    rooms = {folder.parts for folder in folders if len(folder.parts) > 1}
+    homes = {(room[0].removeprefix("test_"), *room[1:]) for room in rooms}
+    assert homes
+    assert not [home for home in homes if not ROOT.joinpath(*home).is_dir()]
+
+
 HEAVY = ("scipy", "matplotlib", "skfem", "pint", "numba", "shapely", "numpy")
 
 

@@ -85,7 +85,7 @@ made_up_run(Dying(sys.argv[1]), blocks=10, frames=3)
 
 
 def test_a_killed_run_keeps_its_frames_and_history(tmp_path):
-    killed(KILLED, tmp_path / "run", PYTHONPATH=str(Path(__file__).parents[2]))
+    killed(KILLED, tmp_path / "run", PYTHONPATH=str(Path(__file__).parents[3]))
     stored = read_run(tmp_path / "run")
     assert stored.summary.status == "stopped"
     assert stored.summary.sentence.endswith("3 steps of it can be read, the last at 0.2")

@@ -14,7 +14,7 @@ from nmm.stepping.drive.verdict import CONVERGED, FAILED, UNBALANCED, RunVerdict
 from nmm.stepping.reports.ledger import Ledger
 from nmm.verification import text
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 
 DROP = text.scene(
     'plane = "stress"\nduration = 0.5\n[contact]\n[inertia]\n[gravity]\n',
