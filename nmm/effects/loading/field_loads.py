@@ -138,7 +138,9 @@ def _load(setup: Setup, load: "LoadTable") -> SpreadLoad:
     steady = load.history is None and not field.varies
     factor = load_factor(setup, load)
     if load.segment is None:
-        return SpreadLoad.over_volume(model, field, order, regions, factor, steady)
-    place = edge_place(setup, "loads", load, order)
-    share = place.weight * model.thickness
-    return SpreadLoad(place, share, field, factor, steady)
+        spread = SpreadLoad.over_volume(model, field, order, regions, factor, steady)
+    else:
+        place = edge_place(setup, "loads", load, order)
+        spread = SpreadLoad(place, place.weight * model.thickness, field, factor, steady)
+    field.checked(spread.place.position, setup)
+    return spread

@@ -59,6 +59,18 @@ class ValueField:
 
         return cls(any(one.varies for one in parts), values, setup.origin, what)
 
+    def checked(self, points: Floats, setup: Setup) -> None:
+        """Refuse values that are not finite as the stage begins, or as it ends.
+
+        Raises
+        ------
+        SceneError
+            As `values` does, which else would be in the midst of a run.
+        """
+        begin = setup.start.time
+        for time in (begin, begin + (setup.scene.duration or 0.0)):
+            self.values(points, time)
+
     def values(self, points: Floats, time: float) -> Floats:
         """Return the values (m, 2) at points (m, 2) in the axes of the model.
 

@@ -67,6 +67,7 @@ def _way(
     from nmm.effects.loading.fields import ValueField
 
     field = ValueField.named(setup, support.field, f"[[supports]] {support.name}")
+    field.checked(place.position, setup)
     return (lambda time: field.values(place.position, time)), field.varies
 
 

@@ -4,8 +4,10 @@ from collections.abc import Callable, Iterator
 
 from nmm.assembly.motion import State
 from nmm.effects.base import Instant
+from nmm.errors import NmmError
 from nmm.frozen import with_parts
 from nmm.progress import Progress
+from nmm.stepping.drive.broken_off import broken_off
 from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.in_time import ROUNDED_TIME, InTime, Schedule
 from nmm.stepping.drive.stable_step import longest_step, singular_mass
@@ -80,6 +82,8 @@ def _next(
         before, attempt, to, why = take(recorder, at, schedule)
     except BudgetSpentError as spent:
         return RunVerdict(SPENT, f"stopped at {at.state.time:.6g} s: {spent}")
+    except NmmError as fault:
+        return broken_off(recorder, f"{at.state.time:.6g} s", fault)
     if not attempt.converged:
         return RunVerdict(FAILED, _failure(attempt, at.state, schedule))
     after, contacts = stepper.accept(attempt)

@@ -4,6 +4,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from nmm.assembly.motion import State
+from nmm.errors import NmmError
+from nmm.stepping.drive.broken_off import broken_off
 from nmm.stepping.drive.verdict import SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.budget import BudgetSpentError
@@ -48,5 +50,7 @@ def until_verdict(
     except BudgetSpentError as spent:
         factor = at.state.load_factor
         verdict = RunVerdict(SPENT, f"{stopped} at load factor {factor:.6g}: {spent}")
+    except NmmError as fault:
+        verdict = broken_off(recorder, f"load factor {at.state.load_factor:.6g}", fault)
     recorder.last(at.state, "load", at.contacts)
     return at.state, verdict

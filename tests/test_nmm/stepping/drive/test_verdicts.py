@@ -169,3 +169,33 @@ def test_the_command_line_leaves_with_the_code_of_the_end(tmp_path, text, option
     scene.write_text(text)
     told = CliRunner().invoke(app, ["run", str(scene), "--out", str(tmp_path / "r"), *options])
     assert told.exit_code == code, told.output
+
+
+PULL = '[[loads]]\nname = "pull"\nkind = "body"\nblock = "b"\nfield = ["%s", "0"]\n'
+IN_TIME = "duration = 0.01\n[inertia]\n[formulation.integrator]\nstep = 1e-3\n"
+
+
+def in_time(field):
+    head, rest = IN_TIME.split("\n", 1)
+    return head + BLOCKS % 30 + PULL % field + rest
+
+
+def test_a_load_that_is_infinite_on_the_way_ends_the_run_with_what_it_had(tmp_path):
+    found = nmm.run(nmm.parse_scene(in_time("1e3 / abs(t - 0.005)")), out=tmp_path / "run")
+    assert found.summary.status == "failed"
+    told = "broken off at 0.004 s, after 4 steps: [[loads]] pull: field is [inf, 0.0] at "
+    assert found.summary.sentence.startswith(told)
+    assert found.history["time"] == pytest.approx([1e-3, 2e-3, 3e-3, 4e-3])
+    assert found.frames[-1].time == pytest.approx(4e-3)
+    stored = nmm.results.read_run(tmp_path / "run")
+    assert (stored.summary.status, stored.faults) == ("failed", ())
+    assert len(stored.history["time"]) == 4
+
+
+@pytest.mark.parametrize(
+    "field", ["1 / t", "log(t)", "sqrt(0.0099 - t)", "0 / 0", "1 / (0.01 - t)"]
+)
+def test_a_load_that_is_no_number_as_its_run_begins_or_ends_is_refused_before(field):
+    scene = nmm.parse_scene(in_time(field))
+    with pytest.raises(nmm.NmmError, match="pull: field is .*expected finite values wherever"):
+        prepare(scene, scene.formulation)
