@@ -7,10 +7,10 @@ from nmm.effects.base import Instant
 from nmm.errors import NmmError
 from nmm.frozen import with_parts
 from nmm.progress import Progress
-from nmm.stepping.drive.broken_off import broken_off
 from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.in_time import ROUNDED_TIME, InTime, Schedule
 from nmm.stepping.drive.stable_step import longest_step, singular_mass
+from nmm.stepping.drive.until_verdict import broken_off
 from nmm.stepping.drive.verdict import CONVERGED, FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.budget import BudgetSpentError

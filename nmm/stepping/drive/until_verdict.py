@@ -4,9 +4,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from nmm.assembly.motion import State
-from nmm.errors import NmmError
-from nmm.stepping.drive.broken_off import broken_off
-from nmm.stepping.drive.verdict import SPENT, RunVerdict
+from nmm.errors import NmmError, StorageError
+from nmm.stepping.drive.verdict import FAILED, SPENT, RunVerdict
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.budget import BudgetSpentError
 
@@ -54,3 +53,17 @@ def until_verdict(
         verdict = broken_off(recorder, f"load factor {at.state.load_factor:.6g}", fault)
     recorder.last(at.state, "load", at.contacts)
     return at.state, verdict
+
+
+def broken_off(recorder: Recorder, where: str, fault: NmmError) -> RunVerdict:
+    """Return the verdict on a run that a fault has ended, and ``where`` its last step ends.
+
+    Raises
+    ------
+    NmmError
+        The fault, before the first step, and where it is of what is written.
+    """
+    if not recorder.steps or isinstance(fault, StorageError):
+        raise fault
+    told = " ".join(str(fault).split())
+    return RunVerdict(FAILED, f"broken off at {where}, after {recorder.steps} steps: {told}")
