@@ -21,6 +21,9 @@ RESOLUTION = 200  # dots an inch
 SMALL = 8.5  # points
 BESIDE = 0.9  # inches of the width that labels take
 ABOVE = 0.75  # inches of a panel's height that title and labels take
+TALLEST = 8.0  # inches of a picture of the plane
+HANDLE, LETTER = 26.0, 4.2  # points of a legend that a sign and its gaps take, and a letter
+BELOW_TICKS, BELOW_LABEL = 19.0, 33.0  # points below the axes at which legends begin
 
 STYLE: Any = {
     "font.size": 9.0,
@@ -61,7 +64,11 @@ def fit_height(panels: "Sequence[Axes]", beside: float = BESIDE) -> None:
     height = 0.0
     for axes in panels:
         (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-        height += float(np.clip((WIDTH - beside) * (high - low) / (right - left), 0.8, 8.0)) + ABOVE
+        tall = (WIDTH - beside) * (high - low) / (right - left)
+        legend = axes.get_legend()
+        names = [] if legend is None else [text.get_text() for text in legend.get_texts()]
+        below = 0.0 if _fit_beside(axes, names) else (BELOW_LABEL - BELOW_TICKS) / 72
+        height += float(np.clip(tall, 0.8, TALLEST)) + ABOVE + below
     panels[0].figure.figure.set_size_inches(WIDTH, height)
 
 
@@ -99,15 +106,17 @@ def frame(axes: "Axes", x_text: str, y_text: str, title: str) -> None:
 
 
 def legend_below(axes: "Axes", handles: Sequence[Any]) -> None:
-    """Put a legend in one row below the axes, at the right of the axis label."""
+    """Put a legend below the axes: at the right of the axis label, or under it where it is long."""
     from matplotlib.transforms import ScaledTranslation
 
     if not handles:
         return
-    down = ScaledTranslation(0, -19 / 72, axes.figure.figure.dpi_scale_trans)
+    names = [handle.get_label() for handle in handles]
+    below = BELOW_TICKS if _fit_beside(axes, names) else BELOW_LABEL
+    down = ScaledTranslation(0, -below / 72, axes.figure.figure.dpi_scale_trans)
     axes.legend(
         handles=handles,
-        ncols=len(handles),
+        ncols=min(len(names), max(1, int(_room(axes) // max(_widths(names))))),
         loc="upper right",
         bbox_to_anchor=(1.0, 0.0),
         bbox_transform=axes.transAxes + down,
@@ -118,6 +127,22 @@ def legend_below(axes: "Axes", handles: Sequence[Any]) -> None:
         frameon=False,
         fontsize=SMALL,
     )
+
+
+def _fit_beside(axes: "Axes", names: Sequence[str]) -> bool:
+    """Whether a legend of so many names has room at the right of the axis label."""
+    return sum(_widths(names)) < (_room(axes) - LETTER * len(axes.get_xlabel())) / 2
+
+
+def _widths(names: Sequence[str]) -> list[float]:
+    """Points that names take in a legend, with their signs."""
+    return [HANDLE + LETTER * len(name) for name in names]
+
+
+def _room(axes: "Axes") -> float:
+    """Points that a picture of the plane is wide."""
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    return min(WIDTH - BESIDE, TALLEST * (right - left) / (high - low)) * 72
 
 
 def colour_bar(axes: "Axes", drawn: Any, text: str, arrows: str = "neither") -> None:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from integration.polygons import Polygons
-from nmm.plots.edges import cracks, outlines, segments
+from nmm.plots.edges import cracks, opened_on_several, outlines, segments
 from nmm.quantity import SPOT
 from nmm.results.frame import Frame, Topology
 
@@ -71,15 +71,18 @@ def draw_outline(axes: "Axes", cut: "CutCells", crack_width: float) -> None:
 def draw_lines(
     axes: "Axes", topology: Topology, polygons: Polygons, frame: Frame | None, **style: Any
 ) -> None:
-    """Draw the outlines of regions, and cracks, which have opened in a frame, twice as wide."""
+    """Draw the outlines of regions and faces that have opened, cracks half as wide again."""
     from matplotlib.collections import LineCollection
 
     width = style.pop("linewidths", line_width(topology))
-    lines = segments(polygons, outlines(topology))
+    starts = outlines(topology)
+    if frame is not None:
+        starts = np.append(starts, opened_on_several(topology, frame))
+    lines = segments(polygons, starts)
     axes.add_collection(LineCollection(list(lines), linewidths=width, **style))
     if frame is not None and len(opened := segments(polygons, cracks(topology, frame))):
         axes.add_collection(
-            LineCollection(list(opened), linewidths=2 * width, capstyle="round", **style)
+            LineCollection(list(opened), linewidths=1.5 * width, capstyle="round", **style)
         )
     if frame is not None:
         draw_tips(axes, polygons, frame)

@@ -41,9 +41,9 @@ def blocks(
     topology = run.topologies[0]
     extent = extent_of(topology.elements.points)
     axes = ax or axes_grid(1, 1, 4.0)[0]
-    last = run.frames[-1] if run.frames else None
-    known = last if last is not None and last.topology == 0 else None
-    draw_blocks(axes, topology, topology.elements, known)
+    # Cracks are told by how far their faces have moved, in the last frame that has no others.
+    known = [frame for frame in run.frames if frame.topology == 0]
+    draw_blocks(axes, topology, topology.elements, known[-1] if known else None)
     if scene is not None:
         extent = draw_conditions(axes, scene, extent)
     frame_plane(axes, extent, f"{title}, {block_count(topology)}")

@@ -26,6 +26,7 @@ ENERGIES = (
     "contact_loss",
 )
 DAMPING = "damping_loss"
+STILL = 1e-9  # of the largest displacement: what moved by less did not
 STATES = ("bonded", "stick", "slide", "open", "broken")
 
 
@@ -83,6 +84,8 @@ def load_displacement(
 ) -> "Axes":
     """Draw the load factor against the displacement component of a monitor that moved most.
 
+    Curves of what was at rest without load begin there.
+
     Parameters
     ----------
     run
@@ -108,7 +111,23 @@ def load_displacement(
         )
     column = max(columns, key=lambda name: float(np.nanmax(np.abs(run.history[name]))))
     last = run.history[column][np.isfinite(run.history[column])][-1]
-    return curve(run, column, x_factor=float(np.copysign(1.0, last)), ax=ax, path=path)
+    axes = curve(run, column, x_factor=float(np.copysign(1.0, last)), ax=ax)
+    if _from_rest(run):
+        line = axes.lines[-1]
+        x, y = line.get_data()
+        line.set_data(np.append(0.0, x), np.append(0.0, y))
+        axes.relim()
+        axes.autoscale_view()
+    return finished(axes, path)
+
+
+def _from_rest(run: RunData) -> bool:
+    """Whether the first frame shows no load and no displacement, and the history does not."""
+    told = run.history["load_factor"][0] == 0
+    if told or not run.frames or run.frames[0].load_factor != 0:
+        return False
+    first, last = (np.abs(run.frames[n].displacement).max(initial=0.0) for n in (0, -1))
+    return bool(first <= STILL * last)
 
 
 def history(

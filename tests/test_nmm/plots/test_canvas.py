@@ -42,3 +42,20 @@ def test_a_picture_is_the_one_that_matplotlib_saves(panels, tmp_path):
 def test_other_kinds_of_files_are_left_to_matplotlib(panels, tmp_path):
     canvas.save(panels[0], tmp_path / "two.svg")
     assert (tmp_path / "two.svg").read_text().startswith("<?xml")
+
+
+@pytest.mark.parametrize(
+    ("names", "rows"), [(["a"], 1), (["branch 1"] * 4, 1), (["branch"] * 9, 2)]
+)
+def test_a_legend_never_lies_on_the_axis_label(names, rows, tmp_path):
+    from matplotlib.lines import Line2D
+
+    (axes,) = canvas.axes_grid(1, 1, 3.0)
+    canvas.frame_plane(axes, np.array([[0.0, 0.0], [2.0, 1.0]]), "a title")
+    canvas.legend_below(axes, [Line2D([], [], label=name) for name in names])
+    canvas.finished(axes, tmp_path / "one.png", fit=True)
+    legend, label = axes.get_legend().get_window_extent(), axes.xaxis.label.get_window_extent()
+    assert not legend.overlaps(label)
+    assert axes.figure.bbox.containsx(legend.x0)
+    assert axes.title.get_window_extent().y1 <= axes.figure.bbox.y1
+    assert len({text.get_window_extent().y0 for text in axes.get_legend().get_texts()}) == rows

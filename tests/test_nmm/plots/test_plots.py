@@ -10,7 +10,7 @@ from integration.polygons import Polygons
 from nmm import parse_scene, plots
 from nmm.contact.problem.contact_state import ContactState
 from nmm.errors import NmmError
-from nmm.plots.edges import cracks, outlines
+from nmm.plots.edges import cracks, opened_on_several, outlines, segments
 from nmm.plots.results.broken import broken_parts, edge_parts
 from nmm.plots.results.deformed import BROKEN, visible
 from nmm.plots.results.stress import measure, scale_end
@@ -272,6 +272,32 @@ def test_a_crack_is_told_by_the_jump_across_its_faces(memory_run, jump, faces):
     assert all(TIP.points[n][0] == 1 for n in found)
 
 
+@pytest.mark.parametrize(("jump", "faces"), [(0.1, 3), (0.0, 0)])
+def test_faces_that_lay_on_several_are_told_once_they_part(memory_run, jump, faces):
+    topology, frame = at_a_tip(memory_run, 0.0)
+    move = frame.displacement.copy()
+    move[8:, 1] += jump  # the triangle goes up, from two squares
+    found = opened_on_several(topology, replace(frame, displacement=move))
+    assert len(found) == faces
+    ends = segments(TIP, found)
+    assert (ends[..., 1] == 1).all()
+
+
+def test_the_initial_picture_shows_cracks_of_runs_in_which_they_grow(memory_run):
+    topology, frame = at_a_tip(memory_run, 0.1)
+    sink = MemorySink()
+    sink.topologies = [topology, topology]
+    sink.frames = [frame, replace(frame, topology=1)]
+    axes = plots.blocks(sink)
+    drawn = [
+        tuple(np.sort(one[:, 1]))
+        for c in axes.collections[1:]
+        for one in c.get_segments()
+        if (one[:, 0] == 1).all()
+    ]
+    assert (0.0, 1.0) in drawn
+
+
 def test_one_sliver_does_not_set_the_colours():
     areas = np.array([1.0] * 100 + [1e-6])
     even = np.linspace(1, 2, 101)
@@ -374,6 +400,19 @@ def test_seconds_are_not_gathered_to_kiloseconds():
 
 def test_a_monitor_is_named_in_words():
     assert words_of("monitor:tip:ux") == "ux of tip"
+
+
+def test_load_against_displacement_begins_at_rest_without_load(memory_run):
+    whole = plots.load_displacement(memory_run).lines[0].get_data()
+    first, sink = memory_run.frames[0], MemorySink()
+    still = replace(first, load_factor=0.0, displacement=0 * first.displacement)
+    sink.topologies, sink.frames = memory_run.topologies, [still, *memory_run.frames[1:]]
+    for step in range(1, len(whole[0])):
+        sink.row({name: column[step] for name, column in memory_run.history.items()})
+    x, y = plots.load_displacement(sink).lines[0].get_data()
+    assert (x[0], y[0]) == (0.0, 0.0)
+    assert x[1:] == pytest.approx(whole[0][1:])
+    assert y[1:] == pytest.approx(whole[1][1:])
 
 
 def test_load_against_displacement_takes_what_moved_most(memory_run):
