@@ -8,7 +8,7 @@ import numpy as np
 from nmm.progress import Progress
 from nmm.stepping.after_failure import show_failure
 from nmm.stepping.checkpoints import Checkpoints
-from nmm.stepping.compiled import CompiledScene
+from nmm.stepping.compiled_scene import CompiledScene
 from nmm.stepping.drive.in_time import Schedule
 from nmm.stepping.drive.phases import Ended, Phases
 from nmm.stepping.drive.statics import with_unheld

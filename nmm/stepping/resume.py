@@ -74,7 +74,7 @@ def _resumed(path: Path, progress: Progress, budget: float | None) -> Run:
         simulation = prepare(scene, formulation)
         folder, stood = simulation.reopened(path)
     else:
-        from nmm.stepping.safety_run import sought_on
+        from nmm.stepping.safety.search import sought_on
 
         found = sought_on(scene, formulation, path, progress)
         simulation, folder, stood, store = found.simulation, found.folder, found.stood, found.store

@@ -142,7 +142,7 @@ def _run(
         simulation = prepare(scene, formulation)
         folder = None if out is None else simulation.folder(Path(out))
     else:
-        from nmm.stepping.safety_run import sought
+        from nmm.stepping.safety.search import sought
 
         found = sought(scene, formulation, out, progress)
         simulation, folder, store = found.simulation, found.folder, found.store

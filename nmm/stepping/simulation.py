@@ -30,7 +30,7 @@ from nmm.results.tee import Tee
 from nmm.scene import scene_hash
 from nmm.stepping.bounds.static_theorem import load_bound
 from nmm.stepping.checkpoints import Checkpoints
-from nmm.stepping.compiled import CompiledScene
+from nmm.stepping.compiled_scene import CompiledScene
 from nmm.stepping.drive.changes import topology
 from nmm.stepping.drive.stages import StagesSoFar, enter_again, run_stages
 from nmm.stepping.driving import Drive

@@ -3,7 +3,7 @@
 import pytest
 
 import nmm
-from nmm.stepping import strength_reduction
+from nmm.stepping.safety import strength_reduction
 from nmm.testing.killing import check_same_bytes, killed_and_gone_on
 from nmm.testing.scenes import block_on_incline
 from nmm.testing.stopping import stopped_after

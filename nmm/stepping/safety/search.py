@@ -10,9 +10,9 @@ from nmm.results.storage.run_folder import RunFolder
 from nmm.results.storage.values import Arrays
 from nmm.stepping.prepare import prepare
 from nmm.stepping.run_state import RunState
+from nmm.stepping.safety.strength_reduction import reduced
+from nmm.stepping.safety.tried_factors import TriedFactors
 from nmm.stepping.simulation import Simulation
-from nmm.stepping.strength_reduction import reduced
-from nmm.stepping.tried_factors import TriedFactors
 
 if TYPE_CHECKING:
     from nmm.formulation import Formulation

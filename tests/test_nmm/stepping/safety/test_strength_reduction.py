@@ -9,7 +9,7 @@ import nmm
 from nmm.errors import SceneError
 from nmm.scene import parse_scene
 from nmm.scene.tables.strength_reduction import StrengthReductionTable
-from nmm.stepping.strength_reduction import FactorTried, bracket, weakened
+from nmm.stepping.safety.strength_reduction import FactorTried, bracket, weakened
 from nmm.testing.scenes import block_on_incline
 from nmm.verification.problems.matter.slopes import ToppledSlope
 

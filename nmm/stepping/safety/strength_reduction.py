@@ -18,8 +18,8 @@ from nmm.results.sink import MemorySink
 from nmm.stepping.bounds.safety_bound import FINE, safety_bound
 from nmm.stepping.drive.verdict import COLLAPSED, CONVERGED
 from nmm.stepping.prepare import prepare
+from nmm.stepping.safety.tried_factors import TriedFactors
 from nmm.stepping.simulation import Simulation
-from nmm.stepping.tried_factors import TriedFactors
 
 if TYPE_CHECKING:
     from nmm.assembly.motion import State

@@ -1,0 +1,1 @@
+"""The factor of safety: strengths are divided until nothing holds."""
