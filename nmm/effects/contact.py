@@ -88,6 +88,15 @@ class Contact(Effect):
         """See `Effect.from_setup`."""
         return cls(setup.model, contact_parts(setup), setup.start)
 
+    @property
+    def caution(self) -> str:
+        """See `Effect.caution`: dampers that bodies give way in place of."""
+        if not self.laws.damps:
+            return ""
+        from nmm.contact.laws.yielding_bodies import yielding_bodies
+
+        return yielding_bodies(self.laws, self._model)
+
     @cached_property
     def momentum(self) -> "Momentum":
         """Inertia of the bodies as contact needs it."""

@@ -163,20 +163,22 @@ class ContactLaws:
     def energy(self, contacts: ContactPoints, own_only: bool = False) -> float:
         """Energy (J) that comes back when the contacts are unloaded, but for bonds that are tied.
 
-        With ``own_only`` of those alone whose stiffness is a law's: exact contacts are no springs,
-        what they overlap by, within a tolerance, stores nothing.
+        With ``own_only`` of those alone whose stiffness is a law's, or that have a damper: exact
+        contacts are no springs, what they overlap by, within a tolerance, stores nothing. Springs
+        that a damper holds back store what they are pressed in by though nothing touches.
         """
         normal, shear, own = self.springs(contacts)
+        damped = self.damped(contacts)
         bonded = contacts.bonded
         if self.evolving:
             away = bonded & (contacts.gap > 0)
             normal = normal * np.where(away, self.response(contacts, normal).open_share, 1.0)
         # Bonds carry what their stretch says, also where they were laid just now.
         acts = bonded | (contacts.normal_force != 0) | (contacts.shear_force != 0)
-        acts &= (own | (not own_only)) & ~contacts.tied
+        acts &= (own | damped | (not own_only)) & ~contacts.tied
         stretch = np.where(bonded, contacts.gap, np.minimum(contacts.gap, 0.0))
-        elastic = normal * stretch**2 + shear * contacts.slip**2
-        return float(elastic[acts].sum() / 2)
+        pressed = (normal * stretch**2)[acts | damped].sum()
+        return float(pressed + (shear * contacts.slip**2)[acts].sum()) / 2
 
     @cached_property
     def makes_joints(self) -> Bools:
@@ -198,9 +200,14 @@ class ContactLaws:
         """Whether any law has damping."""
         return any(law.damping for law in self.laws)
 
+    @of_pairs
     def damping(self, contacts: ContactPoints) -> Floats:
         """Return the share (m,) of critical damping of each contact."""
         return np.array([law.damping for law in self.laws])[contacts.interface]
+
+    def damped(self, contacts: ContactPoints) -> Bools | bool:
+        """Return which contacts (m,) have a damper: in time these are springs, exact or not."""
+        return self.damping(contacts) > 0 if self.damps else False
 
     @cached_property
     def brittle(self) -> Bools:

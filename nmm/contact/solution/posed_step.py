@@ -106,6 +106,8 @@ class Posing:
         start: Floats | None,
     ) -> StepProblem:
         contacts, (normal, shear, own) = iteration.start, iteration.springs
+        if request.step is not None and self.laws.damps:
+            own = own | self.laws.damped(contacts)
         if self.exact:
             # Exact enforcements take stiffnesses for a measure of the bodies there.
             one, other = self.softness[contacts.edge_a], self.softness[contacts.edge_b]

@@ -33,3 +33,38 @@ def test_glue_on_slivers_of_least_squares_is_told(cover, away, glue, told):
     parts = {"glue.method": glue, "supports.method": "nitsche"}
     found = prepared(with_parts(_bar(table, away), parts)).identity().warnings
     assert any("slivers" in one for one in found) == told
+
+
+IMPACT = """
+plane = "strain"
+duration = 0.01
+[materials.a]
+young_modulus = 1e9
+poisson_ratio = 0.0
+density = 1000.0
+[interfaces.i]
+friction_angle = 0.0
+restitution = 0.5
+[[blocks]]
+material = "a"
+vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[blocks]]
+material = "a"
+vertices = [[1.01, 0], [2, 0], [2, 1], [1.01, 1]]
+[inertia]
+[contact]
+"""
+
+
+@pytest.mark.parametrize(
+    ("functions", "penalty", "told"),
+    [("rigid_strain", 10.0, True), ("rigid", 10.0, False), ("rigid_strain", 0.01, False)],
+)
+def test_bodies_that_give_way_in_place_of_their_dampers_are_told(functions, penalty, told):
+    scene = tomllib.loads(IMPACT)
+    scene["formulation"] = {
+        "cover": {"functions": functions},
+        "contact": {"normal_penalty": penalty},
+    }
+    found = prepared(scene).identity().warnings
+    assert any("give way in place of the damper" in one for one in found) == told

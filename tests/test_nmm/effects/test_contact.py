@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from nmm import run
+from nmm.contact.enforcement.base import ENFORCEMENTS
 from nmm.errors import SceneError
 from nmm.formulation import Formulation
 from nmm.scene.model import Scene
@@ -287,6 +288,38 @@ def test_blocks_part_at_the_restitution_asked_for_and_energy_is_accounted_for():
     assert rate.sum() == pytest.approx(1.0, rel=1e-10)
     assert found.history["friction_loss"][-1] == pytest.approx(1000 * 0.75 / 4, rel=0.01)
     assert abs(found.summary.energy_balance) < 0.005
+
+
+@pytest.mark.parametrize("enforcement", list(ENFORCEMENTS.table))
+@pytest.mark.parametrize("restitution", [0.8, 0.5, 0.2])
+def test_rigid_blocks_part_as_asked_under_every_enforcement(restitution, enforcement):
+    """The default stiffness; a damper that holds a spring back leaves it pressed in as they part.
+
+    Loss of a damped impact: (1 - e^2) / 4 of mv^2, and energy is there throughout.
+    """
+    method = {
+        "integrator": {"type": "newmark", "step": 2e-6},
+        "contact": {"enforcement": enforcement},
+        "cover": {"functions": "rigid"},
+    }
+    scene = head_on(restitution).model_copy(update={"duration": 1.4e-3})
+    found = run(scene, Formulation.model_validate(method))
+    rate = (found.stepper.model.rigid_projection @ found.state.velocity).reshape(-1, 3)[:, 0]
+    # 35 steps in contact, of 0.07 ms.
+    assert rate[1] - rate[0] == pytest.approx(restitution, abs=2e-3)
+    loss = 1000 * (1 - restitution**2) / 4
+    assert found.history["friction_loss"][-1] == pytest.approx(loss, rel=5e-3)
+    assert (found.summary.status, list(found.summary.warnings)) == ("converged", [])
+
+
+def test_a_body_at_rest_on_damped_contacts_is_exact_in_statics():
+    """Dampers act in time: without it an exact enforcement lets nothing overlap."""
+    scene = column(3, None)
+    item = scene.interfaces["i"].model_copy(update={"damping": 0.5})
+    scene = scene.model_copy(update={"interfaces": {"i": item}})
+    found = run(scene, Formulation.model_validate({"contact": {"enforcement": "cone"}}))
+    assert found.history["penetration"][-1] < 1e-9 * 1e6 / 1e10
+    assert found.history["contact_energy"][-1] < 1e-9 * found.history["strain_energy"][-1]
 
 
 def column(n, normal_stiffness):
