@@ -107,13 +107,15 @@ class Drive:
         return Schedule.of(made.stepper, made.formulation, duration, stage=stage)
 
     def _load_schedule(self) -> LoadSchedule:
-        loading, steps = self.made.scene.loading, self.made.formulation.loading
+        scene, steps = self.made.scene, self.made.formulation.loading
+        loading, alike = scene.loading, {"followed": scene.followed}
         if loading is None:
-            increment = steps.increment if self.made.scene.followed else 1.0
-            return LoadSchedule(1.0, False, increment, steps.tolerance, at_once=self.made.at_once)
+            increment = steps.increment if scene.followed else 1.0
+            at_once = self.made.at_once
+            return LoadSchedule(1.0, False, increment, steps.tolerance, at_once=at_once, **alike)
         until = loading.until == "failure"
         target = loading.maximum_factor or (np.inf if until else float(loading.until))
-        return LoadSchedule(target, until, steps.increment, steps.tolerance)
+        return LoadSchedule(target, until, steps.increment, steps.tolerance, **alike)
 
     def _beyond(self) -> Beyond:
         """Return what looks for limit points."""

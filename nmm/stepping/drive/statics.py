@@ -38,6 +38,10 @@ SMALLEST_INCREMENT = 2.0**-30
 FLOWING = 1e-6
 # Share of the stored energy from which on what was lost on the way to rest is told.
 TOOK = 1e-6
+CUT = (
+    "increments of it cut, and the steps of its fields with them, on whose length these hang: take "
+    "smaller ones, or [diffusion] step, and compare"
+)
 
 
 def run_load(
@@ -106,7 +110,7 @@ class _Raising:
             limit = self.beyond(at.state, trial.factor)
             if limit is not None:
                 return RunVerdict(FAILURE, limit.sentence, limit.factor, 0.0)
-        return replace(at, increment=at.increment / 2)
+        return replace(at, increment=at.increment / 2, cuts=at.cuts + 1)
 
     def _tried(self, at: UnderLoad) -> Trial:
         """Look for equilibrium under one increment more, with anchors where nothing else helps."""
@@ -155,7 +159,8 @@ class _Raising:
         longer = min(2 * at.increment, schedule.increment)
         stays = trial.broke or bool(trial.events) or at.changed
         increment = at.increment if stays else longer
-        return UnderLoad(stands.state, stands.contacts, increment, at.rest, stands.what)
+        given = stands.state, stands.contacts, increment, at.rest, stands.what
+        return UnderLoad(*given, at.cuts)
 
     def _relaxed(self, at: UnderLoad, trial: Trial) -> UnderLoad | RunVerdict:
         """Bring loose blocks to rest, from where the load begins to grow anew."""
@@ -179,6 +184,8 @@ class _Raising:
     def arrived(self, at: UnderLoad) -> RunVerdict:
         """Return the verdict at the end of the path."""
         sentence = f"equilibrium at load factor {at.state.load_factor:.6g}"
+        if self.schedule.followed and at.cuts:
+            sentence += f", {at.cuts} {CUT}"
         if at.rest is not None:
             sentence += f", loose blocks brought to rest in {at.rest.steps} steps of relaxation"
             sentence += f" over {at.rest.way:.3g} m"

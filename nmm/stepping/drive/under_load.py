@@ -40,6 +40,8 @@ class LoadSchedule:
     at_once
         Whether what acts does so in full from the start: smaller increments are not tried, and
         blocks that do not come to rest near where they stand have failed.
+    followed
+        Whether fields that change by themselves take their steps with the load.
     begin, stops
         Time at load factor 0, and whether time stops there: in statics of a scene that has no
         clock, time is the load factor, counted over stages.
@@ -52,6 +54,7 @@ class LoadSchedule:
     begin: float = 0.0
     stops: bool = False
     at_once: bool = False
+    followed: bool = False
 
     @classmethod
     def brought_on(
@@ -63,7 +66,8 @@ class LoadSchedule:
         """
         stepped = followed or "increment" in steps.model_fields_set
         increment = steps.increment if stepped else 1.0
-        return cls(1.0, False, increment, steps.tolerance, begin, stops)
+        given = increment, steps.tolerance, begin, stops
+        return cls(1.0, False, *given, followed=followed)
 
     def instant(self, factor: float) -> Instant:
         """Return the end of a step to a load factor."""
@@ -96,6 +100,8 @@ class UnderLoad:
         How loose blocks were brought to rest; None when they were not.
     changed
         What has changed in this state, which is not in equilibrium again yet, in words.
+    cuts
+        Number of increments that were cut so far.
     """
 
     state: State
@@ -103,6 +109,7 @@ class UnderLoad:
     increment: float
     rest: Rest | None = None
     changed: str = ""
+    cuts: int = 0
 
     @property
     def rise(self) -> float:

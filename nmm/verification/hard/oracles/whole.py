@@ -48,6 +48,9 @@ GROWN = 1e-4
 ANOTHER_WAY = "by another way they may rest under other forces"
 """What a run says whose loose blocks rubbed, or yielded, while they were brought to rest."""
 
+OTHER_STEPS = "the steps of its fields with them"
+"""What a run at rest says whose increments were cut: fields then take other steps."""
+
 CHANCE = ("audit penetration", "audit contact_duration", "audit energy_made")
 """Warnings of steps that do not resolve impacts, where rounding chooses what touches first."""
 
@@ -244,7 +247,8 @@ def _again(scene: Document, found: Ran, way: str) -> Checks:
 
 def _another_answer(run: "Run") -> bool:
     """Say whether a run tells that its answer is one of several."""
-    return _told(run, "audit growth_projection") or ANOTHER_WAY in run.summary.sentence
+    told = any(words in run.summary.sentence for words in (ANOTHER_WAY, OTHER_STEPS))
+    return told or _told(run, "audit growth_projection")
 
 
 def _proportional(first: "Run", other: "Run", factor: float) -> Check:
