@@ -13,7 +13,7 @@ from nmm.effects.members.fibres import Fibres
 from nmm.effects.members.linked import Linked
 from nmm.effects.members.links import Links
 from nmm.effects.members.member_set import Members
-from nmm.errors import SceneError
+from nmm.errors import NmmError, SceneError
 from nmm.interfaces.bond_slip import BOND_LAWS, BondLaw
 from nmm.materials.uniaxial import Uniaxial
 from nmm.scene.tables.members import GROUND
@@ -72,7 +72,7 @@ class BarMembers(Linked):
         number[slips] = np.arange(len(slips))
         chains = Chains(
             _axial(bars, of_node[first], links.length),
-            _bond(bars, of_node[slips], share[slips]),
+            _bond(setup, of_node[slips], share[slips]),
             number[first],
             number[first + 1],
         )
@@ -131,34 +131,39 @@ def _laid(setup: Setup, bar: "BarTable") -> _Laid:
 
 def _axial(bars: "tuple[BarTable, ...]", owner: Ints, length: Floats) -> Fibres:
     """Axial laws of links (m,) of bars, in stress and strain."""
-    area = np.array([_area(bar) * bar.number for bar in bars])
-    start = np.array([bar.pretension / _area(bar) for bar in bars])
+    area = np.array([bar.section * bar.number for bar in bars])
+    start = np.array([bar.pretension / bar.section for bar in bars])
     laws = [_steel(bar) for bar in bars]
     return Fibres.of([laws[one] for one in owner], length, area[owner], start[owner])
 
 
-def _bond(bars: "tuple[BarTable, ...]", owner: Ints, share: Floats) -> Fibres:
+def _bond(setup: Setup, owner: Ints, share: Floats) -> Fibres:
     """Laws of the bond at points (p,) that stand for lengths ``share`` of bars (m)."""
+    bars = setup.scene.bars
     around = np.array([_perimeter(bar) * bar.number for bar in bars])
-    laws = [None if bar.bond is None else bond_law(bar).uniaxial for bar in bars]
+    laws = [None if bar.bond is None else _bond_law(setup, bar).uniaxial for bar in bars]
     own = [law for law in (laws[one] for one in owner) if law is not None]
     return Fibres.of(own, np.ones(len(owner)), around[owner] * share)
 
 
-def bond_law(bar: "BarTable") -> BondLaw:
+def _bond_law(setup: Setup, bar: "BarTable") -> BondLaw:
     """Return the law of a bar's bond.
 
     Raises
     ------
-    NmmError
-        When its name is not known, or constants do not fit it.
+    SceneError
+        When its name is not known, or constants do not fit it; with the line of the bar.
     """
     table = bar.bond
     assert table is not None
     names = ("stiffness", "strength", "slips", "residual_strength", "exponent")
     given: dict[str, Any] = {name: getattr(table, name) for name in names}
     known = {name: one for name, one in given.items() if one is not None}
-    law: BondLaw = BOND_LAWS.make(table.law, {}, **known)
+    try:
+        law: BondLaw = BOND_LAWS.make(table.law, {}, **known)
+    except NmmError as error:
+        place = setup.scene.source.of_name("bars", bar.name)
+        raise SceneError(*(f"{place}.bond: {fault}" for fault in error.faults)) from None
     return law
 
 
@@ -168,13 +173,6 @@ def _steel(bar: "BarTable") -> Uniaxial:
         return Uniaxial(bar.young_modulus, pushes=pushes)
     hard = bar.yield_stress + FAR * bar.hardening_modulus
     return Uniaxial(bar.young_modulus, (0.0, FAR), (bar.yield_stress, hard), pushes=pushes)
-
-
-def _area(bar: "BarTable") -> float:
-    if bar.area is not None:
-        return bar.area
-    assert bar.diameter is not None
-    return float(np.pi * bar.diameter**2 / 4)
 
 
 def _perimeter(bar: "BarTable") -> float:

@@ -153,6 +153,10 @@ class InterfaceTable(Frozen):
         if self.dilation_slip is not None and self.dilation_angle is None:
             remedy = "add dilation_angle, or leave dilation_slip out"
             raise fault("dilation_slip without dilation_angle", "an angle that it ends", remedy)
+        if self.residual_aperture is not None and self.residual_aperture > (self.aperture or 0.0):
+            given = "no aperture" if self.aperture is None else f"aperture = {self.aperture:g} m"
+            value = f"residual_aperture = {self.residual_aperture:g} m, {given}"
+            raise fault(value, "what closing leaves of the aperture", "lower it, or raise aperture")
         # Where faces slide by s under N friction takes N s tan(phi) and lifting N s tan(psi) of it.
         residual = self.residual_friction_angle
         friction = self.friction_angle if residual is None else min(self.friction_angle, residual)

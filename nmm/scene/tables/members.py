@@ -241,7 +241,20 @@ class BarTable(Between):
             raise fault("area and dowel", "a bending_stiffness", "add it to [bars.dowel]")
         if self.bond is None and "free" in self.held:
             raise fault("a free end, no bond", "a bar that is held", "add a bond, or fix the end")
+        if self.yield_stress is None and self.hardening_modulus:
+            remedy = "add yield_stress, or leave hardening_modulus out"
+            raise fault("hardening_modulus, no yield_stress", "a stress that it begins at", remedy)
+        if self.yield_stress is not None and self.pretension > self.yield_stress * self.section:
+            expected = (
+                f"at most the force that it yields at, {self.yield_stress * self.section:.6g} N"
+            )
+            raise fault(f"pretension = {self.pretension:.6g} N", expected, "lower it")
         return self
+
+    @property
+    def section(self) -> float:
+        """Its area, or that of a round bar of its diameter (m2)."""
+        return self.area or math.pi * (self.diameter or 0.0) ** 2 / 4
 
     @property
     def thickness(self) -> float:

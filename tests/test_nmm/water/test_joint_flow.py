@@ -75,6 +75,7 @@ def test_joints_are_found_again_when_a_block_leaves():
     ("old", "new", "said"),
     [
         ('aperture = "0.2 mm"', 'aperture = "-0.2 mm"', "interfaces.joint.aperture: .*an aperture"),
+        ('"0.01 mm"', '"0.3 mm"', "interfaces.joint: residual_aperture.*of the aperture"),
         ("[joint_flow]\n", "", "joint_heads: no .joint_flow."),
         ('name = "out"', 'name = "in"', "a name of its own"),
         ("head = 0.0", "head = 0.0\nblock = 'base'", "a point or a segment"),

@@ -32,6 +32,12 @@ BAR = '[[bars]]\nname = "b"\npoints = [[0, 0], [1, 1]]\nyoung_modulus = "200 GPa
         (BAR, 9, "diameter or area"),
         (BAR + 'area = "490 mm^2"\nbond = { stiffness = 1e9 }', 9, "a perimeter"),
         (BAR + 'diameter = "25 mm"\nends = ["free", "fixed"]', 9, "a bar that is held"),
+        (BAR + 'diameter = "25 mm"\nhardening_modulus = 1e9', 9, "a stress that it begins at"),
+        (
+            BAR + 'area = "2 mm^2"\nyield_stress = "5 MPa"\npretension = 10.1',
+            9,
+            "at most the force that it yields at, 10 N",
+        ),
         (BAR + 'diameter = "25 mm"\nends = ["fre", "fixed"]', 14, '"free", "fixed"'),
         (
             '[[dashpots]]\nname = "d"\npoints = [[0, 0], [1, 0]]\nviscosity = 1',
@@ -70,7 +76,7 @@ def test_an_end_on_no_block_is_told_by_line_and_name(text):
 
 def test_a_bond_that_lacks_a_constant_is_told():
     text = BAR + 'diameter = "25 mm"\n[bars.bond]\nlaw = "bilinear"\nstrength = "8 MPa"\n'
-    with pytest.raises(NmmError, match="expected strength, 2 slips"):
+    with pytest.raises(NmmError, match="scene:9: bars.0.bond: .*expected strength, 2 slips"):
         prepare(nmm.parse_scene(SCENE + text), Formulation())
 
 
