@@ -76,10 +76,10 @@ def at_end_of_piece(
 ) -> Floats:
     """Return kinks (n,) of pieces at whose ends no shear is left (rad).
 
-    They lie between straight on and the ``angle`` (n,) that intensities alone ask for; cracks that
-    are not open, and those under parallel tension, keep theirs.
+    They lie between straight on and the ``angle`` (n,) that intensities alone ask for; those under
+    parallel tension keep it. Where a crack is shut its piece opens all the same, by sliding alone.
     """
-    driven = (opening > 0) & (parallel < 0)
+    driven, opening = parallel < 0, np.maximum(opening, 0.0)
     part = np.where(driven, -parallel, 0.0) * np.sqrt(8 * length / np.pi)
 
     def shear(t: Floats) -> Floats:

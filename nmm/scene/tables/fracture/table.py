@@ -36,7 +36,7 @@ class FractureTable(Frozen):
     )
     parallel_stress: bool = Field(
         default=False,
-        description="true or false: whether the stress along an open crack, where it presses, "
+        description="true or false: whether the stress along a crack, where it presses, "
         "counts in the direction of a piece, which then ends without shear",
         examples=[True],
     )

@@ -125,12 +125,20 @@ def test_a_piece_under_parallel_compression_ends_without_shear() -> None:
     assert (np.abs(found) < np.abs(angle)).all()
 
 
-def test_parallel_tension_and_closed_tips_leave_the_kink() -> None:
+def test_parallel_tension_leaves_the_kink() -> None:
     angle = np.array([0.3, -1.2])
     found = at_end_of_piece(
-        angle, np.array([1.0, -0.1]), np.array([-0.15, 0.8]), np.array([3.0, -3.0]), 0.1
+        angle, np.array([1.0, -0.1]), np.array([-0.15, 0.8]), np.array([3.0, 3.0]), 0.1
     )
     assert found == pytest.approx(angle, abs=0)
+
+
+def test_a_piece_of_a_crack_that_is_shut_opens_by_sliding_alone() -> None:
+    sliding, parallel = np.array([-1.0]), np.array([-3.0])
+    angle = np.arccos(1 / 3) * np.ones(1)
+    shut = at_end_of_piece(angle, np.array([-0.2]), sliding, parallel, 0.02)
+    assert shut == pytest.approx(at_end_of_piece(angle, np.zeros(1), sliding, parallel, 0.02))
+    assert 0 < shut[0] < angle[0]
 
 
 WING = """
@@ -211,3 +219,30 @@ def test_wing_cracks_turn_towards_the_load_without_swinging(asked: str) -> None:
     assert ("swings" in " ".join(run.summary.warnings)) == (asked == "false")
     if asked == "true":
         assert (np.abs(pieces[1:] - 90) < 30).all()
+
+
+STEEP = WING.replace("max_growth = 0.1", "max_growth = 0.01")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("degrees", "asked", "expected", "within"),
+    [(65, "true", 57.4, 4.0), (55, "true", 66.2, 3.0), (65, "false", 70.5, 1.0)],
+)
+def test_the_first_piece_of_a_crack_that_is_shut_knows_the_stress_along_it(
+    degrees: int, asked: str, expected: float, within: float
+) -> None:
+    # Expected are the angles at which K_II of drawn pieces is zero on cells of half the size
+    # (-9.4 at 55 and 28.2 kPa m^0.5 at 65 degrees, and -57.4 and -6.1), and that of the largest
+    # hoop stress in pure sliding.
+    turn = math.radians(degrees)
+    half = 0.1 * np.array([math.cos(turn), math.sin(turn)])
+    flaw = "[[-0.0707, -0.0707], [0.0707, 0.0707]]"
+    scene = STEEP.format(asked=asked).replace(flaw, f"{[(-half).tolist(), half.tolist()]}")
+    run = nmm.run(parse_scene(scene), parse_formulation(NET))
+    (line,) = run.stepper.discretisation.setup.geometry.cracks
+    for piece in (line[-1] - line[-2], line[0] - line[1]):
+        along = math.copysign(1.0, piece @ half) * half
+        left = along[0] * piece[1] - along[1] * piece[0]
+        found = math.degrees(math.atan2(left, piece @ along))
+        assert found == pytest.approx(expected, abs=within)
