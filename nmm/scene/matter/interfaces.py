@@ -153,13 +153,13 @@ class InterfaceTable(Frozen):
         if self.dilation_slip is not None and self.dilation_angle is None:
             remedy = "add dilation_angle, or leave dilation_slip out"
             raise fault("dilation_slip without dilation_angle", "an angle that it ends", remedy)
-        if self.residual_aperture is not None and self.residual_aperture > (self.aperture or 0.0):
-            given = "no aperture" if self.aperture is None else f"aperture = {self.aperture:g} m"
-            value = f"residual_aperture = {self.residual_aperture:g} m, {given}"
+        residual, drawn = self.residual_aperture, self.aperture
+        if residual is not None and drawn is not None and residual > drawn:
+            value = f"residual_aperture = {residual:g} m, aperture = {drawn:g} m"
             raise fault(value, "what closing leaves of the aperture", "lower it, or raise aperture")
         # Where faces slide by s under N friction takes N s tan(phi) and lifting N s tan(psi) of it.
-        residual = self.residual_friction_angle
-        friction = self.friction_angle if residual is None else min(self.friction_angle, residual)
+        broken = self.residual_friction_angle
+        friction = self.friction_angle if broken is None else min(self.friction_angle, broken)
         if self.dilation_angle is not None and self.dilation_angle > friction:
             expected = (
                 f"at most the friction angle, {friction:.6g} rad: beyond it sliding gives energy"
