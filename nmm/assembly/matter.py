@@ -23,6 +23,9 @@ STRESS = "stress"
 INITIAL = "initial_strain"
 """Elastic strain (Q, 3) of the initial stress; absent where there is none."""
 
+SIZE = "cell_size"
+"""Of the cell of a point (m), for laws that ask for it: no variable, it does not change."""
+
 # Tangents off by this share of the elastic one are that one, rounded.
 ROUNDED_TANGENT = 16 * float(np.finfo(float).eps)
 
@@ -45,6 +48,8 @@ class Matter:
         "stress" or "strain"; m.
     rest
         Stiffness (n, n) of all other elements.
+    size
+        (Q,) of the cells that points lie in (m); None where no law asks for it.
     """
 
     laws: tuple[Law, ...]
@@ -54,6 +59,7 @@ class Matter:
     plane: str
     thickness: float
     rest: csc_array
+    size: Floats | None = None
 
     flows: ClassVar[bool] = True
     """Whether matter may give way without end."""
@@ -67,14 +73,27 @@ class Matter:
         plane: str,
         thickness: float,
         rest: csc_array,
+        size: Floats | None = None,
     ) -> Self:
-        """Return the points of a manifold whose elements (E,) have each a ``law``."""
+        """Return the points of a manifold whose elements (E,) have each a ``law``.
+
+        ``size`` (E,) is that of their cells (m), where a law asks for it.
+
+        Raises
+        ------
+        FormulationError
+            A law that has no answer with cells of their size.
+        """
         bent = [number for number, one in enumerate(laws) if not one.linear]
         points = StressPoints.of(manifold, np.isin(law, bent))
         own = np.searchsorted(bent, law[points.rule.owner])
         chosen = tuple(laws[number] for number in bent)
         elastic = np.array([one.stiffness(plane) for one in chosen])[own]
-        return cls(chosen, own, points, elastic, plane, thickness, rest)
+        sizes = None if size is None else size[points.rule.owner]
+        for number, one in enumerate(chosen):  # a handful of laws
+            if sizes is not None and one.sized:
+                one.check_size(sizes[own == number])
+        return cls(chosen, own, points, elastic, plane, thickness, rest, sizes)
 
     def start(self) -> dict[str, Floats]:
         """Return the history of matter that nothing has happened to: (Q, h) by name.
@@ -223,7 +242,10 @@ class Matter:
     def _own(self, law: Law, history: History, at: Ints | slice) -> dict[str, Floats]:
         """Return the variables of a law at its points, for it to change as it likes."""
         widths = law.variables(self.plane)
-        return {name: np.array(history[name][at, : len(value)]) for name, value in widths.items()}
+        own = {name: np.array(history[name][at, : len(value)]) for name, value in widths.items()}
+        if law.sized and self.size is not None:
+            own[SIZE] = self.size[at, None]
+        return own
 
     def _initial(self, strain: Floats) -> Floats:
         return np.asarray(np.einsum("qij,qj->qi", self.elastic, strain))

@@ -65,6 +65,9 @@ class Model:
     cutting
         What the next cut of the same blocks may go on from; None where there is nothing of the
         kind.
+    cell_size
+        (E,) of the cells that elements are cut from, or of the blocks that they are (m); None where
+        no law asks for it.
     """
 
     manifold: Manifold
@@ -82,6 +85,7 @@ class Model:
     finite: bool = False
     bonded: tuple[int, ...] = ()
     cutting: "Cutting | None" = None
+    cell_size: Floats | None = None
 
     @cached_property
     def stiffness(self) -> csc_array:
@@ -120,7 +124,8 @@ class Model:
             return FiniteMatter.of(*given)
         elastic = self.thickness * self.elasticity * straight[:, None, None]
         rest = self._matrix(element_matrices.stiffness, elastic)
-        return Matter.of(self.manifold, self.laws, self.law, self.plane, self.thickness, rest)
+        points = self.manifold, self.laws, self.law, self.plane, self.thickness
+        return Matter.of(*points, rest, self.cell_size)
 
     @property
     def may_bend(self) -> bool:

@@ -82,6 +82,25 @@ class Law(ABC):
         """
         return False
 
+    @property
+    def sized(self) -> bool:
+        """Whether answers hang on the size of cells: ``cell_size`` (m, 1) in m of the history.
+
+        Strain that localises does so in one row of cells: what it takes for the area of the band is
+        what its law takes for the volume times the size of the cell (Bazant and Oh 1983).
+        """
+        return False
+
+    def check_size(self, size: Floats) -> None:
+        """Refuse cells of sizes (m,) in m with which the law has no answer.
+
+        Raises
+        ------
+        FormulationError
+            Naming the largest that it has one with.
+        """
+        return None
+
     def variables(self, plane: str) -> History:
         """Return the internal variables of one point at the start, (h,) each."""
         return {}

@@ -32,7 +32,7 @@ def radial_return(
     strain: Floats,
     plastic: Floats,
     accumulated: Floats,
-    constants: tuple[float, float, float, float],
+    constants: tuple[float, float, float | Floats, float | Floats],
 ) -> Returned:
     """Return stresses to the yield surface (Wilkins 1964; tangent of Simo and Taylor 1985).
 
@@ -41,7 +41,7 @@ def radial_return(
     strain, plastic, accumulated
         (m, 3) whole strain, (m, 4) plastic strain and (m,) accumulated plastic strain before.
     constants
-        Young's modulus, Poisson's ratio, yield stress, hardening modulus.
+        Young's modulus, Poisson's ratio, yield stress, hardening modulus; of all points or each.
     """
     e, nu, yields, hardens = constants
     shear, bulk = e / 2 / (1 + nu), e / 3 / (1 - 2 * nu)

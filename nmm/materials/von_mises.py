@@ -1,15 +1,16 @@
 """Von Mises plasticity with linear isotropic hardening."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from integration.arrays import Floats
+from integration.arrays import Bools, Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
 from nmm.materials.plasticity import Plastic, flowed
 from nmm.materials.projected_return import projected_return
-from nmm.materials.radial_return import radial_return
+from nmm.materials.radial_return import Returned, radial_return
 
 
 @dataclass(frozen=True)
@@ -25,15 +26,26 @@ class VonMisesPlasticity(Plastic):
         In uniaxial tension (Pa).
     hardening_modulus
         Slope of the uniaxial stress over the plastic strain (Pa); 0 is perfectly plastic.
+    softening_energy
+        J/m2 that a band of flow takes for its area until its yield stress is the residual one,
+        beyond what that takes; None is no softening.
+    residual_stress
+        Yield stress that is left (Pa).
 
     Notes
     -----
+    The yield stress falls along a line over the accumulated plastic strain. A band is as wide as a
+    cell of size ``h``: the slope ``-(s_y - s_r)^2 h / (2 G)`` makes it take the energy ``G``
+    whatever its width (crack band; Bazant and Oh 1983).
+
     Internal variables: ``plastic_strain`` (4: xx, yy, 2 xy, zz), ``accumulated_plastic_strain`` p,
     and ``stress_zz`` (Pa).
     """
 
     yield_stress: float
     hardening_modulus: float = 0.0
+    softening_energy: float | None = None
+    residual_stress: float = 0.0
 
     def __post_init__(self) -> None:
         if not self.yield_stress > 0:
@@ -43,17 +55,74 @@ class VonMisesPlasticity(Plastic):
         if not self.hardening_modulus >= 0:
             raise FormulationError(
                 f"hardening_modulus: {self.hardening_modulus}: expected a modulus in Pa, >= 0: "
-                "0 is perfectly plastic; softening needs a law that knows the size of cells"
+                "0 is perfectly plastic; softening is given by softening_energy"
             )
+        if self.softening_energy is None:
+            if self.residual_stress:
+                raise FormulationError(
+                    f"residual_stress: {self.residual_stress}: expected a law that softens: add "
+                    "softening_energy"
+                )
+            return
+        if self.hardening_modulus or not self.softening_energy > 0:
+            raise FormulationError(
+                f"softening_energy: {self.softening_energy}: expected an energy in J/m2, > 0, of a "
+                "law that does not harden: correct it, or remove hardening_modulus"
+            )
+        if not 0 <= self.residual_stress < self.yield_stress:
+            raise FormulationError(
+                f"residual_stress: {self.residual_stress}: expected a stress from 0 to below the "
+                f"yield stress of {self.yield_stress:.6g} Pa: lower it"
+            )
+
+    @property
+    def sized(self) -> bool:
+        """See `Law.sized`."""
+        return self.softening_energy is not None
+
+    def check_size(self, size: Floats) -> None:
+        """See `Law.check_size`: flow takes more strain than the shear that it relieves."""
+        shear = self.young_modulus / 2 / (1 + self.poisson_ratio)
+        most = 3 * shear / self._slope(1.0)
+        if size.max(initial=0.0) >= most:
+            raise FormulationError(
+                f"softening_energy: {self.softening_energy}: cells of {size.max():.4g} m: expected "
+                f"cells below {most:.4g} m, where they unload more slowly than they soften: refine "
+                "the cover"
+            )
+
+    def _slope(self, size: float | Floats) -> Any:
+        """By how much the yield stress falls over the plastic strain in cells of a size (Pa)."""
+        assert self.softening_energy is not None
+        return (self.yield_stress - self.residual_stress) ** 2 * size / (2 * self.softening_energy)
 
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
         """See `Law.update`."""
+        if self.softening_energy is not None:
+            return self._softened(strain, history)
         found = (projected_return if plane == "stress" else radial_return)(
             strain,
             history["plastic_strain"],
             history["accumulated_plastic_strain"][:, 0],
             (self.young_modulus, self.poisson_ratio, self.yield_stress, self.hardening_modulus),
         )
+        return flowed(found.stress, found.tangent, found.plastic_strain, found.accumulated)
+
+    def _softened(self, strain: Floats, history: History) -> Response:
+        """Return the response in plane strain while the yield stress falls, and after it."""
+        slope = self._slope(history["cell_size"][:, 0])
+        last = (self.yield_stress - self.residual_stress) / slope
+        before = history["accumulated_plastic_strain"][:, 0]
+
+        def returned(left: Bools) -> Returned:
+            yields = np.where(left, self.residual_stress, self.yield_stress)
+            falls = np.where(left, 0.0, -slope)
+            constants = self.young_modulus, self.poisson_ratio, yields, falls
+            return radial_return(strain, history["plastic_strain"], before, constants)
+
+        found = returned(before >= last)
+        if (found.accumulated > last).any():  # some came to the end of the line in this step
+            found = returned(found.accumulated > last)
         return flowed(found.stress, found.tangent, found.plastic_strain, found.accumulated)
 
     def energy(self, stress: Floats, history: History, plane: str) -> Floats:

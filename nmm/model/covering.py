@@ -154,3 +154,18 @@ def _mesh(
             "cells: expected a linear field: use degree = 1, or weights that hold one"
         )
     return Covering(found, pieces, laid, net.cutting)
+
+
+def cell_sizes(covering: Covering, degree: int) -> Floats:
+    """Width (E,) of a band that flows alone (m), of fields of a degree on the elements' cells.
+
+    With constant local functions it is a row of cells: the side of a square of their area, or the
+    height of such an equilateral triangle. Richer fields bend within a cell: measured, bands are
+    0.56 to 0.71 of it wide with linear and 0.44 to 0.66 with quadratic ones. Blocks without cells
+    are cells themselves.
+    """
+    cover, cut = covering.laid, covering.cut
+    if cover is None:
+        return np.asarray(np.sqrt(covering.manifold.elements.areas))
+    square = np.sqrt(3) if cover.cell_vertices.shape[1] == 3 else 1.0
+    return np.asarray(2 / (degree + 2) * np.sqrt(square * cover.cells.areas[cut.element_cell]))

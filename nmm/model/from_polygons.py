@@ -14,7 +14,7 @@ from nmm.formulation import CoverTable
 from nmm.geometry.blocks import Regions
 from nmm.geometry.geometry import Geometry
 from nmm.materials.base import Law
-from nmm.model.covering import Covering, cover_regions
+from nmm.model.covering import Covering, cell_sizes, cover_regions
 
 if TYPE_CHECKING:
     from covers.cutting.cut import Cutting
@@ -105,6 +105,7 @@ def covered(
     covering = cover_regions(regions, cover, lines, kappa[own], apart, bonded, before)
     of_element = own[covering.manifold.element_region]
     covering = _numbered(covering, regions)
+    sized = any(law.sized for law in laws)
     return Model(
         manifold=covering.manifold,
         elasticity=np.array([law.stiffness(plane) for law in laws])[of_element],
@@ -120,6 +121,7 @@ def covered(
         finite=sheet.finite,
         bonded=bonded,
         cutting=covering.cutting,
+        cell_size=cell_sizes(covering, cover.highest_degree) if sized else None,
     )
 
 

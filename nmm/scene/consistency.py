@@ -103,6 +103,10 @@ def _materials(data: Tables) -> Iterator[Finding]:
             yield (*path, "material"), f'"{name}"', expected, suggestion(name, known)
     if data.get("plane") == "strain":
         yield from _incompressible(data)
+    for name, row in _table(data, "materials").items():
+        if data.get("plane") == "stress" and isinstance(row, Mapping) and "softening_energy" in row:
+            where = ("materials", name, "softening_energy")
+            yield where, f"{row['softening_energy']} in plane stress", "plane strain", "remove it"
 
 
 def _incompressible(data: Tables) -> Iterator[Finding]:

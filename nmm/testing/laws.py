@@ -1,6 +1,7 @@
 """What every material law must keep: checked on a law of one's own in one line."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,6 +13,8 @@ POINTS, STEPS = 200, 4
 # Differences of stresses are taken over this share of the strain; their error beside the tangent,
 # in elastic stiffnesses, is some 1e-7 of rounding and as much of curvature.
 NEAR, CLOSE = 1e-6, 1e-4
+CELL = 1e-3
+"""Size of the cells (m) in which laws are checked that ask for one."""
 # Share of the points that may lie on a kink of the law, where no tangent is right.
 KINKS = 0.05
 
@@ -46,11 +49,42 @@ def check_law(
     AssertionError
         Saying what is not kept, where and by how much.
     """
+    law = _InCells(law) if law.sized else law
     for plane in planes:
         _stiffness(law, plane)
         for size in strains:
             random = np.random.default_rng(seed)
             _path(law, plane, size, step, random)
+
+
+@dataclass(frozen=True)
+class _InCells(Law):
+    """A law that asks for the size of cells, in cells of one size."""
+
+    law: Law
+
+    @property
+    def modulus(self) -> float:
+        return self.law.modulus
+
+    @property
+    def symmetric(self) -> bool:
+        return self.law.symmetric
+
+    def stiffness(self, plane: str) -> Floats:
+        return self.law.stiffness(plane)
+
+    def variables(self, plane: str) -> History:
+        return self.law.variables(plane)
+
+    def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
+        return self.law.update(strain, self._here(history, strain), plane, step)
+
+    def energy(self, stress: Floats, history: History, plane: str) -> Floats:
+        return self.law.energy(stress, self._here(history, stress), plane)
+
+    def _here(self, history: History, points: Floats) -> History:
+        return {**history, "cell_size": np.full((len(points), 1), CELL)}
 
 
 def start_of(law: Law, plane: str, points: int) -> dict[str, Floats]:

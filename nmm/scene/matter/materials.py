@@ -15,6 +15,7 @@ from nmm.scene.fields import (
     Options,
     PartName,
     Stress,
+    SurfaceEnergy,
     example,
     quantity,
 )
@@ -49,6 +50,19 @@ class Material(Frozen):
         ge=0,
         description="a slope of stress over plastic strain in Pa, >= 0; none is perfectly plastic",
         examples=["2 GPa"],
+    )
+    softening_energy: SurfaceEnergy | None = Field(
+        default=None,
+        gt=0,
+        description="an energy in J/m2, > 0, that a band of sliding takes for its area beyond what "
+        'residual_stress takes, of "von_mises" in plane strain; it does not soften if not given',
+        examples=example("J/m^2"),
+    )
+    residual_stress: Stress | None = Field(
+        default=None,
+        ge=0,
+        description="the yield stress in Pa, >= 0, that softening leaves; 0 if not given",
+        examples=["50 kPa"],
     )
     cohesion: Stress | None = Field(
         default=None,
