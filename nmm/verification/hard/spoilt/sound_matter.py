@@ -25,6 +25,14 @@ poisson_ratio = 0.3
 yield_stress = "250 MPa"
 hardening_modulus = "2 GPa"
 density = 7800
+[materials.v]
+law = "von_mises"
+young_modulus = "20 MPa"
+poisson_ratio = 0.45
+yield_stress = "80 kPa"
+softening_energy = "500 J/m^2"
+residual_stress = "40 kPa"
+density = 1800
 [materials.d]
 law = "drucker_prager"
 young_modulus = "1 GPa"
