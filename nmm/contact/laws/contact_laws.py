@@ -170,13 +170,16 @@ class ContactLaws:
         normal, shear, own = self.springs(contacts)
         damped = self.damped(contacts)
         bonded = contacts.bonded
+        pressed_by = contacts.gap
         if self.evolving:
+            response = self.response(contacts, normal)
             away = bonded & (contacts.gap > 0)
-            normal = normal * np.where(away, self.response(contacts, normal).open_share, 1.0)
+            normal = normal * np.where(away, response.open_share, 1.0)
+            pressed_by = contacts.gap - response.rise
         # Bonds carry what their stretch says, also where they were laid just now.
         acts = bonded | (contacts.normal_force != 0) | (contacts.shear_force != 0)
         acts &= (own | damped | (not own_only)) & ~contacts.tied
-        stretch = np.where(bonded, contacts.gap, np.minimum(contacts.gap, 0.0))
+        stretch = np.where(bonded, pressed_by, np.minimum(pressed_by, 0.0))
         pressed = (normal * stretch**2)[acts | damped].sum()
         return float(pressed + (shear * contacts.slip**2)[acts].sum()) / 2
 

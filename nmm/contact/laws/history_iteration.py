@@ -141,9 +141,12 @@ class HistoryIteration:
 
         The force of a step in time acts all through it. Loads of statics grow in theirs: what slid
         from its start is rubbed by the mean of the limits at both ends, what slid later by that at
-        the end.
+        the end. What sliding does as it lifts faces against what presses them is not lost.
         """
         rubbed = np.abs(answer.shear_force * sliding)
+        if self._laws.evolving:
+            lifted = self.response.rise - self.before.rise
+            rubbed += np.where(self.start.bonded, 0.0, answer.normal_force * lifted)
         if static:
             rubbed *= self._mean_share(answer)
         soft = self.softening
