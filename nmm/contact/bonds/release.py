@@ -31,7 +31,7 @@ def released(
     contacts: ContactPoints,
     gone: Bools,
     lost: Bools,
-    answer: LoadedContacts,
+    loaded: LoadedContacts,
     springs: Springs,
     limits: Limits,
 ) -> tuple[ContactPoints, float]:
@@ -42,28 +42,29 @@ def released(
     Parameters
     ----------
     contacts
-        Of the step that the answer is of, still whole.
+        As the step begins, still whole.
     gone, lost
         (m,) which tied bonds are released, and which bonds break at once.
-    answer
-        What the terms carried, at the end of the step.
+    loaded
+        What the terms carried that is taken over: in statics at the end of the step, under the load
+        that breaks them, and in time at its start, which springs act from.
     springs
         Of whole bonds, as stiff as the penalty of the terms.
     limits
         Of the laws; what goes beyond is not taken over.
     """
     held, (penalty, shear_penalty, _) = contacts.bonded & ~lost, springs
-    firm = np.where(held, _firm(answer.normal_force, answer.gap, penalty), FIRM)
+    firm = np.where(held, _firm(loaded.normal_force, loaded.gap, penalty), FIRM)
     normal, tangent = firm * penalty, firm * shear_penalty
-    pull = np.minimum(answer.normal_force, np.where(held, limits.tension, 0.0))
+    pull = np.minimum(loaded.normal_force, np.where(held, limits.tension, 0.0))
     bound = limits.cohesion + limits.friction * np.maximum(-pull, 0.0)
-    shear = np.where(held, np.clip(answer.shear_force, -bound, bound), 0.0)
+    shear = np.where(held, np.clip(loaded.shear_force, -bound, bound), 0.0)
     # A broken bond that nothing presses is free where it lies.
     pressed, left = gone & (held | (pull < 0)), beside(contacts, gone)
-    lag = np.where(pressed, answer.gap - pull / normal, 0.0)
-    slid = np.where(gone & held, answer.slip - shear / tangent, 0.0)
-    lag = np.where(left, answer.gap - counted(contacts, answer.gap), lag)
-    slid = np.where(left, answer.slip - counted(contacts, answer.slip), slid)
+    lag = np.where(pressed, loaded.gap - pull / normal, 0.0)
+    slid = np.where(gone & held, loaded.slip - shear / tangent, 0.0)
+    lag = np.where(left, loaded.gap - counted(contacts, loaded.gap), lag)
+    slid = np.where(left, loaded.slip - counted(contacts, loaded.slip), slid)
     history = contacts.history
     found = replace(
         contacts,

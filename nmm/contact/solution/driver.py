@@ -14,7 +14,7 @@ from scipy.sparse import csc_array
 from integration.arrays import Bools, Floats, Ints
 from integration.contraction import some
 from nmm.assembly.model import Model
-from nmm.contact.bonds.release import released, tied_energy
+from nmm.contact.bonds.release import LoadedContacts, released, tied_energy
 from nmm.contact.enforcement.base import Enforcement
 from nmm.contact.enforcement.rebalanced import solve_rebalanced
 from nmm.contact.laws.contact_laws import ContactLaws
@@ -123,8 +123,10 @@ class ContactSolver:
             if request.breaking == "stop" and brittle.any():
                 return replace(found, stopped=True)
             freed = broken & contacts.tied
-            loss += _stored(agreed.posed.problem, answer, brittle, contacts)
-            contacts, stored = self._broken(iteration, contacts, answer, (broken, brittle))
+            # In statics bonds break at the load of the answer; in time a step goes without them.
+            loaded = answer if request.step is None else contacts
+            loss += _lost(agreed.posed.problem, loaded, brittle, contacts)
+            contacts, stored = self._broken(iteration, contacts, loaded, (broken, brittle))
             loss += stored
             besides = more(contacts) if freed.any() else besides
 
@@ -155,18 +157,19 @@ class ContactSolver:
         self,
         iteration: HistoryIteration,
         contacts: ContactPoints,
-        answer: StepAnswer,
+        loaded: LoadedContacts,
         gone: tuple[Bools, Bools],
     ) -> tuple[ContactPoints, float]:
         """Return contacts whose bonds are released or broken, and what `released` says of energy.
 
-        ``gone`` are the bonds that cannot hold, and those of them that break at once.
+        They were ``loaded`` so; ``gone`` are the bonds that cannot hold, and those of them that
+        break at once.
         """
         (broken, brittle), stored = gone, 0.0
         freed = broken & contacts.tied
         if freed.any():
             limits, springs = iteration.response.limits, iteration.springs
-            contacts, stored = released(contacts, freed, brittle, answer, springs, limits)
+            contacts, stored = released(contacts, freed, brittle, loaded, springs, limits)
         return break_bonds(self._laws, contacts, brittle), stored
 
     def acting(self) -> csc_array | None:
@@ -239,11 +242,14 @@ class _Agreed:
         return with_parts(found, loss=loss, sliding=sliding, rows=rows, missed=missed)
 
 
-def _stored(
-    problem: StepProblem, answer: StepAnswer, broken: Bools, contacts: ContactPoints
+def _lost(
+    problem: StepProblem, loaded: LoadedContacts, broken: Bools, contacts: ContactPoints
 ) -> float:
-    """Energy (J) of bonds that break: in their springs, or of the terms that held them."""
+    """Energy (J) that bonds lose as they break: of pull and shear, in springs or in terms.
+
+    What presses a joint in stays in its spring.
+    """
     stiffness = problem.normal_stiffness, problem.shear_stiffness
-    springs = answer.normal_force**2 / stiffness[0] + answer.shear_force**2 / stiffness[1]
-    terms = tied_energy(contacts, answer, stiffness)
+    springs = stiffness[0] * np.maximum(loaded.gap, 0.0) ** 2 + stiffness[1] * loaded.slip**2
+    terms = tied_energy(contacts, loaded, stiffness)
     return float(np.where(contacts.tied, terms, springs / 2)[broken].sum())
