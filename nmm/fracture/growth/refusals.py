@@ -22,7 +22,7 @@ def refuse(setup: Setup, tips: Ints) -> None:
     Raises
     ------
     SceneError
-        No crack that ends inside a block.
+        No crack that ends inside a block, or a domain about tips that is less than a cell.
     FormulationError
         A cover whose tips carry no functions, answers that no factor scales, or matter that is not
         linear.
@@ -41,6 +41,11 @@ def refuse(setup: Setup, tips: Ints) -> None:
             remedy = "correct functions or size of [cover], or tips of [cover.enrichment]"
             raise FormulationError(Fault(place, value, expected, remedy))
     table, update = scene.fracture, setup.formulation.rotation.update
+    size = setup.formulation.cover.finest
+    if table is not None and table.radius is not None and size and table.radius < size:
+        value, expected = f"{table.radius:g} m", f"at least a cell of the cover, {size:g} m"
+        remedy = "leave it out: four cells are taken, less where another tip is near"
+        raise SceneError(Fault(scene.source.place("fracture", "radius"), value, expected, remedy))
     if table is not None and table.control == "toughness" and update not in ("auto", "small"):
         place = setup.formulation.source.place("rotation", "update")
         value, expected = f'"{update}" with control = "toughness"', "answers that a factor scales"

@@ -49,7 +49,7 @@ class LineStress:
     def stays(self, begin: Floats, way: Floats, body: Ints, shares: Floats) -> Bools:
         """Which lines (k,) stay in their body; see `at`."""
         _, element = self._located(begin, way, body, shares)
-        return np.asarray((element.reshape(len(begin), -1) >= 0).all(axis=1))
+        return np.asarray((element.reshape(len(begin), len(shares)) >= 0).all(axis=1))
 
     def _located(
         self, begin: Floats, way: Floats, body: Ints, shares: Floats

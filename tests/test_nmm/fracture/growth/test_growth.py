@@ -269,3 +269,8 @@ def test_faces_and_tips_of_cracks_go_to_frames_history_and_paraview(tmp_path: Pa
     assert {"blocks.pvd", "cracks.pvd", "tips.pvd"} <= files
     assert 'Name="opening"' in (tmp_path / "paraview" / "cracks_000001.vtu").read_text()
     assert 'Name="K_I"' in (tmp_path / "paraview" / "tips_000001.vtu").read_text()
+
+
+def test_domains_of_less_than_a_cell_are_refused() -> None:
+    with pytest.raises(NmmError, match=r"fracture.radius: 1e-06 m: expected at least a cell"):
+        prepare(plate(FOLLOW + "\nradius = 1e-6\n"), net())
