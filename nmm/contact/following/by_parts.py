@@ -5,7 +5,7 @@ iterate whose forces are out of balance by ``r`` there is a line of problems tha
 than all of it, with the path's target as far on: at ``t = 0`` the iterate solves its problem, and
 each solution is a guess near that of a slightly larger ``t`` (Newton homotopy; Allgower and Georg
 1990). Where no part of the way can be gone, however small, solutions turn back before the target,
-as friction lets them: the step is given up.
+as friction lets them: the step is given up. First it is tried with more patience.
 """
 
 from dataclasses import replace
@@ -35,6 +35,9 @@ def follow(problem: PathProblem, path: PathEquation, solver: LinearSolver) -> Pa
     if begin.converged and path.target == 0:
         return begin
     found = newton(problem, path, solver, begin)
+    if not found.converged:
+        again = newton(problem, path, solver, begin, patient=True)
+        found = replace(again, iterations=found.iterations + again.iterations)
     return found if found.converged else _by_parts(problem, path, solver, begin, found)
 
 

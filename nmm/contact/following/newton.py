@@ -20,12 +20,21 @@ ITERATIONS, CLOSE = 20, 1e-11
 FRUITLESS, FRUIT = 6, 0.7
 # Halves of an iteration that are tried where the whole is worse in balance.
 SHORTER = 4
+# Iterations of the patient: faces that touch everywhere open some points at a time.
+PATIENT_ITERATIONS = 60
 
 
 def newton(
-    problem: PathProblem, path: PathEquation, solver: LinearSolver, begin: PathStep
+    problem: PathProblem,
+    path: PathEquation,
+    solver: LinearSolver,
+    begin: PathStep,
+    patient: bool = False,
 ) -> PathStep:
     """Return the last of the iterates from one of them; its balance says whether it is a solution.
+
+    The ``patient`` go whole steps and on, whatever these leave out of balance: points that open one
+    after another bring nothing until the last one has.
 
     Raises
     ------
@@ -33,7 +42,7 @@ def newton(
         Where nothing holds a part.
     """
     step, outs = begin, [begin.residual]
-    for count in range(1, ITERATIONS + 1):
+    for count in range(1, (PATIENT_ITERATIONS if patient else ITERATIONS) + 1):
         factor = solver.unsymmetric().factorise(problem.tangent(step.contacts))
         along = factor.solve(path.load)
         # What is left is rounding in the end, which dependent functions cannot follow: the balance
@@ -43,14 +52,15 @@ def newton(
         increment = still + change * along
         if not np.isfinite(increment).all():
             raise SolveError("the path has no next step: the load moves nothing that is controlled")
-        found = _nearest(problem, path, step, (increment, step.change + change))
+        end = increment, step.change + change
+        found = problem.at(path, *end) if patient else _nearest(problem, path, step, end)
         stands = found.residual <= CLOSE or step.residual <= min(ROUNDED, 2 * found.residual)
         step = replace(found, iterations=count)
         # A part of an iteration may be in balance short of the target.
         if stands and found.short <= ROUNDED and count > 1:
             break
         outs.append(found.residual)
-        if _to_and_fro(outs):
+        if not patient and _to_and_fro(outs):
             break
     return step
 

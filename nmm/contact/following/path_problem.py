@@ -79,6 +79,8 @@ class PathProblem:
         What contacts answer.
     scale
         Force (N) beside which what is out of balance is small; that of contacts and load besides.
+    rounding
+        Force (N) that contacts answer to places that are rounded: less is in balance.
     """
 
     matrix: csc_array
@@ -88,6 +90,7 @@ class PathProblem:
     slip: Floats
     law: Law
     scale: float
+    rounding: float = 0.0
 
     def at(self, path: PathEquation, increment: Floats, change: float) -> PathStep:
         """Return the iterate at an increment (n,) and a change of the load factor."""
@@ -98,7 +101,8 @@ class PathProblem:
         rest = np.asarray(self.force + change * path.load - inner)
         pushed = float(np.linalg.norm(self.rows.push(*np.abs(contacts.force.T))))
         size = max(self.scale, pushed, abs(change) * float(np.linalg.norm(path.load)))
-        residual = float(np.linalg.norm(rest)) / (size or 1.0)
+        out = float(np.linalg.norm(rest))
+        residual = out / (size or 1.0) if out > self.rounding else 0.0
         short = abs(path.left(increment, change)) / (abs(path.target) or 1.0)
         return PathStep(increment, change, contacts, gap, slip, rest, residual, short)
 

@@ -88,7 +88,9 @@ def _solved(
         matrix, push = matrix + tied.matrix, tied.push
         force, scale = force - push, max(scale, float(np.linalg.norm(push)))
     through = ContactRows(rows.normal[free], rows.tangent[free], rows.direction[free])
-    problem = PathProblem(matrix, force, through, some.gap, some.slip, law, scale)
+    stiffest = float(np.concatenate(stiff[:2]).max(initial=0.0))
+    rounding = float(np.finfo(float).eps) * stiffest * float(some.length.sum())
+    problem = PathProblem(matrix, force, through, some.gap, some.slip, law, scale, rounding)
     step = follow(problem, path, request.solver)
     answer = _answer(contacts, rows, step, free, tied)
     history = {name: column.copy() for name, column in contacts.history.items()}
