@@ -49,8 +49,8 @@ class NmmError(ValueError):
     faults: tuple[Fault | str, ...]
 
     def __init__(self, *faults: Fault | str) -> None:
-        self.faults = faults
-        super().__init__("\n".join(str(fault) for fault in faults))
+        self.faults = tuple(one if isinstance(one, Fault) else printable(one) for one in faults)
+        super().__init__("\n".join(str(fault) for fault in self.faults))
 
 
 class SceneError(NmmError):

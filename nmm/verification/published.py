@@ -39,9 +39,9 @@ class Expected(Frozen):
     title: Text = Field(default="", description="a title")
     source: Prose = Field(default="", description="who published it, and where")
     values: tuple[Value, ...] = Field(min_length=1, description="at least one table [[values]]")
-    versions: dict[str, str] = Field(default={}, description="a table [versions]")
-    scene_hash: str = Field(default="", description="the hash of the scene file")
-    formulation_hash: str = Field(default="", description="the hash of the formulation file")
+    versions: dict[Text, Text] = Field(default={}, description="a table [versions]")
+    scene_hash: Text = Field(default="", description="the hash of the scene file")
+    formulation_hash: Text = Field(default="", description="the hash of the formulation file")
 
 
 class PublishedCase(Case):

@@ -15,6 +15,7 @@ import nmm
 from nmm.cli.app import app
 from nmm.formulation import Formulation, parse_formulation
 from nmm.scene import Scene, parse_scene
+from nmm.scene.document import parse
 from nmm.stepping.prepare import prepare
 from nmm.study.sweep.study_file import StudyPlan
 from nmm.trust import allowing
@@ -316,3 +317,31 @@ def test_faults_never_move_or_colour_the_terminal():
     with pytest.raises(nmm.NmmError) as caught:
         parse_scene(text)
     assert all(line.isprintable() for line in str(caught.value).splitlines())
+
+
+RED = "\x1b[31mx"
+STUDIED = {"scene": "s.toml", "quantities": ["energy"], "vary": {"thickness": [1.0, 2.0]}}
+COMPARED = {"values": [{"quantity": "energy", "value": 1.0, "tolerance": 0.1}]}
+
+
+@pytest.mark.parametrize(
+    ("model", "more"),
+    [
+        *((StudyPlan, {key: RED}) for key in ("title", "scene")),
+        *((StudyPlan, {key: [RED]}) for key in ("scenes", "formulations", "quantities", "over")),
+        (StudyPlan, {"vary": {RED: [1.0]}}),
+        *((Expected, {key: RED}) for key in ("title", "source", "scene_hash", "formulation_hash")),
+        *((Expected, {"versions": table}) for table in ({RED: "1"}, {"numpy": RED})),
+        (Expected, {"values": [{**COMPARED["values"][0], "quantity": RED}]}),
+    ],
+)
+def test_no_text_of_a_study_or_a_published_case_moves_or_colours_the_terminal(model, more):
+    known = STUDIED if model is StudyPlan else COMPARED
+    with pytest.raises(nmm.NmmError) as caught:
+        parse(tomli_w.dumps({**known, **more}), model, "file.toml", nmm.NmmError)
+    assert all(line.isprintable() for line in str(caught.value).splitlines())
+
+
+def test_a_fault_is_one_line_that_can_be_printed_whatever_it_quotes():
+    fault = nmm.NmmError(f"study.toml: over: {RED}\n: expected a key")
+    assert str(fault) == "study.toml: over: \\x1b[31mx\\n: expected a key" == fault.faults[0]

@@ -5,9 +5,11 @@ import itertools
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from math import prod
 from pathlib import Path
 from typing import Any
 
+from nmm.capacity import refuse
 from nmm.errors import FormulationError, NmmError
 from nmm.formulation import Formulation, as_tables, read_formulation
 from nmm.formulation import canonical_text as formulation_text
@@ -19,6 +21,8 @@ from nmm.study.cases.block_covers import blocks_of
 from nmm.trust import given
 
 SIZE = "formulation.cover.size"
+CASE = 1e5
+"""Bytes of a case, measured over small scenes and rounded up."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +96,14 @@ def cases_of(
     """Return one case for each formulation and combination of values, none of them twice.
 
     The size of a cover means nothing to blocks: their formulations get no such setting.
+
+    Raises
+    ------
+    NmmError
+        Of a value that a file refuses, and of more cases than memory holds.
     """
+    count = len(formulations) * prod(len(values) for values in vary.values())
+    refuse("[vary]", f"{count:,} cases", count * CASE, "give fewer values, or fewer keys")
     found: dict[tuple[str, str], StudyCase] = {}
     file = Path(scene.source.name)
     folder = str(file.resolve().parent) if file.is_file() else ""

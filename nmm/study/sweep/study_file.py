@@ -21,27 +21,27 @@ class StudyPlan(Frozen):
     """A study: scenes, formulations, values by dotted key, and what is read off each run."""
 
     title: Text = Field(default="", description="a title", examples=["Kitoh, 12 seeds"])
-    scene: str = Field(
+    scene: Text = Field(
         default="",
         description="the path of a scene file, from the study's folder",
         examples=["beam.toml"],
     )
-    scenes: tuple[str, ...] = Field(
+    scenes: tuple[Text, ...] = Field(
         default=(),
         description="a list of paths of scene files, in place of one",
         examples=[["small.toml", "large.toml"]],
     )
-    formulations: tuple[str, ...] = Field(
+    formulations: tuple[Text, ...] = Field(
         default=(), description="a list of paths of formulation files", examples=[["dda.toml"]]
     )
-    vary: dict[str, tuple[Any, ...]] = Field(
+    vary: dict[Text, tuple[Any, ...]] = Field(
         default={},
         description='a table [vary] of lists by dotted key, as "tessellations.0.seed" = [1, 2]',
     )
-    quantities: tuple[str, ...] = Field(
+    quantities: tuple[Text, ...] = Field(
         default=("energy",), description="a list of quantities", examples=[["failure_load"]]
     )
-    over: tuple[str, ...] = Field(
+    over: tuple[Text, ...] = Field(
         default=(),
         description="a list of varied keys that make an ensemble: means are taken over them",
         examples=[["tessellations.0.seed"]],

@@ -205,6 +205,15 @@ def test_faults_of_a_study_file_are_named(study, old, new, message):
         read_plan(study)
 
 
+def test_more_cases_than_memory_holds_are_told_before_the_first_is_made(study):
+    """Four keys of 300 values are 8.1e9 scenes."""
+    keys = ("materials.m.young_modulus", "materials.m.poisson_ratio", "thickness", "title")
+    lines = [f'"{key}" = {[float(number) for number in range(1, 301)]}' for key in keys]
+    study.write_text(STUDY.split("[vary]")[0] + "[vary]\n" + "\n".join(lines))
+    with pytest.raises(NmmError, match=r"\[vary\]: 16,200,000,000 cases, about .* GB of memory"):
+        read_plan(study)
+
+
 @pytest.fixture
 def cluster():
     distributed = pytest.importorskip("distributed")
