@@ -18,6 +18,9 @@ from nmm.quantity import Quantity
 if TYPE_CHECKING:
     from nmm.effects.initial.turning_stress import TurningStress
 
+COLD, AIR = 100.0, (200.0, 400.0)
+"""Temperatures (K) below which one is a difference rather, and those that air and rock have."""
+
 
 class Heat(FieldEffect):
     """Temperature of the blocks."""
@@ -33,9 +36,10 @@ class Heat(FieldEffect):
         reference: float = 0.0,
         second: float = 1.0,
         bends: bool = False,
+        given: tuple[float, ...] = (),
     ) -> None:
         super().__init__(course, strain, conductivity, second)
-        self.strain, self._reference = strain, reference
+        self.strain, self._reference, self._given = strain, reference, given
         if bends and strain is not None:
             from nmm.effects.initial.turning_stress import TurningStress
 
@@ -55,7 +59,25 @@ class Heat(FieldEffect):
         course = course_of(setup, problem, initial, second)
         conductivity = of_elements(setup, "conductivity")
         bends = setup.kinematics.finite
-        return cls(course, _strain(setup, space), conductivity, table.reference, second, bends)
+        given = (
+            *(one.temperature for one in setup.scene.temperatures),
+            *(one.temperature for one in setup.scene.convections),
+            *([] if table.initial is None else [table.initial]),
+        )
+        strain = _strain(setup, space)
+        return cls(course, strain, conductivity, table.reference, second, bends, given)
+
+    @property
+    def caution(self) -> str:
+        """See `Effect.caution`: temperatures of the air beside a reference of nearly nothing."""
+        lowest, highest = (end((self._reference, *self._given)) for end in (min, max))
+        if self.strain is None or lowest >= COLD or not AIR[0] <= highest <= AIR[1]:
+            return ""
+        return (
+            f"temperatures from {lowest:g} to {highest:g} K, free of strain at "
+            f"{self._reference:g} K: numbers are in K, and so is a reference that is not given, "
+            '0 K; write all with their unit, as reference = "20 degC"'
+        )
 
     @property
     def with_axes(self) -> str:

@@ -122,7 +122,25 @@ def _by_pint(number: str, name: str, unit: str) -> float:
         raise UnitError(expected, remedy) from None
     except Exception:  # pint raises tokenizer, attribute and type errors on malformed units
         raise UnitError(expected, f"{name!r} is no unit; {_similar(name, unit)}") from None
+    if unit not in ("any", "1"):
+        _refuse_other_angle(quantity, name, unit, expected)
     return float(si.magnitude)
+
+
+def _refuse_other_angle(
+    quantity: pint.Quantity[float], name: str, unit: str, expected: str
+) -> None:
+    """Refuse shares for angles and turns for frequencies, which have one dimension to pint.
+
+    A slope of 37 % is no 0.37 rad, 2 Hz are 4 pi rad/s; a stiffness may be one by angle or not.
+    """
+    one, other = (
+        dict(each.to_base_units().unit_items()).get("radian", 0)
+        for each in (quantity, _registry().Quantity(1.0, unit))
+    )
+    if one != other and float(one) >= 0:  # type: ignore[arg-type]
+        what = "an angle" if one else "no angle"
+        raise UnitError(expected, f"{name} names {what}; {_advice(unit)}")
 
 
 @cache

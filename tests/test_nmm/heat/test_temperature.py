@@ -278,3 +278,21 @@ def test_what_heat_does_is_what_is_stored(cover):
     assert run.summary.status == "converged"
     assert len(run.history["time"]) == 4
     assert abs(run.summary.energy_balance) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("heat", "hot", "cold", "told"),
+    [
+        ("[heat]\n", '"40 degC"', '"10 degC"', "from 0 to 313.15 K, free of strain at 0 K"),
+        ('[heat]\nreference = "10 degC"\n', "40.0", '"10 degC"', "from 40 to 283.15 K"),
+        ('[heat]\nreference = "10 degC"\n', '"40 degC"', '"-30 degC"', ""),
+        ("[heat]\n", "40.0", "-10.0", ""),
+        ("[heat]\n", "900.0", "0.0", ""),
+    ],
+)
+def test_degrees_beside_differences_of_temperature_are_told(heat, hot, cold, told):
+    """Beside no reference the strain of 40 degrees Celsius is that of 313 K."""
+    text = wall(hot=hot, heat=heat).replace("temperature = 0.0", f"temperature = {cold}")
+    warned = [one for one in nmm.run(nmm.parse_scene(text)).summary.warnings if "heat: " in one]
+    assert len(warned) == bool(told)
+    assert told in " ".join(warned)

@@ -62,6 +62,9 @@ def test_a_rare_unit_goes_through_pint() -> None:
         ("twenty MPa", "Pa", "27.5 GPa"),
         ("1 parsnip", "m", "no unit"),
         ("1 m m", "m", "dimension"),
+        ("37 %", "rad", "% names no angle"),
+        ("2 Hz", "rad/s", "Hz names no angle"),
+        ("10 rpm", "1/s", "rpm names an angle"),
         ("5 deg", "1", "plain number"),
     ],
 )
