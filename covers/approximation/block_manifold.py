@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from covers.approximation.groups.physical_covers import PhysicalCovers
+from covers.approximation.groups.weighted_monomials import Shapes, Weights, polynomial_group
 from covers.approximation.manifold import Manifold
-from covers.approximation.polynomial_groups import PhysicalCovers, Shapes, Weights, polynomial_group
 from covers.approximation.rigid_modes import rigid_modes, stretch_modes
 from covers.cutting.boundary import ring_edges
 from covers.local_functions.polynomials import Kinds, LocalFunctions

@@ -26,7 +26,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from scipy.sparse import coo_array, csc_array, diags_array, eye_array
 
-from covers.approximation.element_groups import ElementGroup
+from covers.approximation.groups.element_group import ElementGroup
 from covers.cutting.components import components
 from covers.cutting.cut_cells import CutCells
 from covers.local_functions.polynomials import LocalFunctions

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csc_array
 
-from covers.approximation.element_groups import ElementGroup
+from covers.approximation.groups.element_group import ElementGroup
 from covers.approximation.rows import Rows, stack_groups
 from covers.cutting.boundary import BoundaryEdges
 from covers.cutting.shared_edges import shared_edges

@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from covers.approximation.element_groups import ElementGroup, PolynomialGroup
+from covers.approximation.groups.element_group import ElementGroup
+from covers.approximation.groups.polynomial_group import PolynomialGroup
+from covers.approximation.groups.quadrature_group import QuadratureGroup
 from covers.approximation.manifold import Manifold
-from covers.approximation.quadrature_groups import QuadratureGroup
 from integration.rules import PointRule, polygon_rule
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.sparse import csc_array
 
-from covers.approximation.polynomial_groups import PhysicalCovers
+from covers.approximation.groups.physical_covers import PhysicalCovers
 from covers.local_functions.polynomials import Kinds
 from integration.arrays import Floats
 

@@ -13,7 +13,7 @@ from typing import Self
 import numpy as np
 from scipy.sparse import csr_array
 
-from covers.approximation.element_groups import ElementGroup
+from covers.approximation.groups.element_group import ElementGroup
 from covers.approximation.manifold import Manifold
 from covers.approximation.rows import stack_groups
 from integration.arrays import Floats, Ints

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from covers.approximation.element_groups import ElementGroup
+from covers.approximation.groups.element_group import ElementGroup
 from integration.arrays import Floats, Ints
 
 

@@ -7,7 +7,7 @@ from typing import Self
 import numpy as np
 from scipy.sparse import csc_array
 
-from covers.approximation.element_groups import ElementGroup
+from covers.approximation.groups.element_group import ElementGroup
 from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
 from integration.permutations import inverse

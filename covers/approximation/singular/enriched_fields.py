@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from covers.approximation.quadrature_groups import Fields
+from covers.approximation.groups.quadrature_group import Fields
+from covers.approximation.groups.weighted_fields import WeightedFields
 from covers.approximation.singular.enrichment import Enrichment, singular_fields
-from covers.approximation.weighted_fields import WeightedFields
 from integration.arrays import Floats, Ints
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from covers.approximation.element_groups import ElementGroup, one_cover
+from covers.approximation.groups.element_group import ElementGroup, one_cover
 from integration.arrays import Floats, Ints
 from integration.polygons import Polygons
 from integration.rules import PointRule

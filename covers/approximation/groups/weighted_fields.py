@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from covers.approximation.polynomial_groups import PhysicalCovers, covers_of
-from covers.approximation.quadrature_groups import Fields
+from covers.approximation.groups.physical_covers import PhysicalCovers, covers_of
+from covers.approximation.groups.quadrature_group import Fields
 from covers.local_functions.polynomials import LocalFunctions
 from covers.mathematical.base import Cover
 from integration.arrays import Floats, Ints

@@ -1,19 +1,11 @@
-"""Manifold elements whose approximation has the same shape, as rectangular arrays.
+"""Elements on which every function is a polynomial, integrated from the element's moments."""
 
-On element ``e`` of a group ``u(x) = sum_a d[unknowns[e, a]] T_a(x)`` with
-
-    T(x) = [phi_0 I2, phi_1 I2, ...] @ combination        (2, L),
-
-``phi_s`` scalar functions. Everything mechanics needs are integrals of products of the ``phi_s``
-and of their gradients.
-"""
-
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from covers.approximation.groups.element_group import ElementGroup, one_cover
 from integration.arrays import Floats, Ints
 from integration.monomials import count, differentiate, evaluate, exponents
 from integration.polygons import Polygons, areas
@@ -21,128 +13,6 @@ from integration.rules import PointRule, polygon_rule
 
 # Points evaluated at once.
 POINTS_AT_ONCE = 8192
-
-
-@dataclass(frozen=True)
-class ElementGroup(ABC):
-    """Base of element groups.
-
-    Attributes
-    ----------
-    elements
-        (n,) indices into the manifold's elements.
-    unknowns
-        (n, L) global unknowns of each element.
-    combination
-        (2S, L) how unknowns combine the scalar functions; None is the identity, function major
-        and component minor.
-    shape
-        (n,) the distinct shape of each element: congruent elements share one, and integrals are
-        given once for each of the d shapes.
-    """
-
-    elements: Ints
-    unknowns: Ints
-    combination: Floats | None
-    shape: Ints
-
-    @property
-    def extends(self) -> bool:
-        """Whether the functions of an element have values beyond it."""
-        return True
-
-    @property
-    def weighted(self) -> bool:
-        """Whether the functions carry weights that vary over the element."""
-        return True
-
-    @property
-    def shape_degree(self) -> int:
-        """Degree that displacements on an element are integrated as: exact for polynomials."""
-        return 2
-
-    @property
-    def trace_degree(self) -> int | None:
-        """Degree of displacements along a line as polynomials, None where they are none."""
-        return None
-
-    @property
-    def n_shapes(self) -> int:
-        """Number d of distinct shapes."""
-        return int(self.shape.max(initial=-1)) + 1
-
-    @property
-    @abstractmethod
-    def slots(self) -> Ints:
-        """(S,) place of the cover of each weighted monomial among those of an element, else -1."""
-
-    @property
-    @abstractmethod
-    def carriers(self) -> Ints:
-        """(S,) place of the cover of each function, singular ones too, among an element's."""
-
-    @abstractmethod
-    def values(self, index: Ints, points: Floats) -> Floats:
-        """``phi_s`` (m, S) at reference points (m, 2) in elements ``index`` (m,) of the group."""
-
-    @abstractmethod
-    def gradients(self, index: Ints, points: Floats) -> Floats:
-        """Gradients of ``phi_s`` (m, S, 2) at reference points."""
-
-    @abstractmethod
-    def products(self) -> Floats:
-        """Integrals of ``phi_s phi_t`` (d, S, S)."""
-
-    @abstractmethod
-    def lumped_products(self) -> Floats:
-        """Integrals of ``w_k f_s f_t`` (d, S, S) of functions of one cover, zero between covers.
-
-        With ``phi_s = w_k f_s`` the sum over all covers is that of products of the local fields,
-        each weighted once (Yang, Zheng and Sivaselvan 2017).
-        """
-
-    @abstractmethod
-    def gradient_products(self) -> Floats:
-        """Integrals (d, 3, S, S) of ``s_x t_x``, ``s_x t_y``, ``s_y t_y``."""
-
-    @abstractmethod
-    def value_gradients(self, of: Ints) -> Floats:
-        """Integrals (d, T, S, 2) of ``t s_x`` and ``t s_y``, ``t`` the functions ``of`` (T,)."""
-
-    @abstractmethod
-    def integrals(self) -> Floats:
-        """Integrals of ``phi_s`` (d, S)."""
-
-    @abstractmethod
-    def gradient_integrals(self) -> Floats:
-        """Integrals of the gradient of ``phi_s`` (d, S, 2)."""
-
-    @abstractmethod
-    def gradient_rule(self, polygons: Polygons) -> PointRule:
-        """Points that integrate products of two gradients; ``owner`` counts within the group.
-
-        ``polygons`` are the manifold's elements.
-        """
-
-    def displacement_rows(self, index: Ints, points: Floats) -> Floats:
-        """``T`` (m, 2, L) at reference points."""
-        return self._combine(self.values(index, points)[:, None, :])[:, 0]
-
-    def gradient_rows(self, index: Ints, points: Floats) -> Floats:
-        """``d T_c / d x_j`` (m, 2 components, 2 directions, L) at reference points."""
-        by_direction = self._combine(np.swapaxes(self.gradients(index, points), 1, 2))
-        return np.swapaxes(by_direction, 1, 2)
-
-    def _combine(self, scalars: Floats) -> Floats:
-        """Turn scalars (m, r, S) into vector rows (m, r, 2, L)."""
-        m, r, n_scalars = scalars.shape
-        if self.combination is None:
-            rows = np.zeros((m, r, 2, 2 * n_scalars))
-            rows[:, :, 0, 0::2] = scalars
-            rows[:, :, 1, 1::2] = scalars
-            return rows
-        by_component = self.combination.reshape(n_scalars, 2, -1)
-        return np.asarray(np.einsum("mrs,scl->mrcl", scalars, by_component, optimize=True))
 
 
 @dataclass(frozen=True)
@@ -277,12 +147,6 @@ class PolynomialGroup(ElementGroup):
         return np.asarray(left @ gram @ np.swapaxes(right, 1, 2))
 
 
-def one_cover(products: Floats, cover: Ints) -> Floats:
-    """Symmetric products (d, S, S) of functions of the same cover (S,), zero for others."""
-    same = cover[:, None] == cover
-    return np.where(same, (products + np.swapaxes(products, 1, 2)) / 2, 0.0)
-
-
 def product_index(degree: int) -> Ints:
     """Index (K, K) of the product of two monomials up to ``degree`` among those up to twice it."""
     powers = exponents(degree)
@@ -291,8 +155,3 @@ def product_index(degree: int) -> Ints:
     # Graded order: count(order - 1) monomials come before, then descending powers of x.
     before = order * (order + 1) // 2
     return np.asarray(before + total[:, :, 1])
-
-
-def n_monomials(degree: int) -> int:
-    """Number of moments a group of this degree needs."""
-    return count(2 * degree)

@@ -1,0 +1,269 @@
+"""Elements of a cut cover, grouped by the shape of their approximation."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from covers.approximation.groups.element_group import ElementGroup
+from covers.approximation.groups.physical_covers import PhysicalCovers, combined, unknowns_of
+from covers.approximation.groups.quadrature_group import QuadratureGroup
+from covers.approximation.groups.weighted_fields import RATIONAL, WeightedFields
+from covers.approximation.groups.weighted_monomials import Shapes, Weights, polynomial_group
+from covers.approximation.local_coordinates import (
+    covers_coordinates,
+    elements_coordinates,
+    fitted_covers,
+    part_frames,
+)
+from covers.approximation.singular.carriers import Carriers, carriers, no_carriers
+from covers.approximation.singular.enriched_fields import EnrichedFields
+from covers.approximation.singular.enrichment import Enrichment
+from covers.approximation.singular.rules import singular_rule
+from covers.approximation.whitening import LocalFrames
+from covers.cutting.cut_cells import CutCells
+from covers.local_functions.polynomials import Kinds, LocalFunctions
+from covers.mathematical.base import Cover
+from covers.small_matrices import inverses
+from integration.arrays import Bools, Floats, Ints
+from integration.monomials import affine
+from integration.polygons import Polygons, diameters
+from integration.ragged import within
+from integration.rules import polygon_rule
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """Elements whose covers have the same local functions, in the same order.
+
+    Attributes
+    ----------
+    elements
+        (n,) of the cut cover.
+    slots
+        (n, k) places of their active covers among those of their cell.
+    covers
+        (n, k) the active physical covers.
+    functions
+        Local functions of the k covers.
+    carried
+        (k,) singular points whose functions each carries besides.
+    """
+
+    elements: Ints
+    slots: Ints
+    covers: Ints
+    functions: list[LocalFunctions]
+    carried: Ints
+
+    @property
+    def degree(self) -> int:
+        """Highest degree of the local functions."""
+        return max(item.degree for item in self.functions)
+
+
+@dataclass(frozen=True)
+class Grouping:
+    """A cut cover with the coordinates and the numbers of its unknowns.
+
+    Attributes
+    ----------
+    cover, cut, kinds, enrichments
+        As the manifold is made of them.
+    covers
+        Physical covers with their coordinates.
+    offset
+        (C + 1,) first unknown of each physical cover.
+    fitted
+        (C,) covers whose coordinates fit what a cut left of them.
+    carriers
+        Covers that carry functions of singular points.
+    frames
+        Coordinates of elements.
+    """
+
+    cover: Cover
+    cut: CutCells
+    kinds: Kinds
+    enrichments: tuple[Enrichment, ...]
+    covers: PhysicalCovers
+    offset: Ints
+    fitted: Bools
+    carriers: Carriers
+    frames: LocalFrames
+
+    @classmethod
+    def of(
+        cls, cover: Cover, cut: CutCells, kinds: Kinds, enrichments: tuple[Enrichment, ...]
+    ) -> "Grouping":
+        """Number the unknowns of a cut cover, and lay coordinates into covers and elements."""
+        size = kinds.each(lambda item: item.n_unknowns)
+        carried = no_carriers(cut)
+        if enrichments:
+            carried = carriers(cut, cover.patch_centre, enrichments)
+            size = size + enrichments[0].functions.number * carried.counts
+        offset = np.concatenate([[0], np.cumsum(size)])
+        frames, parts = part_frames(cut)
+        fitted = fitted_covers(cut, kinds)
+        own = covers_coordinates(cover, cut, kinds, fitted, parts, frames)
+        covers = PhysicalCovers(
+            cut.cover_patch, cut.cover_body, own.centre, own.matrix, offset[:-1]
+        )
+        frames = elements_coordinates(cut, frames, parts)
+        return cls(cover, cut, kinds, enrichments, covers, offset, fitted, carried, frames)
+
+    def groups(self) -> Iterator[ElementGroup]:
+        """One group for each pattern of local functions among the covers of elements."""
+        for pattern in self._patterns():
+            if pattern.carried.any():
+                yield self._enriched(pattern)
+            elif self.cover.weight_degree is None:
+                yield self._rational(pattern)
+            else:
+                yield self._polynomial(pattern)
+
+    def _patterns(self) -> Iterator[Pattern]:
+        covers, most = self.cut.covers, self.carriers.points.shape[1] + 1
+        none = most * len(self.kinds.functions)
+        code = most * self.kinds.which + self.carriers.counts
+        codes = np.where(covers >= 0, code[covers], none)
+        # Enriched slots first, then by functions, inactive ones last; equal ones stay in order.
+        rank = np.where(codes == none, none, codes - none * (codes % most))
+        slots = np.argsort(rank, axis=1, kind="stable")
+        for elements, row in _equal_rows(np.take_along_axis(codes, slots, axis=1)):
+            active = row[row < none]
+            places = slots[elements, : len(active)]
+            yield Pattern(
+                elements,
+                places,
+                np.take_along_axis(covers[elements], places, axis=1),
+                [self.kinds.functions[kind] for kind in active // most],
+                active % most,
+            )
+
+    def _polynomial(self, pattern: Pattern) -> ElementGroup:
+        shapes = self._shapes(pattern)
+        first = self._polygons(pattern.elements[shapes.first])
+        weights = self._weights(pattern, shapes, 2 / diameters(first))
+        covers, functions = pattern.covers, pattern.functions
+        return polynomial_group(shapes, first, covers, weights, functions, self.covers)
+
+    def _weights(self, pattern: Pattern, shapes: Shapes, size: Floats) -> Weights:
+        """Return those of the first element of each shape, tabled in lengths of 1 / size (d,)."""
+        cells = self.cut.element_cell[pattern.elements[shapes.first]]
+        table, degree = self.cover.weight_tables(cells, shapes.origin[shapes.first], 1 / size)
+        table = np.take_along_axis(table, pattern.slots[shapes.first, :, None], axis=1)
+        d, k, n_monomials = table.shape
+        # From (x - origin) size to the element's own coordinates.
+        back = inverses(shapes.matrix) * size[:, None, None]
+        still = np.zeros((d * k, 2))
+        fitted = affine(table.reshape(d * k, -1), degree, np.repeat(back, k, axis=0), still)
+        return Weights(degree, fitted.reshape(d, k, n_monomials))
+
+    def _shapes(self, pattern: Pattern) -> Shapes:
+        """Congruent whole cells share a shape when all their covers are whole too.
+
+        Where degrees vary, covers of one degree must stand at the same corners besides.
+        """
+        cut, elements, slots = self.cut, pattern.elements, pattern.slots
+        alike = cut.element_whole[elements] & ~self.fitted[pattern.covers].any(axis=1)
+        known = self.cover.cell_shape[cut.element_cell[elements]]
+        alike &= (known >= 0) & (np.ptp(self.cover.patch_size) == 0)
+        key = np.where(
+            alike, known, self.cover.cell_shape.max(initial=0) + 1 + np.arange(len(known))
+        )
+        if (slots != slots[:1]).any():
+            order = np.unique(slots, axis=0, return_inverse=True)[1].ravel()
+            key = key * (int(order.max()) + 1) + order
+        _, first, shape = np.unique(key, return_index=True, return_inverse=True)
+        corner = cut.elements.points[cut.elements.first_point[elements]]
+        source = elements[first]
+        origin = np.where(
+            alike[:, None],
+            corner + (self.frames.centre[source] - corner[first])[shape],
+            self.frames.centre[elements],
+        )
+        return Shapes(elements, shape, first, origin, self.frames.matrix[source])
+
+    def _rational(self, pattern: Pattern) -> ElementGroup:
+        order = 2 * (self.cover.precision + pattern.degree) + RATIONAL
+        shapes = self._shapes(pattern)
+        return QuadratureGroup(
+            elements=pattern.elements,
+            unknowns=unknowns_of(pattern.functions, self.covers, pattern.covers),
+            combination=combined(pattern.functions),
+            shape=shapes.shape,
+            fields=self._fields(pattern),
+            rule=polygon_rule(self._polygons(pattern.elements), order),
+            first=shapes.first,
+        )
+
+    def _enriched(self, pattern: Pattern) -> ElementGroup:
+        """Singular functions follow the polynomials of all covers."""
+        elements, every = pattern.elements, np.arange(len(pattern.elements))
+        polynomial = unknowns_of(pattern.functions, self.covers, pattern.covers)
+        singular, fields = self._singular(pattern)
+        return QuadratureGroup(
+            elements=elements,
+            unknowns=np.concatenate([polynomial, singular], axis=1),
+            combination=_with_vectors(
+                combined(pattern.functions), *(part.shape[1] for part in (polynomial, singular))
+            ),
+            shape=every,
+            fields=fields,
+            rule=singular_rule(
+                self._polygons(elements),
+                self.enrichments,
+                fields.which,
+                pattern.degree + (self.cover.weight_degree or 2),
+            ),
+            first=every,
+        )
+
+    def _singular(self, pattern: Pattern) -> tuple[Ints, EnrichedFields]:
+        """Unknowns (n, v) of the singular functions of elements, and the fields with them."""
+        elements, carried = pattern.elements, pattern.carried
+        carrying = np.repeat(np.arange(len(carried)), carried)
+        cover, rank = pattern.covers[:, carrying], within(carried)
+        which = self.carriers.points[cover, rank]
+        element = np.repeat(elements, len(carrying))
+        bearing = self.carriers.bearings(element, cover.ravel(), which.ravel())
+        bearing = bearing.reshape(which.shape)
+        fields = self._fields(pattern)
+        number = self.enrichments[0].functions.number
+        first = self.offset[cover + 1] - number * (carried[carrying] - rank)
+        unknowns = (first[:, :, None] + np.arange(number)).reshape(len(elements), -1)
+        return unknowns, EnrichedFields(fields, carrying, self.enrichments, which, bearing)
+
+    def _fields(self, pattern: Pattern) -> WeightedFields:
+        cells = self.cut.element_cell[pattern.elements]
+        slots, covers, functions = pattern.slots, pattern.covers, tuple(pattern.functions)
+        return WeightedFields(self.cover, cells, slots, covers, functions, self.covers)
+
+    def _polygons(self, elements: Ints) -> Polygons:
+        return self.cut.elements.take(elements)
+
+
+def _equal_rows(codes: Ints) -> Iterator[tuple[Ints, Ints]]:
+    """Yield the numbers of equal rows, and the row, for each that there is."""
+    if (codes == codes[0]).all():
+        distinct, which = codes[:1], np.zeros(len(codes), dtype=np.int64)
+    else:
+        distinct, which = np.unique(codes, axis=0, return_inverse=True)
+        which = which.ravel()
+    for number, row in enumerate(distinct):  # a handful of patterns
+        yield np.flatnonzero(which == number), row
+
+
+def _with_vectors(base: Floats | None, unknowns: int, vectors: int) -> Floats:
+    """Return how unknowns combine scalar functions where vector functions follow.
+
+    Two scalar functions, of the x and the y component, make one vector function.
+    """
+    rows = unknowns if base is None else len(base)
+    combination = np.zeros((rows + 4 * vectors, unknowns + vectors))
+    combination[:rows, :unknowns] = np.eye(rows) if base is None else base
+    vector = np.arange(vectors)
+    combination[rows + 4 * vector, unknowns + vector] = 1.0
+    combination[rows + 4 * vector + 3, unknowns + vector] = 1.0
+    return combination

@@ -1,0 +1,1 @@
+"""Elements whose approximation has the same shape: values, gradients, integrals."""
