@@ -119,6 +119,14 @@ def _ring(value: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], 
     return value
 
 
+def _within_a_turn(value: float) -> float:
+    """Refuse what is more than a whole turn: degrees that were written without their unit."""
+    if abs(value) <= math.tau:
+        return value
+    remedy = 'numbers are radians; write for example "30 deg"'
+    raise fault(value, "an angle within a whole turn, 2 pi rad", remedy)
+
+
 def _friction(value: float) -> float:
     if 0 <= value < math.pi / 2:
         return value
@@ -131,8 +139,8 @@ Coordinate = Annotated[float, quantity("m")]
 Length = Annotated[float, quantity("m", SMALLEST)]
 Time = Annotated[float, quantity("s", SMALLEST)]
 TimeOrAuto = Annotated[float | Literal["auto"], BeforeValidator(_time_or_auto)]
-Angle = Annotated[float, quantity("rad")]
-FrictionAngle = Annotated[Angle, AfterValidator(_friction)]
+Angle = Annotated[float, quantity("rad"), AfterValidator(_within_a_turn)]
+FrictionAngle = Annotated[float, quantity("rad"), AfterValidator(_friction)]
 Force = Annotated[float, quantity("N", SMALLEST)]
 Energy = Annotated[float, quantity("J", SMALLEST)]
 Stress = Annotated[float, quantity("Pa", SMALLEST)]

@@ -244,3 +244,18 @@ def test_a_scene_built_in_python_is_checked_like_a_file() -> None:
 )
 def test_values_of_another_kind_are_not_converted(old: str, new: str) -> None:
     assert new.split(" = ")[1].strip('"') in _line(GOOD.replace(old, new))
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        '[[joint_sets]]\nname = "j"\ndip = {angle}\nspacing = 1.0\n',
+        '[[joint_sets]]\nname = "j"\ndip = 0.1\ndip_scatter = {angle}\nspacing = 1.0\n',
+        '[formulation.cover]\ntype = "quads"\nsize = 1.0\nangle = {angle}\n',
+    ],
+)
+def test_degrees_without_their_unit_are_no_angles(more):
+    parse_scene(GOOD + more.format(angle='"30 deg"'))
+    for angle in (30, 35.0, '"361 deg"'):
+        with pytest.raises(SceneError, match="expected an angle within a whole turn.*30 deg"):
+            parse_scene(GOOD + more.format(angle=angle))
