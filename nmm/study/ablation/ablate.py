@@ -17,6 +17,8 @@ from nmm.study.cases.record import Record
 from nmm.study.cases.variants import StudyCase
 
 WHOLE = "the whole scene"
+LONG = 5.0
+"""Seconds from which runs are not repeated for what their first one compiles."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +91,7 @@ def ablate(
         What is compared, see `nmm.study.cases.quantities`; else those of the scene's references,
         displacements of its monitors, or the elastic energy.
     repeats
-        Counted runs of each after a warm-up.
+        Counted runs of each, after a warm-up where they are short.
 
     Raises
     ------
@@ -110,7 +112,7 @@ def ablate(
             nothing = (math.nan,) * len(names)
             why = f"cannot be left out alone: {' '.join(str(fault).split())}"
             refused.append(AblationRow(omission.name, nothing, math.nan, why))
-    records = measure(cases, names, repeats, memory=False, progress=progress)
+    records = measure(cases, names, repeats, memory=False, progress=progress, long=LONG)
     if records[0].status == "error":
         raise NmmError(records[0].sentence)
     first, *rest = [_row(record, names) for record in records]

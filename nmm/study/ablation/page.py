@@ -1,9 +1,13 @@
 """An ablation as a table in Markdown."""
 
+import numpy as np
+
 from nmm.study.ablation.ablate import Ablation
 
 LONGEST = 110
 """Letters of a verdict on the page; a fault may have more."""
+SEEN = 1e-3
+"""Share of the quantities from which a change is said to matter."""
 
 
 def ablation_table(found: Ablation) -> list[str]:
@@ -18,6 +22,17 @@ def ablation_table(found: Ablation) -> list[str]:
         verdict = row.verdict.replace("|", "/")[:LONGEST]
         lines.append(_line([row.name, *changes, seconds, _share(found.saved(row)), verdict]))
     return lines
+
+
+def ablation_verdict(found: Ablation) -> str:
+    """Return in a sentence what matters, most first, and what changes nothing that is seen."""
+    sizes = {row.name: np.abs(found.changes(row)) for row in found.rows}
+    most = {name: float(size.max()) for name, size in sizes.items() if np.isfinite(size).all()}
+    order = sorted(most, key=lambda name: -most[name])
+    matter = [f"{name} ({100 * most[name]:.3g} %)" for name in order if most[name] >= SEEN]
+    rest = [name for name in order if most[name] < SEEN]
+    said = f"matters: {', '.join(matter) or 'none'}"
+    return f"{said}; below {100 * SEEN:g} %: {', '.join(rest) or 'none'}"
 
 
 def _line(cells: list[str]) -> str:

@@ -4,6 +4,7 @@ import os
 import platform
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
@@ -37,6 +38,7 @@ def measure(
     repeats: int = 3,
     memory: bool = True,
     progress: Progress | None = None,
+    long: float = inf,
 ) -> list[Record]:
     """Run every case ``repeats`` times, all cases in turn, after one round that is not counted.
 
@@ -50,15 +52,20 @@ def measure(
         Counted runs of each case; a case that raised in the warm-up is not repeated.
     memory
         Also run each case once in a process of its own to see how much memory it adds.
+    long
+        Seconds from which the first run of a case counts, but for the first case: what is compiled
+        then is little beside it.
     """
     tell = progress or (lambda share, text: None)
     rounds = repeats + 1 + memory
     total = rounds * len(cases)
-    found = [_once(case, names)[0] for case in _told(cases, tell, 0, total)]
-    times: list[list[Spent]] = [[] for _ in cases]
+    first = [_once(case, names) for case in _told(cases, tell, 0, total)]
+    found = [record for record, _ in first]
+    counts = [index > 0 and spent.seconds >= long for index, (_, spent) in enumerate(first)]
+    times = [[spent] if counted else [] for (_, spent), counted in zip(first, counts, strict=True)]
     for turn in range(1, repeats + 1):
         for index, case in enumerate(_told(cases, tell, turn * len(cases), total)):
-            if found[index].status != "error":
+            if found[index].status != "error" and len(times[index]) < repeats:
                 times[index].append(_once(case, ())[1])
     peaks: list[int | None] = [None] * len(cases)
     if memory:

@@ -219,6 +219,8 @@ cover = {{ degree = 1 }}
 name = "third"
 remove = ["c"]
 water = ["lake"]
+release = 0.5
+reset_displacements = true
 [formulation.cover]
 type = "quads"
 size = 0.5

@@ -88,6 +88,10 @@ max_growth = 0.3
 control = "toughness"
 together = 0.1
 radius = 0.25
+[fracture.nucleation]
+tensile_strength = "1 MPa"
+length = "60 mm"
+crack_length = "40 mm"
 [output]
 quantities = ["crack_opening"]
 [formulation.cover]

@@ -54,6 +54,7 @@ degree = 1
 """
 SEEPING = f"""{HEAD}hydraulic_conductivity = 1e-6
 specific_storage = 1e-5
+drainable_porosity = 0.1
 biot = 0.8
 {SQUARE}{HELD}[[cracks]]
 name = "k"
