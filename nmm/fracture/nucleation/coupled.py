@@ -6,7 +6,9 @@ Both are asked of a ladder of lengths. Where the mean falls and the energy rises
 they meet at one, which the crack then has.
 
 What a crack frees follows from the stress where it is not yet: ``K`` of every shorter one by its
-weight function, from the edge of a half plane (Tada, Paris and Irwin 2000) or in a whole plane.
+weight function, from the edge of a half plane (Tada, Paris and Irwin 2000) or in a whole plane. At
+notches that is the one of a longer crack which goes on: K is 1, 3 and 8 % less by it than at
+notches of 60, 90 and 120 degrees (Carpinteri, Cornetti, Pugno and Sapora 2010).
 """
 
 from dataclasses import dataclass
@@ -59,7 +61,7 @@ class Coupled:
         pulled = LargestPrincipal.of(mean.reshape(-1, 3)).size.reshape(known.shape) / self.strength
         normal = np.stack([-lines.way[:, 1], lines.way[:, 0]], axis=1)
         across = [np.einsum("kni,ki->kn", one, _across(normal)) for one in (ahead, behind)]
-        freed = self._freed(across[0], across[1], inside)
+        freed = self._freed(across[0], across[1], lines)
         share, rung = _largest(pulled, freed, known)
         rows = np.arange(len(rung))
         low = np.minimum(rung.astype(np.int64), len(LADDER) - 2)
@@ -68,14 +70,15 @@ class Coupled:
         length = self.tough * LADDER[low] * (LADDER[low + 1] / LADDER[low]) ** part
         return LineReach(share, between, length, known[:, SHORTEST])
 
-    def _freed(self, ahead: Floats, behind: Floats, inside: Bools) -> Floats:
+    def _freed(self, ahead: Floats, behind: Floats, lines: OpeningLines) -> Floats:
         """Root of what cracks (k, n) of all lengths free, over that of what their faces take.
 
         Stresses (k, n) across the line are those at all lengths, ahead and behind.
         """
-        edge = np.maximum(ahead @ EDGE.T, 0.0) ** 2
+        notch = np.maximum(ahead @ NOTCH.T, 0.0) ** 2
+        edge = np.where(lines.notched[:, None], notch, np.maximum(ahead @ EDGE.T, 0.0) ** 2)
         both = np.maximum((ahead + behind) @ PLANE.T, 0.0) ** 2 + ((ahead - behind) @ TILTED.T) ** 2
-        square = np.where(inside[:, None], both, edge)
+        square = np.where(lines.inside[:, None], both, edge)
         mean = np.cumsum((square * RUNGS).reshape(len(ahead), len(LADDER), -1).sum(axis=2), axis=1)
         return np.asarray(np.sqrt(mean / LADDER / (np.pi / 2)) / self.strength)
 
@@ -114,10 +117,10 @@ def _means() -> Floats:
     return np.asarray(np.cumsum(pieces, axis=0) / LADDER[:, None])
 
 
-def _intensities() -> tuple[Floats, Floats, Floats, Floats]:
+def _intensities() -> tuple[Floats, Floats, Floats, Floats, Floats]:
     """Rows (a, n) that give K of cracks between all lengths, and the steps (a,) between them.
 
-    Of one from an edge, and the even and odd parts of one both ways in a plane.
+    Of one from an edge, the even and odd parts of one both ways in a plane, one that goes on.
     """
     start = np.append(0.0, LADDER[:-1])
     half = (LADDER - start) / 2
@@ -125,14 +128,17 @@ def _intensities() -> tuple[Floats, Floats, Floats, Floats]:
     steps = (half[:, None] * BETWEEN[1]).ravel()
     angle, weight = (1 + ROUND[0]) * np.pi / 4, ROUND[1] * np.pi / 4
     s = np.sin(angle)
-    hats = np.stack(
-        [np.interp(length[:, None] * s, LADDER, one) for one in np.eye(len(LADDER))], axis=2
-    )
+
+    def hats(at: Floats) -> Floats:
+        every = np.eye(len(LADDER))
+        return np.stack([np.interp(length[:, None] * at, LADDER, one) for one in every], axis=2)
+
     edge = 1 + (1 - s**2) * np.polyval([0.5094, -0.9942, 0.7685, -0.3912, 0.2945], s**2)
     root = np.sqrt(length / np.pi)[:, None]
-    kinds = (root * np.einsum("q,aqn->an", weight * one, hats) for one in (2 * edge, 1.0, s))
-    return (*kinds, steps)
+    kinds = ((2 * edge, s), (1.0, s), (s, s), (np.sqrt(8) * s, s**2))
+    rows = (root * np.einsum("q,aqn->an", weight * one, hats(at)) for one, at in kinds)
+    return (*rows, steps)
 
 
 MEANS = _means()
-EDGE, PLANE, TILTED, RUNGS = _intensities()
+EDGE, PLANE, TILTED, NOTCH, RUNGS = _intensities()

@@ -71,7 +71,7 @@ class Nuclei:
     @classmethod
     def of(cls, model: Model, geometry: Geometry, rule: NucleationRule) -> "Nuclei":
         """Return those of a model on a geometry."""
-        return cls(model, rule, Places.of(model.cut, geometry, rule.deep, rule.away))
+        return cls(model, rule, Places.of(model.cut, geometry, rule.deep, rule.away, rule.tough))
 
     def nearest(self, stress: StressOn) -> Nucleus | None:
         """Return the place that has reached most of the strength under a stress; None without any.
@@ -109,7 +109,7 @@ class Nuclei:
         inside, body = places.inside, self.model.manifold.element_body[places.element]
         way = _inwards(pulled.plane[rows], places.inward)
         for _ in range(TURNS):
-            lines = OpeningLines(places.point, way, body, inside)
+            lines = OpeningLines(places.point, way, body, inside, places.notched)
             found = self.rule.criterion.reached(self._lines, stress, lines)
             last, known = way, found.known
             way = _inwards(LargestPrincipal.of(found.mean).plane, places.inward)

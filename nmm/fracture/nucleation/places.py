@@ -9,6 +9,9 @@ from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats, Ints
 from nmm.geometry.geometry import Geometry
 
+# Turn (rad) of an edge from which a vertex is a corner: of polygons round holes they are less.
+CORNER = 0.35
+
 
 @dataclass(frozen=True)
 class Places:
@@ -22,15 +25,23 @@ class Places:
         (k, 2) normal of the edge into the material; zero inside.
     element
         (k,) in which each lies.
+    notched
+        (k,) whether a corner that looks into the material is near.
     """
 
     point: Floats
     inward: Floats
     element: Ints
+    notched: Bools
 
     @classmethod
-    def of(cls, cut: CutCells, geometry: Geometry, deep: float, away: float) -> "Places":
-        """Return those of a cut: inside from ``deep`` (m) on, ``away`` (m) from cracks."""
+    def of(
+        cls, cut: CutCells, geometry: Geometry, deep: float, away: float, beside: float
+    ) -> "Places":
+        """Return those of a cut: inside from ``deep`` (m) on, ``away`` (m) from cracks.
+
+        Corners are near that are nearer than ``beside`` (m).
+        """
         edges = cut.boundary
         along = edges.end - edges.start
         along /= np.hypot(*along.T)[:, None]
@@ -42,7 +53,11 @@ class Places:
         point = [(edges.start + edges.end)[free] / 2, edges.start[free], middle[inside]]
         inward = [normal[free], bisector[free], np.zeros((len(inside), 2))]
         element = [edges.element[free], edges.element[free], inside]
-        found = cls(*(np.concatenate(parts) for parts in (point, inward, element)))
+        places = np.concatenate(point)
+        turn = along[edges.previous, 0] * along[:, 1] - along[edges.previous, 1] * along[:, 0]
+        corners = shapely.MultiPoint(edges.start[(edges.crack < 0) & (turn < -np.sin(CORNER))])
+        notched = np.asarray(shapely.dwithin(shapely.points(places), corners, beside))
+        found = cls(places, np.concatenate(inward), np.concatenate(element), notched)
         if not geometry.cracks:
             return found
         lines = shapely.MultiLineString([line.tolist() for line in geometry.cracks])
@@ -54,7 +69,8 @@ class Places:
 
     def take(self, rows: Ints | Bools) -> "Places":
         """Return some of them."""
-        return Places(self.point[rows], self.inward[rows], self.element[rows])
+        point, inward = self.point[rows], self.inward[rows]
+        return Places(point, inward, self.element[rows], self.notched[rows])
 
     @property
     def inside(self) -> Bools:

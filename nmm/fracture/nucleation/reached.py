@@ -27,12 +27,15 @@ class OpeningLines:
         (k,) which it may not leave.
     inside
         (k,) whether it goes both ways.
+    notched
+        (k,) whether it begins at or beside a corner that looks into the material.
     """
 
     point: Floats
     way: Floats
     body: Ints
     inside: Bools
+    notched: Bools
 
 
 @dataclass(frozen=True)
