@@ -15,7 +15,8 @@ from nmm.plain_file import plain
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _PEER = re.compile(r"NPTS\s*=?\s*(\d+)\s*,?.*?DT\s*=?\s*([\d.eE+-]+)", re.IGNORECASE)
-PEER_ENDINGS = (".at2", ".vt2", ".dt2")
+PEER_ENDINGS = {".at2": "acceleration", ".vt2": "velocity", ".dt2": "displacement"}
+"""What files of the PEER NGA data base hold, by their ending."""
 # A step that is longer than this times the usual one is a gap.
 GAP = 1.5
 # Bytes of a file.

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 from pydantic_core import PydanticCustomError
 
 from nmm.errors import Fault, SceneError
-from nmm.scene.tables.loading.columns import record_of, rows_of
+from nmm.scene.tables.loading.columns import PEER_ENDINGS, record_of, rows_of
 from nmm.scene.tables.loading.fields import check_rows
 
 if TYPE_CHECKING:
@@ -60,12 +60,32 @@ def _all(
 
 
 def _record(table: RecordTable, path: Path) -> RecordTable:
+    _refuse_peer(table, path)
     pairs, values = record_of(path, table.step)
     if len(pairs) + len(values) < 2:
         remedy = "give the whole record"
         raise SceneError(Fault(str(path), "one value", "at least two", remedy))
     own = {"file": None, "samples": tuple(pairs) or None, "values": tuple(values) or None}
     return table.model_copy(update=own)
+
+
+def _refuse_peer(table: RecordTable, path: Path) -> None:
+    """Refuse what a file of PEER's data base says itself, and a unit that is left open.
+
+    Its numbers are shares of g, or cm/s and cm: no unit is none of SI there.
+    """
+    holds = PEER_ENDINGS.get(path.suffix.lower())
+    if holds is None:
+        return
+    if table.quantity != holds:
+        found, remedy = f'quantity = "{table.quantity}"', f'write quantity = "{holds}"'
+        raise SceneError(Fault(str(path), found, f'"{holds}", as it ends', remedy))
+    if table.unit is None:
+        remedy = 'write for example unit = "g", or "cm/s", "cm"'
+        raise SceneError(Fault(str(path), "no unit", "that of its third line", remedy))
+    if table.step is not None:
+        found, expected = f"step = {table.step:g}", "none, as the file says its own"
+        raise SceneError(Fault(str(path), found, expected, "remove step"))
 
 
 def _field(table: FieldTable, path: Path) -> FieldTable:

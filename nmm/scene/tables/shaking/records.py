@@ -19,8 +19,8 @@ class RecordTable(Frozen):
 
     It is given by a file or here, by `samples` or by `values` at equal steps. A file has two
     columns, time and value, or one column of values with a `step`, or is one of the PEER NGA data
-    base (`.AT2`, `.VT2`, `.DT2`), which says its step itself. Before its first sample a record is
-    at rest; after its last one acceleration is zero and velocity stays.
+    base (`.AT2`, `.VT2`, `.DT2`), which says its step itself and asks for its `unit`. Before its
+    first sample a record is at rest; after its last one acceleration is zero and velocity stays.
     """
 
     file: Text | None = Field(
