@@ -171,7 +171,11 @@ class HistoryIteration:
         return np.divide(mean, end, out=np.ones_like(end), where=from_start & (end > 0))
 
 
-def slid_under_load(problem: StepProblem, answer: StepAnswer) -> Floats:
-    """How far (m,) contacts slid beyond the elastic stretch; zero where nothing presses or rubs."""
-    loaded = (answer.normal_force != 0) | (answer.shear_force != 0)
+def slid_under_load(problem: StepProblem, answer: StepAnswer, softening: Bools) -> Floats:
+    """How far (m,) contacts slid beyond the elastic stretch; zero where nothing presses or rubs.
+
+    Of a ``softening`` (m,) bond all counts: one that is spent in the step slid while it held, and
+    would else be whole again for having slid no way.
+    """
+    loaded = softening | (answer.normal_force != 0) | (answer.shear_force != 0)
     return np.where(loaded, problem.slips(answer.increment) - answer.slip, 0.0)

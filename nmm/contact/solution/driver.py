@@ -145,7 +145,7 @@ class ContactSolver:
             enforced = partial(self._enforced, posed.transforms, request.solver)
             answer = solve_through(posed.transforms, posed.problem, enforced)
             passes += answer.passes
-            sliding = slid_under_load(posed.problem, answer)
+            sliding = slid_under_load(posed.problem, answer, iteration.softening)
             if answer.verdict.converged:
                 fault = iteration.settled(answer, sliding)
                 answer = answer if fault is None else replace(answer, verdict=fault)

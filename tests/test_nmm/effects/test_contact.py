@@ -223,6 +223,39 @@ def test_bonds_that_break_in_time_make_no_energy(integrator):
     assert found.summary.audits["energy_made_in_step"] < 1e-5
 
 
+def torn_off(velocity, step):
+    """A block of 0.9 m that flies off two softening bonds of 50 J/m2."""
+    bond = {"cohesion": 1e5, "tensile_strength": 5e4, "bonded": True, "fracture_energy": 50.0}
+    stiff = {"normal_stiffness": 1e9, "shear_stiffness": 5e8}
+    scene = {
+        "title": "torn off",
+        "plane": "strain",
+        "duration": 0.008,
+        "materials": {"r": {"young_modulus": 5e8, "poisson_ratio": 0.2, "density": 2200.0}},
+        "interfaces": {"i": {"friction_angle": 0.5, **bond, **stiff}},
+        "blocks": [block("base", -4, -1, 10, 1), block("b", 0, 0, 0.9, 0.7)],
+        "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
+        "initial_velocities": [{"block": "b", "velocity": velocity}],
+        "inertia": {},
+        "contact": {},
+    }
+    method = {"integrator": {"type": "newmark", "step": step}}
+    return run(Scene.model_validate(scene), Formulation.model_validate(method))
+
+
+def test_bonds_torn_in_time_take_their_fracture_energy():
+    found = torn_off([0.0, 0.6], 5e-5)
+    # Sixty steps until bonds are spent: their forces act as at the end of each.
+    assert found.history["friction_loss"][-1] == pytest.approx(50.0 * 0.9, rel=0.01)
+
+
+def test_a_bond_that_is_spent_as_it_is_torn_and_sheared_stays_so():
+    """In steps of a third of the way it takes it was whole again for having slid no way."""
+    found = torn_off([0.5, 0.6], 1e-3)
+    assert found.history["time"][-1] == pytest.approx(0.008)
+    assert found.history["broken"][-1] == 2
+
+
 def standing(*blocks, friction=0.6, loads=()):
     """Blocks above a held base, statics."""
     return Scene.model_validate(
