@@ -145,7 +145,9 @@ class _Raising:
         schedule = self.schedule
         sought = schedule.until_failure or schedule.at_once
         flows = self.stepper.model.matter is not None and not sought
-        return flows and at.rise > FLOWING * schedule.tolerance * factor
+        # The first increment is all of its load: beside that alone it would never be short.
+        shortest = SMALLEST_INCREMENT * schedule.increment
+        return flows and at.rise > max(FLOWING * schedule.tolerance * factor, shortest)
 
     def _grown(self, at: UnderLoad, trial: Trial) -> UnderLoad:
         """Accept an increment; the next is larger unless bonds broke."""

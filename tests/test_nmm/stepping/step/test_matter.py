@@ -9,6 +9,7 @@ from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
+from nmm.stepping.step import newton, step_solver
 from nmm.testing.scenes import biaxial_test, floor_and_pin, roller_and_pin
 
 E, Y, H = 200e9, 250e6, 20e9
@@ -275,3 +276,43 @@ def test_a_biaxial_test_flows_by_its_dilation_angle(dilation, cover):
     sine = np.sin(np.radians(dilation))
     grows = -(wide[last] - wide[first]) / (low[last] - low[first])
     assert grows == pytest.approx((1 + sine) / (1 - sine), rel=1e-4)
+
+
+def test_soil_that_cannot_bear_its_weight_is_told_after_few_trials(monkeypatch):
+    """Weight of 78 kPa on soil of ``2 c tan(60) = 17 kPa`` acts from load factor 0 on.
+
+    Increments from there are halved to 2^-30 of the first, not to the least number that there is.
+    """
+    tried = []
+    monkeypatch.setattr(
+        step_solver, "newton", lambda *given: tried.append(0) or newton.newton(*given)
+    )
+    run = nmm.run(
+        parse_scene(
+            """plane = "strain"
+            [materials.soil]
+            law = "mohr_coulomb"
+            young_modulus = 1e8
+            poisson_ratio = 0.3
+            density = 2000
+            cohesion = 5e3
+            friction_angle = "30 deg"
+            dilation_angle = "5 deg"
+            [[blocks]]
+            name = "column"
+            material = "soil"
+            vertices = [[0, 0], [2, 0], [2, 4], [0, 4]]
+            [[supports]]
+            name = "foot"
+            segment = [[0, 0], [2, 0]]
+            fix = ["x", "y"]
+            [gravity]
+            [formulation.cover]
+            type = "quads"
+            size = 1.0
+            degree = 1
+            """
+        )
+    )
+    assert run.summary.status == "collapsed"
+    assert len(tried) <= 32
