@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 ROUNDS, CLOSE = 60, 1e-14
 """Most secants to what slides, and the part of the largest trial stress at which they end."""
 NUDGE = 1e-6
-"""Part of a gap, or slip, by which the history that belongs to it is differenced."""
+"""Part of a gap, or of what a spring is stretched by, by which the history is differenced."""
+ROUNDED_PLACE = 2e-12
+"""The same of a slip, ten thousand times its rounding; more may reach from sliding to sticking."""
 
 # Normal and shear stiffness (m,) in Pa/m.
 Stiffness = tuple[Floats, Floats]
@@ -36,8 +38,10 @@ def mapped(
         tangent = np.zeros((len(gap), 2, 2))
         tangent[:, 0, 0], tangent[:, 1, 1] = slope, stiffness[1]
         # While the history stands springs are linear; what it changes is differenced.
-        for column, there in enumerate((gap, slip)):
-            nudge = NUDGE * (np.abs(there) + 1e-3 * np.abs(there).max(initial=1e-12))
+        stretch = slip - history["plastic_slip"]
+        for column, (there, size) in enumerate(((gap, gap), (slip, stretch))):
+            nudge = NUDGE * (np.abs(size) + 1e-3 * np.abs(size).max(initial=1e-12))
+            nudge += ROUNDED_PLACE * np.abs(there)
             sides = []
             for sign in (1, -1):
                 moved = [gap, slip]
