@@ -84,8 +84,10 @@ def _increments(run: Ended) -> Findings:
             "lower [loading] increment",
         )
     loading, recorder = run.scene.loading, run.recorder
-    slid = recorder.totals.largest.get("slide", 0) + recorder.totals.largest.get("broken", 0)
-    if loading is not None and loading.until != "failure" and slid and recorder.steps:
+    most = recorder.totals.largest
+    # What slides without friction is nowhere held by its path.
+    depends = most.get("broken", 0) or (most.get("slide", 0) and recorder.ledger.friction_loss)
+    if loading is not None and loading.until != "failure" and depends and recorder.steps:
         yield AuditFinding(
             "increments",
             FEW / recorder.steps,

@@ -129,3 +129,24 @@ def test_the_page_has_the_tables_of_the_code():
     written = page.PAGE.read_text()
     assert page.renewed(written) == written, "write it anew: python docs/audit_page.py"
     assert all(f"| `{name}` |" in written for name in THRESHOLDS)
+
+
+@pytest.mark.parametrize(("friction", "told"), [(0.3, True), (0.0, False)])
+def test_a_path_is_told_to_matter_where_what_slides_rubs(friction, told):
+    """A block is pushed along a floor in four increments: nothing holds it by its way without."""
+    scene = text.scene(
+        'plane = "stress"\n[contact]\n[gravity]\n[loading]\nscaled = ["push"]\nuntil = 1.0\n'
+        "[formulation.loading]\nincrement = 0.25\n",
+        [
+            text.material("a", 1e9, 0.0, 2000.0),
+            text.interface("any", float(np.degrees(friction))),
+            text.box("floor", (-1, -1), (4, 1), "a"),
+            text.box("b", (0, 0), (1, 1), "a"),
+            text.held("floor"),
+            '[[supports]]\nname = "push"\nsegment = [[0, 0], [0, 1]]\nblock = "b"\nfix = ["x"]\n'
+            "displacement = [0.01, 0]\n",
+        ],
+    )
+    summary = nmm.run(nmm.parse_scene(scene)).summary
+    assert summary.status == "converged"
+    assert any("audit increments" in one for one in summary.warnings) is told
