@@ -1,12 +1,15 @@
 """Spoilt files: every one of thousands is refused by line or prepared as it stands, in time."""
 
 import tomllib
+import warnings
 
+import numpy as np
 import pytest
 
 import nmm
 from nmm.formulation import parse_formulation
 from nmm.scene import Scene, parse_scene
+from nmm.stepping.drive.verdict import MEANT
 from nmm.verification.hard.oracles.echoes import lost
 from nmm.verification.hard.spoilt.mutations import bases, shrunk, sound_files, spoilt, verdict
 from nmm.verification.hard.spoilt.mutators import keys_of
@@ -59,6 +62,34 @@ def test_every_key_of_a_scene_stands_in_a_file_that_is_spoilt():
 @pytest.mark.parametrize("base", bases(fast=False))
 def test_fifty_thousand_spoilt_files_hold_no_silent_fault(base):
     assert not faults(base, 1, range(-(-MANY // len(bases(fast=False)))))
+
+
+def check_that_it_runs(base, seed, numbers):
+    """Run the spoilt files of one that are prepared as they stand, for some seconds each."""
+    for number in numbers:
+        text, kind = spoilt(base, seed, number)
+        if verdict(text, kind).outcome != "sound":
+            continue
+        scene = parse_scene(text if kind == "scene" else DYNAMIC)
+        method = parse_formulation(text) if kind == "formulation" else None
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", RuntimeWarning)
+            run = nmm.run(scene, method, budget=4)
+        assert run.summary.status in MEANT, (number, text)
+        if run.summary.status in ("converged", "failure_load"):
+            assert not any(np.isinf(column).any() for column in run.history.values()), text
+            assert np.isfinite(run.frames[-1].points).all(), (number, text)
+
+
+@pytest.mark.parametrize("base", ["static", "jointed", "loaded"])
+def test_a_spoilt_file_that_is_prepared_runs_to_a_verdict(base):
+    check_that_it_runs(base, 2, range(8))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("base", bases())
+def test_spoilt_files_that_are_prepared_run_to_a_verdict(base):
+    check_that_it_runs(base, 3, range(60))
 
 
 def test_the_sound_files_are_sound():
