@@ -12,6 +12,7 @@ from covers.mathematical.base import Cover
 from covers.mathematical.discs import discs_of_cells, with_discs_alike
 from covers.mathematical.kernels import kernel
 from covers.mathematical.regular_grids import grid_cells, grid_vertices, regular_net
+from covers.mathematical.weighted_fits import fit
 from integration.arrays import Floats, Ints
 from integration.monomials import count, differentiate, evaluate
 
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
 # Default radius of the discs in spacings of a regular net of nodes, by degree of the basis.
 RADII = {0: 1.5, 1: 2.0, 2: 3.0, 3: 4.0}
-# Weights that miss the sum one by more come from a singular fit.
-UNDETERMINED = 1e-6
 # Least sum of kernels at a point, and least eigenvalue of scaled moments by degree of the basis.
 LEAST_KERNELS = 0.02
 FIXED = {0: 0.0, 1: 1e-2, 2: 1e-3, 3: 1e-4}
@@ -182,19 +181,14 @@ class MovingLeastSquares(Cover):
         ValueError
             A point where the discs do not determine the fit.
         """
-        patches = self.cell_patches[cells]
-        away = points[:, None] - self.patch_centre[patches]
-        radius = self.radius[patches]
-        value, slope = self._kernel(away, radius, patches >= 0)
+        away, radius, value, slope = self._about(cells, points)
         length = radius.max(axis=1, initial=0.0)
         basis, steps = self._basis(-away / length[:, None, None], length)
-        return _fit(basis, steps, value, slope, points)
+        return fit(basis, steps, value, slope, points)
 
     def kernels(self, cells: Ints, points: Floats) -> Floats:
         """Kernels (m, k) of the patches of ``cells`` (m,) at points; zero where there is none."""
-        patches = self.cell_patches[cells]
-        away = points[:, None] - self.patch_centre[patches]
-        return self._kernel(away, self.radius[patches], patches >= 0)[0]
+        return self._about(cells, points)[2]
 
     def determined(self, cells: Ints, points: Floats) -> npt.NDArray[np.bool_]:
         """Whether (m,) discs of ``cells`` hold `LEAST_KERNELS` of a point, and fix its fit well.
@@ -202,10 +196,7 @@ class MovingLeastSquares(Cover):
         The fit is well fixed when the moments of the basis, scaled to a diagonal of ones, have no
         eigenvalue below `FIXED` of the degree.
         """
-        patches = self.cell_patches[cells]
-        away = points[:, None] - self.patch_centre[patches]
-        radius = self.radius[patches]
-        value = self._kernel(away, radius, patches >= 0)[0]
+        away, radius, value, _ = self._about(cells, points)
         length = radius.max(axis=1, initial=0.0)
         basis = evaluate(-away / length[:, None, None], self.degree)
         moment = np.einsum("mk,mka,mkb->mab", value, basis, basis)
@@ -244,16 +235,19 @@ class MovingLeastSquares(Cover):
         cells = discs_of_cells(self.patch_centre, radius, self.vertices[self.cell_vertices])
         return replace(self, cell_patches=cells, patch_size=radius, radius=radius)
 
-    def _kernel(
-        self, away: Floats, radius: Floats, active: npt.NDArray[np.bool_]
-    ) -> tuple[Floats, Floats]:
-        """Kernel (m, k) and its gradient (m, k, 2); zero where the patch is not active."""
+    def _about(self, cells: Ints, points: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+        """Ways (m, k, 2) from the nodes, radii, kernels (m, k) and their gradients (m, k, 2).
+
+        Kernels are zero where the patch is not active.
+        """
+        patches = self.cell_patches[cells]
+        away, radius = points[:, None] - self.patch_centre[patches], self.radius[patches]
         distance = np.linalg.norm(away, axis=2)
         value, slope = kernel(self.kernel)(distance / radius)
-        inside = active & (distance < radius)
+        inside = (patches >= 0) & (distance < radius)
         direction = away / np.where(distance > 0, distance, 1.0)[..., None]
         gradient = (np.where(inside, slope, 0.0) / radius)[..., None] * direction
-        return np.where(inside, value, 0.0), gradient
+        return away, radius, np.where(inside, value, 0.0), gradient
 
     def _basis(self, xi: Floats, length: Floats) -> tuple[Floats, Floats]:
         """Basis (m, k, K) about the point and its derivative (m, k, K, 2) when the point moves."""
@@ -262,40 +256,6 @@ class MovingLeastSquares(Cover):
         unit = np.eye(basis.shape[-1])
         steps = [lower @ differentiate(unit, self.degree, axis).T for axis in (0, 1)]
         return basis, -np.stack(steps, axis=-1) / length[:, None, None, None]
-
-
-def _fit(
-    basis: Floats, steps: Floats, value: Floats, slope: Floats, points: Floats
-) -> tuple[Floats, Floats]:
-    """Weights c . p_i phi_i with A c = e_1, and their gradients by the product rule."""
-    moment = np.einsum("mk,mka,mkb->mab", value, basis, basis)
-    turned = np.einsum("mk,mkai,mkb->miab", value, steps, basis)
-    change = turned + turned.swapaxes(2, 3)
-    change += np.einsum("mki,mka,mkb->miab", slope, basis, basis)
-    c, c_slope = _solve(moment, change)
-    share = np.einsum("mka,ma->mk", basis, c)
-    lost = ~(np.abs((share * value).sum(axis=1) - 1) < UNDETERMINED)
-    if lost.any():
-        rows = np.flatnonzero(lost)
-        row = int(rows[np.argmin(np.linalg.matrix_rank(moment[rows]))])
-        raise ValueError(
-            f"point {points[row].tolist()}: {(value[row] > 0).sum()} discs do not determine a fit: "
-            f"at least {basis.shape[2]} in general position expected: enlarge the radius"
-        )
-    share_slope = np.einsum("mkai,ma->mki", steps, c) + np.einsum("mka,mai->mki", basis, c_slope)
-    return share * value, share_slope * value[..., None] + share[..., None] * slope
-
-
-def _solve(moment: Floats, change: Floats) -> tuple[Floats, Floats]:
-    """Solution c of A c = e_1 and its derivative; not numbers when any A is singular."""
-    first = np.zeros((*moment.shape[:2], 1))
-    first[:, 0] = 1.0
-    try:
-        c = np.asarray(np.linalg.solve(moment, first)[..., 0], dtype=float)
-        right = -np.einsum("miab,mb->mai", change, c)
-        return c, np.asarray(np.linalg.solve(moment, right), dtype=float)
-    except np.linalg.LinAlgError:
-        return np.full(moment.shape[:2], np.nan), np.zeros((*moment.shape[:2], 2))
 
 
 def _check_options(degree: int, name: str) -> None:

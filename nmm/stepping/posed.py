@@ -83,11 +83,7 @@ def pose(scene: "Scene", formulation: Formulation) -> Posed:
 
 def _posed(scene: "Scene", formulation: Formulation) -> Posed:
     begun = perf_counter()
-    regions = build_regions(scene)
-    check_together(scene, formulation)
-    check_parts(scene, formulation)
-    cover = formulation.cover
-    refuse_many_cells(regions, cover, formulation.source.place("cover", "size"))
+    regions = _regions(scene, formulation)
     origin = own_origin(regions.polygons.points)
     if origin.any():
         regions = shifted_regions(regions, -origin)
@@ -101,12 +97,11 @@ def _posed(scene: "Scene", formulation: Formulation) -> Posed:
     model, built = setup.model, perf_counter()
     check_kinematics(formulation, setup.kinematics)
     discretisation = Discretisation.of(setup)
+    plan = discretisation.plan
     for later in stages[1:]:
         with of_stage(later.stage.name):  # its faults are told before anything is solved
             compile_plan(later.setup)
-    plan = discretisation.plan
     _refuse_events(scene, plan)
-    solver = solver_for(model.manifold, formulation.solver, plan.contact is not None)
     return Posed(
         scene=scene,
         formulation=formulation,
@@ -116,11 +111,21 @@ def _posed(scene: "Scene", formulation: Formulation) -> Posed:
         stages=stages,
         monitors=monitors(setup, all_there=not stages),
         integrator=make_integrator(formulation.integrator),
-        solver=solver,
+        solver=solver_for(model.manifold, formulation.solver, plan.contact is not None),
         lay=_lay(formulation, model, plan),
         covers=built - begun,
         effects=perf_counter() - built,
     )
+
+
+def _regions(scene: "Scene", formulation: Formulation) -> "Regions":
+    """Return the blocks of a scene that fits its formulation."""
+    regions = build_regions(scene)
+    check_together(scene, formulation)
+    check_parts(scene, formulation)
+    place = formulation.source.place("cover", "size")
+    refuse_many_cells(regions, formulation.cover, place)
+    return regions
 
 
 def _staged(scene: "Scene", stage: Stage, regions: "Regions", origin: Floats) -> Staged:

@@ -109,24 +109,13 @@ class Ledger:
         self, plan: "Plan", model: "Model", before: State, attempt: Attempt, stands: State
     ) -> "Ledger":
         """Return the totals with an accepted step; ``stands`` is its end as blocks are laid now."""
-        first, after = not self.steps, attempt.state
-        earlier = stored(plan, model, before) if first else self.energies
-        stored_first, work = self.stored_first, self.work
-        if first:
-            stored_first = sum(earlier.values()) - earlier["contact_energy"]
-        grows = first and plan.inertia is None
-        if grows:
-            stored_first -= plan.energy("supports", before)
-            work += plan.first_work(before, after)
-        work += plan.work(before, after)
-        if grows:
-            work -= standing(plan, before, after)
-        work += 0.0 if attempt.booked is None else attempt.booked.late
+        after = attempt.state
+        earlier = self.energies if self.steps else stored(plan, model, before)
         loss = 0.0 if attempt.solved is None else attempt.solved.loss
         dissipated = model.dissipated(before, after)
         found = with_parts(
             self,
-            work=work,
+            work=self._worked(plan, before, attempt),
             friction_loss=self.friction_loss + loss,
             material_loss=self.material_loss + dissipated,
             material_gift=self.material_gift + max(-dissipated, 0.0),
@@ -135,7 +124,7 @@ class Ledger:
                 for name, lost in plan.losses(before, after).items()
             },
             energies=stored(plan, model, stands),
-            stored_first=stored_first,
+            stored_first=self._stored_first(plan, before, earlier),
             steps=self.steps + 1,
             settling=False,
         )
@@ -144,6 +133,28 @@ class Ledger:
         if attempt.booked is not None:
             found = found._lost_in_time(attempt.booked, earlier, loss)
         return found.weighed(after.time, audited=attempt.booked is not None)
+
+    def _worked(self, plan: "Plan", before: State, attempt: Attempt) -> float:
+        """Return the work (J) of all steps and of an accepted one."""
+        work, after = self.work, attempt.state
+        grows = self._grows(plan)
+        if grows:
+            work += plan.first_work(before, after)
+        work += plan.work(before, after)
+        if grows:
+            work -= standing(plan, before, after)
+        return work + (0.0 if attempt.booked is None else attempt.booked.late)
+
+    def _stored_first(self, plan: "Plan", before: State, earlier: Mapping[str, float]) -> float:
+        """Return the energy (J) at the start of all: ``earlier`` is that at the start of a step."""
+        if self.steps:
+            return self.stored_first
+        found = sum(earlier.values()) - earlier["contact_energy"]
+        return found - plan.energy("supports", before) if self._grows(plan) else found
+
+    def _grows(self, plan: "Plan") -> bool:
+        """Whether the next step is the first one of statics, in which all grows from nothing."""
+        return not self.steps and plan.inertia is None
 
     def along(self, more: float, cause: str) -> "Ledger":
         """Return the totals where changes free ``more`` (J) on the way of loads than along chords.
