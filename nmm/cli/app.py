@@ -36,6 +36,7 @@ app = typer.Typer(
     add_completion=False,
     context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
+    rich_markup_mode="markdown",  # paragraphs flow, and [tables] are no markup
 )
 
 Out = Annotated[

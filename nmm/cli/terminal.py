@@ -27,6 +27,7 @@ def faults_told() -> Iterator[None]:
     """Print the faults of an error one a line and leave with exit code 1.
 
     So is a file or folder that cannot be read or written. Warnings of nmm are printed one a line.
+    A reader of the output that has had enough (`nmm parts | head`) is no fault: typer ends quietly.
     """
     try:
         with _warnings_told():
@@ -34,6 +35,8 @@ def faults_told() -> Iterator[None]:
     except NmmError as error:
         tell_faults([str(fault) for fault in error.faults])
         raise typer.Exit(1) from None
+    except BrokenPipeError:
+        raise
     except OSError as error:
         if error.errno is None:
             raise

@@ -1,6 +1,8 @@
 """The command line: each verb by what it prints, writes and returns."""
 
 import shutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -37,6 +39,20 @@ def finished(scene, tmp_path_factory):
 def test_help_names_every_verb():
     text = call("--help").stdout
     assert all(verb in text for verb in ("run", "demo", "check", "explain", "new", "plot"))
+
+
+def test_help_names_tables_and_lets_paragraphs_flow():
+    shown = call("run", "--help").stdout
+    assert "where the scene's [output] asks for them" in " ".join(shown.split())
+    # A line of the source is no line of the help.
+    assert not any(line.strip() == "when the structure" for line in shown.splitlines())
+
+
+def test_a_reader_that_has_enough_is_no_fault():
+    command = f'{sys.executable} -c "from nmm.cli.app import app; app()" parts | head -1'
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
+    assert done.stdout.startswith("cover")
+    assert done.stderr == ""
 
 
 def test_version_is_printed():
