@@ -34,7 +34,7 @@ class Budget:
             With the sentence that says which bound was met, and its key.
         """
         used = perf_counter() - self.begun
-        if self.seconds is not None and used > self.seconds:
+        if self.seconds is not None and not used <= self.seconds:  # no number bounds nothing
             raise BudgetSpentError(
                 f"the budget of {self.seconds:g} s was spent: give more by --budget or "
                 "[loading] budget, or take larger steps"
