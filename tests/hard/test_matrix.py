@@ -27,6 +27,7 @@ SHARE = {
     "corners": [["penalty", "shi"], ["lagrange", "shi"]],
     "fans": [["penalty", "shi"], ["penalty", "newmark"]],
     "seams": [["penalty", "shi"]],
+    "drives": [["cone", "shi"], ["penalty", "energy_momentum"]],
     "pieces": [["triangles degree 1"], ["quads degree 1"]],
     "cuts": [
         ["triangles degree 1"],
@@ -76,6 +77,7 @@ TOLD = {
     **dict.fromkeys(("wedges", "slopes", "slope_array"), RISES | {"converged"}),
     "motions": RISES | MOMENTA | {"other units", "converged"},
     "ratios": {"converged"},
+    "drives": {"energy made in step", "energy made in run"},
 }
 """What may miss, as the run itself says so; docs/hard_cases.md has the figures."""
 

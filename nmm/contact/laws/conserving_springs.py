@@ -31,9 +31,12 @@ class ConservingSprings(TimeWeighting):
     ----------
     foreseen
         (m,) gaps at the end of the step (m), from references as those of the problem.
+    lifted
+        (m,) by how much sliding will have lifted the faces there (m).
     """
 
     foreseen: Floats
+    lifted: Floats
 
     def apply(self, problem: StepProblem) -> StepProblem:
         """See `Transform.apply`."""
@@ -42,9 +45,10 @@ class ConservingSprings(TimeWeighting):
         slope[lines] = self._slope(problem)[lines]
         return replace(found, normal_stiffness=slope)
 
-    def missed(self, answer: StepAnswer, problem: StepProblem) -> Floats:
+    def missed(self, answer: StepAnswer, problem: StepProblem, damper: Floats | float) -> Floats:
         """Force (m,) at the gap that was found less that of the line which found it (N)."""
         true = mean_force(problem.normal_stiffness, *self._stretches(problem, answer.gap))
+        true = np.minimum(true + damper, 0.0)
         return np.where(self._acts, true - answer.normal_force, 0.0)
 
     @property
@@ -64,12 +68,12 @@ class ConservingSprings(TimeWeighting):
 
     def _stretches(self, problem: StepProblem, end: Floats) -> tuple[Floats, Floats]:
         """Return stretches (m,) at the start and at gaps (m,) of the end (m)."""
-        return problem.gap - self.lift, end - self.lift
+        return problem.gap - self.lift, end - self.lifted
 
     def _lead(self, problem: StepProblem) -> Floats:
         force = mean_force(problem.normal_stiffness, *self._stretches(problem, self.foreseen))
         line = force / self._slope(problem) - self.foreseen
-        return np.where(self._lines(problem), line + self.lift, super()._lead(problem))
+        return np.where(self._lines(problem), line + self.lifted, super()._lead(problem))
 
 
 def mean_force(stiffness: Floats, start: Floats, end: Floats) -> Floats:

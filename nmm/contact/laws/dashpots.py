@@ -44,6 +44,10 @@ class Dashpots(Transform):
         stretch = problem.gap - np.maximum(self.gap, 0.0)
         return np.asarray(stretch * self.stiffness / (problem.normal_stiffness + self.stiffness))
 
+    def force(self, end: Floats) -> Floats:
+        """Force (m,) in N through a step to gaps (m,) at its end, of contacts that stay pressed."""
+        return np.asarray(self.stiffness * (end - np.minimum(self.gap, 0.0)))
+
     def loss(self, spring: Floats, end: Floats, force: tuple[Floats, Floats]) -> float:
         """Energy (J) taken in a step.
 

@@ -56,8 +56,13 @@ class TimeWeighting(Transform):
         slip = np.where(parted, answer.slip, answer.slip - lead)
         return with_parts(answer, gap=answer.gap - self._lead(problem), slip=slip)
 
-    def missed(self, answer: StepAnswer, problem: StepProblem) -> Floats | None:
-        """Return what lines in place of springs missed of their forces (m,): they are none."""
+    def missed(
+        self, answer: StepAnswer, problem: StepProblem, damper: Floats | float
+    ) -> Floats | None:
+        """Return what lines in place of springs missed of their forces (m,): they are none.
+
+        ``damper`` (m,) is the force beside each spring (N).
+        """
         return None
 
     def _lead(self, problem: StepProblem) -> Floats:

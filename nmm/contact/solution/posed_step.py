@@ -45,7 +45,10 @@ class PosedStep:
 
     def missed(self, answer: StepAnswer) -> Floats | None:
         """See `ContactSolution.missed`."""
-        return None if self.springs is None else self.springs.missed(answer, self.problem)
+        if self.springs is None:
+            return None
+        damper = 0.0 if self.dashpots is None else self.dashpots.force(answer.gap)
+        return self.springs.missed(answer, self.problem, damper)
 
     def loss(self, contacts: ContactPoints, answer: StepAnswer) -> float:
         """Energy (J) that dampers took in the step."""
@@ -90,7 +93,8 @@ class Posing:
         problem = self._problem(iteration, rows, request, start)
         response, contacts = iteration.response, iteration.start
         weight = end_shares(request.weight, self.exact, problem.own_stiffness, iteration.softening)
-        springs = _weighted(weight, iteration.before.rise, problem, contacts, request.foreseen)
+        rises = iteration.before.rise, response.rise
+        springs = _weighted(weight, rises, problem, contacts, request.foreseen)
         late = None if request.step is None else LateCohesion.of(problem.limits, contacts)
         dashpots = self._dashpots(contacts, problem, request.step)
         raised = RaisedFaces(response.rise) if some(response.rise) else None
@@ -143,16 +147,20 @@ class Posing:
 
 def _weighted(
     weight: Floats,
-    rise: Floats,
+    rises: tuple[Floats, Floats],
     problem: StepProblem,
     contacts: ContactPoints,
     foreseen: Floats | None,
 ) -> TimeWeighting | None:
-    """Return how springs act over the time of a step; None where they act as at its end."""
+    """Return how springs act over the time of a step; None where they act as at its end.
+
+    ``rises`` (m,) of faces are those at both ends.
+    """
     if not some(weight < 1):
         return None
     if foreseen is None:
-        return TimeWeighting(weight, rise, contacts.bonded)
+        return TimeWeighting(weight, rises[0], contacts.bonded)
     from nmm.contact.laws.conserving_springs import ConservingSprings
 
-    return ConservingSprings(weight, rise, contacts.bonded, problem.gaps(foreseen))
+    given = weight, rises[0], contacts.bonded
+    return ConservingSprings(*given, problem.gaps(foreseen), rises[1])

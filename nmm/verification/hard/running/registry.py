@@ -13,6 +13,7 @@ HARD = Registry[type[HardClass]](
         "corners": f"{_HOME}.corners:Corners",
         "fans": f"{_HOME}.corners:Fans",
         "seams": f"{_HOME}.seams:SeamCases",
+        "drives": f"{_HOME}.drives:Drives",
         "wedges": f"{_HOME}.wedges:Wedges",
         "slopes": f"{_HOME}.slopes:Slopes",
         "slope_array": f"{_HOME}.slope_array:SlopeArray",
