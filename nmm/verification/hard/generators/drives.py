@@ -67,7 +67,7 @@ def _blocks(joint: str, random: np.random.Generator) -> Document:
 def _wave(random: np.random.Generator) -> list[list[float]]:
     """Pairs of time (s) and factor of a wave of 8 to 20 Hz."""
     times, pulse = np.linspace(0.0, DURATION, 33), 2 * np.pi * random.uniform(8, 20)
-    return np.stack([times, np.sin(pulse * times)], axis=1).tolist()
+    return [[time, float(np.sin(pulse * time))] for time in times.tolist()]
 
 
 def _pushed(random: np.random.Generator) -> Document:
