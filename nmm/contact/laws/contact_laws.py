@@ -168,7 +168,7 @@ class ContactLaws:
         that a damper holds back store what they are pressed in by though nothing touches.
         """
         normal, shear, own = self.springs(contacts)
-        damped = self.damped(contacts)
+        damped = self.damped(contacts) & ~contacts.tied
         bonded = contacts.bonded
         pressed_by = contacts.gap
         if self.evolving:
