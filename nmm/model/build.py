@@ -14,7 +14,7 @@ from nmm.errors import Fault, FormulationError, SceneError
 from nmm.geometry.geometry import Geometry
 from nmm.materials.base import MATERIAL_LAWS, Law
 from nmm.model.covering import local_functions
-from nmm.model.enriching import with_growing_tips
+from nmm.model.enriching import with_growing_tips, without_opened_corners
 from nmm.model.from_polygons import Sheet, covered
 
 if TYPE_CHECKING:
@@ -114,6 +114,8 @@ def build_model(
     cover = formulation.cover
     if scene.fracture is not None:
         cover = with_growing_tips(cover)
+    if before is not None:  # one that has changed
+        cover = without_opened_corners(cover, geometry.cracks)
     sheet = Sheet(
         [_sound(name, material_law(item), scene) for name, item in scene.materials.items()],
         np.array([(item.density or 0.0) * has_mass for item in materials]),

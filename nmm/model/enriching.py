@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 # half cells, 0.04 % with three and 0.01 % with four, the radius of the integrals, which takes
 # a fifth more time.
 GROWING = 3.0
+# Of the size of all cracks: a vertex nearer to a corner is at it.
+AT_CORNER = 1e-6
 
 
 def with_growing_tips(cover: "CoverTable") -> "CoverTable":
@@ -33,6 +35,22 @@ def with_growing_tips(cover: "CoverTable") -> "CoverTable":
         return cover
     table = EnrichmentTable(radius=GROWING * cover.size)
     return cover.model_copy(update={"enrichment": table})
+
+
+def without_opened_corners(cover: "CoverTable", lines: "Sequence[Floats]") -> "CoverTable":
+    """Return the cover without the functions of corners from which a crack of ``lines`` goes.
+
+    Stress there is bounded but for the tip's, which has functions of its own.
+    """
+    table = cover.enrichment
+    if table is None or not table.corners or not lines:
+        return cover
+    vertices = np.concatenate(lines)
+    size = float(np.hypot(*np.ptp(vertices, axis=0)))
+    away = [np.hypot(*(vertices - place).T).min() for place in table.corners]
+    pairs = zip(table.corners, away, strict=True)
+    whole = tuple(place for place, far in pairs if far > AT_CORNER * size)
+    return cover.model_copy(update={"enrichment": table.model_copy(update={"corners": whole})})
 
 
 def enrichments(
