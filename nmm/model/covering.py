@@ -143,6 +143,8 @@ def _mesh(
     laid, pieces = net.cover, net.cells
     try:
         extra = enrichments(pieces, cover, kappa, bonded, lines)
+    except FormulationError:
+        raise
     except ValueError as fault:
         raise FormulationError(f"[cover.enrichment] {fault}") from fault
     kinds = functions if not cover.regions else kinds_by_region(regions, pieces, cover)
