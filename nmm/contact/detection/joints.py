@@ -12,7 +12,11 @@ from numpy.polynomial.legendre import leggauss
 from integration.arrays import Bools, Floats, Ints
 from nmm.contact.detection.surface import Surface
 from nmm.contact.detection.tolerances import JOINT
+from nmm.errors import FormulationError
 
+# Where the points of a joint stand, and why: at the corners the bond opens where an open-close
+# iteration looks; at two Gauss points a linear stress is exact.
+_RULES = ("corners", "gauss")
 _TWO = np.array([0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)])
 
 
@@ -125,11 +129,18 @@ def joint_points(
     joint_rule: Literal["corners", "gauss"] | str = "corners",
     count: int = 2,
 ) -> JointPoints:
-    """Points of each joint, at its corners or ``count`` Gauss points, on the surface as it is.
+    """Points of each joint, at its two corners or ``count`` Gauss points, on the surface as it is.
 
-    At the corners a bond opens where an open-close iteration looks; at two Gauss points a linear
-    stress is exact.
+    Raises
+    ------
+    FormulationError
+        Unknown name of the rule.
     """
+    if joint_rule not in _RULES:
+        raise FormulationError(
+            f"contact.joint_points: {joint_rule!r}: expected one of {', '.join(_RULES)}: "
+            "correct the name"
+        )
     at, weight = np.array([0.0, 1.0]), np.array([0.5, 0.5])
     if joint_rule == "gauss":
         roots, weights = leggauss(count)

@@ -95,6 +95,6 @@ def test_a_run_goes_on_over_a_change_of_covers_bit_by_bit_or_is_refused_by_line(
 
 def test_together_the_scenes_name_every_effect():
     """Those that are missing here are stopped and gone on with beside their own tests."""
-    elsewhere = {"changed materials", "unreleased forces", "fracture in time"}
+    elsewhere = {"changed materials", "fracture in time"}
     found = set().union(*(named(tables(name)) for name in SCENES))
     assert set(EFFECTS.table) - found == elsewhere
