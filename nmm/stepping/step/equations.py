@@ -196,7 +196,8 @@ class Assembly:
             earlier = plan.force(state, Instant.of(state)) - line.start
             if not steady:
                 gain = force - earlier
-                applied = gain + line.force - line.start - self._driven(state, static.end)
+                if weight > 0.5:  # means of both ends do what effects say they do
+                    applied = gain + line.force - line.start - self._driven(state, static.end)
             force = force if weight == 1 else weight * force + (1 - weight) * earlier
         velocity = rule.kinetic_factor * state.velocity
         rates = rule.momentum(velocity, state.acceleration, step)
