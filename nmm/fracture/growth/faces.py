@@ -20,11 +20,14 @@ class CrackFaces:
         (m,) number of each pair's crack.
     left, right
         Start and end of each pair (2 m), on either side.
+    bend
+        Whether faces turn by what they strain: only where strain is finite.
     """
 
     crack: Ints
     left: MaterialPoints
     right: MaterialPoints
+    bend: bool
 
     @classmethod
     def of(cls, model: Model) -> "CrackFaces":
@@ -36,7 +39,7 @@ class CrackFaces:
             material_points(manifold, np.repeat(edges.element[side], 2), points)
             for side in (one, edges.opposite[one])
         )
-        return cls(edges.crack[one], left, right)
+        return cls(edges.crack[one], left, right, model.finite)
 
     def quantities(self, state: State) -> dict[str, Quantity]:
         """What a frame holds of them."""
@@ -58,7 +61,10 @@ class CrackFaces:
             for side in (self.left, self.right)
         )
         ends = (one + two) / 2
-        along = ends[:, 1] - ends[:, 0]
+        # Strain that counts as small turns no face, however large it is in units of one.
+        shape = state.deformation if self.bend else np.zeros_like(state.deformation)
+        flanks = self.left.place(state.frames, shape) + self.right.place(state.frames, shape)
+        along = flanks[1::2] - flanks[::2]
         along = along / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
         # The material of the first side is on the left of its edges.
         jump = (one - two).mean(axis=1)

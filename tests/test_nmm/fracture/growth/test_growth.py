@@ -52,6 +52,16 @@ def test_every_step_of_a_followed_crack_is_at_its_toughness() -> None:
     assert history["fracture:notch:end:G"] == pytest.approx(rate, rel=1e-2)
 
 
+def test_crack_opens_in_proportion_to_its_load_whatever_the_unit_of_strain() -> None:
+    # Linear elasticity: a million times the load, a million times the opening, to rounding.
+    openings = [
+        nmm.run(plate(FOLLOW.replace("toughness = 1.0", f"toughness = {size}")), net()).history
+        for size in (1e-6, 1.0)
+    ]
+    small, large = (np.array(h["fracture:notch:opening"]) for h in openings)
+    assert large == pytest.approx(1e6 * small, rel=1e-8)
+
+
 def test_what_growth_takes_is_missing_in_the_stored_energy() -> None:
     # Irwin: G = K^2 / E' for every unit of growth, whatever the net resolves of it.
     run = nmm.run(plate(FOLLOW.replace("0.1", "0.05")), net())
