@@ -1,6 +1,8 @@
 """Drucker-Prager plasticity: a smooth cone in place of Mohr-Coulomb's pyramid."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -9,7 +11,7 @@ from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
 from nmm.materials.cone_return import SmoothCone, cone_return
 from nmm.materials.frictional import Frictional
-from nmm.materials.plasticity import flowed, grown
+from nmm.materials.planes import Planes, falling
 
 MATCHES = ("plane_strain", "compression", "extension")
 
@@ -47,15 +49,26 @@ class DruckerPragerPlasticity(Frictional):
         below = np.sqrt(3) * (3 + sign * np.sin(angle))
         return float(6 * np.sin(angle) / below), float(6 * np.cos(angle) / below)
 
+    @property
+    def sets(self) -> Sequence[Planes]:
+        """See `Frictional.sets`."""
+        return self._cone.sets
+
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
         """See `Law.update`."""
+        before = history["plastic_strain"]
+        return self.answer(
+            cone_return(strain, before, self._cone, self.weakening(history)), history
+        )
+
+    @cached_property
+    def _cone(self) -> SmoothCone:
         (eta, xi), (flow, _) = self.slopes(self.friction_angle), self.slopes(self.dilation_angle)
-        cone = SmoothCone(
+        apex = xi * self.cohesion / eta if eta > 0 else np.inf
+        cut = np.inf if self.tensile_strength is None else self.tensile_strength
+        strength = np.array([xi * self.cohesion, min(cut, apex)])
+        return SmoothCone(
             self.young_modulus / 2 / (1 + self.poisson_ratio),
             self.young_modulus / 3 / (1 - 2 * self.poisson_ratio),
-            *(eta, flow, xi * self.cohesion),
-            self.cut_off,
+            *(eta, flow, strength, falling(strength, self.fall)),
         )
-        found = cone_return(strain, history["plastic_strain"], cone)
-        accumulated = grown(history, found.plastic_strain)
-        return flowed(found.stress, found.tangent, found.plastic_strain, accumulated)

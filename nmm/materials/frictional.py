@@ -1,17 +1,22 @@
-"""What laws share whose strength grows with pressure: constants and their limits."""
+"""What laws share whose strength grows with pressure: constants, their limits, softening."""
 
-from dataclasses import dataclass
+from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from integration.arrays import Floats
 from nmm.errors import Fault, FormulationError
-from nmm.materials.plasticity import Plastic
+from nmm.materials.base import History, Response
+from nmm.materials.crack_band import check_cells
+from nmm.materials.planes import Planes, ReturnedStress, Weakening, largest_cell
+from nmm.materials.plasticity import Plastic, flowed, grown
 
 
 @dataclass(frozen=True)
 class Frictional(Plastic):
-    """Base of perfectly plastic laws with cohesion and friction, in plane strain.
+    """Base of laws with cohesion and friction in plane strain, perfectly plastic or softening.
 
     Attributes
     ----------
@@ -21,18 +26,26 @@ class Frictional(Plastic):
         From 0, no change of volume, to the friction angle (rad).
     tensile_strength
         Pa, below the tension ``c / tan phi`` at the apex; none cuts nothing off.
+    softening_energy
+        J/m2 that a band of flow takes for its area until its cohesion is the residual one, beyond
+        what that and friction take; None is no softening.
+    residual_cohesion
+        Cohesion that is left (Pa); of the tensile strength, or of the apex, the same share is.
 
     Notes
     -----
     Internal variables: ``plastic_strain`` (4: xx, yy, 2 xy, zz), ``accumulated_plastic_strain``
-    (the sum of ``sqrt(2/3 |de|^2)`` of its deviator), ``stress_zz`` (Pa). Where the angles differ
-    the tangent is not symmetric.
+    (the sum of ``sqrt(2/3 |de|^2)`` of its deviator), ``stress_zz`` (Pa), and where it softens
+    ``softened``, the share of the fall that is done (`nmm.materials.planes`). Where the angles
+    differ the tangent is not symmetric.
     """
 
     cohesion: float
     friction_angle: float
     dilation_angle: float = 0.0
     tensile_strength: float | None = None
+    softening_energy: float | None = field(default=None, kw_only=True)
+    residual_cohesion: float = field(default=0.0, kw_only=True)
 
     def __post_init__(self) -> None:
         if not self.cohesion >= 0:
@@ -59,6 +72,65 @@ class Frictional(Plastic):
                 f"at c / tan(phi) = {self.apex:.6g} Pa, beyond which it never acts: lower it, or "
                 "leave it out"
             )
+        if self.softening_energy is None:
+            if self.residual_cohesion:
+                raise FormulationError(
+                    f"residual_cohesion: {self.residual_cohesion}: expected a law that softens: "
+                    "add softening_energy"
+                )
+            return
+        if not (self.softening_energy > 0 and self.cohesion > 0):
+            raise FormulationError(
+                f"softening_energy: {self.softening_energy}: expected an energy in J/m2, > 0, of a "
+                "law with a cohesion that can fall: correct it, or raise cohesion"
+            )
+        if not 0 <= self.residual_cohesion < self.cohesion:
+            raise FormulationError(
+                f"residual_cohesion: {self.residual_cohesion}: expected a cohesion from 0 to below "
+                f"that of {self.cohesion:.6g} Pa: lower it"
+            )
+
+    @property
+    @abstractmethod
+    def sets(self) -> Sequence[Planes]:
+        """Planes of the yield surface that act together."""
+
+    @property
+    def fall(self) -> float:
+        """Share of the strengths that is lost in the end."""
+        soft = self.softening_energy is not None
+        return 1 - self.residual_cohesion / self.cohesion if soft else 0.0
+
+    @property
+    def sized(self) -> bool:
+        """See `Law.sized`."""
+        return self.softening_energy is not None
+
+    def check_size(self, size: Floats) -> None:
+        """See `Law.check_size`."""
+        assert self.softening_energy is not None
+        check_cells(self.softening_energy, size, largest_cell(self.sets, self.softening_energy))
+
+    def variables(self, plane: str) -> History:
+        """See `Law.variables`."""
+        more = {"softened": np.zeros(1)} if self.sized else {}
+        return {**super().variables(plane), **more}
+
+    def weakening(self, history: History) -> Weakening:
+        """Return how far the strengths of points have fallen."""
+        if self.softening_energy is None:
+            return Weakening.none(len(history["plastic_strain"]))
+        speed = history["cell_size"][:, 0] / 2 / self.softening_energy
+        return Weakening(history["softened"][:, 0], speed)
+
+    def answer(self, found: ReturnedStress, history: History) -> Response:
+        """Return the response of points whose stress has returned."""
+        accumulated = grown(history, found.plastic_strain)
+        response = flowed(found.stress, found.tangent, found.plastic_strain, accumulated)
+        if not self.sized:
+            return response
+        history = {**response.history, "softened": found.softened[:, None]}
+        return response._replace(history=history)
 
     @property
     def apex(self) -> float:
@@ -67,9 +139,9 @@ class Frictional(Plastic):
         return self.cohesion / tangent if tangent else float("inf")
 
     @property
-    def cut_off(self) -> float:
-        """Tensile strength (Pa); infinite where none is given."""
-        return float("inf") if self.tensile_strength is None else self.tensile_strength
+    def tension(self) -> float:
+        """Tension (Pa) at which strength ends: the tensile strength, or the apex."""
+        return self.apex if self.tensile_strength is None else self.tensile_strength
 
     @property
     def symmetric(self) -> bool:

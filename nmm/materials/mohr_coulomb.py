@@ -1,12 +1,13 @@
-"""Mohr-Coulomb plasticity of soil and rock in plane strain, perfectly plastic."""
+"""Mohr-Coulomb plasticity of soil and rock in plane strain."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from integration.arrays import Floats
 from nmm.materials.base import History, Response
 from nmm.materials.frictional import Frictional
-from nmm.materials.plasticity import flowed, grown
+from nmm.materials.planes import Planes
 from nmm.materials.principal_return import Pyramid, principal_return
 
 
@@ -19,16 +20,22 @@ class MohrCoulombPlasticity(Frictional):
     to a plane, an edge or a corner of the pyramid, the stress across taking part in all.
     """
 
+    @property
+    def sets(self) -> Sequence[Planes]:
+        """See `Frictional.sets`."""
+        return self._pyramid.sets
+
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
         """See `Law.update`."""
         before = history["plastic_strain"]
-        found = principal_return(strain, before, self._pyramid)
-        accumulated = grown(history, found.plastic_strain)
-        return flowed(found.stress, found.tangent, found.plastic_strain, accumulated)
+        found = principal_return(strain, before, self._pyramid, self.weakening(history))
+        return self.answer(found, history)
 
     @cached_property
     def _pyramid(self) -> Pyramid:
         return Pyramid.of(
             (self.young_modulus, self.poisson_ratio),
-            (self.cohesion, self.friction_angle, self.dilation_angle, self.cut_off),
+            (self.friction_angle, self.dilation_angle),
+            (self.cohesion, self.tension),
+            self.fall,
         )

@@ -1,10 +1,7 @@
 """Return of Mohr-Coulomb plasticity in principal stresses, all points at once.
 
-Planes of the pyramid and of the tension cut-off are linear and nothing hardens: on a plane, an edge
-or a corner the returned principal stresses, sorted from the largest tension, are a fixed matrix of
-the trial's and a fixed vector (de Souza Neto, Peric and Owen 2008, chapter 8). Which planes act is
-found by trying all sets that can: none may be exceeded and none may flow backwards (the conditions
-of Karush, Kuhn and Tucker, Koiter 1953).
+Planes of the pyramid and of the tension cut-off are linear in principal stresses, sorted from the
+largest tension: stresses return to a plane, an edge or a corner (`nmm.materials.planes`).
 """
 
 from dataclasses import dataclass, replace
@@ -14,9 +11,15 @@ from typing import Self
 import numpy as np
 
 from integration.arrays import Bools, Floats
+from nmm.materials.planes import (
+    BEYOND,
+    Planes,
+    ReturnedStress,
+    Weakening,
+    falling,
+    return_to_planes,
+)
 
-# Share of the stresses by which rounding leaves a point beyond the yield surface: it is elastic.
-BEYOND = 1e-10
 # In-plane principal stresses closer than this share of the largest have no direction.
 EQUAL = 1e-12
 Acting = tuple[tuple[tuple[int, int], ...], tuple[int, ...]]
@@ -33,7 +36,7 @@ CUT: tuple[Acting, ...] = (
 
 @dataclass(frozen=True)
 class Pyramid:
-    """Elasticity, yield surface and returns to it by each set of planes.
+    """Elasticity, yield surface and the sets of planes that can act.
 
     Attributes
     ----------
@@ -41,49 +44,47 @@ class Pyramid:
         (3, 3) principal stresses from principal strains (Pa).
     shear
         Shear modulus (Pa).
-    slope, strength
-        ``sin phi`` and ``2 c cos phi`` (Pa).
-    tension
-        Largest principal stress (Pa): the cut-off, or the apex; infinite where there is neither.
-    matrix, vector
-        (k, 3, 3) and (k, 3) returned stress of each set.
-    flow, start
-        (k, 3, 3) and (k, 3): multipliers of its planes are ``flow @ trial - start``, in Pa; zero
-        where it has fewer planes.
+    slope
+        ``sin phi``.
+    strength
+        (2,) ``2 c cos phi``, and the largest principal stress: the cut-off, or the apex; infinite
+        where there is neither (Pa).
+    falls
+        (2,) by how much these fall (Pa).
+    sets
+        Planes that act together.
     """
 
     elastic: Floats
     shear: float
     slope: float
-    strength: float
-    tension: float
-    matrix: Floats
-    vector: Floats
-    flow: Floats
-    start: Floats
+    strength: Floats
+    falls: Floats
+    sets: tuple[Planes, ...]
 
     @classmethod
     def of(
-        cls, elasticity: tuple[float, float], strength: tuple[float, float, float, float]
+        cls,
+        elasticity: tuple[float, float],
+        angles: tuple[float, float],
+        strengths: tuple[float, float],
+        fall: float,
     ) -> Self:
         """Return that of Young's modulus and Poisson's ratio, and of the strength.
 
-        ``strength`` is cohesion, friction angle, dilation angle and the tension cut-off.
+        ``angles`` are of friction and of dilation, ``strengths`` cohesion and the largest principal
+        stress, of which the share ``fall`` is lost in the end.
         """
-        (e, nu), (cohesion, friction, dilation, cut) = elasticity, strength
+        (e, nu), friction = elasticity, angles[0]
         shear, lame = e / 2 / (1 + nu), e * nu / (1 + nu) / (1 - 2 * nu)
         elastic = lame * np.ones((3, 3)) + 2 * shear * np.eye(3)
-        whole = 2 * cohesion * np.cos(friction)
-        apex = cohesion / np.tan(friction) if friction > 0 else np.inf
-        tension = min(apex, cut)
-        sets: list[Acting] = [(pairs, ()) for pairs in CONE]
-        if np.isfinite(tension):
-            sets += CUT
-        parts = [
-            _return(elastic, shear, one, (friction, dilation), (whole, tension)) for one in sets
-        ]
-        fixed = (np.array(part) for part in zip(*parts, strict=True))
-        return cls(elastic, shear, float(np.sin(friction)), float(whole), tension, *fixed)
+        strength = np.array([2 * strengths[0] * np.cos(friction), strengths[1]])
+        falls = falling(strength, fall)
+        acting: list[Acting] = [(pairs, ()) for pairs in CONE]
+        if np.isfinite(strength[1]):
+            acting += CUT
+        sets = tuple(_planes(elastic, one, angles, (strength, falls)) for one in acting)
+        return cls(elastic, shear, float(np.sin(friction)), strength, falls, sets)
 
     @cached_property
     def whole(self) -> Floats:
@@ -94,29 +95,26 @@ class Pyramid:
 
     def size(self, stress: Floats) -> Floats:
         """Return what rounding of principal stresses (m, 3) is a share of, (m,) in Pa."""
-        return np.asarray(_ends(np.abs(stress))[0] + self.strength)
+        return np.asarray(_ends(np.abs(stress))[0] + self.strength[0])
 
-    def flows(self, stress: Floats) -> Bools:
+    def flows(self, stress: Floats, done: Floats) -> Bools:
         """Return where (m,) principal stresses (m, 3) in any order exceed the surface."""
-        return np.asarray(self.beyond(stress) > BEYOND * self.size(stress))
+        return np.asarray(self.beyond(stress, done) > BEYOND * self.size(stress))
 
-    def beyond(self, stress: Floats) -> Floats:
-        """Return how far (m,) principal stresses (m, 3) in any order exceed the surface (Pa)."""
+    def beyond(self, stress: Floats, done: Floats) -> Floats:
+        """Return how far (m,) principal stresses (m, 3) in any order exceed the surface (Pa).
+
+        Of the fall of its strengths the share ``done`` (m,) is.
+        """
         first, last = _ends(stress)
-        cone = (first - last) + (first + last) * self.slope - self.strength
-        return np.asarray(np.maximum(cone, first - self.tension))
+        cone, tension = self.strength[:, None] - np.outer(self.falls, done)
+        over = (first - last) + (first + last) * self.slope - cone
+        return np.asarray(np.maximum(over, first - tension))
 
 
-@dataclass(frozen=True)
-class ReturnedStress:
-    """Stress (m, 4: xx, yy, xy, zz), tangent (m, 3, 3), plastic strain (m, 4: xx, yy, 2 xy, zz)."""
-
-    stress: Floats
-    tangent: Floats
-    plastic_strain: Floats
-
-
-def principal_return(strain: Floats, plastic: Floats, pyramid: Pyramid) -> ReturnedStress:
+def principal_return(
+    strain: Floats, plastic: Floats, pyramid: Pyramid, weakening: Weakening
+) -> ReturnedStress:
     """Return stresses to the pyramid; ``strain`` (m, 3) whole, ``plastic`` (m, 4) before.
 
     Only points beyond it are turned to their principal axes.
@@ -125,14 +123,15 @@ def principal_return(strain: Floats, plastic: Floats, pyramid: Pyramid) -> Retur
     stress = elastic @ pyramid.whole
     # One tangent for all points, copied where some flow.
     tangent = np.broadcast_to(pyramid.whole[:3, :3], (len(strain), 3, 3))
-    found = ReturnedStress(stress, tangent, plastic.copy())
-    flows = np.flatnonzero(pyramid.flows(_values(stress)))
-    if len(flows):
-        back = _returned(elastic[flows], pyramid)
+    found = ReturnedStress(stress, tangent, plastic.copy(), weakening.done.copy())
+    flows = pyramid.flows(_values(stress), weakening.done)
+    if flows.any():
+        back = _returned(elastic[flows], pyramid, weakening.at(flows))
         tangent = tangent.copy()
         stress[flows], tangent[flows] = back.stress, back.tangent
         found = replace(found, tangent=tangent)
         found.plastic_strain[flows] += back.plastic_strain
+        found.softened[flows] = back.softened
     return found
 
 
@@ -155,7 +154,7 @@ def _principal(tensor: Floats) -> tuple[Floats, Floats]:
     return _values(tensor), np.arctan2(tensor[:, 2], half) / 2
 
 
-def _returned(elastic: Floats, pyramid: Pyramid) -> ReturnedStress:
+def _returned(elastic: Floats, pyramid: Pyramid, weakening: Weakening) -> ReturnedStress:
     """Return stresses of points beyond the pyramid, and by how much their plastic strain grows.
 
     ``elastic`` (m, 4: xx, yy, 2 xy, zz) are their strains before.
@@ -163,7 +162,10 @@ def _returned(elastic: Floats, pyramid: Pyramid) -> ReturnedStress:
     principal, angle = _principal(elastic * np.array([1.0, 1.0, 0.5, 1.0]))
     trial = principal @ pyramid.elastic
     order = np.argsort(-trial, axis=1, kind="stable")
-    found, tangent = _sorted_return(np.take_along_axis(trial, order, axis=1), pyramid)
+    given = np.take_along_axis(trial, order, axis=1)
+    scale = pyramid.shear, pyramid.size(trial)
+    found, turned, done = return_to_planes(given, pyramid.sets, weakening, pyramid.beyond, scale)
+    tangent = turned @ pyramid.elastic
     rank = np.argsort(order, axis=1)
     stress = np.take_along_axis(found, rank, axis=1)
     tangent = tangent[np.arange(len(rank))[:, None, None], rank[:, :, None], rank[:, None, :]]
@@ -177,21 +179,7 @@ def _returned(elastic: Floats, pyramid: Pyramid) -> ReturnedStress:
     left = stress @ np.linalg.inv(pyramid.elastic)
     flat = np.einsum("mi,mij->mj", left[:, :2], axes[:, :2])
     kept = np.column_stack([flat[:, :2], 2 * flat[:, 2], left[:, 2]])
-    return ReturnedStress(back, whole, elastic - kept)
-
-
-def _sorted_return(trial: Floats, pyramid: Pyramid) -> tuple[Floats, Floats]:
-    """Sorted principal stresses (m, 3) back at the surface, and their tangent (m, 3, 3)."""
-    found, tangent = trial.copy(), np.tile(pyramid.elastic, (len(trial), 1, 1))
-    least, size = np.full(len(trial), np.inf), pyramid.size(trial)
-    for number, matrix in enumerate(pyramid.matrix):  # three to ten sets of planes
-        stress = trial @ matrix.T + pyramid.vector[number]
-        back = pyramid.start[number] - trial @ pyramid.flow[number].T
-        wrong = np.maximum(pyramid.beyond(stress), back.max(axis=1))
-        better = wrong < least - BEYOND * size
-        least = np.where(better, wrong, least)
-        found[better], tangent[better] = stress[better], matrix @ pyramid.elastic
-    return found, tangent
+    return ReturnedStress(back, whole, elastic - kept, done)
 
 
 def _shear(stress: Floats, trial: Floats, tangent: Floats, shear: float) -> Floats:
@@ -216,27 +204,21 @@ def _axes(angle: Floats) -> Floats:
     )
 
 
-def _return(
+def _planes(
     elastic: Floats,
-    shear: float,
     acting: Acting,
     angles: tuple[float, float],
-    strength: tuple[float, float],
-) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return matrix and vector of the stress, and of the multipliers, of one set of planes."""
-    (pairs, cut), (friction, dilation) = acting, angles
-    slopes = np.sin(friction), np.sin(dilation)
+    strengths: tuple[Floats, Floats],
+) -> Planes:
+    """Return one set of planes; ``strengths`` are those at first and their falls."""
+    pairs, cut = acting
     tensile = [np.eye(3)[one] for one in cut]
     normal, way = (
-        np.array([*(_plane(pair, slope) for pair in pairs), *tensile]) for slope in slopes
+        np.array([*(_plane(pair, float(np.sin(angle))) for pair in pairs), *tensile])
+        for angle in angles
     )
-    limit = np.array([strength[0]] * len(pairs) + [strength[1]] * len(cut))
-    flow = elastic @ way.T
-    inverse = np.linalg.inv(normal @ flow)
-    back = flow @ inverse
-    multiplier, start = np.zeros((3, 3)), np.zeros(3)
-    multiplier[: len(limit)], start[: len(limit)] = inverse @ normal, inverse @ limit
-    return np.eye(3) - back @ normal, back @ limit, shear * multiplier, shear * start
+    kind = np.array([0] * len(pairs) + [1] * len(cut))
+    return Planes.of(elastic, (normal, way), strengths[0][kind], strengths[1][kind])
 
 
 def _plane(pair: tuple[int, int], slope: float) -> Floats:

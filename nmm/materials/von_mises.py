@@ -8,6 +8,7 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
+from nmm.materials.crack_band import check_cells
 from nmm.materials.plasticity import Plastic, flowed
 from nmm.materials.projected_return import projected_return
 from nmm.materials.radial_return import Returned, radial_return
@@ -83,13 +84,8 @@ class VonMisesPlasticity(Plastic):
     def check_size(self, size: Floats) -> None:
         """See `Law.check_size`: flow takes more strain than the shear that it relieves."""
         shear = self.young_modulus / 2 / (1 + self.poisson_ratio)
-        most = 3 * shear / self._slope(1.0)
-        if size.max(initial=0.0) >= most:
-            raise FormulationError(
-                f"softening_energy: {self.softening_energy}: cells of {size.max():.4g} m: expected "
-                f"cells below {most:.4g} m, where they unload more slowly than they soften: refine "
-                "the cover"
-            )
+        assert self.softening_energy is not None
+        check_cells(self.softening_energy, size, 3 * shear / self._slope(1.0))
 
     def _slope(self, size: float | Floats) -> Any:
         """By how much the yield stress falls over the plastic strain in cells of a size (Pa)."""

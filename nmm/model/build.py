@@ -31,7 +31,8 @@ ROUNDING = 1e-9
 
 # Constants of a scene's material that not every law has.
 WHERE_GIVEN = (
-    *("yield_stress", "hardening_modulus", "softening_energy", "residual_stress"),
+    *("yield_stress", "hardening_modulus"),
+    *("softening_energy", "residual_stress", "residual_cohesion"),
     *("cohesion", "friction_angle", "dilation_angle", "tensile_strength", "match"),
     *("viscosity", "delayed_modulus", "delayed_viscosity"),
     *("young_modulus_2", "shear_modulus", "axis_angle"),

@@ -54,15 +54,24 @@ class Material(Frozen):
     softening_energy: SurfaceEnergy | None = Field(
         default=None,
         gt=0,
-        description="an energy in J/m2, > 0, that a band of sliding takes for its area beyond what "
-        'residual_stress takes, of "von_mises" in plane strain; it does not soften if not given',
+        description="an energy in J/m2, > 0, that a band of flow takes for its area until its "
+        "strength is the residual one, beyond what that takes: of "
+        '"von_mises", "mohr_coulomb" and "drucker_prager" in plane strain; none if not given',
         examples=example("J/m^2"),
     )
     residual_stress: Stress | None = Field(
         default=None,
         ge=0,
-        description="the yield stress in Pa, >= 0, that softening leaves; 0 if not given",
+        description='the yield stress in Pa, >= 0, that softening leaves of "von_mises"; 0 if not '
+        "given",
         examples=["50 kPa"],
+    )
+    residual_cohesion: Stress | None = Field(
+        default=None,
+        ge=0,
+        description='the cohesion in Pa, >= 0, that softening leaves of "mohr_coulomb" and '
+        '"drucker_prager", and of tensile_strength the same share; 0 if not given',
+        examples=["5 kPa"],
     )
     cohesion: Stress | None = Field(
         default=None,

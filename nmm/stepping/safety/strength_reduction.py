@@ -191,7 +191,10 @@ def _weaker(part: Any, factor: float) -> Any:
         for name in type(part).model_fields
         if isinstance(getattr(part, name), float)
     }
-    over = ("cohesion", "tensile_strength", "yield_stress", "residual_stress", "softening_energy")
+    over = (
+        *("cohesion", "tensile_strength", "yield_stress"),
+        *("softening_energy", "residual_stress", "residual_cohesion"),
+    )
     found = {name: given[name] / factor for name in over if name in given}
     for name in FRICTION:
         if name in given:

@@ -1,10 +1,14 @@
-"""Von Mises matter that softens: what bands of it take, whatever the cells."""
+"""Matter that softens: what bands of it take, whatever the cells."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import nmm
 from nmm.errors import FormulationError, SceneError
+from nmm.materials.drucker_prager import DruckerPragerPlasticity
+from nmm.materials.mohr_coulomb import MohrCoulombPlasticity
 from nmm.materials.von_mises import VonMisesPlasticity
 from nmm.testing import check_law
 
@@ -12,9 +16,27 @@ E, NU, YIELD, ENERGY = 1e9, 0.25, 1e6, 2e3
 SHEAR = E / 2 / (1 + NU)
 HEIGHT, WIDTH, PUSH = 1.0, 0.25, 5e4
 CLAY = VonMisesPlasticity(E, NU, YIELD, softening_energy=ENERGY, residual_stress=1e5)
+PHI = np.pi / 6
+SOFT = {"softening_energy": ENERGY, "residual_cohesion": 1e5}
+FRICTIONAL = {
+    "pyramid": MohrCoulombPlasticity(E, NU, YIELD, PHI, 0.1, **SOFT),
+    "associated pyramid": MohrCoulombPlasticity(E, NU, YIELD, PHI, PHI, **SOFT),
+    "cut pyramid": MohrCoulombPlasticity(E, NU, YIELD, PHI, PHI, 0.6e6, **SOFT),
+    "cohesive pyramid": MohrCoulombPlasticity(E, NU, YIELD, 0.0, **SOFT),
+    "cone": DruckerPragerPlasticity(E, NU, YIELD, PHI, 0.1, **SOFT),
+    "associated cone": DruckerPragerPlasticity(E, NU, YIELD, PHI, PHI, **SOFT),
+    "cut cone": DruckerPragerPlasticity(E, NU, YIELD, PHI, PHI, 0.6e6, **SOFT),
+}
+# Strength in shear without mean stress, and the lines that make a material of it.
+SHEARED = {
+    "von_mises": (YIELD / np.sqrt(3), f"yield_stress = {YIELD}"),
+    "mohr_coulomb": (0.5e6, f"cohesion = {0.5e6 / np.cos(PHI)}\nfriction_angle = {PHI}"),
+    # Between the lines through the middle of sides of equal collapse: xi is 3 / sqrt(9 + 12 tan2).
+    "drucker_prager": (0.5e6, f"cohesion = {0.5e6 / 0.8320502943}\nfriction_angle = {PHI}"),
+}
 
 
-def sheared(size, cover="quads", degree=0, way=0.0042):
+def sheared(size, law="von_mises", cover="quads", degree=0, way=0.0042):
     """A layer whose top is pushed aside by a way (m); weight aside loads its foot a little more."""
     walls = "".join(
         f'[[supports]]\nname = "{name}"\nsegment = [[{x}, 0], [{x}, {HEIGHT}]]\nfix = ["y"]\n'
@@ -23,10 +45,10 @@ def sheared(size, cover="quads", degree=0, way=0.0042):
     return nmm.parse_scene(
         f"""plane = "strain"
         [materials.clay]
-        law = "von_mises"
+        law = "{law}"
         young_modulus = {E}
         poisson_ratio = {NU}
-        yield_stress = {YIELD}
+        {SHEARED[law][1]}
         softening_energy = {ENERGY}
         [[blocks]]
         name = "layer"
@@ -61,26 +83,85 @@ def sheared(size, cover="quads", degree=0, way=0.0042):
     )
 
 
-def stress_at_top(size, way=0.0042):
-    """Shear stress (Pa) at the top while the lowest row of cells softens alone.
+def stress_at_end(size, strength, modulus, way):
+    """Stress (Pa) at the end of a body 1 m long while the cells at its foot soften alone.
 
-    Its stress ``t + b (H - h / 2)`` is ``(s - c' p) / sqrt(3)``, and ``U = t H / G + b H^2 / 2 G +
-    sqrt(3) p h`` with ``c' h = s^2 / 2 G_f``.
+    Their stress ``t + b (H - h / 2)`` is ``f (1 - f w / 2 G)`` where they have given way by ``w``,
+    and ``U = t H / E + b H^2 / 2 E + w``.
     """
-    eased = 2 * ENERGY / YIELD**2
+    eased = 2 * ENERGY / strength**2
     more = PUSH * (HEIGHT - size / 2)
-    known = way - PUSH * HEIGHT**2 / 2 / SHEAR - eased * (np.sqrt(3) * YIELD - 3 * more)
-    return known / (HEIGHT / SHEAR - 3 * eased)
+    known = way - PUSH * HEIGHT**2 / 2 / modulus - eased * (strength - more)
+    return known / (HEIGHT / modulus - eased)
 
 
+@pytest.mark.parametrize("law", SHEARED)
 @pytest.mark.parametrize("size", [0.25, 0.125])
-def test_a_band_takes_the_same_energy_whatever_the_cells(size):
+def test_a_band_takes_the_same_energy_whatever_the_cells(size, law):
     """The force falls along the closed form, in which the cells are but where the band lies."""
-    run = nmm.run(sheared(size))
+    way = 0.0042 if law == "von_mises" else 0.0048
+    run = nmm.run(sheared(size, law, way=way))
     assert run.summary.status == "converged", run.summary.sentence
     found = run.history["reaction:top:x"][-1] / WIDTH
     # Forces are half of the peak, on a branch that softens: increments are balanced to 1e-10.
-    assert found == pytest.approx(stress_at_top(size), rel=1e-6)
+    assert found == pytest.approx(stress_at_end(size, SHEARED[law][0], SHEAR, way), rel=1e-6)
+
+
+def pulled(size, way):
+    """A bar of 1 m that is pulled by a way (m) at its right end, its left a little more."""
+    return nmm.parse_scene(
+        f"""plane = "strain"
+        [materials.rock]
+        law = "mohr_coulomb"
+        young_modulus = {E}
+        poisson_ratio = 0.0
+        cohesion = {YIELD}
+        friction_angle = {PHI}
+        tensile_strength = {YIELD}
+        softening_energy = {ENERGY}
+        [[blocks]]
+        name = "bar"
+        material = "rock"
+        vertices = [[0, 0], [1, 0], [1, {WIDTH}], [0, {WIDTH}]]
+        [[supports]]
+        name = "left"
+        segment = [[0, 0], [0, {WIDTH}]]
+        fix = ["x"]
+        [[supports]]
+        name = "down"
+        point = [0, 0]
+        fix = ["y"]
+        [[supports]]
+        name = "right"
+        segment = [[1, 0], [1, {WIDTH}]]
+        fix = ["x"]
+        displacement = [{way}, 0]
+        [[loads]]
+        name = "more"
+        kind = "body"
+        density = [{PUSH}, 0]
+        [loading]
+        scaled = ["right"]
+        until = 1.0
+        [formulation.loading]
+        increment = 0.01
+        [formulation.cover]
+        type = "quads"
+        size = {size}
+        degree = 0
+        [formulation.supports]
+        method = "lagrange"
+        """
+    )
+
+
+@pytest.mark.parametrize("size", [0.25, 0.125])
+def test_a_bar_that_opens_takes_the_same_energy_whatever_the_cells(size):
+    """A row of cells across it opens along the line of a cohesive crack of linear softening."""
+    run = nmm.run(pulled(size, 0.003))
+    assert run.summary.status == "converged", run.summary.sentence
+    found = run.history["reaction:right:x"][-1] / WIDTH
+    assert found == pytest.approx(stress_at_end(size, YIELD, E, 0.003), rel=1e-6)
 
 
 def test_a_point_takes_its_energy_over_the_size_of_its_cell():
@@ -99,8 +180,88 @@ def test_a_point_takes_its_energy_over_the_size_of_its_cell():
     assert work - 1e5 * flowed == pytest.approx(ENERGY / size, rel=1e-4)
 
 
+@pytest.mark.parametrize("kind", ["cohesive pyramid", "cone", "pyramid"])
+def test_ground_under_pressure_takes_its_energy_beyond_that_of_friction(kind):
+    """Sheared at constant volume under 3 MPa the mean stress stays, and friction with it."""
+    law = MohrCoulombPlasticity(E, NU, YIELD, PHI, **SOFT)
+    if kind == "cone":
+        law = DruckerPragerPlasticity(E, NU, YIELD, PHI, **SOFT)
+    elif kind == "cohesive pyramid":
+        law = MohrCoulombPlasticity(E, NU, YIELD, 0.0, **SOFT)
+    size, mean, ways = 0.05, 3e6, np.linspace(0, 0.4, 4001)
+    volume = -mean * 3 * (1 - 2 * NU) / E
+    history = {name: one[None].copy() for name, one in law.variables("strain").items()}
+    history["plastic_strain"][0, 3] = -volume / 3
+    history["cell_size"] = np.array([[size]])
+    stress = []
+    for way in ways:
+        found = law.update(np.array([[volume / 3, volume / 3, way]]), history, "strain", 0.0)
+        history = {**found.history, "cell_size": history["cell_size"]}
+        stress.append(found.stress[0, 2])
+    cohesive, frictional = {
+        "pyramid": (np.cos(PHI), np.sin(PHI)),
+        "cohesive pyramid": (1.0, 0.0),
+        "cone": law.slopes(PHI)[::-1] if kind == "cone" else (),
+    }[kind]
+    assert max(stress) == pytest.approx(YIELD * cohesive + mean * frictional, rel=1e-3)
+    assert stress[-1] == pytest.approx(1e5 * cohesive + mean * frictional, rel=1e-12)
+    flowed = ways[-1] - stress[-1] / SHEAR
+    work = np.trapezoid(stress, ways) - stress[-1] ** 2 / 2 / SHEAR
+    assert work - stress[-1] * flowed == pytest.approx(ENERGY / size, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", FRICTIONAL)
+def test_ground_that_softens_keeps_what_every_law_does(name):
+    check_law(FRICTIONAL[name], planes=("strain",), strains=(1e-3, 1e-2, 1.0))
+
+
+@pytest.mark.parametrize("name", FRICTIONAL)
+def test_softening_without_end_is_no_softening(name):
+    """With 1e9 times the energy strengths fall by 1e-9 and less."""
+    random = np.random.default_rng(3)
+    law = FRICTIONAL[name]
+    hard = replace(law, softening_energy=None, residual_cohesion=0.0)
+    soft = replace(law, softening_energy=1e12)
+    strain = random.normal(size=(500, 3)) * 10 ** random.uniform(-4, -1, (500, 1))
+    start = {name: np.tile(one, (500, 1)) for name, one in soft.variables("strain").items()}
+    start["cell_size"] = np.full((500, 1), 0.05)
+    found = soft.update(strain, start, "strain", 0.0)
+    expected = hard.update(strain, start, "strain", 0.0)
+    np.testing.assert_allclose(found.stress, expected.stress, atol=1e-2)
+
+
 def test_a_law_that_softens_keeps_what_every_law_does():
     check_law(CLAY, planes=("strain",))
+
+
+@pytest.mark.parametrize(
+    "constants",
+    [
+        {"softening_energy": 0.0},
+        {"residual_cohesion": 1.0},
+        {"softening_energy": 1.0, "residual_cohesion": YIELD},
+    ],
+)
+def test_ground_that_does_not_soften_is_refused(constants):
+    with pytest.raises(FormulationError, match="expected"):
+        MohrCoulombPlasticity(E, NU, YIELD, PHI, **constants)
+
+
+def test_cells_in_which_ground_snaps_back_are_refused_with_the_largest():
+    """At the apex ``T^2 h / 2 G_f`` reaches the bulk modulus; without friction ``4 c^2 h / 2 G_f``
+    reaches ``3 G``, on the edge where two planes flow alike.
+    """
+    law = MohrCoulombPlasticity(E, NU, YIELD, PHI, PHI, softening_energy=ENERGY)
+    bulk = E / 3 / (1 - 2 * NU)
+    most = 2 * ENERGY * bulk / (YIELD / np.tan(PHI)) ** 2
+    law.check_size(np.array([0.999 * most]))
+    with pytest.raises(FormulationError, match=f"expected cells below {most:.4g} m"):
+        law.check_size(np.array([1.001 * most]))
+    law = MohrCoulombPlasticity(E, NU, YIELD, 0.0, softening_energy=ENERGY)
+    most = 3 * SHEAR * 2 * ENERGY / (2 * YIELD) ** 2
+    law.check_size(np.array([0.999 * most]))
+    with pytest.raises(FormulationError, match=f"expected cells below {most:.4g} m"):
+        law.check_size(np.array([1.001 * most]))
 
 
 @pytest.mark.parametrize(

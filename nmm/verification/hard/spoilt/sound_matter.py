@@ -40,6 +40,8 @@ poisson_ratio = 0.3
 cohesion = 1e5
 friction_angle = 0.3
 match = "compression"
+softening_energy = "5 kJ/m^2"
+residual_cohesion = 2e4
 density = 2000
 [[blocks]]
 name = "c"
