@@ -1,47 +1,26 @@
-"""A step in which bodies may touch: contacts are sought, solved, and judged by how far all moved.
+"""A step in which bodies may touch: its contacts are solved, and judged by how far all moved."""
 
-Contacts are sought as far as points can move in a step. The first step has no motion to go by; one
-that moves further is solved again, and so is one whose forces act elsewhere half way.
-"""
-
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.motion import State, middle
-from nmm.contact.candidates.held_back import joined
-from nmm.contact.detection.tolerances import (
-    CROSSING_SOLUTIONS,
-    FIRST_REACH,
-    FURTHER,
-    MIDPOINT_SOLUTIONS,
-)
+from nmm.assembly.motion import State
 from nmm.contact.solution.request import StepRequest
-from nmm.effects.base import Instant
 from nmm.frozen import with_parts
 from nmm.model.discretisation import Current
 from nmm.solvers.linear import LinearSolver
 from nmm.solvers.unchecked import product
 from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.contact_search import ContactSearch, Sought
 from nmm.stepping.step.equations import Equations
 from nmm.stepping.step.mover import Mover
-from nmm.stepping.step.trial import Attempt, Sought
+from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
-    from nmm.contact.candidates.held_back import Crossed
-    from nmm.contact.detection.crossing import Motion
     from nmm.contact.enforcement.null_space import NullSpace
-    from nmm.contact.points.contact_points import ContactPoints
-    from nmm.contact.solution.momentum import Momentum
     from nmm.contact.solution.record import Breaking, ContactSolution
     from nmm.controls.path_equation import PathEquation
-    from nmm.effects.change import Change
-    from nmm.effects.contact import Contact
-
-# Solutions of a step along a path, each with contacts sought further.
-PATH_SOLUTIONS = 4
 
 
 class Touching:
@@ -53,6 +32,11 @@ class Touching:
         Diagonal of the domain (m): a step that moves further has not converged.
     carries
         Whether accelerations count (`Integrator.carries`).
+
+    Attributes
+    ----------
+    search
+        Seeks the contacts.
     """
 
     def __init__(
@@ -66,20 +50,13 @@ class Touching:
     ) -> None:
         self._current, self._mover, self.solver, self._clock = current, mover, solver, clock
         self._size, self._carries = size, carries
+        self.search = ContactSearch(current, mover, size, clock)
         self._held: NullSpace | None = None
-        self._last: tuple[State, Sought] | None = None
-
-    def follow(self, change: "Change") -> None:
-        """Forget the conditions of the old model; how far bodies move in a step stays known."""
-        self.forget()
-
-    def reach(self, motion: float = 0.0) -> float:
-        """Return how far contacts are sought after a step that moved by ``motion`` (m)."""
-        return max(2 * motion, FIRST_REACH * self._size)
 
     def forget(self) -> None:
-        """Drop what is kept for speed alone."""
-        self._held = self._last = None
+        """Drop what is kept for speed alone, and of one model: the conditions of supports."""
+        self._held = None
+        self.search.forget()
 
     def attempt(
         self,
@@ -98,10 +75,10 @@ class Touching:
         SolveError
             Where the load moves a part that nothing holds.
         """
-        contact, state = self.contact, equations.state
+        state, partners = equations.state, self.search.contact.partners
         near, passes = self._near(equations, foreseen), 0
         again = foreseen is not None and near is None
-        sought, held = self._found(equations, reach, again), self._conditions(equations)
+        sought, held = self.search.first(equations, reach, again), self._conditions(equations)
         while True:
             solved = self._solve(equations, sought, breaking, held, near)
             passes += solved.passes
@@ -109,109 +86,24 @@ class Touching:
             result, rest = self._judged(equations, solved, held)
             good = verdict.converged and result.motion <= self._size and not solved.stopped
             if good and result.motion <= sought.reach:
-                motion = contact.partners.motion(state, result.state)
-            further = self._again(equations, sought, solved, result, motion) if good else None
-            if further is not None:
-                sought = further
-                continue
-            self._last = state, sought
-            if good and self._turns(equations) and solved.rows is not None:
-                result = self._kept(equations, solved, result, rest)
-            if good and near is not None and solved.rows is not None:
-                result = with_parts(result, missed=self._missed(state, solved, result.state))
-            passage = "" if motion is None else contact.partners.passage(motion)
-            sentence = passage or self._why(verdict.sentence, result, solved)
-            return result.told(good and not passage, sentence, solved, passes)
-
-    def _found(self, equations: Equations, reach: float, again: bool) -> Sought:
-        """Return the contacts of a step: those of its last iteration where it is solved ``again``.
-
-        Forces that bend move bodies by little from one iteration to the next.
-        """
-        state = equations.state
-        if again and self._last is not None and self._last[0] is state:
-            return replace(self._last[1], crossings=0, midpoints=0)
-        contacts = self.candidates(state, reach, equations.step)
-        ahead = self._ahead(equations, contacts, self.contact.momentum)
-        return Sought(reach, contacts, ahead, ahead)
-
-    def _again(
-        self,
-        equations: Equations,
-        sought: Sought,
-        solved: "ContactSolution",
-        result: Attempt,
-        motion: "Motion | None",
-    ) -> Sought | None:
-        """Return with what a step is solved again; None where its solution stands.
-
-        ``motion`` is None where bodies went further than contacts were sought.
-        """
-        if motion is None:
-            return self._looked(equations, replace(sought, reach=FURTHER * result.motion))
-        missed = self.contact.overlooked(sought.contacts, motion)
-        if missed is not None and sought.crossings < CROSSING_SOLUTIONS:
-            crossed, count = joined(sought.crossed, missed), sought.crossings + 1
-            return self._looked(equations, replace(sought, crossed=crossed, crossings=count))
-        if not self._turns(equations) or sought.midpoints == MIDPOINT_SOLUTIONS:
-            return None
-        given = solved, equations.state, result.state, sought.midpoint
-        half = self.contact.momentum.midpoint(*given)
-        if half is None:
-            return None
-        return replace(sought, midpoint=half, midpoints=sought.midpoints + 1)
-
-    def _looked(self, equations: Equations, sought: Sought) -> Sought:
-        """Return what was sought with contacts found anew."""
-        given = equations.state, sought.reach, equations.step, sought.crossed
-        return replace(sought, contacts=self.candidates(*given), midpoint=sought.ahead)
-
-    def _turns(self, equations: Equations) -> bool:
-        """Whether bodies turn in a step in time."""
-        return equations.step is not None and self._mover.kinematics.turns
-
-    def _ahead(
-        self, equations: Equations, contacts: "ContactPoints", momentum: "Momentum"
-    ) -> State | None:
-        """Return where bodies are half way if they go on turning; None where they hardly turn.
-
-        It goes by the state alone, so that a run that is resumed foresees the same.
-        """
-        state, step = equations.state, equations.step
-        if step is None or not self._turns(equations):
-            return None
-        flight, half = step * state.velocity, 0.5 * step**2
-        way = momentum.foreseen(contacts, flight, state.acceleration, half)
-        if way is None:
-            return None
-        return middle(state, self._mover.moved(state, way))
+                motion = partners.motion(state, result.state)
+            given = equations, sought, solved, result, motion
+            further = self.search.again(*given) if good else None
+            if further is None:
+                break
+            sought = further
+        self.search.keep(state, sought)
+        if good and solved.rows is not None:
+            result = self._completed(equations, solved, result, rest, near is not None)
+        passage = "" if motion is None else partners.passage(motion)
+        sentence = passage or self._why(verdict.sentence, result, solved)
+        return result.told(good and not passage, sentence, solved, passes)
 
     def along(self, equations: Equations, path: "PathEquation", reach: float) -> Attempt:
-        """Solve a step of statics whose load factor is found with the unknowns.
+        """Solve a step of statics whose load factor is found with the unknowns (`step_along`)."""
+        from nmm.stepping.step.contact_path import step_along
 
-        Contacts are sought up to ``reach`` (m) at first. The equations are of the load factor that
-        the step begins with.
-
-        Raises
-        ------
-        SolveError
-            Where nothing holds a part.
-        """
-        from nmm.contact.following.path_solution import path_solution
-
-        state, still, contact = equations.state, equations.end, self.contact
-        request = StepRequest(equations.matrix, equations.force, self.solver, time=still.time)
-        given, joints = (state, request, path), contact.record.book.points
-        for _ in range(PATH_SOLUTIONS):
-            contacts = self.candidates(state, reach, None)
-            solved, change = path_solution(contact.steps, contacts, *given, joints)
-            end = Instant(still.time, still.load_factor + change)
-            result = self._mover.after(replace(equations, end=end), solved.answer.increment)
-            if result.motion <= reach or not solved.answer.verdict.converged:
-                break
-            reach = FURTHER * result.motion
-        verdict = solved.answer.verdict
-        return result.told(verdict.converged, verdict.sentence, solved, solved.passes)
+        return step_along(self.search, self._mover, self.solver, equations, path, reach)
 
     def _why(self, solution: str, result: Attempt, solved: "ContactSolution") -> str:
         """Say why a solution is no step, though it be one of its equations."""
@@ -220,20 +112,6 @@ class Touching:
         if solved.answer.verdict.converged and result.motion > self._size:
             return f"points move by {result.motion:.3g} m, further than the domain is large"
         return solution
-
-    def candidates(
-        self, state: State, reach: float, step: float | None, crossed: "Crossed | None" = None
-    ) -> "ContactPoints":
-        """Return the contact points of a step in which no point moves further than ``reach``."""
-        with self._clock.phase("search"):
-            return self.contact.candidates(state, reach, step, crossed)
-
-    @property
-    def contact(self) -> "Contact":
-        """The contact effect."""
-        contact = self._current.plan.contact
-        assert contact is not None
-        return contact
 
     def _conditions(self, equations: Equations) -> "NullSpace | None":
         """Return the conditions of supports by multipliers."""
@@ -272,11 +150,11 @@ class Touching:
         end = None if foreseen is None else foreseen.state
         with self._clock.phase("solve"):
             given = sought.contacts, equations.state, request, sought.midpoint
-            return self.contact.steps.solve(*given, end)
+            return self.search.contact.steps.solve(*given, end)
 
     def _near(self, equations: Equations, foreseen: Attempt | None) -> Attempt | None:
         """Return what is foreseen of a step in time of bodies that bend by any angle; else None."""
-        bends = self._mover.kinematics.finite and self.contact.geometry.conserves
+        bends = self._mover.kinematics.finite and self.search.contact.geometry.conserves
         if equations.step is None or not bends:
             return None
         still = np.zeros(len(equations.force))
@@ -285,7 +163,7 @@ class Touching:
     def _missed(self, state: State, solved: "ContactSolution", end: State) -> Floats:
         """Return the contact forces (n,) at the end that was found beyond those of a solution."""
         assert solved.rows is not None
-        rows = self.contact.geometry.conserving(solved.contacts, state, end)
+        rows = self.search.contact.geometry.conserving(solved.contacts, state, end)
         normal, shear = solved.answer.normal_force, solved.answer.shear_force
         whole = normal if solved.missed is None else normal + solved.missed
         return rows.push(whole, shear) - solved.push
@@ -303,11 +181,24 @@ class Touching:
         push = -rest if self._carries and equations.step else None
         return self._mover.after(equations, increment, push), rest
 
-    def _kept(
-        self, equations: Equations, solved: "ContactSolution", result: Attempt, rest: Floats
+    def _completed(
+        self,
+        equations: Equations,
+        solved: "ContactSolution",
+        result: Attempt,
+        rest: Floats,
+        foreseen: bool,
     ) -> Attempt:
-        """Return the attempt with the velocity that keeps momentum and angular momentum."""
-        assert equations.step is not None
-        state = result.state
-        change = self.contact.momentum.kept(solved, equations.state, state, equations.step, rest)
-        return with_parts(result, state=with_parts(state, velocity=state.velocity + change))
+        """Return the attempt with the velocity that keeps momentum and angular momentum.
+
+        Where its end was ``foreseen`` it is told by how much forces at the end differ.
+        """
+        begin, state = equations.state, result.state
+        if self.search.turns(equations):
+            assert equations.step is not None
+            momentum = self.search.contact.momentum
+            change = momentum.kept(solved, begin, state, equations.step, rest)
+            result = with_parts(result, state=with_parts(state, velocity=state.velocity + change))
+        if not foreseen:
+            return result
+        return with_parts(result, missed=self._missed(begin, solved, result.state))

@@ -19,9 +19,9 @@ from nmm.stepping.step.carried import CarriedOver
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Assembly, Equations, Linearisation
 from nmm.stepping.step.free_step import Alone
-from nmm.stepping.step.inner import Inner
 from nmm.stepping.step.mover import Mover
-from nmm.stepping.step.newton import Solution, Solve, newton
+from nmm.stepping.step.nonlinear.inner import Inner
+from nmm.stepping.step.nonlinear.newton import Solution, Solve, newton
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ class StepSolver:
         """Solve what a change has made of what was solved."""
         self.mover.follow(change)
         if self._touching is not None:
-            self._touching.follow(change)
+            self._touching.forget()
 
     def forget(self) -> None:
         """Drop factors, patterns and lists."""
@@ -101,12 +101,12 @@ class StepSolver:
 
     def reach(self, motion: float = 0.0) -> float:
         """Return how far contacts are sought after a step that moved by ``motion`` (m)."""
-        return 0.0 if self._touching is None else self._touching.reach(motion)
+        return 0.0 if self._touching is None else self._touching.search.reach(motion)
 
     def candidates(self, state: State, reach: float, step: float | None) -> "ContactPoints":
         """Return the contact points of a step in which no point moves further than ``reach``."""
         assert self._touching is not None
-        return self._touching.candidates(state, reach, step)
+        return self._touching.search.candidates(state, reach, step)
 
     def attempt(
         self,

@@ -1,4 +1,4 @@
-"""What a step with contact is solved with, and what came of a step."""
+"""What came of a step."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
@@ -12,37 +12,7 @@ from nmm.frozen import with_parts
 from nmm.stepping.step.booking import Booked
 
 if TYPE_CHECKING:
-    from nmm.contact.candidates.held_back import Crossed
-    from nmm.contact.points.contact_points import ContactPoints
     from nmm.contact.solution.record import ContactSolution
-
-
-@dataclass(frozen=True)
-class Sought:
-    """With what contacts a step is solved, and how often it was solved again for what it did.
-
-    Attributes
-    ----------
-    reach
-        How far contacts were sought (m).
-    contacts
-        Those that were found.
-    midpoint, ahead
-        Where contact forces act, and where they do as contacts are sought anew; None where the step
-        begins.
-    crossed
-        Pairs that are contacts because the step without them let them through; None without any.
-    crossings, midpoints
-        Solutions for such pairs, and for forces that act elsewhere half way.
-    """
-
-    reach: float
-    contacts: "ContactPoints"
-    midpoint: State | None
-    ahead: State | None
-    crossed: "Crossed | None" = None
-    crossings: int = 0
-    midpoints: int = 0
 
 
 @dataclass(frozen=True)

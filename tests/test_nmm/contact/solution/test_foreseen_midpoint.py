@@ -8,7 +8,7 @@ from nmm.formulation import Formulation
 from nmm.results.sink import MemorySink
 from nmm.scene.model import Scene
 from nmm.stepping.prepare import prepare
-from nmm.stepping.step.contact_step import Touching
+from nmm.stepping.step.contact_search import ContactSearch
 
 RADIUS, SIDES, TILT, STEP, STEPS = 0.5, 20, 0.35, 1e-3, 100
 
@@ -53,7 +53,7 @@ def test_a_wheel_that_rolls_is_solved_once_a_step(monkeypatch: pytest.MonkeyPatc
 
     monkeypatch.setattr(ContactSteps, "solve", counted)
     angle, once = _rolled(), len(solutions)
-    monkeypatch.setattr(Touching, "_ahead", lambda *given: None)
+    monkeypatch.setattr(ContactSearch, "_ahead", lambda *given: None)
     twice = _rolled()
     assert once < 1.15 * STEPS
     assert len(solutions) - once > 1.5 * STEPS

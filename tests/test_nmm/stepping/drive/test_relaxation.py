@@ -9,7 +9,7 @@ from nmm.effects.given.steps import Instant
 from nmm.stepping.drive.pace import CUTS
 from nmm.stepping.drive.relaxation import _first_length, relax
 from nmm.stepping.prepare import prepare
-from nmm.stepping.step.newton import FRUITLESS, MOST, _hopeless
+from nmm.stepping.step.nonlinear.newton import FRUITLESS, MOST, _hopeless
 from nmm.stepping.step.stepper import Stepper
 
 LOOSE = """

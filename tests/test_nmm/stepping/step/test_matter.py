@@ -9,7 +9,8 @@ from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
-from nmm.stepping.step import newton, step_solver
+from nmm.stepping.step import step_solver
+from nmm.stepping.step.nonlinear import newton
 from nmm.testing.scenes import biaxial_test, floor_and_pin, roller_and_pin
 
 E, Y, H = 200e9, 250e6, 20e9

@@ -17,7 +17,9 @@ from integration.arrays import Floats
 from nmm.assembly.motion import State
 from nmm.stepping.step.clock import Clock
 from nmm.stepping.step.equations import Equations, Linearisation
-from nmm.stepping.step.inner import Inner, Iterate
+from nmm.stepping.step.nonlinear.inner import Inner
+from nmm.stepping.step.nonlinear.iterate import Iterate
+from nmm.stepping.step.nonlinear.line_search import searched
 from nmm.stepping.step.trial import Attempt
 
 Solution = tuple[Equations, Attempt]
@@ -36,9 +38,6 @@ FRUITLESS, FRUIT = 8, 0.7
 # Below this imbalance the tangent of effects is kept, with the matrix and its factors: what it
 # misses falls by as much again. Where it falls less than by this factor a new one is made.
 NEARLY, FALLS = 1e-3, 0.1
-# A full step is taken when it leaves at most this share of its slope; else it is shortened, at most
-# so often, down to this share of it.
-SLOPE, TRIALS, SHORTEST_PART = 0.8, 6, 0.05
 # Stiffness against the last iteration's motion, as a share of the elastic one, that shows flow.
 FLOWS = 1e-2
 
@@ -55,40 +54,44 @@ def newton(
     -------
     The last equations and their solution, with what is remembered at its end.
     """
-    at = inner.at
-    elastic = inner.elastic if inner.flows else None
-    scale = _scale(inner.elastic)
+    elastic, scale = inner.elastic if inner.flows else None, _scale(inner.elastic)
     way, passes = np.zeros_like(inner.start), 0
-    now = at(way)
+    now = inner.at(way)
     found: Attempt | None = None
     imbalances: list[float] = []
     while True:
         line = _line(inner, now, clock)
         equations, found = solve(line, found)
         passes += found.passes
-        if not found.converged and not _goes_on(found):
-            found = _failed(found, found.sentence, _flow(elastic, line, way))
-            return equations, replace(found, passes=passes, imbalances=tuple(imbalances))
-        then = at(found.increment, now, found.state)
-        imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
         found = replace(found, passes=passes, imbalances=tuple(imbalances))
+        if not found.converged and not _goes_on(found):
+            return equations, _failed(found, found.sentence, _flow(elastic, line, way))
+        then = inner.at(found.increment, now, found.state)
+        imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
+        found = replace(found, imbalances=tuple(imbalances))
         if _balanced(imbalances, inner.tolerance, found.residual):
-            after = replace(found.state, history=then.history, memory=then.memory)
-            return equations, replace(
-                found, state=after, residual=max(found.residual, imbalances[-1])
-            )
+            return equations, _accepted(found, then)
         way = then.increment - now.increment
         if _hopeless(imbalances):
-            said = (
-                f"internal forces are {imbalances[-1]:.1e} of all out of balance after "
-                f"{len(imbalances)} iterations"
-            )
-            lost = replace(found, converged=False, state=state, singular=False)
-            return equations, _failed(lost, said, _flow(elastic, line, way))
-        before = now
-        now = _searched(equations, line, now, then, at) if inner.searches else then
+            return equations, _lost(found, state, _flow(elastic, line, way))
+        now, before = searched(equations, line, now, then, inner) if inner.searches else then, now
         if inner.searches and not inner.flows and _falls(imbalances):
             now = now.with_tangent_of(before)
+
+
+def _accepted(found: Attempt, then: Iterate) -> Attempt:
+    """Return the solution with what matter and effects remember at its end."""
+    after = replace(found.state, history=then.history, memory=then.memory)
+    return replace(found, state=after, residual=max(found.residual, found.imbalances[-1]))
+
+
+def _lost(found: Attempt, state: State, flows: str) -> Attempt:
+    """Return the attempt at a step from ``state`` whose iterations bring nothing."""
+    said = (
+        f"internal forces are {found.imbalances[-1]:.1e} of all out of balance after "
+        f"{len(found.imbalances)} iterations"
+    )
+    return _failed(replace(found, converged=False, state=state, singular=False), said, flows)
 
 
 def _failed(found: Attempt, said: str, flows: str) -> Attempt:
@@ -135,48 +138,6 @@ def _falls(imbalances: list[float]) -> bool:
     """Whether little is out of balance, and it falls with the tangent as it was."""
     last, before = imbalances[-1], imbalances[-2] if len(imbalances) > 1 else np.inf
     return last <= NEARLY and last <= FALLS * before
-
-
-def _searched(
-    equations: Equations,
-    line: Linearisation,
-    now: Iterate,
-    then: Iterate,
-    at: Callable[[Floats, Iterate], Iterate],
-) -> Iterate:
-    """Return the next iterate: the whole step, or less where the forces overshoot along it.
-
-    Contact and support forces are held as the solution has them, so that the slope of the energy
-    along the step is ``-p A p`` at its start and what matter adds to its line at any share of it.
-    """
-    way = then.increment - now.increment
-    share = _share_of_matter(equations)
-    curved = float(way @ (equations.matrix @ way))
-    bent = line.stiffness @ way
-
-    def slope(one: Iterate, part: float) -> float:
-        missed = one.force - now.force - part * bent
-        return (part - 1) * curved + share * float(way @ missed)
-
-    found, part, ends = then, 1.0, [(0.0, -curved), (1.0, slope(then, 1.0))]
-    for _ in range(TRIALS):
-        last = ends[1][1]
-        if curved <= 0 or last <= SLOPE * curved or part <= SHORTEST_PART:
-            break
-        (low, falls), (high, rises) = ends
-        part = max(low - falls * (high - low) / (rises - falls), SHORTEST_PART)
-        found = at(now.increment + part * way, now)
-        now_slope = slope(found, part)
-        if abs(now_slope) <= SLOPE * curved:
-            break
-        ends = [ends[0], (part, now_slope)] if now_slope > 0 else [(part, now_slope), ends[1]]
-    return found
-
-
-def _share_of_matter(equations: Equations) -> float:
-    """Factor of the tangent in the matrix of a step."""
-    terms = equations.inertia
-    return 1.0 if terms is None else terms.weight / terms.contact_factor
 
 
 def _flow(elastic: csc_array | None, line: Linearisation, way: Floats) -> str:

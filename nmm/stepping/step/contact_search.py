@@ -1,0 +1,159 @@
+"""With which contacts a step is solved, and with which it is solved again.
+
+Contacts are sought as far as points can move in a step. The first step has no motion to go by; one
+that moves further is solved again, and so is one that lets points through an edge, or whose forces
+act elsewhere half way.
+"""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from nmm.assembly.motion import State, middle
+from nmm.contact.candidates.held_back import joined
+from nmm.contact.detection.tolerances import (
+    CROSSING_SOLUTIONS,
+    FIRST_REACH,
+    FURTHER,
+    MIDPOINT_SOLUTIONS,
+)
+from nmm.model.discretisation import Current
+from nmm.stepping.step.clock import Clock
+from nmm.stepping.step.equations import Equations
+from nmm.stepping.step.mover import Mover
+from nmm.stepping.step.trial import Attempt
+
+if TYPE_CHECKING:
+    from nmm.contact.candidates.held_back import Crossed
+    from nmm.contact.detection.crossing import Motion
+    from nmm.contact.points.contact_points import ContactPoints
+    from nmm.contact.solution.record import ContactSolution
+    from nmm.effects.contact import Contact
+
+
+@dataclass(frozen=True)
+class Sought:
+    """With what contacts a step is solved, and how often it was solved again for what it did.
+
+    Attributes
+    ----------
+    reach
+        How far contacts were sought (m).
+    contacts
+        Those that were found.
+    midpoint, ahead
+        Where contact forces act, and where they do as contacts are sought anew; None where the step
+        begins.
+    crossed
+        Pairs that are contacts because the step without them let them through; None without any.
+    crossings, midpoints
+        Solutions for such pairs, and for forces that act elsewhere half way.
+    """
+
+    reach: float
+    contacts: "ContactPoints"
+    midpoint: State | None
+    ahead: State | None
+    crossed: "Crossed | None" = None
+    crossings: int = 0
+    midpoints: int = 0
+
+
+class ContactSearch:
+    """Seeks the contacts of steps.
+
+    Parameters
+    ----------
+    size
+        Diagonal of the domain (m).
+    """
+
+    def __init__(self, current: Current, mover: Mover, size: float, clock: Clock) -> None:
+        self._current, self._mover, self._size, self._clock = current, mover, size, clock
+        self.forget()
+
+    def forget(self) -> None:
+        """Drop the contacts of the last step."""
+        self._last: tuple[State, Sought] | None = None
+
+    @property
+    def contact(self) -> "Contact":
+        """The contact effect."""
+        contact = self._current.plan.contact
+        assert contact is not None
+        return contact
+
+    def reach(self, motion: float = 0.0) -> float:
+        """Return how far contacts are sought after a step that moved by ``motion`` (m)."""
+        return max(2 * motion, FIRST_REACH * self._size)
+
+    def turns(self, equations: Equations) -> bool:
+        """Whether bodies turn in a step in time."""
+        return equations.step is not None and self._mover.kinematics.turns
+
+    def candidates(
+        self, state: State, reach: float, step: float | None, crossed: "Crossed | None" = None
+    ) -> "ContactPoints":
+        """Return the contact points of a step in which no point moves further than ``reach``."""
+        with self._clock.phase("search"):
+            return self.contact.candidates(state, reach, step, crossed)
+
+    def first(self, equations: Equations, reach: float, again: bool) -> Sought:
+        """Return the contacts of a step: those of its last iteration where it is solved ``again``.
+
+        Forces that bend move bodies by little from one iteration to the next.
+        """
+        state = equations.state
+        if again and self._last is not None and self._last[0] is state:
+            return replace(self._last[1], crossings=0, midpoints=0)
+        contacts = self.candidates(state, reach, equations.step)
+        ahead = self._ahead(equations, contacts)
+        return Sought(reach, contacts, ahead, ahead)
+
+    def keep(self, state: State, sought: Sought) -> None:
+        """Keep the contacts of a step from a state for its next iteration."""
+        self._last = state, sought
+
+    def again(
+        self,
+        equations: Equations,
+        sought: Sought,
+        solved: "ContactSolution",
+        result: Attempt,
+        motion: "Motion | None",
+    ) -> Sought | None:
+        """Return with what a step is solved again; None where its solution stands.
+
+        ``motion`` is None where bodies went further than contacts were sought.
+        """
+        if motion is None:
+            return self._anew(equations, replace(sought, reach=FURTHER * result.motion))
+        missed = self.contact.overlooked(sought.contacts, motion)
+        if missed is not None and sought.crossings < CROSSING_SOLUTIONS:
+            crossed, count = joined(sought.crossed, missed), sought.crossings + 1
+            return self._anew(equations, replace(sought, crossed=crossed, crossings=count))
+        if not self.turns(equations) or sought.midpoints == MIDPOINT_SOLUTIONS:
+            return None
+        given = solved, equations.state, result.state, sought.midpoint
+        half = self.contact.momentum.midpoint(*given)
+        if half is None:
+            return None
+        return replace(sought, midpoint=half, midpoints=sought.midpoints + 1)
+
+    def _anew(self, equations: Equations, sought: Sought) -> Sought:
+        """Return what was sought with contacts found anew."""
+        given = equations.state, sought.reach, equations.step, sought.crossed
+        return replace(sought, contacts=self.candidates(*given), midpoint=sought.ahead)
+
+    def _ahead(self, equations: Equations, contacts: "ContactPoints") -> State | None:
+        """Return where bodies are half way if they go on turning; None where they hardly turn.
+
+        It goes by the state alone, so that a run that is resumed foresees the same.
+        """
+        state, step = equations.state, equations.step
+        if step is None or not self.turns(equations):
+            return None
+        flight, half = step * state.velocity, 0.5 * step**2
+        way = self.contact.momentum.foreseen(contacts, flight, state.acceleration, half)
+        if way is None:
+            return None
+        return middle(state, self._mover.moved(state, way))

@@ -1,0 +1,84 @@
+"""An iterate of a step: its increment, with the internal forces there and their tangents."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from integration.arrays import Floats
+
+
+@dataclass(frozen=True)
+class InnerPart:
+    """Internal force (n,) of one kind at an iterate, and what makes its tangent (n, n)."""
+
+    force: Floats
+    make: Callable[[], csc_array]
+
+    @cached_property
+    def stiffness(self) -> csc_array:
+        """Tangent (n, n)."""
+        return self.make()
+
+    def missed(self, now: "InnerPart", way: Floats) -> Floats:
+        """What the tangent of another iterate, ``way`` (n,) from here, missed of the force (n,)."""
+        return np.asarray(self.force - now.force - now.stiffness @ way)
+
+
+@dataclass(frozen=True)
+class EffectPart(InnerPart):
+    """The same of effects, beyond their line at the start of the step.
+
+    Attributes
+    ----------
+    pull
+        (n,) force of effects through the step.
+    rounding
+        (n,) what of it rounding of places makes.
+    """
+
+    pull: Floats
+    rounding: Floats
+
+
+@dataclass(frozen=True)
+class Iterate:
+    """An increment (n,) of the step with its internal forces.
+
+    Attributes
+    ----------
+    matter, effects
+        Their parts.
+    history, memory
+        What matter and effects remember at the end of the step.
+    """
+
+    increment: Floats
+    matter: InnerPart
+    effects: EffectPart
+    history: Mapping[str, Floats]
+    memory: Mapping[str, Floats]
+
+    @property
+    def force(self) -> Floats:
+        """(n,) of both."""
+        return self.matter.force + self.effects.force
+
+    @property
+    def stiffness(self) -> csc_array:
+        """(n, n) of both; that of matter itself where effects add nothing."""
+        if not self.effects.stiffness.nnz:
+            return self.matter.stiffness
+        return csc_array(self.matter.stiffness + self.effects.stiffness)
+
+    def with_tangent_of(self, other: "Iterate") -> "Iterate":
+        """Return the iterate with the tangent that effects have at another one."""
+        known = other.effects
+        return replace(self, effects=replace(self.effects, make=lambda: known.stiffness))
+
+
+def size(force: Floats) -> float:
+    """Return the norm of forces (n,)."""
+    return float(np.linalg.norm(force))

@@ -1,0 +1,121 @@
+"""Internal forces of matter in a step, linear or not."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from integration.arrays import Floats
+from nmm.assembly.matter import STRESS
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.stepping.step.nonlinear.iterate import InnerPart, size
+
+if TYPE_CHECKING:
+    from nmm.assembly.finite_strain.finite_matter import FiniteMatter
+
+# Share of the largest stress by which one that stays is off for rounding.
+STAYS = 1e-13
+
+
+class MatterForces:
+    """Internal forces of matter in one step that starts at a state.
+
+    Parameters
+    ----------
+    step
+        Length of the step (s); None in statics.
+    weight
+        Weight of the end of the step in its equations.
+    conserves
+        Whether forces are those of the whole step, which keep energy.
+    symmetric
+        Whether tangents are to be.
+
+    Attributes
+    ----------
+    start
+        (n,) internal force at the start of the step.
+    elastic
+        (n, n) elastic stiffness.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        state: State,
+        step: float | None,
+        weight: float,
+        conserves: bool,
+        symmetric: bool,
+    ) -> None:
+        self._model, self._state, self._step = model, state, step
+        self._weight, self._conserves, self._symmetric = weight, conserves, symmetric
+        if model.matter is None:
+            self.elastic = model.stiffness
+            self.start = self.elastic @ state.deformation
+        else:
+            self.elastic = model.matter.elastic_stiffness
+            self.start = model.internal(state)
+
+    def at(
+        self, increment: Floats, before: Floats | None
+    ) -> tuple[InnerPart, Mapping[str, Floats]]:
+        """Return the forces at an increment (n,) of the step, and what matter then remembers.
+
+        ``before`` (n,) is the increment of the last iterate; None in the first one.
+        """
+        state, matter = self._state, self._model.matter
+        whole = state.deformation + increment
+        if matter is None:
+            stiffness = self._model.stiffness
+            return InnerPart(stiffness @ whole, lambda: stiffness), state.history
+        if self._conserves:
+            return self._conserving(whole), state.history
+        last = None if before is None else state.deformation + before
+        answer = matter.at_rest(state.history) if before is None and not increment.any() else None
+        if answer is None:
+            answer = matter.update(whole, state.history, self._step or 0.0, last)
+        stays = not increment.any() and _rounding(answer.stress, state.history.get(STRESS))
+        force = self.start if stays else matter.force(whole, answer.stress)
+        tangent = answer.tangent
+        return InnerPart(force, lambda: matter.stiffness(tangent, self._symmetric)), answer.history
+
+    def _conserving(self, whole: Floats) -> InnerPart:
+        """Return the force that, weighed with that of the start, is the one of the whole step."""
+        matter, weight = cast("FiniteMatter", self._model.matter), self._weight
+        answer = matter.conserving(self._state.deformation, whole)
+        force = matter.force(whole, answer.stress)
+        tangent = answer.tangent / weight
+        return InnerPart(
+            (force - (1 - weight) * self.start) / weight,
+            lambda: matter.stiffness(tangent, self._symmetric),
+        )
+
+    def imbalance(
+        self,
+        now: InnerPart,
+        then: InnerPart,
+        way: Floats,
+        scale: Floats,
+        applied: Floats,
+        touching: Floats | None,
+    ) -> float:
+        """Return what the tangent at ``now`` missed at ``then``; see `Inner.imbalance`."""
+        if self._model.matter is None:
+            return 0.0
+        missed = then.missed(now, way)
+        if touching is not None:
+            missed = missed + touching / self._weight
+        whole = max(size(scale * one) for one in (then.force, self.start, applied))
+        return size(scale * missed) / whole if whole else 0.0
+
+
+def _rounding(stress: Floats, known: Floats | None) -> bool:
+    """Whether a stress is one that is known, to rounding."""
+    if known is None:
+        return False
+    if stress is known:
+        return True
+    off, largest = (float(np.abs(one).max(initial=0.0)) for one in (stress - known, known))
+    return off <= STAYS * largest
