@@ -1,25 +1,16 @@
 """A manifold with materials: the matrices and loads of the solid, in body frames."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse import csc_array
 
-from covers.approximation.groups.element_group import ElementGroup
-from covers.approximation.manifold import Manifold
-from covers.cutting.cut_cells import CutCells
 from integration.arrays import Floats, Ints
-from integration.contraction import contract
-from integration.polygons import areas
-from nmm.assembly import element_matrices
-from nmm.assembly.element_sums import ElementMatrices, summed_matrix, summed_vector
-from nmm.assembly.held_volumes.excess import VOLUME, excess, held_pressures
-from nmm.assembly.held_volumes.pressures import Pressures
+from nmm.assembly.elastic_solid import ElasticSolid
+from nmm.assembly.elements import element_matrices
 from nmm.assembly.kept import KeptOfStates
-from nmm.assembly.lumping import check_positive
 from nmm.assembly.matter import Matter
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Law
@@ -32,32 +23,14 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Model:
+class Model(ElasticSolid):
     """What is approximated and of what it is made.
 
     Attributes
     ----------
-    manifold
-        Elements, covers, unknowns.
-    elasticity
-        (E, 3, 3) stress from strain of each element (Pa).
-    density
-        (E,) kg/m3; zeros where a scene calls for no mass.
-    modulus
-        (E,) Young's modulus (Pa), the unit of penalties.
-    thickness
-        Out-of-plane thickness (m).
-    lumped
-        Whether the mass couples no cover with another.
-    projected
-        Whether pressures on patches resist changes of volume (`held_volumes`).
-    cut
-        How the cut left the mathematical cover; every block is a whole cell.
     laws, law, plane
         Laws, the law (E,) of each element and "stress" or "strain", for laws that are not linear;
         without them all elements are linear.
-    point_mass
-        (n, n) of masses at points, which joins the mass; None without any.
     finite
         Whether strain is finite: all elements then have material points.
     bonded
@@ -70,31 +43,13 @@ class Model:
         no law asks for it.
     """
 
-    manifold: Manifold
-    elasticity: Floats
-    density: Floats
-    modulus: Floats
-    thickness: float
-    cut: CutCells
-    lumped: bool = False
-    projected: bool = False
     laws: tuple[Law, ...] = ()
     law: Ints | None = None
     plane: str = "strain"
-    point_mass: csc_array | None = None
     finite: bool = False
     bonded: tuple[int, ...] = ()
     cutting: "Cutting | None" = None
     cell_size: Floats | None = None
-
-    @cached_property
-    def stiffness(self) -> csc_array:
-        """Elastic stiffness (n_unknowns, n_unknowns)."""
-        if not self.projected or self.pressures is None:
-            return self._matrix(element_matrices.stiffness, self.thickness * self.elasticity)
-        drained = self._matrix(element_matrices.stiffness, self.thickness * self.drained)
-        held = csr_array(self.pressures.root @ self.pressures.divergence)
-        return csc_array(drained + self.thickness * (held.T @ held))
 
     @cached_property
     def matter(self) -> "Matter | FiniteMatter | None":
@@ -202,133 +157,3 @@ class Model:
         if self.matter is None:
             return 0.0
         return self.matter.missed(before.deformation, after.deformation)
-
-    @cached_property
-    def pressures(self) -> Pressures | None:
-        """Pressures of materials that resist volume much more than shear; None without any.
-
-        Where the volume is resisted in every point they serve edges alone
-        (`nmm.constraints.volume_lift`) and are of the degree of the strains, which are held exactly
-        where they are polynomials.
-
-        Raises
-        ------
-        FormulationError
-            Projected volumes with weights that are negative somewhere.
-        """
-        return held_pressures(self.manifold, self._excess, self.projected)
-
-    @cached_property
-    def bulk(self) -> Floats:
-        """(E,) stiffness against changes of volume that pressures hold (Pa)."""
-        excess = self._excess
-        return excess if self.pressures is not None else np.zeros_like(excess)
-
-    @cached_property
-    def drained(self) -> Floats:
-        """(E, 3, 3) stress from strain without what pressures hold (Pa)."""
-        return np.asarray(self.elasticity - self.bulk[:, None, None] * np.outer(VOLUME, VOLUME))
-
-    @cached_property
-    def _excess(self) -> Floats:
-        return excess(self.elasticity)
-
-    def pressure(self, deformation: Floats, gap: Floats | None = None) -> Floats | None:
-        """Pressures (k,) of the unknowns; None where volumes are not projected.
-
-        ``gap`` (k,) are volumes that lie between edges and where they are held (m2).
-        """
-        if not self.projected or self.pressures is None:
-            return None
-        volume = self.pressures.divergence @ deformation
-        return self.pressures.of(volume if gap is None else volume - gap)
-
-    @cached_property
-    def mass(self) -> csc_array:
-        """Mass: consistent, or a block for each cover.
-
-        Raises
-        ------
-        FormulationError
-            A lumped mass that is not positive, of weights that are not.
-        """
-        if not self.lumped:
-            return self.consistent_mass
-        found = self._matrix(element_matrices.lumped_mass, self.thickness * self.density)
-        found = self._loaded(found)
-        found.eliminate_zeros()
-        check_positive(found, self.manifold.cover_offset)
-        return found
-
-    @cached_property
-    def consistent_mass(self) -> csc_array:
-        """Mass of the displacement field, whatever the choice for `mass`."""
-        return self._loaded(self._matrix(element_matrices.mass, self.thickness * self.density))
-
-    def _loaded(self, mass: csc_array) -> csc_array:
-        """Return a mass with that of points."""
-        return mass if self.point_mass is None else csc_array(mass + self.point_mass)
-
-    @cached_property
-    def measure(self) -> csc_array:
-        """Integral of the product of two displacements (m2): mass of unit density and thickness."""
-        return self._matrix(element_matrices.mass, np.ones(len(self.density)))
-
-    @cached_property
-    def rigid_projection(self) -> csr_array:
-        """Rows (3 B, n_unknowns): mean translation x, y and mean rotation of each body.
-
-        The mean is the area-weighted least-squares fit of a rigid motion about the centroid.
-        """
-        modes = self.manifold.rigid_modes
-        weighted = (self.measure @ modes).T.tocsr()
-        norm = (weighted @ modes).diagonal()
-        return csr_array(diags_array(1 / norm) @ weighted)
-
-    def body_load(self, load: Floats) -> Floats:
-        """Force vector of a load density (E, 2) in N/m3, in body axes."""
-        return self._vector(
-            lambda g: element_matrices.body_load(g, self.thickness * load[g.elements])
-        )
-
-    def stress_load(self, stress: Floats) -> Floats:
-        """Internal force of a stress (E, 3) in Pa, in body axes."""
-        return self._vector(
-            lambda g: element_matrices.stress_load(g, self.thickness * stress[g.elements])
-        )
-
-    def mean_stress(self, deformation: Floats, pressure: Floats | None = None) -> Floats:
-        """Mean elastic stress (E, 3) in body axes of the unknowns ``deformation``.
-
-        ``pressure`` (k,) is that of the patches where it is known better, see `pressure`.
-        """
-        strain = self.mean_strain(deformation)
-        known = self.pressure(deformation) if pressure is None else pressure
-        if known is None:
-            return np.asarray(contract("eij,ej->ei", self.elasticity, strain))
-        assert self.pressures is not None
-        mean = (self.pressures.integrals(self.manifold) @ known) / self.element_area
-        return np.asarray(contract("eij,ej->ei", self.drained, strain) + mean[:, None] * VOLUME)
-
-    def mean_strain(self, deformation: Floats) -> Floats:
-        """Mean strain (E, 3) of the unknowns ``deformation``."""
-        strain = np.empty((len(self.density), 3))
-        for group, rows in zip(self.manifold.groups, self._strain_rows, strict=True):
-            local = deformation[group.unknowns]
-            strain[group.elements] = contract("nil,nl->ni", rows[group.shape], local)
-        return strain / self.element_area[:, None]
-
-    @cached_property
-    def element_area(self) -> Floats:
-        """(E,) areas of the elements in the reference place (m2)."""
-        return areas(self.manifold.elements)
-
-    @cached_property
-    def _strain_rows(self) -> list[Floats]:
-        return [element_matrices.mean_strain_rows(group) for group in self.manifold.groups]
-
-    def _matrix(self, element: ElementMatrices, material: Floats) -> csc_array:
-        return summed_matrix(self.manifold, element, material)
-
-    def _vector(self, element: Callable[[ElementGroup], Floats]) -> Floats:
-        return summed_vector(self.manifold, element)

@@ -12,7 +12,7 @@ from covers.approximation.manifold import Manifold
 from integration.arrays import Bools, Floats, Ints
 from integration.permutations import inverse
 from integration.rules import PointRule
-from nmm.assembly.blocks import Part, assemble
+from nmm.assembly.elements.blocks import Part, assemble
 
 StressAt = Callable[[Ints, Floats, float], Floats]
 """Stress (m, 3) in Pa in body axes from elements, their reference points (m, 2) and a time (s)."""

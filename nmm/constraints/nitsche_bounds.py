@@ -7,8 +7,8 @@ from scipy.sparse import csc_array, csr_array, diags_array
 
 from covers.approximation.ghost import neighbours
 from integration.arrays import Floats, Ints
-from nmm.assembly import element_matrices
-from nmm.assembly.blocks import Part, assemble
+from nmm.assembly.elements import element_matrices
+from nmm.assembly.elements.blocks import Part, assemble
 from nmm.assembly.model import Model
 from nmm.assembly.places import Place
 from nmm.constraints.interface import sparse_rows

@@ -7,7 +7,7 @@ from scipy.sparse import coo_array, csc_array, csr_array
 
 from covers.scalar.space import ScalarGroup, ScalarSpace
 from integration.arrays import Floats
-from nmm.assembly.blocks import Part, assemble
+from nmm.assembly.elements.blocks import Part, assemble
 
 
 def slopes(space: ScalarSpace, factor: Floats) -> csc_array:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from integration.arrays import Floats, Ints
-from nmm.assembly import element_matrices
+from nmm.assembly.elements import element_matrices
 from nmm.assembly.model import Model
 
 # Eigenvalues of a scaled element stiffness below this share of the largest are free motions.

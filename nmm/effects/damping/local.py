@@ -12,8 +12,8 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from integration.arrays import Floats
-from nmm.assembly import element_matrices
-from nmm.assembly.blocks import Part, assemble
+from nmm.assembly.elements import element_matrices
+from nmm.assembly.elements.blocks import Part, assemble
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.effects.base import Effect, Setup

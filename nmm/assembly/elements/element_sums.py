@@ -8,7 +8,7 @@ from scipy.sparse import csc_array
 from covers.approximation.groups.element_group import ElementGroup
 from covers.approximation.manifold import Manifold
 from integration.arrays import Floats, Ints
-from nmm.assembly.blocks import Part, assemble
+from nmm.assembly.elements.blocks import Part, assemble
 
 # From a group, shapes (m,) and material (m, ...) to the matrices (m, n, n) of such elements.
 ElementMatrices = Callable[[ElementGroup, Ints, Floats], Floats]
