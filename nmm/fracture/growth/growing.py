@@ -17,6 +17,7 @@ from nmm.effects.event import Event
 from nmm.fracture.growth.advance import advanced
 from nmm.fracture.growth.beginning import Beginnings
 from nmm.fracture.growth.faces import CrackFaces
+from nmm.fracture.growth.felt import felt
 from nmm.fracture.growth.fronts import CrackFronts, nucleus_name
 from nmm.fracture.growth.grown import GrownSoFar
 from nmm.fracture.growth.intensities import Intensities, tip_moduli
@@ -122,14 +123,20 @@ class GrowingCracks(Effect):
     def reached(self, state: State) -> float | None:
         """Share of what it takes that what grows or begins first has reached; None if nothing can.
 
-        Fronts that have grown as far as they may count where nothing else is left.
+        Fronts that have grown as far as they may count where nothing else is left that feels the
+        load; it is zero where no tip does.
         """
         found, nucleus = self.intensities(state), self._beginnings.next(state)
-        free = found.share[self.free(found)]
+        if not len(found.tip) and nucleus is None:
+            return None
+        model, equivalent = self._setup.model, found.kink.equivalent
+        found = found.take(
+            felt(model, state, self._stresses, found.tip, equivalent, self._radius())
+        )
         begins = [] if nucleus is None else [nucleus.share]
-        left = np.append(free, begins)
+        left = np.append(found.share[self.free(found)], begins)
         left = left if len(left) else found.share
-        return float(left.max()) if len(left) else None
+        return float(left.max(initial=0.0))
 
     def _found(self, state: State) -> Intensities:
         model, front = self._setup.model, np.flatnonzero(self._tips >= 0)

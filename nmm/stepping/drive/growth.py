@@ -22,6 +22,8 @@ from nmm.stepping.step.stepper import Stepper
 if TYPE_CHECKING:
     from nmm.stepping.step.trial import Attempt
 
+NOT_FELT = "no load factor opens a crack, no tip feels more than the error of its intensities"
+
 
 def run_growth(
     stepper: Stepper,
@@ -75,7 +77,7 @@ class _Growing:
         if share is None:
             return self._ended("every crack has come to an end", at)
         if not share > 0:
-            return RunVerdict(FAILED, f"no load factor opens a crack: {at.changed or 'at first'}")
+            return RunVerdict(FAILED, f"{NOT_FELT}: {at.changed or 'at first'}")
         attempt = self._solved(at, at.increment / share)
         return attempt if isinstance(attempt, RunVerdict) else self._grown(at, attempt)
 

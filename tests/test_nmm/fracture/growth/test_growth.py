@@ -62,6 +62,32 @@ def test_crack_opens_in_proportion_to_its_load_whatever_the_unit_of_strain() -> 
     assert large == pytest.approx(1e6 * small, rel=1e-8)
 
 
+def test_a_crack_along_its_load_is_opened_by_none() -> None:
+    # Plane stress state along the crack alone: K is zero, its integral 1e-6 of that of a crack
+    # across. By that error the plate was torn at 4e5 times the load.
+    along = notched_plate(FOLLOW).replace("[[-0.1, 0.0], [0.3, 0.0]]", "[[0.5, -0.2], [0.5, 0.2]]")
+    floor = along.index("[[supports]]"), along.index("[[loads]]")
+    held = """
+[[supports]]
+name = "pin"
+point = [0, -0.5]
+fix = ["x", "y"]
+[[supports]]
+name = "roller"
+point = [1, -0.5]
+fix = ["y"]
+[[loads]]
+name = "down"
+kind = "edge"
+segment = [[0, -0.5], [1, -0.5]]
+traction = [0, -1.0]
+"""
+    run = nmm.run(parse_scene(along[: floor[0]] + held + along[floor[1] :]), net())
+    assert run.summary.status == "failed"
+    assert "no load factor opens a crack" in run.summary.sentence
+    assert run.summary.fracture_energy == 0.0
+
+
 def test_what_growth_takes_is_missing_in_the_stored_energy() -> None:
     # Irwin: G = K^2 / E' for every unit of growth, whatever the net resolves of it.
     run = nmm.run(plate(FOLLOW.replace("0.1", "0.05")), net())
