@@ -1,87 +1,28 @@
 """Contact: bodies touch, rub, hold together by bonds, and part.
 
-An adapter. `nmm.contact.candidates` finds the contact points of a step and `nmm.contact.solution`
-their forces; here both are handed what the last accepted step left.
+An adapter: what contact is made of a scene and its formulation say (`contact_parts`), and what it
+does is in `nmm.contact.model_contact`.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
-from functools import cached_property, partial
 from typing import TYPE_CHECKING, Self
 
-from scipy.sparse import csr_array
-
-from integration.arrays import Bools, Floats, Ints
-from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.pushes import Pushes
 from nmm.assembly.stress_points import StressAt
-from nmm.contact.candidates.candidates import Candidates
-from nmm.contact.candidates.held_back import Crossed
-from nmm.contact.detection.narrow_phase import Contacts
-from nmm.contact.points.contact_points import ContactPoints, concatenate
-from nmm.contact.points.joint_book import follow_joints
-from nmm.contact.solution.geometry import ContactGeometry
-from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
-from nmm.contact.solution.step_bonds import StepBonds
+from nmm.contact.model_contact import ModelContact
 from nmm.effects.base import Effect, Setup
-from nmm.effects.contact_parts import ContactParts, contact_parts
+from nmm.effects.contact_parts import contact_parts
 
 if TYPE_CHECKING:
-    from nmm.contact.detection.crossing import Motion
-    from nmm.contact.problem.step_problem import Limits
-    from nmm.contact.solution.driver import ContactSolver
-    from nmm.contact.solution.momentum import Momentum
-    from nmm.contact.solution.steps import ContactSteps
     from nmm.effects.change import Change
 
 
-class Contact(Effect):
-    """All contacts of a scene.
-
-    The step loop asks for `candidates` once a step, solves them by `steps` as often as it needs,
-    and hands the accepted ones back to `commit`.
-
-    Attributes
-    ----------
-    record
-        What the last accepted step left.
-    laws, partners
-        Which laws act, and which points may meet.
-    exact
-        Whether nothing penetrates, so that speeds jump at an impact.
-    bonds
-        Those that consistent terms hold.
-    geometry, momentum, solver
-        Rows of contact points, what keeps momentum, and the solver of a problem;
-        what solves is made in the first step.
-    steps
-        What puts the problem of a step together and solves it.
-    """
+class Contact(ModelContact, Effect):
+    """All contacts of a scene, an effect: energy, and what is carried, are those of the model's."""
 
     name = "contact"
     external = False
-
-    def __init__(self, model: Model, parts: ContactParts, start: State) -> None:
-        self.laws, self.partners, self.exact = parts.laws, parts.partners, parts.enforcement.exact
-        sides = self.partners.sides
-        book = follow_joints(
-            sides.surface(start.frames, start.deformation),
-            model,
-            self.partners.interfaces,
-            self.laws,
-            parts.joint_rule,
-            parts.cracks,
-        )
-        seamless = parts.mixed & parts.cracks.points(model.manifold, book.points)
-        self.bonds, points = StepBonds.of(model, book.points, self.laws, seamless)
-        book = replace(book, points=points)
-        self.laws.refuse_soft(book.points.take(~book.points.tied))
-        self.record, self._unbonded = ContactRecord(book), book.broken
-        self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.trace_space)
-        self._model, self._parts = model, parts
-        self._candidates = Candidates(self.partners, self.laws, self.geometry, parts.keeps_energy)
-        self._sought: tuple[Contacts | None, Crossed | None] = None, None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
@@ -95,136 +36,19 @@ class Contact(Effect):
             return ""
         from nmm.contact.laws.yielding_bodies import yielding_bodies
 
-        return yielding_bodies(self.laws, self._model)
-
-    @cached_property
-    def momentum(self) -> "Momentum":
-        """Inertia of the bodies as contact needs it."""
-        from nmm.contact.solution.momentum import Momentum
-
-        curved = self.geometry.curved
-        return Momentum(self._model, self.partners.sides, self._parts.held, curved)
-
-    @cached_property
-    def solver(self) -> "ContactSolver":
-        """What solves the contacts of a step."""
-        from nmm.contact.solution.driver import ContactSolver
-
-        enforcement, compliance = self._parts.enforcement, self.momentum.compliance
-        return ContactSolver.of(self._model, self.laws, enforcement, compliance)
-
-    @cached_property
-    def steps(self) -> "ContactSteps":
-        """What puts the problem of a step together."""
-        from nmm.contact.solution.steps import ContactSteps
-
-        surface = self.partners.surface
-        return ContactSteps(self.laws, self.geometry, self.bonds, self.solver, surface)
+        return yielding_bodies(self.laws, self.model)
 
     def follow(self, change: "Change") -> "Contact":
         """Return the contact of the new model: joints and contacts go on."""
-        from nmm.contact.candidates.succession import succeeding
-
         new = type(self).from_setup(change.setup)
-        new.record = succeeding(
-            self.record,
-            new.record,
-            new._candidates,
-            change.parentage,
-            change.state,
-            new._parts.cracks,
-            None if new.exact else new.laws.springs,
-        )
-        new._unbonded = new.record.book.broken - self.broken_bonds
+        new.go_on(self, change.parentage, change.state)
         return new
-
-    def candidates(
-        self,
-        state: State,
-        reach: float,
-        step: float | None = None,
-        crossed: Crossed | None = None,
-    ) -> ContactPoints:
-        """Return the contact points of a step; see `Candidates.sought`."""
-        found, points = self._candidates.sought(self.record, state, reach, step, crossed)
-        self._sought = found, crossed
-        return points
-
-    def release(self, solved: ContactSolution, gone: Bools) -> float:
-        """Let bonds (m,) give way before the next step, though the solution be no step.
-
-        Return by how much they hold less energy from then on (J), but for those that broke.
-        """
-        from nmm.contact.following.release import let_go
-
-        self.record, shed = let_go(self.record, self.laws, solved, gone)
-        return shed
-
-    def overlooked(self, contacts: ContactPoints, motion: "Motion") -> tuple[Ints, Ints] | None:
-        """Return pairs that crossed and were no contacts; see `Candidates.overlooked`."""
-        return self._candidates.overlooked(self.record, contacts, motion)
-
-    def commit(self, solved: ContactSolution, state: State) -> ContactPoints:
-        """Keep the accepted contacts as the start of the next step, and return them."""
-        self.record, done = self._candidates.accepted(self.record, self._sought, solved, state)
-        return done
-
-    def restore(self, record: ContactRecord) -> None:
-        """Go back to an earlier step, and start from there alone.
-
-        Friction has many answers, and what a step that failed has slid is near wrong ones.
-        """
-        self.record = record
-        self.solver.memory.forget_answers()
-
-    def carried(self) -> ContactCarried:
-        """See `Effect.carried`."""
-        width = self.solver.memory.barrier_width
-        return ContactCarried(self.record, width, self._unbonded)
-
-    def carry(self, carried: ContactCarried) -> None:
-        """See `Effect.carry`."""
-        self.record, self._unbonded = carried.record, carried.unbonded
-        self.solver.memory.barrier_width = carried.barrier_width
-
-    def forget(self) -> None:
-        """See `Effect.forget`."""
-        self.solver.forget()
-        self.partners.forget()
-        self._sought = None, None
-
-    def push(self, state: State) -> Floats:
-        """Return the force (n,) of the contacts as they were left."""
-        points = self.standing
-        rows = self.geometry.rows(points, state)
-        return rows.push(points.normal_force, points.shear_force)
-
-    @property
-    def standing(self) -> ContactPoints:
-        """The contact points that are known between two steps."""
-        book, known = self.record.book, self.record.known
-        return concatenate([book.points, *([] if known is None else [known]), book.lost])
-
-    @property
-    def broken_bonds(self) -> int:
-        """Number of joint points whose bond is broken."""
-        return self.record.book.broken - self._unbonded
-
-    def near(self, state: State, reach: float) -> "tuple[tuple[csr_array, csr_array], Limits]":
-        """Return rows and strength of contacts that bonds hold or that are open by ``reach``."""
-        return self._candidates.near(self.record, state, reach)
-
-    def energy(self, state: State) -> float:
-        """Energy of contacts as last committed (J); see `ContactSteps.energy`."""
-        record = self.record
-        joints = partial(self._candidates.joints, record.book, state)
-        return self.steps.energy(record, state, joints, self.exact)
 
     def pushes(self, state: State) -> Pushes:
         """See `Effect.pushes`: those on faces of cracks, as last committed."""
         from nmm.contact.points.on_faces import on_faces
 
-        return on_faces(self.geometry.model, self.standing)
+        return on_faces(self.model, self.standing)
 
     def feel(self, stresses: Sequence[StressAt]) -> None:
         """See `Effect.feel`: the tractions of whole bonds are of the whole stress."""

@@ -1,0 +1,194 @@
+"""Contact of one model: who may touch, what solves it, and what the last accepted step left.
+
+`nmm.contact.candidates` finds the contact points of a step and `nmm.contact.solution` their forces;
+here both are handed what the last accepted step left.
+"""
+
+from dataclasses import replace
+from functools import cached_property, partial
+from typing import TYPE_CHECKING
+
+from scipy.sparse import csr_array
+
+from covers.change.parentage import Parentage
+from integration.arrays import Bools, Floats, Ints
+from nmm.assembly.model import Model
+from nmm.assembly.motion import State
+from nmm.contact.candidates.candidates import Candidates
+from nmm.contact.candidates.held_back import Crossed
+from nmm.contact.detection.narrow_phase import Contacts
+from nmm.contact.parts import ContactParts
+from nmm.contact.points.contact_points import ContactPoints, concatenate
+from nmm.contact.points.joint_book import follow_joints
+from nmm.contact.solution.geometry import ContactGeometry
+from nmm.contact.solution.record import ContactCarried, ContactRecord, ContactSolution
+from nmm.contact.solution.step_bonds import StepBonds
+
+if TYPE_CHECKING:
+    from nmm.contact.detection.crossing import Motion
+    from nmm.contact.problem.step_problem import Limits
+    from nmm.contact.solution.driver import ContactSolver
+    from nmm.contact.solution.momentum import Momentum
+    from nmm.contact.solution.steps import ContactSteps
+
+
+class ModelContact:
+    """All contacts of a model.
+
+    The step loop asks for `candidates` once a step, solves them by `steps` as often as it needs,
+    and hands the accepted ones back to `commit`.
+
+    Attributes
+    ----------
+    model
+        What is in contact.
+    record
+        What the last accepted step left.
+    laws, partners
+        Which laws act, and which points may meet.
+    exact
+        Whether nothing penetrates, so that speeds jump at an impact.
+    bonds
+        Those that consistent terms hold.
+    geometry, momentum, solver
+        Rows of contact points, what keeps momentum, and the solver of a problem;
+        what solves is made in the first step.
+    steps
+        What puts the problem of a step together and solves it.
+    """
+
+    def __init__(self, model: Model, parts: ContactParts, start: State) -> None:
+        self.laws, self.partners, self.exact = parts.laws, parts.partners, parts.enforcement.exact
+        sides = self.partners.sides
+        book = follow_joints(
+            sides.surface(start.frames, start.deformation),
+            model,
+            self.partners.interfaces,
+            self.laws,
+            parts.joint_rule,
+            parts.cracks,
+        )
+        seamless = parts.mixed & parts.cracks.points(model.manifold, book.points)
+        self.bonds, points = StepBonds.of(model, book.points, self.laws, seamless)
+        book = replace(book, points=points)
+        self.laws.refuse_soft(book.points.take(~book.points.tied))
+        self.record, self._unbonded = ContactRecord(book), book.broken
+        self.geometry = ContactGeometry(model, sides, book.points, parts.bends, parts.trace_space)
+        self.model, self._parts = model, parts
+        self._candidates = Candidates(self.partners, self.laws, self.geometry, parts.keeps_energy)
+        self._sought: tuple[Contacts | None, Crossed | None] = None, None
+
+    @cached_property
+    def momentum(self) -> "Momentum":
+        """Inertia of the bodies as contact needs it."""
+        from nmm.contact.solution.momentum import Momentum
+
+        curved = self.geometry.curved
+        return Momentum(self.model, self.partners.sides, self._parts.held, curved)
+
+    @cached_property
+    def solver(self) -> "ContactSolver":
+        """What solves the contacts of a step."""
+        from nmm.contact.solution.driver import ContactSolver
+
+        enforcement, compliance = self._parts.enforcement, self.momentum.compliance
+        return ContactSolver.of(self.model, self.laws, enforcement, compliance)
+
+    @cached_property
+    def steps(self) -> "ContactSteps":
+        """What puts the problem of a step together."""
+        from nmm.contact.solution.steps import ContactSteps
+
+        surface = self.partners.surface
+        return ContactSteps(self.laws, self.geometry, self.bonds, self.solver, surface)
+
+    def go_on(self, old: "ModelContact", kin: Parentage, state: State) -> None:
+        """Go on from the contact of an earlier model: joints and contacts continue."""
+        from nmm.contact.candidates.succession import succeeding
+
+        springs = None if self.exact else self.laws.springs
+        given = self._candidates, kin, state, self._parts.cracks, springs
+        self.record = succeeding(old.record, self.record, *given)
+        self._unbonded = self.record.book.broken - old.broken_bonds
+
+    def candidates(
+        self,
+        state: State,
+        reach: float,
+        step: float | None = None,
+        crossed: Crossed | None = None,
+    ) -> ContactPoints:
+        """Return the contact points of a step; see `Candidates.sought`."""
+        found, points = self._candidates.sought(self.record, state, reach, step, crossed)
+        self._sought = found, crossed
+        return points
+
+    def release(self, solved: ContactSolution, gone: Bools) -> float:
+        """Let bonds (m,) give way before the next step, though the solution be no step.
+
+        Return by how much they hold less energy from then on (J), but for those that broke.
+        """
+        from nmm.contact.following.release import let_go
+
+        self.record, shed = let_go(self.record, self.laws, solved, gone)
+        return shed
+
+    def overlooked(self, contacts: ContactPoints, motion: "Motion") -> tuple[Ints, Ints] | None:
+        """Return pairs that crossed and were no contacts; see `Candidates.overlooked`."""
+        return self._candidates.overlooked(self.record, contacts, motion)
+
+    def commit(self, solved: ContactSolution, state: State) -> ContactPoints:
+        """Keep the accepted contacts as the start of the next step, and return them."""
+        self.record, done = self._candidates.accepted(self.record, self._sought, solved, state)
+        return done
+
+    def restore(self, record: ContactRecord) -> None:
+        """Go back to an earlier step, and start from there alone.
+
+        Friction has many answers, and what a step that failed has slid is near wrong ones.
+        """
+        self.record = record
+        self.solver.memory.forget_answers()
+
+    def carried(self) -> ContactCarried:
+        """All that contact carries from accepted step to accepted step."""
+        width = self.solver.memory.barrier_width
+        return ContactCarried(self.record, width, self._unbonded)
+
+    def carry(self, carried: ContactCarried) -> None:
+        """Take back what was `carried`."""
+        self.record, self._unbonded = carried.record, carried.unbonded
+        self.solver.memory.barrier_width = carried.barrier_width
+
+    def forget(self) -> None:
+        """Drop what is kept for speed alone."""
+        self.solver.forget()
+        self.partners.forget()
+        self._sought = None, None
+
+    def push(self, state: State) -> Floats:
+        """Return the force (n,) of the contacts as they were left."""
+        points = self.standing
+        rows = self.geometry.rows(points, state)
+        return rows.push(points.normal_force, points.shear_force)
+
+    @property
+    def standing(self) -> ContactPoints:
+        """The contact points that are known between two steps."""
+        book, known = self.record.book, self.record.known
+        return concatenate([book.points, *([] if known is None else [known]), book.lost])
+
+    @property
+    def broken_bonds(self) -> int:
+        """Number of joint points whose bond is broken."""
+        return self.record.book.broken - self._unbonded
+
+    def near(self, state: State, reach: float) -> "tuple[tuple[csr_array, csr_array], Limits]":
+        """Return rows and strength of contacts that bonds hold or that are open by ``reach``."""
+        return self._candidates.near(self.record, state, reach)
+
+    def energy(self, state: State) -> float:
+        """Energy of contacts as last committed (J); see `ContactSteps.energy`."""
+        record = self.record
+        joints = partial(self._candidates.joints, record.book, state)
+        return self.steps.energy(record, state, joints, self.exact)
