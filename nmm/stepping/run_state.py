@@ -114,7 +114,7 @@ _PLACES = {
     "nmm.stepping.drive.in_time": ("InTime",),
     "nmm.stepping.drive.stages": ("StagesSoFar",),
     "nmm.stepping.drive.under_load": ("UnderLoad", "Rest"),
-    "nmm.stepping.reports.ledger": ("Ledger", "Rise"),
+    "nmm.stepping.reports.ledger": ("Account", "Ledger", "Rise"),
     "nmm.stepping.reports.lengths": ("StepLengths",),
     "nmm.stepping.reports.output": ("Watch",),
     "nmm.stepping.reports.totals": ("Totals",),

@@ -4,15 +4,13 @@ import numpy as np
 
 from nmm.integrators.base import make_integrator
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
+from nmm.stepping.audits.causes import cause
 from nmm.stepping.audits.steps import impact_lasts
 from nmm.stepping.audits.table import THRESHOLDS
 from nmm.stepping.reports.ledger import Rise
 
 # A rise over the run that is less than this times that of one step is the same rise.
 SAME = 1.5
-
-# What the integrator gave explains a rise from this share of it on.
-SHARE = 0.01
 
 # Steps in an impact with which Shi's integrator keeps nine tenths of its energy.
 RESOLVED = 60
@@ -68,9 +66,9 @@ def _made(run: Ended) -> Findings:
             name,
             share,
             _came(name, rise, share),
-            _cause(run),
+            cause(run, rise),
             # A wave that the integrator gives it takes again: it warns alone.
-            mild=rise.energy - rise.given <= bound * ledger.throughput,
+            mild=rise.energy - rise.grown.given <= bound * ledger.throughput,
             told=said and _told(run),
         )
 
@@ -106,31 +104,6 @@ def _came(name: str, rise: Rise, share: float) -> str:
         f"{rise.energy:.3g} J, {percent(share)} of the turnover, came from nowhere {span} "
         f"{rise.step}, at {rise.time:.6g} s"
     )
-
-
-def _cause(run: Ended) -> str:
-    ledger, keeps = run.recorder.ledger, _what_keeps(run)
-    if ledger.contact_loss < -abs(ledger.integration_loss):
-        return f"it came from contact: take smaller steps or another enforcement and compare{keeps}"
-    if ledger.integration_loss < -SHARE * max(ledger.in_step.energy, ledger.in_run.energy):
-        return (
-            f'it came from the integrator "{run.formulation.integrator.type}": take smaller steps, '
-            f"or one without gain{keeps}"
-        )
-    smaller = "take smaller steps and compare"
-    if run.stepper.kinematics.finite:
-        return smaller
-    # Supports and loads act on the body as it was laid: an exchange that no step makes smaller.
-    return f'{smaller}; if they change nothing, bodies bend too far: [rotation] update = "finite"'
-
-
-def _what_keeps(run: Ended) -> str:
-    """Name what keeps energy where meshes turn as they touch: their forces act as a step begins."""
-    stepper = run.stepper
-    meshes = stepper.kinematics.turns and stepper.model.manifold.shared_covers
-    if not meshes or stepper.plan.contact is None:
-        return ""
-    return ', or type = "energy_momentum" with [rotation] update = "finite", which keeps it'
 
 
 def _lost(run: Ended) -> Findings:

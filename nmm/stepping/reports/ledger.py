@@ -21,16 +21,43 @@ STRAINING = ("initial stress", "heat")
 
 
 @dataclass(frozen=True)
-class Rise:
-    """How much energy came from nowhere (J), and in which step (its number and time, s).
+class Account:
+    """Energies (J) that tell where what came from nowhere came from.
 
-    ``given`` of it (J) the integrator gave: waves of one that is not monotone come and go.
+    ``made`` is what came; ``given`` is what the integrator gave: waves of one that is not monotone
+    come and go. ``contact`` is what springs and bonds of contact gave beyond what friction and
+    breaking bonds ``lost``, and ``held`` what springs of supports and glue store.
     """
 
-    energy: float = 0.0
+    made: float = 0.0
+    given: float = 0.0
+    contact: float = 0.0
+    lost: float = 0.0
+    held: float = 0.0
+
+    def since(self, before: "Account") -> "Account":
+        """Return by how much each has grown."""
+        return Account(
+            self.made - before.made,
+            self.given - before.given,
+            self.contact - before.contact,
+            self.lost - before.lost,
+            self.held - before.held,
+        )
+
+
+@dataclass(frozen=True)
+class Rise:
+    """Energy that came from nowhere, and in which step (its number and time, s)."""
+
+    grown: Account = field(default_factory=Account)
     step: int = 0
     time: float = 0.0
-    given: float = 0.0
+
+    @property
+    def energy(self) -> float:
+        """How much (J)."""
+        return self.grown.made
 
 
 @dataclass(frozen=True)
@@ -79,8 +106,7 @@ class Ledger:
     cause
         What asked for the last change.
     lowest, last
-        Energy from nowhere and what the integrator had given of it: where the first was least,
-        and after the last step.
+        Where energy from nowhere was least, and after the last step.
     """
 
     work: float = 0.0
@@ -102,15 +128,15 @@ class Ledger:
     changed_by: Mapping[str, float] = field(default_factory=dict)
     settling: bool = False
     cause: str = ""
-    lowest: tuple[float, float] = (0.0, 0.0)
-    last: tuple[float, float] = (0.0, 0.0)
+    lowest: Account = field(default_factory=Account)
+    last: Account = field(default_factory=Account)
 
     def booked(
         self, plan: "Plan", model: "Model", before: State, attempt: Attempt, stands: State
     ) -> "Ledger":
         """Return the totals with an accepted step; ``stands`` is its end as blocks are laid now."""
         after = attempt.state
-        earlier = self.energies if self.steps else stored(plan, model, before)
+        earlier = self.energies if self.steps else untouched(plan, model, before)
         loss = 0.0 if attempt.solved is None else attempt.solved.loss
         dissipated = model.dissipated(before, after)
         found = with_parts(
@@ -149,7 +175,7 @@ class Ledger:
         """Return the energy (J) at the start of all: ``earlier`` is that at the start of a step."""
         if self.steps:
             return self.stored_first
-        found = sum(earlier.values()) - earlier["contact_energy"]
+        found = sum(earlier.values())
         return found - plan.energy("supports", before) if self._grows(plan) else found
 
     def _grows(self, plan: "Plan") -> bool:
@@ -241,9 +267,10 @@ class Ledger:
         Steps of statics are not ``audited``: what they make is no motion, and rises count from
         their end.
         """
-        total, lost, made = self.in_store, self.dissipated, self._made
+        total, lost = self.in_store, self.dissipated
         largest = max(self.throughput, abs(self.work), abs(total), abs(self.stored_first), lost)
-        now = made, self.given
+        held = self.energies.get("support_energy", 0.0)
+        now = Account(self._made, self.given, -self.contact_loss, self.friction_loss, held)
         if not audited:
             return with_parts(self, throughput=largest, last=now, lowest=now)
         return with_parts(
@@ -252,16 +279,13 @@ class Ledger:
             in_step=self._largest(self.in_step, now, self.last, time),
             in_run=self._largest(self.in_run, now, self.lowest, time),
             last=now,
-            lowest=min(self.lowest, now),
+            lowest=min(self.lowest, now, key=lambda account: account.made),
         )
 
-    def _largest(
-        self, known: Rise, now: tuple[float, float], since: tuple[float, float], time: float
-    ) -> Rise:
-        """Return the larger of a rise and the one to ``now`` ``since`` energy and gift were so."""
-        risen = now[0] - since[0]
-        if risen > known.energy:
-            return Rise(risen, self.steps, time, now[1] - since[1])
+    def _largest(self, known: Rise, now: Account, before: Account, time: float) -> Rise:
+        """Return the larger of a rise and the one to ``now`` since ``before``."""
+        if now.made - before.made > known.energy:
+            return Rise(now.since(before), self.steps, time)
         return known
 
 
@@ -276,6 +300,11 @@ def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
         "support_energy": sum(plan.energy(name, state) for name in HOLDING) - lifted,
         **plan.own_energies(state),
     }
+
+
+def untouched(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
+    """Return the energies (J) before any contact, which tells those of the last accepted step."""
+    return {**stored(plan, model, state), "contact_energy": 0.0}
 
 
 def standing(plan: "Plan", before: State, after: State) -> float:

@@ -1,0 +1,54 @@
+"""Which part of a run gave the energy that came from nowhere, and what to do about it."""
+
+from nmm.stepping.audits.base import Ended
+from nmm.stepping.reports.ledger import HOLDING, Rise
+
+# A part of a rise that explains it.
+EXPLAINS = 0.5
+
+SOFTENS = (
+    "it came from bonds that soften, each of which pulls through a step as at its end and so takes "
+    "less than its fracture energy: take smaller steps, in more of which it tears"
+)
+TOUCHES = "it came from contact: take smaller steps or another enforcement and compare"
+
+
+def cause(run: Ended, rise: Rise) -> str:
+    """Return what to do about a rise, with the part of the run that gave most of it if one did."""
+    grown, most, contact = rise.grown, EXPLAINS * rise.energy, run.stepper.plan.contact
+    if contact is not None and grown.contact >= max(most, grown.given):
+        softens = grown.lost > 0 and contact.laws.remembering("damage").any()
+        return SOFTENS if softens else f"{TOUCHES}{_what_keeps(run)}"
+    if grown.given >= most:
+        return (
+            f'it came from the integrator "{run.formulation.integrator.type}": take smaller steps, '
+            f"or one without gain{_what_keeps(run)}"
+        )
+    if run.stepper.kinematics.finite:
+        return "take smaller steps and compare"
+    if run.recorder.ledger.in_step.grown.held >= EXPLAINS * run.recorder.ledger.in_step.energy:
+        return _held(run)
+    # Supports and loads act on the body as it was laid: an exchange that no step makes smaller.
+    return (
+        "take smaller steps and compare; if they change nothing, bodies bend too far: "
+        '[rotation] update = "finite"'
+    )
+
+
+def _held(run: Ended) -> str:
+    """Name what holds bodies that turn: along the line of a step they leave their arcs."""
+    named = [name for name in HOLDING if name in run.stepper.plan.effects]
+    return (
+        f"it is in the springs of {' and '.join(named)}, which hold along the line of a step what "
+        'turns within it: take smaller steps, or [rotation] update = "finite", which follows the '
+        "turn"
+    )
+
+
+def _what_keeps(run: Ended) -> str:
+    """Name what keeps energy where meshes turn as they touch: their forces act as a step begins."""
+    stepper = run.stepper
+    meshes = stepper.kinematics.turns and stepper.model.manifold.shared_covers
+    if not meshes or stepper.plan.contact is None:
+        return ""
+    return ', or type = "energy_momentum" with [rotation] update = "finite", which keeps it'
