@@ -14,9 +14,9 @@ from nmm.assembly.stress_points import ISOTROPIC, PressureAt, StressAt
 from nmm.effects.base import Setup
 from nmm.effects.event import Event
 from nmm.fracture.acting_stress import acting_stress
-from nmm.fracture.growth.intensities import tip_moduli
 from nmm.fracture.growth.refusals import refuse_nucleation, short_nuclei
 from nmm.fracture.growth.rule import ROUNDING
+from nmm.fracture.growth.tips.intensities import tip_moduli
 from nmm.fracture.toughness import Toughness
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ from covers.cutting.cut_cells import CutCells
 from integration.arrays import Bools, Floats
 from nmm.fracture.growth.advance import new_ends, with_pieces
 from nmm.fracture.growth.fronts import CrackFronts
-from nmm.fracture.growth.intensities import Intensities
+from nmm.fracture.growth.tips.intensities import Intensities
 
 # Multiples of the fracture energy from which a tip divides.
 TWO = 2.0

@@ -1,5 +1,6 @@
 """Faces of cracks in a state: where they are, how far they are open and have slid."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,6 +51,16 @@ class CrackFaces:
             "opening": Quantity("cracks", opening, "m"),
             "sliding": Quantity("cracks", sliding, "m"),
         }
+
+    def row(
+        self, names: Mapping[int, str], cracks: Sequence[Floats], state: State
+    ) -> dict[str, float]:
+        """What a line of the history holds of cracks, polylines, with ``names`` by number."""
+        row, opening = {}, self.apart(state)[1]
+        for number, name in names.items():  # a handful
+            row[f"{name}:length"] = float(np.hypot(*np.diff(cracks[number], axis=0).T).sum())
+            row[f"{name}:opening"] = float(opening[self.crack == number].max(initial=0.0))
+        return row
 
     def apart(self, state: State) -> tuple[Floats, Floats, Floats]:
         """Return ends (m, 4) half way between both faces, and how far they are open and have slid.

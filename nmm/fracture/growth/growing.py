@@ -10,23 +10,20 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import MaterialPoints, State, material_points
-from nmm.assembly.pushes import Pushes, PushesIn, joined
+from nmm.assembly.pushes import PushesIn
 from nmm.assembly.stress_points import PressureAt, StressAt
 from nmm.effects.base import Effect, Setup
 from nmm.effects.event import Event
 from nmm.fracture.growth.advance import advanced
 from nmm.fracture.growth.beginning import Beginnings
 from nmm.fracture.growth.faces import CrackFaces
-from nmm.fracture.growth.felt import felt
 from nmm.fracture.growth.fronts import CrackFronts, nucleus_name
 from nmm.fracture.growth.grown import GrownSoFar
-from nmm.fracture.growth.intensities import Intensities, tip_moduli
-from nmm.fracture.growth.parallel_stress import at_end_of_piece, parallel_stress
 from nmm.fracture.growth.refusals import refuse
 from nmm.fracture.growth.rule import GrowthRule
-from nmm.fracture.intensity_rows import IntensityRows
-from nmm.fracture.stress_intensity import check_domain
-from nmm.fracture.surroundings import domain_radius
+from nmm.fracture.growth.tips.intensities import Intensities
+from nmm.fracture.growth.tips.measured import MeasuredTips
+from nmm.fracture.growth.tips.parallel_stress import at_end_of_piece, parallel_stress
 from nmm.quantity import SPOT, Quantity
 
 if TYPE_CHECKING:
@@ -57,9 +54,7 @@ class GrowingCracks(Effect):
         self._fronts = CrackFronts.of(names).with_born(len(cracks), nuclei)
         self._sofar = GrownSoFar(np.zeros(len(self._fronts)), 0.0) if sofar is None else sofar
         self._tips = self._fronts.tips(setup.model.cut, cracks)
-        self._known: tuple[Floats, Intensities] | None = None
-        self._pushing: Sequence[PushesIn] = ()
-        self._stresses: Sequence[StressAt] = ()
+        self._measured = MeasuredTips(setup, self.rule, self._tips, table.radius, self.held)
         self._beginnings = Beginnings(setup, self.rule.toughness)
 
     @classmethod
@@ -115,10 +110,8 @@ class GrowingCracks(Effect):
         return booked
 
     def intensities(self, state: State) -> Intensities:
-        """Return what the tips have in a state; kept for the last one."""
-        if self._known is None or self._known[0] is not state.deformation:
-            self._known = state.deformation, self._found(state)
-        return self._known[1]
+        """Return what the tips have in a state."""
+        return self._measured.in_state(state)
 
     def reached(self, state: State) -> float | None:
         """Share of what it takes that what grows or begins first has reached; None if nothing can.
@@ -126,68 +119,18 @@ class GrowingCracks(Effect):
         Fronts that have grown as far as they may count where nothing else is left that feels the
         load; it is zero where no tip does.
         """
-        found, nucleus = self.intensities(state), self._beginnings.next(state)
-        if not len(found.tip) and nucleus is None:
+        nucleus = self._beginnings.next(state)
+        if not len(self._measured.tip) and nucleus is None:
             return None
-        model, equivalent = self._setup.model, found.kink.equivalent
-        found = found.take(
-            felt(model, state, self._stresses, found.tip, equivalent, self._radius())
-        )
+        found = self._measured.felt(state)
         begins = [] if nucleus is None else [nucleus.share]
         left = np.append(found.share[self.free(found)], begins)
         left = left if len(left) else found.share
         return float(left.max(initial=0.0))
 
-    def _found(self, state: State) -> Intensities:
-        model, front = self._setup.model, np.flatnonzero(self._tips >= 0)
-        tip = self._tips[front]
-        kappa, stiff = tip_moduli(model, model.cut.tips.element[tip])
-        pressure = model.pressure(state.deformation)
-        pushes = self._pushes(state)
-        at_tips = [self._at(rows, state, pressure, pushes) for rows in self._rows]
-        opening, sliding = np.reshape(at_tips, (-1, 2)).T
-        kink = self.rule.criterion.kink(opening, sliding, kappa)
-        return Intensities(front, tip, opening, sliding, stiff, kink, self.rule.shares(kink, stiff))
-
-    @cached_property
-    def _rows(self) -> list[IntensityRows]:
-        """Intensities as functions of the unknowns, of each front with a tip."""
-        model, tip = self._setup.model, self._tips[self._tips >= 0]
-        kappa, _ = tip_moduli(model, model.cut.tips.element[tip])
-        found = []
-        for one, k in zip(tip, kappa, strict=True):  # a handful of tips
-            radius = domain_radius(model.cut, int(one), self._radius())
-            check_domain(model.cut, int(one), radius)
-            found.append(IntensityRows.of(model, int(one), radius, float(k)))
-        return found
-
-    def _at(
-        self, rows: IntensityRows, state: State, pressure: Floats | None, pushes: Pushes
-    ) -> Floats:
-        """K_I and K_II (2,) of a tip in a state, weight included."""
-        found = rows.intensities(state.deformation, pressure) + rows.of_pushes(pushes, state.frames)
-        for stress in self._stresses:  # of effects
-            found = found + rows.of_stress(stress, state.time)
-        gravity = self._setup.scene.gravity
-        if gravity is None:
-            return found
-        body, density = rows.body, rows.density
-        down = state.frames.to_body(np.array([body]), np.array([gravity.acceleration]))[0]
-        return found + rows.of_weight(density * down)
-
-    def _pushes(self, state: State) -> Pushes:
-        """Forces of effects on faces and within bodies."""
-        return joined(push(state) for push in self._pushing)
-
-    def _radius(self) -> float:
-        """Radius of domains (m): that of the scene, or four cells."""
-        size = self._setup.formulation.cover.size
-        assert size is not None  # of meshes
-        return 4 * size if self._table.radius is None else self._table.radius
-
     def feel(self, stresses: Sequence[StressAt]) -> None:
         """See `Effect.feel`."""
-        self._stresses = stresses
+        self._measured.stresses = stresses
         self._beginnings.feel(stresses)
 
     def feel_pores(self, pressures: Sequence[PressureAt]) -> None:
@@ -196,7 +139,7 @@ class GrowingCracks(Effect):
 
     def feel_pushes(self, pushing: Sequence[PushesIn]) -> None:
         """See `Effect.feel_pushes`."""
-        self._pushing = pushing
+        self._measured.pushing = pushing
 
     def free(self, found: Intensities) -> Bools:
         """Which fronts (k,) with a tip have not grown as far as they may."""
@@ -223,10 +166,8 @@ class GrowingCracks(Effect):
         if not self._table.parallel_stress:
             return found
         behind, kink = self.rule.increment / 2, found.kink
-        pushes = self._pushes(state)
-        stress = parallel_stress(
-            self._setup.model, state, found.tip, behind, pushes, self._stresses
-        )
+        acting = self._measured.pushes(state), self._measured.stresses
+        stress = parallel_stress(self._setup.model, state, found.tip, behind, *acting)
         angle = at_end_of_piece(
             kink.angle, found.opening, found.sliding, stress, self.rule.increment
         )
@@ -262,7 +203,7 @@ class GrowingCracks(Effect):
     @cached_property
     def _spots(self) -> MaterialPoints:
         """Tips of the fronts that have one."""
-        model, tip = self._setup.model, self._tips[self._tips >= 0]
+        model, tip = self._setup.model, self._measured.tip
         tips = model.cut.tips
         return material_points(model.manifold, tips.element[tip], tips.point[tip])
 
@@ -273,10 +214,7 @@ class GrowingCracks(Effect):
         return {
             **self._faces.quantities(state),
             "tip": Quantity("tips", place, "m", SPOT),
-            "K_I": Quantity("tips", found.opening, "Pa m^0.5"),
-            "K_II": Quantity("tips", found.sliding, "Pa m^0.5"),
-            "G": Quantity("tips", found.rate, "J/m^2"),
-            "share": Quantity("tips", found.share),
+            **found.quantities(),
         }
 
     def history(self, state: State) -> Mapping[str, float]:
@@ -287,16 +225,10 @@ class GrowingCracks(Effect):
         found = self.intensities(state)
         cracks = self._setup.geometry.cracks
         row = {"growth": float(self._sofar.length.sum()), "energy": self._sofar.energy}
-        opening = self._faces.apart(state)[1]
-        for number, name in self._lines.items():  # a handful
-            row[f"{name}:length"] = np.hypot(*np.diff(cracks[number], axis=0).T).sum()
-            row[f"{name}:opening"] = opening[self._faces.crack == number].max(initial=0.0)
+        row |= self._faces.row(self._lines, cracks, state)
         row |= self._beginnings.history(state)
         row |= self._fronts.history(cracks, self._setup.origin, self._sofar.length)
-        for number, front in enumerate(found.front):
-            name = self._fronts.name[front]
-            row[f"{name}:K_I"], row[f"{name}:K_II"] = found.opening[number], found.sliding[number]
-            row[f"{name}:G"], row[f"{name}:share"] = found.rate[number], found.share[number]
+        row |= found.row(self._fronts.name)
         return {key: float(value) for key, value in row.items()}
 
     def carried(self) -> tuple[Any, ...]:
@@ -309,5 +241,5 @@ class GrowingCracks(Effect):
 
     def forget(self) -> None:
         """See `Effect.forget`."""
-        self._known = None
+        self._measured.forget()
         self._beginnings.forget()

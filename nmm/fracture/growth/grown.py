@@ -9,7 +9,7 @@ import shapely
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.fracture.growth.fronts import CrackFronts
-from nmm.fracture.growth.intensities import tip_moduli
+from nmm.fracture.growth.tips.intensities import tip_moduli
 from nmm.fracture.toughness import Toughness
 
 

@@ -13,17 +13,15 @@ import numpy as np
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
-from nmm.assembly.pushes import Pushes
 from nmm.effects.base import Instant, Setup
 from nmm.fracture.growth.branching import TWO, Branching
 from nmm.fracture.growth.growing import GrowingCracks
 from nmm.fracture.growth.grown import GrownSoFar, nearest_elements
 from nmm.fracture.growth.held_faces import HeldFaces, newly_held
-from nmm.fracture.growth.intensities import Intensities, tip_moduli
 from nmm.fracture.growth.rule import ROUNDING
 from nmm.fracture.growth.running import Running
 from nmm.fracture.growth.speed import SPEEDS, rayleigh_speeds
-from nmm.fracture.intensity_rows import IntensityRows
+from nmm.fracture.growth.tips.intensities import Intensities, tip_moduli
 
 if TYPE_CHECKING:
     from nmm.effects.change import Change
@@ -71,7 +69,7 @@ class GrowthInTime(GrowingCracks):
     def _bound(self) -> Floats:
         """Speeds (k,) of Rayleigh's wave at fronts with a tip, which none can reach (m/s)."""
         model = self._setup.model
-        element = model.cut.tips.element[self._tips[self._tips >= 0]]
+        element = model.cut.tips.element[self._measured.tip]
         return rayleigh_speeds(model, element, tip_moduli(model, element)[0])
 
     def follow(self, change: "Change") -> "GrowthInTime":
@@ -82,7 +80,7 @@ class GrowthInTime(GrowingCracks):
         grown = np.flatnonzero(length > 0)
         running = self._joined(change, was[len(self._fronts) :])
         new._running, span = running.cut(grown, length[grown])
-        held = newly_held(change, was[grown], span, self._stresses)
+        held = newly_held(change, was[grown], span, self._measured.stresses)
         new._held = self._held.followed(change).joined(held)
         return new
 
@@ -129,11 +127,3 @@ class GrowthInTime(GrowingCracks):
         """Which fronts (k,) with a tip have come half way through their next piece."""
         half = self.rule.increment / 2
         return self.free(found) & (self._running.way[found.front] >= half)
-
-    def _at(
-        self, rows: IntensityRows, state: State, pressure: Floats | None, pushes: Pushes
-    ) -> Floats:
-        """See `GrowingCracks._at`; with the inertia of the material about the tip."""
-        found = super()._at(rows, state, pressure, pushes)
-        moves = state.acceleration.any()
-        return found + rows.of_acceleration(state.acceleration) if moves else found

@@ -1,5 +1,6 @@
 """What the tips of growing cracks have in a state, and the moduli of the material about them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from nmm.assembly.model import Model
 from nmm.fracture.criteria.base import Kink
+from nmm.quantity import Quantity
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,24 @@ class Intensities:
         """Largest of -K_I over |K| of any: tips that are pressed shut."""
         size = np.hypot(self.opening, self.sliding)
         return float(np.max(-self.opening / np.where(size > 0, size, 1.0), initial=0.0))
+
+    def quantities(self) -> dict[str, Quantity]:
+        """What a frame holds of them."""
+        return {
+            "K_I": Quantity("tips", self.opening, "Pa m^0.5"),
+            "K_II": Quantity("tips", self.sliding, "Pa m^0.5"),
+            "G": Quantity("tips", self.rate, "J/m^2"),
+            "share": Quantity("tips", self.share),
+        }
+
+    def row(self, names: Sequence[str]) -> dict[str, float]:
+        """What a line of the history holds of them; ``names`` are those of all fronts."""
+        columns = {"K_I": self.opening, "K_II": self.sliding, "G": self.rate, "share": self.share}
+        return {
+            f"{names[front]}:{key}": column[number]
+            for number, front in enumerate(self.front)
+            for key, column in columns.items()
+        }
 
 
 def tip_moduli(model: Model, element: Ints) -> tuple[Floats, Floats]:

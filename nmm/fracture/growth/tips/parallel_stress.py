@@ -22,7 +22,7 @@ from nmm.assembly.model import Model
 from nmm.assembly.motion import State, material_points
 from nmm.assembly.pushes import Pushes
 from nmm.assembly.stress_points import StressAt
-from nmm.fracture.growth.intensities import tip_moduli
+from nmm.fracture.growth.tips.intensities import tip_moduli
 
 # Halvings that find an angle to rounding.
 HALVINGS = 60

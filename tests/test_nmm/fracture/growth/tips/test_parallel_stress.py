@@ -11,7 +11,7 @@ from integration.polygons import Polygons
 from nmm.assembly.places import on_edges
 from nmm.assembly.pushes import joined
 from nmm.formulation import parse_formulation
-from nmm.fracture.growth.parallel_stress import at_end_of_piece, parallel_stress
+from nmm.fracture.growth.tips.parallel_stress import at_end_of_piece, parallel_stress
 from nmm.materials.elastic import Elastic
 from nmm.model.from_polygons import solid
 from nmm.scene.methods.cover_tables import CoverTable
