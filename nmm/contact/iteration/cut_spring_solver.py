@@ -132,7 +132,8 @@ class _WaysToForces:
                 break
             best = best.then(self.alternated(best.increment, rest))
             tools.memory.ways.finishes = best.size <= self.tolerance
-            if best.size <= self.tolerance:
+            # A path that does not come as far as a rough balance comes to no finer one.
+            if best.size <= self.tolerance or best.size > balance:
                 break
         return best
 

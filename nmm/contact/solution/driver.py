@@ -28,7 +28,7 @@ from nmm.contact.problem.coulomb import shear_bound
 from nmm.contact.problem.step_problem import SLIDE, StepAnswer, StepProblem
 from nmm.contact.problem.transform import Transform, solve_through
 from nmm.contact.solution.posed_step import PosedStep, Posing
-from nmm.contact.solution.record import ContactSolution
+from nmm.contact.solution.record import Broken, ContactSolution
 from nmm.contact.solution.request import StepRequest
 from nmm.contact.solution.untouched import Untouched
 from nmm.errors import SolveError
@@ -106,12 +106,13 @@ class ContactSolver:
         ``more`` are transforms besides those of laws: whole bonds, means over faces, conditions.
         """
         self.memory.moving = request.step is not None
-        passes, loss, besides = 0, 0.0, more(contacts)
+        passes, loss, besides = 0, request.lost, more(contacts)
+        gone: Broken | None = None
         while True:
             agreed = self._agreed(contacts, rows, request, besides)
             answer, iteration = agreed.answer, agreed.iteration
             passes += agreed.passes
-            found = ContactSolution(iteration.contacts, answer, passes, loss)
+            found = ContactSolution(iteration.contacts, answer, passes, loss, broken=gone)
             if not answer.verdict.converged:
                 return found
             broken = breaking(self._laws, iteration.contacts, answer, request.breaking == "worst")
@@ -128,6 +129,7 @@ class ContactSolver:
             loss += _lost(agreed.posed.problem, loaded, brittle, contacts)
             contacts, stored = self._broken(iteration, contacts, loaded, (broken, brittle))
             loss += stored
+            gone = Broken(contacts, loss)
             besides = more(contacts) if freed.any() else besides
 
     def _agreed(

@@ -7,7 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.contact.detection.narrow_phase import Contacts
-from nmm.contact.points.contact_points import ContactPoints
+from nmm.contact.points.contact_points import ContactPoints, concatenate
 from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.points.joint_book import JointBook
 from nmm.contact.problem.step_problem import StepAnswer
@@ -37,6 +37,9 @@ class ContactSolution:
         (m,) how far contacts slid under load (m); empty when the step is not accepted.
     rows
         What the forces acted through.
+    broken
+        The contacts as the last solution begins, without what bonds held that broke before it; None
+        where none did.
     missed
         (m,) normal forces that springs would have had at their gaps beyond those of the lines that
         stood for them (N); None where these are what they are.
@@ -50,6 +53,7 @@ class ContactSolution:
     sliding: Floats = field(default_factory=lambda: np.zeros(0))
     rows: ContactRows | None = None
     missed: Floats | None = None
+    broken: "Broken | None" = None
 
     @MadeOnce
     def push(self) -> Floats:
@@ -61,6 +65,19 @@ class ContactSolution:
     def pushing(self) -> Ints:
         """Sorted keys of the contacts that push."""
         return np.sort(self.contacts.key[self.answer.normal_force < 0])
+
+
+@dataclass(frozen=True)
+class Broken:
+    """Contacts of which bonds broke in a step, as it begins, and the energy that these lost (J)."""
+
+    contacts: ContactPoints
+    loss: float
+
+    def among(self, sought: ContactPoints) -> ContactPoints:
+        """Return contacts of the same step sought anew, with joints as these bonds left them."""
+        joints = self.contacts.take(self.contacts.is_joint)
+        return concatenate([joints, sought.take(~sought.is_joint)])
 
 
 @dataclass(frozen=True)

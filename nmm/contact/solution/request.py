@@ -33,6 +33,8 @@ class StepRequest:
     near
         Whether an increment (n,) moves no further than contacts were sought: no bond is judged by
         one that does. None: none does.
+    lost
+        Energy (J) that bonds lost which broke before, in the same step.
     time
         At its end (s); None where nothing hangs on it.
     foreseen
@@ -50,6 +52,7 @@ class StepRequest:
     null_space: NullSpace | None = None
     breaking: Breaking = "all"
     near: Callable[[Floats], bool] | None = None
+    lost: float = 0.0
     time: float | None = None
     foreseen: Floats | None = None
     among: Floats | None = None

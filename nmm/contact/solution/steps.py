@@ -1,7 +1,7 @@
 """Steps of a run with contact: rows, bonds and means of their points put together, and solved."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from nmm.assembly.motion import State
 from nmm.contact.detection.surface import Surface
@@ -64,7 +64,7 @@ class ContactSteps:
             return [part for part in (tied, means, request.null_space) if part is not None]
 
         solved = self.solver.solve(*posed, besides)
-        return solved if mixed is None else mixed.told(solved, contacts)
+        return solved if mixed is None else mixed.told(replace(solved, broken=None), contacts)
 
     def energy(
         self, record: ContactRecord, state: State, joints: Callable[[], ContactPoints], exact: bool

@@ -16,7 +16,7 @@ from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
-    from nmm.contact.solution.record import Breaking
+    from nmm.contact.solution.record import Breaking, Broken
 
 # Corrections for the turn of contacts and bodies end when they move nothing by more than this
 # share of the step's own motion, or by more than coordinates are rounded (in sizes of the domain,
@@ -54,15 +54,23 @@ def too_far(stepper: Stepper) -> float:
     return (BENDING if stepper.kinematics.finite else COLLAPSE) * stepper.size
 
 
-def settle(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> Settled:
+def settle(
+    stepper: Stepper,
+    state: State,
+    end: Instant,
+    breaking: "Breaking",
+    broken: "Broken | None" = None,
+) -> Settled:
     """Find equilibrium in the moved place: solve, move, and correct until nothing moves.
+
+    ``broken`` are bonds that broke in an attempt of the same step before.
 
     Corrections are no steps of the load: what matter remembers is that of the step's start for all
     of them, and what the last one made of it is kept.
     """
     contacts: ContactPoints | None = None
     least = rounding(stepper)
-    total = attempt = stepper.attempt(state, end, None, breaking)
+    total = attempt = stepper.attempt(state, end, None, breaking, broken)
     way, steady, count = 0.0, 0, 0
     while count < CORRECTIONS or (count < PATIENCE and not steady):
         far = not stepper.small and total.motion > too_far(stepper)
@@ -123,9 +131,20 @@ def is_adrift(stepper: Stepper) -> bool:
     return stepper.plan.contact is None and not stepper.anchored and bool(unopposed(stepper))
 
 
-def anchored(stepper: Stepper, state: State, end: Instant, breaking: "Breaking") -> "Settled":
-    """Find equilibrium with anchors; where that succeeds they stay, and carry nothing."""
+def anchored(
+    stepper: Stepper,
+    state: State,
+    end: Instant,
+    breaking: "Breaking",
+    before: Settled | None = None,
+) -> Settled:
+    """Find equilibrium with anchors; where that succeeds they stay, and carry nothing.
+
+    Bonds that broke in its first solution ``before``, which needed none, are broken.
+    """
+    first = before is not None and before.contacts is None
+    solved = before.attempt.solved if before is not None and first else None
     stepper.anchored = True
-    found = settle(stepper, state, end, breaking)
+    found = settle(stepper, state, end, breaking, None if solved is None else solved.broken)
     stepper.anchored = found.attempt.converged
     return found

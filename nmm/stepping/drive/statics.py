@@ -127,7 +127,7 @@ class _Raising:
         last = fine or (forgets and state.load_factor == 0 and not schedule.until_failure)
         if last and may_be_loose(stepper, found):
             stepper.restore(start)
-            found = anchored(stepper, state, end, breaking)
+            found = anchored(stepper, state, end, breaking, found)
         if found.attempt.converged and is_adrift(stepper):
             stepper.restore(start)
             held = anchored(stepper, state, end, breaking)

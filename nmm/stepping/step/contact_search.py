@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from nmm.contact.candidates.held_back import Crossed
     from nmm.contact.detection.crossing import Motion
     from nmm.contact.points.contact_points import ContactPoints
-    from nmm.contact.solution.record import ContactSolution
+    from nmm.contact.solution.record import Broken, ContactSolution
     from nmm.effects.contact import Contact
 
 
@@ -45,6 +45,9 @@ class Sought:
         begins.
     crossed
         Pairs that are contacts because the step without them let them through; None without any.
+    broken
+        Bonds that broke where contacts were sought less far, and are whole in none of these; None
+        where none did.
     crossings, midpoints
         Solutions for such pairs, and for forces that act elsewhere half way.
     """
@@ -54,8 +57,13 @@ class Sought:
     midpoint: State | None
     ahead: State | None
     crossed: "Crossed | None" = None
+    broken: "Broken | None" = None
     crossings: int = 0
     midpoints: int = 0
+
+    def without(self, broken: "Broken") -> "Sought":
+        """Return what was sought without bonds that broke in the same step."""
+        return replace(self, contacts=broken.among(self.contacts), broken=broken)
 
 
 class ContactSearch:
@@ -102,9 +110,9 @@ class ContactSearch:
 
         Forces that bend move bodies by little from one iteration to the next.
         """
-        state = equations.state
-        if again and self._last is not None and self._last[0] is state:
-            return replace(self._last[1], crossings=0, midpoints=0)
+        state, last = equations.state, self._last
+        if again and last is not None and last[0] is state and last[1].broken is None:
+            return replace(last[1], crossings=0, midpoints=0)
         contacts = self.candidates(state, reach, equations.step)
         ahead = self._ahead(equations, contacts)
         return Sought(reach, contacts, ahead, ahead)
@@ -126,7 +134,7 @@ class ContactSearch:
         ``motion`` is None where bodies went further than contacts were sought.
         """
         if motion is None:
-            return self._anew(equations, replace(sought, reach=FURTHER * result.motion))
+            return self._further(equations, sought, solved, FURTHER * result.motion)
         missed = self.contact.overlooked(sought.contacts, motion)
         if missed is not None and sought.crossings < CROSSING_SOLUTIONS:
             crossed, count = joined(sought.crossed, missed), sought.crossings + 1
@@ -139,10 +147,22 @@ class ContactSearch:
             return None
         return replace(sought, midpoint=half, midpoints=sought.midpoints + 1)
 
+    def _further(
+        self, equations: Equations, sought: Sought, solved: "ContactSolution", reach: float
+    ) -> Sought:
+        """Return what is sought up to ``reach`` (m); bonds that broke before stay broken.
+
+        None of them was judged by an answer that went further than contacts were sought.
+        """
+        found = self._anew(equations, replace(sought, reach=reach))
+        broken = solved.broken or sought.broken
+        return found if broken is None else found.without(broken)
+
     def _anew(self, equations: Equations, sought: Sought) -> Sought:
         """Return what was sought with contacts found anew."""
         given = equations.state, sought.reach, equations.step, sought.crossed
-        return replace(sought, contacts=self.candidates(*given), midpoint=sought.ahead)
+        found = self.candidates(*given)
+        return replace(sought, contacts=found, midpoint=sought.ahead, broken=None)
 
     def _ahead(self, equations: Equations, contacts: "ContactPoints") -> State | None:
         """Return where bodies are half way if they go on turning; None where they hardly turn.

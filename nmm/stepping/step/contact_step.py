@@ -19,7 +19,7 @@ from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.enforcement.null_space import NullSpace
-    from nmm.contact.solution.record import Breaking, ContactSolution
+    from nmm.contact.solution.record import Breaking, Broken, ContactSolution
     from nmm.controls.path_equation import PathEquation
 
 
@@ -62,10 +62,11 @@ class Touching:
         self,
         equations: Equations,
         breaking: "Breaking",
+        broken: "Broken | None",
         reach: float,
         foreseen: Attempt | None = None,
     ) -> Attempt:
-        """Solve a step; ``breaking`` says which bonds break at a time.
+        """Solve a step; ``breaking`` says which bonds break at a time, beside those ``broken``.
 
         Contacts are sought up to ``reach`` (m) at first. Those of bodies that bend by any angle act
         between where the step begins and where it was ``foreseen`` to end.
@@ -79,6 +80,7 @@ class Touching:
         near, passes = self._near(equations, foreseen), 0
         again = foreseen is not None and near is None
         sought, held = self.search.first(equations, reach, again), self._conditions(equations)
+        sought = sought if broken is None else sought.without(broken)
         while True:
             solved = self._solve(equations, sought, breaking, held, near)
             passes += solved.passes
@@ -143,6 +145,7 @@ class Touching:
             null_space=held,
             breaking=breaking,
             near=near,
+            lost=0.0 if sought.broken is None else sought.broken.loss,
             time=equations.end.time,
             foreseen=None if foreseen is None else foreseen.increment,
             among=equations.among,

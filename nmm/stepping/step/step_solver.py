@@ -26,7 +26,7 @@ from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.contact.points.contact_points import ContactPoints
-    from nmm.contact.solution.record import Breaking
+    from nmm.contact.solution.record import Breaking, Broken
     from nmm.controls.path_equation import PathEquation
     from nmm.effects.change import Change
     from nmm.stepping.step.contact_step import Touching
@@ -116,14 +116,19 @@ class StepSolver:
         rule: Integrator,
         carried: CarriedOver,
         breaking: "Breaking",
+        broken: "Broken | None" = None,
     ) -> Attempt:
-        """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics."""
+        """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics.
+
+        ``broken`` are bonds that broke in an attempt of it before.
+        """
 
         def solve(matter: Linearisation | None, before: Attempt | None = None) -> Solution:
             with self._clock.phase("assembly"):
                 given = state, end, step, rule, carried.anchored, matter
                 equations = self._assembly.of(*given)
-            return equations, self._solved(equations, breaking, carried.reach, before)
+            bonds = breaking, broken
+            return equations, self._solved(equations, bonds, carried.reach, before)
 
         model, plan = self._current.model, self._current.plan
         if model.matter is None and not plan.bent:
@@ -173,13 +178,17 @@ class StepSolver:
                 return Attempt.failed(equations.state, fault)
 
     def _solved(
-        self, equations: Equations, breaking: "Breaking", reach: float, before: Attempt | None
+        self,
+        equations: Equations,
+        bonds: tuple["Breaking", "Broken | None"],
+        reach: float,
+        before: Attempt | None,
     ) -> Attempt:
         """Solve equations, with contact where the scene has it, near an answer ``before``."""
         try:
             if self._touching is None:
                 return self._alone.attempt(equations)
-            return self._touching.attempt(equations, breaking, reach, before)
+            return self._touching.attempt(equations, *bonds, reach, before)
         except SolveError as fault:
             return Attempt.failed(equations.state, fault)
 

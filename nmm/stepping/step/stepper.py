@@ -25,7 +25,7 @@ from nmm.stepping.step.trial import Attempt
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
     from nmm.contact.points.contact_points import ContactPoints
-    from nmm.contact.solution.record import Breaking, ContactRecord
+    from nmm.contact.solution.record import Breaking, Broken, ContactRecord
     from nmm.controls.path_equation import PathEquation
     from nmm.effects.change import Change
     from nmm.geometry.geometry import Geometry
@@ -154,9 +154,16 @@ class Stepper:
         return self._steps.factor
 
     def attempt(
-        self, state: State, end: Instant, step: float | None, breaking: "Breaking" = "all"
+        self,
+        state: State,
+        end: Instant,
+        step: float | None,
+        breaking: "Breaking" = "all",
+        broken: "Broken | None" = None,
     ) -> Attempt:
         """Solve the step from ``state`` to ``end``; ``step`` is its length (s); None is statics.
+
+        ``broken`` are bonds that broke in an attempt of it before.
 
         Raises
         ------
@@ -164,7 +171,8 @@ class Stepper:
             When the run may cost no more.
         """
         self.budget.check()
-        return self._steps.attempt(state, end, step, self._rule, self._carried, breaking)
+        given = self._rule, self._carried, breaking, broken
+        return self._steps.attempt(state, end, step, *given)
 
     def along(self, state: State, path: "PathEquation") -> Attempt:
         """Solve a step of statics along a path (`nmm.contact.following`).

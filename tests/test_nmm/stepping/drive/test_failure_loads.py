@@ -1,11 +1,16 @@
 """Failure loads of small structures, whatever the increment, the order of blocks and the units."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import nmm
+from nmm.contact.laws.failing_bonds import break_bonds
+from nmm.contact.solution import driver
 from nmm.verification import text
 
+EXAMPLES = Path(__file__).parents[4] / "examples"
 TOLERANCE = 1e-3
 
 
@@ -117,3 +122,21 @@ def test_a_load_that_contacts_carry_at_any_factor_has_no_bound_to_tell():
     done = nmm.run(nmm.parse_scene(pressed, "pressed"))
     assert done.summary.failure_bound is None
     assert "inf" not in str(done.summary)
+
+
+def test_bonds_that_break_one_after_the_other_break_once(monkeypatch):
+    """Each that gives way moves the rest further, so that contacts are sought anew nine times."""
+    broken = []
+
+    def noted(laws, contacts, gone):
+        broken.append(tuple(contacts.key[gone]))
+        return break_bonds(laws, contacts, gone)
+
+    monkeypatch.setattr(driver, "break_bonds", noted)
+    beam = nmm.read_scene(EXAMPLES / "kitoh_beam" / "kitoh_130.toml")
+    given = beam.model_dump(exclude_unset=True)
+    given["tessellations"][0]["blocks"] = 30
+    done = nmm.run(type(beam).model_validate(given))
+    assert done.summary.status == "failure_load", done.summary.sentence
+    assert len(broken) > 5
+    assert len(broken) == len(set(broken))
