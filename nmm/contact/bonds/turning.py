@@ -21,18 +21,19 @@ def counted(contacts: ContactPoints, jump: Floats) -> Floats:
     tied = np.flatnonzero(contacts.tied)
     if not len(tied):
         return jump
+    number, share = _numbered(_joint(contacts)[tied]), contacts.history[TIED][tied]
+    mean = np.bincount(number, jump[tied]) / np.bincount(number)
     found = jump.copy()
-    found[tied] = counting(contacts.take(tied)) @ jump[tied]
+    found[tied] = share * jump[tied] + (1 - share) * mean[number]
     return found
 
 
 def counting(tied: ContactPoints) -> csr_array:
     """Return the matrix (k, k) from jumps of tied bonds to those that the penalty holds."""
-    joint, share = _joint(tied), tied.history[TIED]
-    number = np.unique(joint, return_inverse=True)[1]
+    number, share = _numbered(_joint(tied)), tied.history[TIED]
     size = np.bincount(number)
-    points = np.arange(len(joint))
-    member = csr_array((np.ones(len(joint)), (number, points)), shape=(len(size), len(joint)))
+    points = np.arange(len(tied))
+    member = csr_array((np.ones(len(tied)), (number, points)), shape=(len(size), len(tied)))
     mean = member.T @ diags_array(1.0 / size) @ member
     return csr_array(diags_array(share) + diags_array(1 - share) @ mean)
 
@@ -60,7 +61,7 @@ def turning_share(
     penalty, bending
         (k,) of the mean jump, and ``E / h`` (Pa/m).
     """
-    number = np.unique(_joint(joints), return_inverse=True)[1]
+    number = _numbered(_joint(joints))
     first = np.unique(number, return_index=True)[1][number]
     even = np.ones(len(penalty), dtype=bool)
     for unknowns, values in tractions:
@@ -80,3 +81,8 @@ def _joint(contacts: ContactPoints) -> Ints:
     """Number (m,) of the joint of each point: that of its two edges, which share one stretch."""
     a, b = contacts.edge_a, contacts.edge_b
     return np.asarray(a * (int(b.max(initial=0)) + 1) + b)
+
+
+def _numbered(joint: Ints) -> Ints:
+    """Count the joints (m,) from zero."""
+    return np.asarray(np.unique(joint, return_inverse=True)[1])
