@@ -17,7 +17,7 @@ from nmm.plots.canvas import (
     save,
     size_of,
 )
-from nmm.plots.results.blocks import block_count, blocks, material_handles
+from nmm.plots.results.blocks import blocks, material_handles
 from nmm.plots.results.broken import broken_parts, sliding_parts
 from nmm.plots.shapes import draw_blocks, line_width
 from nmm.results.frame import Frame, Topology
@@ -87,7 +87,7 @@ def failure_mode(
     upper, lower = panels = axes_grid(2, 1, 6.0)
     blocks(run, scene=scene, ax=upper)
     name = "failure mode" if last.stage == "failure" else "deformed"
-    deformed(run, magnification=factor, ax=lower, title=f"{name}, {block_count(topology)}")
+    deformed(run, magnification=factor, ax=lower, title=name)
     _same_limits(panels)
     fit_height(panels)
     save(upper, path)

@@ -221,7 +221,9 @@ class Stepper:
         with self.clock.phase("change"):
             old = self.discretisation
             change = old.change(reshaped(old.setup, geometry), state)
-            known = held and self._carried.knows_start
+            # Rules that carry no acceleration need none after a jump of it.
+            goes_on = held or not self._integrator.carries
+            known = goes_on and self._carried.knows_start
             self.begin_anew(change)
             self._carried = replace(self._carried, knows_start=known)
             self._geometry = geometry
