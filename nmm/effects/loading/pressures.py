@@ -22,7 +22,8 @@ class SurfacePressures(Effect):
 
     A closed surface under an even pressure is in balance however it turns and bends. Where axes
     turn with bodies what is left of a turn in a step waits for the next solution; under finite
-    strain all of it is in the deformation, and steps are solved for it.
+    strain all of it is in the deformation, and steps are solved for it. In small displacements
+    surfaces stay as they were laid.
     """
 
     name = "pressures"
@@ -53,7 +54,7 @@ class SurfacePressures(Effect):
     @property
     def symmetric(self) -> bool:
         """See `Effect.symmetric`: ends of open surfaces turn and store nothing."""
-        return False
+        return not any(one.follows for one in self.pressures)
 
     def through(self, before: State, after: State, span: Span) -> StepForce:
         """See `Effect.through`."""
@@ -72,7 +73,7 @@ class SurfacePressures(Effect):
     def matrix(self, state: State) -> csc_array:
         """Return how the forces fall with the motion; the same object while the factors stay."""
         now = Instant.of(state)
-        factors = tuple(one.factor(now) for one in self.pressures)
+        factors = tuple(one.factor(now) if one.follows else 0.0 for one in self.pressures)
         if self._kept is None or self._kept[0] != factors:
             none = csc_array((self._n, self._n))
             pairs = zip(factors, self._parts, strict=True)
@@ -98,6 +99,5 @@ def _pressure(setup: Setup, load: "LoadTable") -> SurfacePressure:
     order = 2 * max(setup.model.manifold.degree, 1) + 1
     place = edge_place(setup, "loads", load, order)
     size, factor = load.pressure * setup.model.thickness, load_factor(setup, load)
-    return SurfacePressure(
-        load.name, place, along_surface(place), size, factor, load.history is None
-    )
+    given = load.name, place, along_surface(place), size, factor, load.history is None
+    return SurfacePressure(*given, follows=not setup.small)

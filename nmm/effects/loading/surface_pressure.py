@@ -36,6 +36,9 @@ class SurfacePressure:
         From the instant to the factor.
     steady
         Whether it has no history.
+    follows
+        Whether the surface is where it has come to; else it stays as it was laid, as in the theory
+        of small displacements.
     """
 
     name: str
@@ -44,10 +47,13 @@ class SurfacePressure:
     size: float
     factor: Callable[[Instant], float]
     steady: bool
+    follows: bool = True
 
     def forces(self, state: State, end: Instant) -> Floats:
         """Forces (m, 2) on the points where they are (N)."""
-        places = self.place.points.place(state.frames, state.deformation)
+        places = self.place.position
+        if self.follows:
+            places = self.place.points.place(state.frames, state.deformation)
         shape = (*self.slopes.shape[:2], 2)
         along = (self.slopes @ places.reshape(shape)).reshape(-1, 2)
         return np.asarray(-self.factor(end) * self.size * along @ CLOCKWISE.T)
