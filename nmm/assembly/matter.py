@@ -23,6 +23,10 @@ STRESS = "stress"
 INITIAL = "initial_strain"
 """Elastic strain (Q, 3) of the initial stress; absent where there is none."""
 
+SWELLING = "swelling"
+"""Strain (Q, 1) alike in all three directions that is free of stress; absent where nothing heats.
+That of the end of a step, which laws are asked for."""
+
 SIZE = "cell_size"
 """Of the cell of a point (m), for laws that ask for it: no variable, it does not change."""
 
@@ -103,10 +107,11 @@ class Matter:
         found = {STRESS: np.zeros((len(self.law), 3))}
         for number, law in enumerate(self.laws):  # a handful of laws
             for name, value in law.variables(self.plane).items():
-                if name in (STRESS, INITIAL):
+                if name in (STRESS, INITIAL, SWELLING):
                     raise FormulationError(
                         f'law {type(law).__name__}: variable "{name}": expected another name than '
-                        f'"{STRESS}" and "{INITIAL}", which the program keeps itself: rename it'
+                        f'"{STRESS}", "{INITIAL}" and "{SWELLING}", which the program keeps '
+                        "itself: rename it"
                     )
                 known = found.get(name, np.zeros((len(self.law), 0)))
                 more = max(len(value) - known.shape[1], 0)
@@ -218,6 +223,22 @@ class Matter:
         stored = self.thickness * float(self.points.rule.weights @ density)
         return stored + float(deformation @ (self.rest @ deformation)) / 2
 
+    def swollen(self, before: History, after: History) -> float:
+        """Return the work (J) of the stress on what swells in a step, by the mean of both ends."""
+        if SWELLING not in after:
+            return 0.0
+        more = after[SWELLING][:, 0] - before.get(SWELLING, np.zeros((len(self.law), 1)))[:, 0]
+        mean = (self._pressing(before) + self._pressing(after)) / 2
+        return self.thickness * float((self.points.rule.weights * mean) @ more)
+
+    def _pressing(self, history: History) -> Floats:
+        """Sum (Q,) of the normal stresses, that across too (Pa)."""
+        whole = history[STRESS]
+        if INITIAL in history:
+            whole = whole + self._initial(history[INITIAL])
+        across = history.get("stress_zz", np.zeros((len(whole), 1)))
+        return np.asarray(whole[:, 0] + whole[:, 1] + across[:, 0])
+
     def missed(self, before: Floats, after: Floats) -> float:
         """Return what the mean force of both ends does beyond its work: nothing (J)."""
         return 0.0
@@ -245,6 +266,8 @@ class Matter:
         own = {name: np.array(history[name][at, : len(value)]) for name, value in widths.items()}
         if law.sized and self.size is not None:
             own[SIZE] = self.size[at, None]
+        if law.swells and SWELLING in history:
+            own[SWELLING] = history[SWELLING][at]
         return own
 
     def _initial(self, strain: Floats) -> Floats:

@@ -136,7 +136,13 @@ class Model(ElasticSolid):
             return 0.0
         mean = (self.internal(before) + self.internal(after)) / 2
         work = float(mean @ (after.deformation - before.deformation))
+        work -= self.swollen(before, after)
         return work - self.strain_energy(after) + self.strain_energy(before)
+
+    def swollen(self, before: "State", after: "State") -> float:
+        """Work (J) of the stress in a step on what swells of matter that is not linear."""
+        matter = self.matter
+        return matter.swollen(before.history, after.history) if isinstance(matter, Matter) else 0.0
 
     def internal(self, state: "State") -> Floats:
         """Internal force (n,) of matter that is not linear; kept for the last states."""

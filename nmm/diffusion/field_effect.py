@@ -109,14 +109,18 @@ class FieldEffect(Effect):
 
     def force(self, state: State, end: Instant) -> Floats:
         """Return the force of the field's stress at the end of the step."""
-        if end.time > state.time:
-            self.course.begin(state.time * self._second)
+        self._begin(state, end)
         if self._turned is not None:
             return self._turned.force(state, end)
         unknowns = self.acting(end.time)
         if self.stress is None:
             return np.zeros(len(state.deformation))
         return self.stress.force(unknowns)
+
+    def _begin(self, state: State, end: Instant) -> None:
+        """Let a step from a state to its end begin."""
+        if end.time > state.time:
+            self.course.begin(state.time * self._second)
 
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         """See `Effect.stress_at`."""

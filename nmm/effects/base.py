@@ -190,6 +190,14 @@ class Effect(ABC):
         """Stress (E, 3) in body axes that it adds to that of the strain, mean of the elements."""
         raise NotImplementedError
 
+    def swelling(self, state: State, end: Instant) -> Floats | None:
+        """Strain (Q,) of material points at the end of a step from a state, free of stress.
+
+        It is alike in all three directions, and laws that are not linear are asked with it; None
+        where nothing swells. What it does to other elements is a matter of `force`.
+        """
+        raise NotImplementedError
+
     def stress_at(self, elements: Ints, points: Floats, time: float) -> Floats:
         """The same (m, 3) at reference points of elements, at a time."""
         raise NotImplementedError

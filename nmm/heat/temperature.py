@@ -1,15 +1,17 @@
 """The effect: temperature in the course of a run, and what it does to the blocks."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Self
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
+from nmm.assembly.matter import SWELLING, Matter
 from nmm.assembly.motion import State
 from nmm.diffusion.course import Course
 from nmm.diffusion.field_effect import FieldEffect, course_of
 from nmm.diffusion.from_scene import of_elements
-from nmm.effects.base import Setup
+from nmm.effects.base import Instant, Setup
 from nmm.errors import Fault, SceneError
 from nmm.heat.from_scene import heat_problem
 from nmm.heat.thermal_strain import ThermalStrain
@@ -37,9 +39,11 @@ class Heat(FieldEffect):
         second: float = 1.0,
         bends: bool = False,
         given: tuple[float, ...] = (),
+        at_once: bool = False,
     ) -> None:
         super().__init__(course, strain, conductivity, second)
         self.strain, self._reference, self._given = strain, reference, given
+        self._at_once = at_once
         if bends and strain is not None:
             from nmm.effects.initial.turning_stress import TurningStress
 
@@ -65,7 +69,9 @@ class Heat(FieldEffect):
             *([] if table.initial is None else [table.initial]),
         )
         strain = _strain(setup, space)
-        return cls(course, strain, conductivity, table.reference, second, bends, given)
+        first = setup.scene.stages[0] if setup.scene.stages else setup.scene
+        moves = setup.scene.inertia is not None and first.duration is not None
+        return cls(course, strain, conductivity, table.reference, second, bends, given, moves)
 
     @property
     def caution(self) -> str:
@@ -83,6 +89,23 @@ class Heat(FieldEffect):
     def with_axes(self) -> str:
         """See `Effect.with_axes`: nothing; its stress turns with what it strains."""
         return ""
+
+    def begin(self, state: State) -> State:
+        """See `Effect.begin`: in motion heat is there at once, and matter at rest under it."""
+        matter = None if self.strain is None else self.strain.model.matter
+        if not (self._at_once and self.strain is not None and isinstance(matter, Matter)):
+            return state
+        swelling = self.strain.swelling(self.acting(state.time))
+        assert swelling is not None
+        heated = {**state.history, SWELLING: swelling[:, None]}
+        return replace(state, history=matter.update(state.deformation, heated, 0.0).history)
+
+    def swelling(self, state: State, end: Instant) -> Floats | None:
+        """See `Effect.swelling`."""
+        if self.strain is None:
+            return None
+        self._begin(state, end)
+        return self.strain.swelling(self.acting(end.time))
 
     def energy(self, state: State) -> float:
         """Energy (J) of the elastic strain beyond that of the whole strain, ``1/2 e : D e``."""
@@ -103,6 +126,8 @@ class Heat(FieldEffect):
         stored = float(last @ (held @ last) - first @ (held @ first)) / 2
         if self._turned is not None:
             return stored + self._turned.work(before, after)
+        if self.strain.points is not None:
+            stored -= self.strain.model.swollen(before, after)
         push = self.strain.force(last - first)
         return stored - float(push @ (before.deformation + after.deformation)) / 2
 
@@ -130,21 +155,21 @@ def _strain(setup: Setup, space: ScalarSpace) -> ThermalStrain | None:
     Raises
     ------
     SceneError
-        A material that is not linear, or volumes that are projected.
+        A material whose law knows of no swelling, or volumes that are projected.
     """
     scene, model = setup.scene, setup.model
     if not any(item.thermal_expansion for item in scene.materials.values()):
         return None
     for number, (name, item) in enumerate(scene.materials.items()):  # a handful of materials
-        if item.thermal_expansion and model.laws and not model.laws[number].linear:
+        law = model.laws[number] if model.laws else None
+        if item.thermal_expansion and law is not None and not (law.linear or law.swells):
             place = scene.source.place("materials", name, "thermal_expansion")
-            found, expected = f'with law "{item.law}"', "a linear law"
+            found, expected = f'with law "{item.law}"', "a law that knows of it (`Law.swells`)"
             raise SceneError(Fault(place, found, expected, 'use law = "elastic", or remove it'))
     if model.projected and model.pressures is not None:
         place = setup.formulation.source.place("cover", "volumetric")
         found, expected = '"projected" with thermal expansion', '"full"'
         raise SceneError(Fault(place, found, expected, "use degree 1 or 2"))
     expansion = of_elements(setup, "thermal_expansion")
-    if scene.plane == "strain":
-        expansion = expansion * (1 + of_elements(setup, "poisson_ratio"))
-    return ThermalStrain.of(space, model, expansion)
+    across = of_elements(setup, "poisson_ratio") * (scene.plane == "strain")
+    return ThermalStrain.of(space, model, expansion, across)

@@ -10,10 +10,11 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array, diags_array
 
 from covers.scalar.space import ScalarSpace
 from integration.arrays import Floats
+from nmm.assembly.matter import Matter
 from nmm.assembly.model import Model
 from nmm.assembly.stress_points import ISOTROPIC
 from nmm.diffusion.field_stress import FieldStress
@@ -27,16 +28,34 @@ class ThermalStrain(FieldStress):
     Attributes
     ----------
     expansion
-        (E,) strain in the plane for each kelvin (1/K).
+        (E,) strain in the plane for each kelvin (1/K); 0 where laws are not linear.
+    points
+        (Q, n) strain in all three directions, of a unit of the temperature's unknowns, at material
+        points of laws that are not linear: they answer for what is left of the strain. None where
+        there are none.
     """
 
     expansion: Floats = field(kw_only=True)
+    points: csr_array | None = field(default=None, kw_only=True)
 
     @classmethod
-    def of(cls, space: ScalarSpace, model: Model, expansion: Floats) -> Self:
-        """Make the stress of a strain (E,) for each kelvin."""
-        stress = np.einsum("eij,ej->ei", model.elasticity, expansion[:, None] * ISOTROPIC)
-        return cls(space, model, stress, expansion=expansion)
+    def of(cls, space: ScalarSpace, model: Model, expansion: Floats, across: Floats) -> Self:
+        """Make it of a strain (E,) for each kelvin.
+
+        In the plane it is larger by the share ``across`` (E,) where the third direction is held.
+        """
+        points, plane, matter = None, expansion * (1 + across), model.matter
+        if isinstance(matter, Matter):
+            rule = matter.points.rule
+            rows = diags_array(expansion[rule.owner]) @ space.values(rule.owner, rule.points)
+            points, plane = csr_array(rows), plane.copy()
+            plane[rule.owner] = 0.0
+        stress = np.einsum("eij,ej->ei", model.elasticity, plane[:, None] * ISOTROPIC)
+        return cls(space, model, stress, expansion=plane, points=points)
+
+    def swelling(self, unknowns: Floats) -> Floats | None:
+        """Strain (Q,) of material points; see `Effect.swelling`."""
+        return None if self.points is None else np.asarray(self.points @ unknowns)
 
     @cached_property
     def held(self) -> csc_array:

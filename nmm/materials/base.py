@@ -83,6 +83,15 @@ class Law(ABC):
         return False
 
     @property
+    def swells(self) -> bool:
+        """Whether it takes ``swelling`` (m, 1) of the history where matter is heated.
+
+        That is the strain at the end of the step, alike in all three directions, that is free of
+        stress.
+        """
+        return False
+
+    @property
     def sized(self) -> bool:
         """Whether answers hang on the size of cells: ``cell_size`` (m, 1) in m of the history.
 

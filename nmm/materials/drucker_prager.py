@@ -12,6 +12,7 @@ from nmm.materials.base import History, Response
 from nmm.materials.cone_return import SmoothCone, cone_return
 from nmm.materials.frictional import Frictional
 from nmm.materials.planes import Planes, falling
+from nmm.materials.plasticity import inelastic
 
 MATCHES = ("plane_strain", "compression", "extension")
 
@@ -56,10 +57,8 @@ class DruckerPragerPlasticity(Frictional):
 
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
         """See `Law.update`."""
-        before = history["plastic_strain"]
-        return self.answer(
-            cone_return(strain, before, self._cone, self.weakening(history)), history
-        )
+        before, weakening = inelastic(history), self.weakening(history)
+        return self.answer(cone_return(strain, before, self._cone, weakening), history)
 
     @cached_property
     def _cone(self) -> SmoothCone:

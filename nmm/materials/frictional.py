@@ -126,7 +126,8 @@ class Frictional(Plastic):
     def answer(self, found: ReturnedStress, history: History) -> Response:
         """Return the response of points whose stress has returned."""
         accumulated = grown(history, found.plastic_strain)
-        response = flowed(found.stress, found.tangent, found.plastic_strain, accumulated)
+        parts = found.stress, found.tangent, found.plastic_strain, accumulated
+        response = flowed(history, *parts)
         if not self.sized:
             return response
         history = {**response.history, "softened": found.softened[:, None]}

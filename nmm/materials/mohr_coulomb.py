@@ -8,6 +8,7 @@ from integration.arrays import Floats
 from nmm.materials.base import History, Response
 from nmm.materials.frictional import Frictional
 from nmm.materials.planes import Planes
+from nmm.materials.plasticity import inelastic
 from nmm.materials.principal_return import Pyramid, principal_return
 
 
@@ -27,8 +28,8 @@ class MohrCoulombPlasticity(Frictional):
 
     def update(self, strain: Floats, history: History, plane: str, step: float) -> Response:
         """See `Law.update`."""
-        before = history["plastic_strain"]
-        found = principal_return(strain, before, self._pyramid, self.weakening(history))
+        before, weakening = inelastic(history), self.weakening(history)
+        found = principal_return(strain, before, self._pyramid, weakening)
         return self.answer(found, history)
 
     @cached_property

@@ -8,6 +8,9 @@ from integration.arrays import Floats
 from nmm.materials.base import History, Response
 from nmm.materials.elastic import Elastic, elastic_energy
 
+EVEN = np.array([1.0, 1.0, 0.0, 1.0])
+"""Strain (xx, yy, 2 xy, zz) alike in all directions."""
+
 
 @dataclass(frozen=True)
 class Plastic(Elastic):
@@ -18,6 +21,11 @@ class Plastic(Elastic):
     Internal variables: ``plastic_strain`` (4: xx, yy, 2 xy, zz), ``accumulated_plastic_strain``
     and ``stress_zz`` (Pa).
     """
+
+    @property
+    def swells(self) -> bool:
+        """See `Law.swells`."""
+        return True
 
     @property
     def rests(self) -> bool:
@@ -48,21 +56,33 @@ class Plastic(Elastic):
         return elastic_energy(self.young_modulus, self.poisson_ratio, stress, zz)
 
 
+def inelastic(history: History) -> Floats:
+    """Return the strain (m, 4: xx, yy, 2 xy, zz) that is not elastic: flow, and what swells."""
+    flow, swelling = history["plastic_strain"], history.get("swelling")
+    return flow if swelling is None else flow + swelling * EVEN
+
+
 def flowed(
-    stress: Floats, tangent: Floats, plastic_strain: Floats, accumulated: Floats
+    history: History, stress: Floats, tangent: Floats, strain: Floats, accumulated: Floats
 ) -> Response:
-    """Return the response of points; stress (m, 4) has that across last."""
+    """Return the response of points whose `inelastic` strain became ``strain`` (m, 4).
+
+    Stress (m, 4) has that across last.
+    """
     variables = {
-        "plastic_strain": plastic_strain,
+        "plastic_strain": history["plastic_strain"] + (strain - inelastic(history)),
         "accumulated_plastic_strain": accumulated[:, None],
         "stress_zz": stress[:, 3:],
     }
     return Response(stress[:, :3], tangent, variables)
 
 
-def grown(history: History, plastic_strain: Floats) -> Floats:
-    """Return the accumulated plastic strain (m,) after a step, that of shape and not of volume."""
-    flow = plastic_strain - history["plastic_strain"]
-    flow = flow - flow[:, [0, 1, 3]].sum(axis=1)[:, None] / 3 * np.array([1, 1, 0, 1])
+def grown(history: History, strain: Floats) -> Floats:
+    """Return the accumulated plastic strain (m,) where the `inelastic` one became ``strain``.
+
+    It is that of shape and not of volume.
+    """
+    flow = strain - inelastic(history)
+    flow = flow - flow[:, [0, 1, 3]].sum(axis=1)[:, None] / 3 * EVEN
     size = np.sqrt(2 / 3 * (np.array([1, 1, 0.5, 1]) * flow**2).sum(axis=1))
     return np.asarray(history["accumulated_plastic_strain"][:, 0] + size)

@@ -9,7 +9,7 @@ from integration.arrays import Bools, Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
 from nmm.materials.crack_band import check_cells
-from nmm.materials.plasticity import Plastic, flowed
+from nmm.materials.plasticity import Plastic, flowed, inelastic
 from nmm.materials.projected_return import projected_return
 from nmm.materials.radial_return import Returned, radial_return
 
@@ -98,11 +98,11 @@ class VonMisesPlasticity(Plastic):
             return self._softened(strain, history)
         found = (projected_return if plane == "stress" else radial_return)(
             strain,
-            history["plastic_strain"],
+            inelastic(history),
             history["accumulated_plastic_strain"][:, 0],
             (self.young_modulus, self.poisson_ratio, self.yield_stress, self.hardening_modulus),
         )
-        return flowed(found.stress, found.tangent, found.plastic_strain, found.accumulated)
+        return _flowed(history, found)
 
     def _softened(self, strain: Floats, history: History) -> Response:
         """Return the response in plane strain while the yield stress falls, and after it."""
@@ -114,14 +114,18 @@ class VonMisesPlasticity(Plastic):
             yields = np.where(left, self.residual_stress, self.yield_stress)
             falls = np.where(left, 0.0, -slope)
             constants = self.young_modulus, self.poisson_ratio, yields, falls
-            return radial_return(strain, history["plastic_strain"], before, constants)
+            return radial_return(strain, inelastic(history), before, constants)
 
         found = returned(before >= last)
         if (found.accumulated > last).any():  # some came to the end of the line in this step
             found = returned(found.accumulated > last)
-        return flowed(found.stress, found.tangent, found.plastic_strain, found.accumulated)
+        return _flowed(history, found)
 
     def energy(self, stress: Floats, history: History, plane: str) -> Floats:
         """Return the elastic energy and what hardening stores, ``H p^2 / 2``."""
         hard = self.hardening_modulus * history["accumulated_plastic_strain"][:, 0] ** 2
         return np.asarray(super().energy(stress, history, plane) + hard / 2)
+
+
+def _flowed(history: History, found: Returned) -> Response:
+    return flowed(history, found.stress, found.tangent, found.plastic_strain, found.accumulated)

@@ -11,7 +11,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.carried.history import nearest_points
-from nmm.assembly.matter import INITIAL, STRESS, Matter
+from nmm.assembly.matter import INITIAL, STRESS, SWELLING, Matter
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.assembly.stress_points import StressPoints, nearest
@@ -75,6 +75,7 @@ class ChangedMaterials(Effect):
     def kept_by(self, old: Setup, new: Setup, before: State, after: State) -> KeptStress:
         """Return what changed blocks keep as they go from one model to the next."""
         changed = np.flatnonzero(old.region_material != new.region_material)
+        _unheated(old, new, changed, before)
         had = old.model.manifold.element_region[self.kept.points.rule.owner]
         region = new.model.manifold.element_region
         points = _points(new.model, np.isin(region, [*changed, *had]))
@@ -196,6 +197,21 @@ def _places_of(points: StressPoints, among: StressPoints) -> Ints:
     found = np.full(len(points), -1)
     found[np.isin(one, other)] = np.flatnonzero(np.isin(other, one))
     return found
+
+
+def _unheated(old: Setup, new: Setup, changed: Ints, state: State) -> None:
+    """Refuse regions of matter that has swollen whose law is of another kind from here on."""
+    matter = old.model.matter
+    if SWELLING not in state.history or not isinstance(matter, Matter):
+        return
+    region = old.model.manifold.element_region[matter.points.rule.owner]
+    swollen = region[state.history[SWELLING][:, 0] != 0]
+    for one in changed[np.isin(changed, swollen) & ~_alike(old, new)[changed]]:
+        raise FormulationError(
+            f"[[stages]] materials: block {old.region_name[one]}: heated matter that yields or "
+            "creeps: expected a material of the same law, which knows what of its strain heat "
+            "made: give it that law, or change the material before it is heated"
+        )
 
 
 def _refuse(setup: Setup) -> None:

@@ -74,6 +74,11 @@ class Viscous(Elastic):
         """Return the plane stiffness of an instant."""
         return _tangent(self.stiff(0.0), self.bulk, _across(self.stiff(0.0), self.bulk, plane))
 
+    @property
+    def swells(self) -> bool:
+        """See `Law.swells`."""
+        return True
+
     def variables(self, plane: str) -> History:
         """See `Law.variables`."""
         return {
@@ -90,7 +95,11 @@ class Viscous(Elastic):
         kept = old * np.exp(-step / times)[:, None]
         known = 2 * spring * before + kept.sum(axis=1) - 2 * stiff * before
         share = _across(stiff, self.bulk, plane)
-        across = share * (strain[:, 0] + strain[:, 1])
+        held: float | Floats = 0.0
+        if "swelling" in history:
+            strain = strain - history["swelling"] * MEAN[:3]
+            held = 0.0 if plane == "stress" else history["swelling"][:, 0]
+        across = share * (strain[:, 0] + strain[:, 1]) - held
         if plane == "stress":
             across = across - known[:, 3] / (4 / 3 * stiff + self.bulk)
         whole = np.column_stack([strain, across])

@@ -206,6 +206,12 @@ class Plan(Hooks):
         """Effects, by name, whose force is no line in the unknowns of a step."""
         return {name: one for name, one in self.named("through") if one.bends}
 
+    def swelling(self, state: State, end: Instant) -> Floats | None:
+        """Return what material points swell by at the end of a step (Q, 1); None where nothing."""
+        asked = (effect.swelling(state, end) for _, effect in self.named("swelling"))
+        found = [one for one in asked if one is not None]
+        return sum(found[1:], start=found[0])[:, None] if found else None
+
     def through(self, name: str, before: State, after: State, span: Span) -> StepForce:
         """Return what a bent effect does through a step."""
         return self.timed(name, partial(self.effects[name].through, before, after, span))

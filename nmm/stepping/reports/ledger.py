@@ -311,8 +311,9 @@ def standing(plan: "Plan", before: State, after: State) -> float:
     """Half the work (J) of what acts at the start of statics, weight and initial stress included.
 
     It is what holds a start that is not in equilibrium and is withdrawn evenly in the first step.
+    What swells in that step has grown from nothing.
     """
-    held = replace(after, time=before.time, load_factor=before.load_factor)
+    held = replace(after, time=before.time, load_factor=before.load_factor, history=before.history)
     stress = sum(plan.energy(name, before) - plan.energy(name, held) for name in STRAINING)
     stress += plan.felt_energy(before) - plan.felt_energy(held)
     return (plan.work(before, held) + stress) / 2

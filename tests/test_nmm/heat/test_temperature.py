@@ -182,12 +182,6 @@ def test_what_contradicts_itself_is_refused_by_line(text, said):
             wall("conductance = 1.0").replace("[[2, 0], [2, 0.5]]\ntemp", "[[9, 0], [9, 1]]\ntemp"),
             "segment: .*expected a part of the boundary",
         ),
-        (
-            wall("conductance = 1.0").replace(
-                "[materials.m]", '[materials.m]\nlaw = "von_mises"\nyield_stress = "1 MPa"'
-            ),
-            "thermal_expansion.*linear",
-        ),
     ],
 )
 def test_what_cannot_be_solved_is_refused_by_line_before_it_runs(text, said):

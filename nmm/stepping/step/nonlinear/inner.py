@@ -66,8 +66,9 @@ class Inner:
         self.flows = matter is not None and matter.flows
         self.searches = matter is None or matter.flows
         self.tolerance = CONSERVED if conserves else BALANCED
+        swelling = current.plan.swelling(state, end) if self.flows else None
         given = current.model, state, step, weight, conserves
-        self._matter = MatterForces(*given, self.symmetric)
+        self._matter = MatterForces(*given, self.symmetric, swelling)
         symmetrised = self.symmetric and not even
         self._effects = EffectForces(current, state, end, span, kinematics, symmetrised)
         self.elastic, self.start = self._matter.elastic, self._matter.start

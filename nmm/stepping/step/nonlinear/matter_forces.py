@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from integration.arrays import Floats
-from nmm.assembly.matter import STRESS
+from nmm.assembly.matter import STRESS, SWELLING
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
 from nmm.stepping.step.nonlinear.iterate import InnerPart, size
@@ -31,6 +31,8 @@ class MatterForces:
         Whether forces are those of the whole step, which keep energy.
     symmetric
         Whether tangents are to be.
+    swelling
+        (Q, 1) strain of material points at the end of the step, free of stress; None is none.
 
     Attributes
     ----------
@@ -48,6 +50,7 @@ class MatterForces:
         weight: float,
         conserves: bool,
         symmetric: bool,
+        swelling: Floats | None = None,
     ) -> None:
         self._model, self._state, self._step = model, state, step
         self._weight, self._conserves, self._symmetric = weight, conserves, symmetric
@@ -57,6 +60,7 @@ class MatterForces:
         else:
             self.elastic = model.matter.elastic_stiffness
             self.start = model.internal(state)
+        self._history = _swollen(state.history, swelling)
 
     def at(
         self, increment: Floats, before: Floats | None
@@ -73,9 +77,10 @@ class MatterForces:
         if self._conserves:
             return self._conserving(whole), state.history
         last = None if before is None else state.deformation + before
-        answer = matter.at_rest(state.history) if before is None and not increment.any() else None
+        rests = before is None and not increment.any() and self._history is state.history
+        answer = matter.at_rest(state.history) if rests else None
         if answer is None:
-            answer = matter.update(whole, state.history, self._step or 0.0, last)
+            answer = matter.update(whole, self._history, self._step or 0.0, last)
         stays = not increment.any() and _rounding(answer.stress, state.history.get(STRESS))
         force = self.start if stays else matter.force(whole, answer.stress)
         tangent = answer.tangent
@@ -109,6 +114,13 @@ class MatterForces:
             missed = missed + touching / self._weight
         whole = max(size(scale * one) for one in (then.force, self.start, applied))
         return size(scale * missed) / whole if whole else 0.0
+
+
+def _swollen(history: Mapping[str, Floats], swelling: Floats | None) -> Mapping[str, Floats]:
+    """Return what matter remembers with what it swells by at the end; the same where that stays."""
+    if swelling is None or np.array_equal(history.get(SWELLING, 0.0 * swelling), swelling):
+        return history
+    return {**history, SWELLING: swelling}
 
 
 def _rounding(stress: Floats, known: Floats | None) -> bool:
