@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from nmm.testing.block_covers import check_block_cover as check_block_cover
     from nmm.testing.controls import check_control as check_control
     from nmm.testing.covers import check_cover as check_cover
     from nmm.testing.criteria import check_criterion as check_criterion
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from nmm.testing.effects import check_effect_of as check_effect_of
     from nmm.testing.enforcements import check_enforcement as check_enforcement
     from nmm.testing.enforcements import check_smooth_enforcement as check_smooth_enforcement
+    from nmm.testing.impositions import check_imposition as check_imposition
     from nmm.testing.integrators import check_integrator as check_integrator
     from nmm.testing.interface_laws import check_interface_law as check_interface_law
     from nmm.testing.laws import check_law as check_law
@@ -23,12 +25,14 @@ if TYPE_CHECKING:
     from nmm.testing.strengths import check_strength as check_strength
 
 _HOME = {
+    "check_block_cover": "block_covers",
     "check_control": "controls",
     "check_cover": "covers",
     "check_criterion": "criteria",
     "check_effect": "effects",
     "check_effect_of": "effects",
     "check_enforcement": "enforcements",
+    "check_imposition": "impositions",
     "check_integrator": "integrators",
     "check_interface_law": "interface_laws",
     "check_law": "laws",
@@ -39,12 +43,14 @@ _HOME = {
 }
 
 __all__ = [
+    "check_block_cover",
     "check_control",
     "check_cover",
     "check_criterion",
     "check_effect",
     "check_effect_of",
     "check_enforcement",
+    "check_imposition",
     "check_integrator",
     "check_interface_law",
     "check_law",

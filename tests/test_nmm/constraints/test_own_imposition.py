@@ -1,6 +1,6 @@
 """A method of a user's own that holds interfaces: one class serves supports and glue alike."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -9,11 +9,12 @@ import nmm
 from integration.arrays import Floats
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
-from nmm.constraints.imposition import Imposition, Method
+from nmm.constraints.imposition import IMPOSITIONS, Imposition, Method
 from nmm.constraints.interface import Interface, Triplets, product
 from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
 from nmm.scene import parse_scene
+from nmm.testing import check_imposition
 from nmm.testing.scenes import pulled_bar
 from nmm.verification import text
 
@@ -72,36 +73,11 @@ def test_an_unknown_method_is_told_by_its_line() -> None:
         nmm.run(parse_scene(BAR, "bar"), parse_formulation(chosen))
 
 
-@pytest.mark.parametrize("kind", ["penalty", "nitsche"])
-def test_forces_are_minus_the_slope_of_the_energy(kind: str) -> None:
-    from integration.polygons import Polygons
-    from nmm.assembly.motion import initial_state
-    from nmm.constraints.shared_edges import gauss_interface, shared_edges
-    from nmm.effects.base import Instant
-    from nmm.formulation import CoverTable
-    from nmm.materials.elastic import Elastic
-    from nmm.model.from_polygons import solid
+@pytest.mark.parametrize("degree", [0, 1, 2])
+@pytest.mark.parametrize("kind", sorted(IMPOSITIONS.table))
+def test_a_built_in_method_keeps_what_all_promise(kind: str, degree: int) -> None:
+    check_imposition(IMPOSITIONS.load(kind), degree)
 
-    squares = [np.array([[x, 0.0], [x + 1, 0], [x + 1, 1], [x, 1]]) for x in (0.0, 1.0)]
-    cover = CoverTable(type="triangles", size=0.4, degree=1, angle=0.3, shift=(0.1, 0.2))
-    model = solid(Polygons.from_vertices(squares), cover, [Elastic(1.0, 0.3)] * 2, "strain")
-    interface = gauss_interface(model, shared_edges(model))
-    ground = replace(interface, second=None)
-    rng = np.random.default_rng(3)
-    at = initial_state(model.manifold)
-    q, step = (rng.normal(size=model.manifold.n_unknowns) for _ in range(2))
-    for one in (interface, ground):
-        tie = Method(kind, 0.4, 1).impose(model, [one])[0]
 
-        def at_amount(amount: float, tie: Imposition = tie) -> tuple[State, Floats]:
-            state = replace(at, deformation=q + amount * step)
-            return state, tie.interface.jump(tie.interface.motion(state), Instant(0.0, 0.0))
-
-        # The energy is quadratic: central differences are exact to rounding.
-        slope = (tie.energy(*at_amount(0.5)) - tie.energy(*at_amount(-0.5))) / 1.0
-        assert tie.force(*at_amount(0.0)) @ step == pytest.approx(-slope, rel=1e-9)
-        row, column, value = tie.matrix(at)
-        curvature = float(np.sum(step[row] * value * step[column]))
-        second = tie.energy(*at_amount(1.0)) + tie.energy(*at_amount(-1.0))
-        second -= 2 * tie.energy(*at_amount(0.0))
-        assert curvature == pytest.approx(second, rel=1e-9)
+def test_a_method_of_ones_own_is_held_to_the_same() -> None:
+    check_imposition(Carpet)

@@ -13,9 +13,10 @@ import nmm
 from integration.polygons import Polygons
 from nmm.errors import NmmError
 from nmm.formulation import Formulation
-from nmm.geometry.tessellation.block_cover import BlockCover, PieceGlue
-from nmm.geometry.tessellation.sub_blocks import SubBlocks
+from nmm.geometry.tessellation.block_cover import BlockCover, PieceGlue, WholeBlocks
+from nmm.geometry.tessellation.sub_blocks import MESHES, SubBlocks
 from nmm.scene import parse_scene
+from nmm.testing import check_block_cover
 from nmm.verification import text
 
 ME = Path(__file__).stem
@@ -86,6 +87,13 @@ def importable(monkeypatch):
 def run(scene, cover, **tables):
     formulation = Formulation.model_validate({"cover": cover, **tables})
     return nmm.run(parse_scene(scene), formulation, allow_code=[ME])
+
+
+@pytest.mark.parametrize(
+    "cover", [WholeBlocks(), *(SubBlocks(mesh=one) for one in MESHES), Stones(), Courses()]
+)
+def test_a_cover_of_blocks_keeps_what_all_promise(cover):
+    check_block_cover(cover)
 
 
 FLYING = text.scene(

@@ -11,11 +11,14 @@ import nmm
 from covers.mathematical.moving_least_squares import MovingLeastSquares
 from covers.mathematical.quads import Quads
 from covers.mathematical.triangles import Triangles
+from integration.polygons import Polygons
+from nmm.constraints.springs import Springs
 from nmm.contact.enforcement.barrier import Barrier
 from nmm.contact.enforcement.cone import Cone
 from nmm.contact.enforcement.penalty import Penalty
 from nmm.effects.gravity import Gravity
 from nmm.errors import SolveError
+from nmm.geometry.tessellation.block_cover import BlockCover
 from nmm.integrators.newmark import Newmark
 from nmm.interfaces.mohr_coulomb import MohrCoulomb
 from nmm.interfaces.softening import LinearSoftening
@@ -25,10 +28,12 @@ from nmm.quantity import Quantity
 from nmm.solvers.libraries.superlu import SuperLU
 from nmm.stepping.prepare import prepare
 from nmm.testing import (
+    check_block_cover,
     check_cover,
     check_effect,
     check_effect_of,
     check_enforcement,
+    check_imposition,
     check_integrator,
     check_interface_law,
     check_output,
@@ -445,6 +450,80 @@ LAWS = {
 def test_a_wrong_interface_law_is_told(words):
     with told(words):
         check_interface_law(LAWS[words](**BOND, fracture_energy=100.0))
+
+
+class Doubled(Springs):
+    def energy(self, state, jump):
+        return 2 * super().energy(state, jump)
+
+
+class Slack(Springs):
+    def matrix(self, state):
+        row, column, value = super().matrix(state)
+        return row, column, 0.99 * value
+
+
+class Unpaired(Springs):
+    def force(self, state, jump):
+        return self.interface.first.points.push(state, self.point_forces(state, jump))
+
+
+class Quiet(Springs):
+    def force(self, state, jump):
+        return self.interface.spread(state, super().point_forces(state, jump))
+
+    def point_forces(self, state, jump):
+        return 0.5 * super().point_forces(state, jump)
+
+
+IMPOSITIONS = {
+    "Doubled, glue: force on a way": Doubled,
+    "Slack, glue: matrix times a way": Slack,
+    "Unpaired, glue: force on a way": Unpaired,
+    "Quiet, ground: force on all bodies": Quiet,
+}
+
+
+@pytest.mark.parametrize("words", IMPOSITIONS)
+def test_a_wrong_imposition_is_told(words):
+    with told(words):
+        check_imposition(IMPOSITIONS[words])
+
+
+@dataclass(frozen=True)
+class Lower(BlockCover):
+    """Boxes cut at a height of their own, of which the pieces are given."""
+
+    divides = True
+    ends: tuple[float, ...] = (0.0, 0.5, 1.0)
+    sources: tuple[int, ...] = (0, 0, 1, 1)
+
+    def divided(self, blocks, size, angle, shift):
+        pieces = [
+            np.array([[x, a], [x + w, a], [x + w, b], [x, b]])
+            for x, w in ((0.0, 1.0), (1.0, 2.0))
+            for a, b in zip(self.ends[::2], self.ends[1::2], strict=True)
+        ]
+        return Polygons.from_vertices(pieces), np.array(self.sources)
+
+
+BLOCK_COVERS = {
+    "block 0: areas of its pieces: off by 0.25": Lower((0.0, 0.5, 0.5, 0.75)),
+    "block 0: areas of its pieces as one": Lower((0.0, 0.6, 0.5, 0.9)),
+    "block 0: areas of its pieces outside": Lower((0.0, 0.5, 0.6, 1.1)),
+    "sources are not the 2 blocks": Lower((0.0, 0.5, 0.5, 1.0), (0, 0, 0, 2)),
+    "3 sources of 4 pieces": Lower((0.0, 0.5, 0.5, 1.0), (0, 0, 1)),
+}
+
+
+@pytest.mark.parametrize("words", BLOCK_COVERS)
+def test_a_wrong_block_cover_is_told(words):
+    with told(words):
+        check_block_cover(BLOCK_COVERS[words])
+
+
+def test_a_block_cover_that_is_right_is_not_told():
+    check_block_cover(Lower((0.0, 0.5, 0.5, 1.0)))
 
 
 def test_an_effect_that_is_right_on_blocks_alone_is_told(tmp_path):
