@@ -24,7 +24,7 @@ from nmm.errors import DamageError, NmmWarning, StorageError
 from nmm.plots import draw_all
 from nmm.results import Frame, MemorySink, RunFolder, read_run
 from nmm.results.viewing.paraview import write_paraview
-from nmm.testing.killing import killed
+from nmm.testing.resumed.killing import killed
 from nmm.verification import text
 
 TESTS = Path(__file__).resolve().parents[1]

@@ -8,7 +8,7 @@ seed and threads are read at its start.
 import pytest
 
 from nmm.shipped import example
-from nmm.testing.killing import apart, check_same_files
+from nmm.testing.resumed.killing import apart, check_same_files
 
 RUN = "import sys, nmm; nmm.run(nmm.read_scene(sys.argv[1]), out=sys.argv[2])"
 

@@ -9,7 +9,7 @@ import pytest
 import nmm
 from nmm.errors import SceneError
 from nmm.testing import check_effect_of
-from nmm.testing.stopping import check_goes_on
+from nmm.testing.resumed.stopping import check_goes_on
 
 WALL = """
 title = "wall"

@@ -8,8 +8,8 @@ import pytest
 import nmm
 from nmm.errors import NmmError
 from nmm.splitting.strength import Principal
-from nmm.testing.killing import check_same_bytes
-from nmm.testing.stopping import stopped_after
+from nmm.testing.resumed.killing import check_same_bytes
+from nmm.testing.resumed.stopping import stopped_after
 
 COLUMN = """
 title = "column"

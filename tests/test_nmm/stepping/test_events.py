@@ -9,8 +9,8 @@ import nmm
 from nmm.errors import SceneError
 from nmm.results.storage.stored_run import read_run
 from nmm.results.viewing.paraview import write_paraview
-from nmm.testing.killing import check_same_bytes
-from nmm.testing.stopping import stopped_after
+from nmm.testing.resumed.killing import check_same_bytes
+from nmm.testing.resumed.stopping import stopped_after
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "own_effect" / "seam.toml"
 SEAM = EXAMPLE.read_text()

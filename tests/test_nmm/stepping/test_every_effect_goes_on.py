@@ -12,7 +12,7 @@ from nmm.model.called_for import called_for
 from nmm.model.effects_table import EFFECTS, GLUE
 from nmm.scene import build_scene
 from nmm.stepping.prepare import prepare
-from nmm.testing.stopping import check_goes_on
+from nmm.testing.resumed.stopping import check_goes_on
 from nmm.verification.hard.spoilt.mutations import sound_files
 
 # Loads that come on in one step are brought on in increments; weight alone has none, and these

@@ -10,7 +10,7 @@ import pytest
 import nmm
 from nmm.errors import DamageError, StorageError
 from nmm.testing import stopping
-from nmm.testing.killing import check_same_bytes, killed_and_gone_on
+from nmm.testing.resumed.killing import check_same_bytes, killed_and_gone_on
 
 SPEC = importlib.util.spec_from_file_location(
     "restart_scenes", Path(__file__).with_name("restart_scenes.py")

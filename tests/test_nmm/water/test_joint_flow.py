@@ -6,8 +6,8 @@ import pytest
 import nmm
 from nmm.errors import SceneError
 from nmm.testing import check_effect_of
+from nmm.testing.resumed.stopping import check_goes_on
 from nmm.testing.scenes import wet_pile
-from nmm.testing.stopping import check_goes_on
 
 PILE = (
     """

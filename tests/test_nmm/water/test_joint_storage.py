@@ -8,7 +8,7 @@ import pytest
 import nmm
 from nmm.errors import SceneError
 from nmm.testing import check_effect_of
-from nmm.testing.stopping import check_goes_on
+from nmm.testing.resumed.stopping import check_goes_on
 from nmm.verification.problems.joint_water import PressureInJoint
 
 SHORT = PressureInJoint(0.3)

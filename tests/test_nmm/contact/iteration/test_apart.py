@@ -10,7 +10,7 @@ import nmm
 from nmm.contact.iteration import apart
 from nmm.formulation import Formulation
 from nmm.scene.model import Scene
-from nmm.testing.stopping import check_goes_on
+from nmm.testing.resumed.stopping import check_goes_on
 
 STEP = 1e-3
 NEAR = 2e-7

@@ -8,7 +8,7 @@ from nmm import plots
 from nmm.errors import NmmError
 from nmm.quantity import MemberSegments
 from nmm.results.viewing.paraview import write_paraview
-from nmm.testing.stopping import check_goes_on
+from nmm.testing.resumed.stopping import check_goes_on
 
 PULLED = """
 plane = "stress"

@@ -8,7 +8,7 @@ from nmm.errors import NmmError
 from nmm.formulation import parse_formulation
 from nmm.scene.read import parse_scene
 from nmm.stepping.prepare import prepare
-from nmm.testing.stopping import check_goes_on
+from nmm.testing.resumed.stopping import check_goes_on
 
 # A beam of 100 mm, span 400, notch 30 mm, in three-point bending.
 BEAM = """

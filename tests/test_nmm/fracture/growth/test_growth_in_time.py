@@ -16,7 +16,7 @@ from nmm.fracture.growth.speed import freund, rayleigh_part
 from nmm.scene.model import Scene
 from nmm.scene.read import parse_scene
 from nmm.stepping.run import Run
-from nmm.testing.stopping import check_resumed, stopped_after
+from nmm.testing.resumed.stopping import check_resumed, stopped_after
 
 HANGING = """
 plane = "strain"

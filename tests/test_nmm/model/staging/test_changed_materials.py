@@ -5,7 +5,7 @@ import pytest
 
 import nmm
 from nmm.errors import FormulationError, SceneError
-from nmm.testing.stopping import check_goes_on
+from nmm.testing.resumed.stopping import check_goes_on
 
 BAR = """
 plane = "stress"

@@ -5,8 +5,8 @@ import pytest
 
 import nmm
 from nmm.errors import SceneError
+from nmm.testing.resumed.stopping import check_goes_on
 from nmm.testing.scenes import salt_block
-from nmm.testing.stopping import check_goes_on
 
 G_K, ETA_K = 2e9, 2e14
 BULK, SHEAR = 20e9 / 3, 4e9

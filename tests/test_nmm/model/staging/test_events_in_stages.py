@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import nmm
-from nmm.testing.stopping import check_goes_on
+from nmm.testing.resumed.stopping import check_goes_on
 
 CRUSHED = """
 plane = "strain"

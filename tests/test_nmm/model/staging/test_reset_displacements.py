@@ -3,7 +3,7 @@
 import pytest
 
 import nmm
-from nmm.testing.stopping import check_goes_on
+from nmm.testing.resumed.stopping import check_goes_on
 
 COLUMN = """
 plane = "strain"

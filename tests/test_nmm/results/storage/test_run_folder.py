@@ -13,7 +13,7 @@ from nmm.quantity import Quantity
 from nmm.results import Frame, RunFolder, Summary, read_run
 from nmm.results.sink import MemorySink
 from nmm.results.storage import files
-from nmm.testing.killing import killed
+from nmm.testing.resumed.killing import killed
 
 
 def fill(sink, run):

@@ -5,7 +5,7 @@ import pytest
 
 import nmm
 from nmm.scene import parse_scene
-from nmm.testing.stopping import check_goes_on
+from nmm.testing.resumed.stopping import check_goes_on
 from nmm.verification.problems.past_the_peak.links import bundle, pull
 from nmm.verification.problems.past_the_peak.softening_bar import (
     AREA,

@@ -5,8 +5,8 @@ import pytest
 
 import nmm
 from nmm.scene import parse_scene
+from nmm.testing.resumed.stopping import check_goes_on
 from nmm.testing.scenes import salt_block
-from nmm.testing.stopping import check_goes_on
 
 SCENE = (
     salt_block("maxwell", 'viscosity = "4e14 Pa s"', {"press": -1}, 'duration = "{duration}"')

@@ -4,9 +4,9 @@ import pytest
 
 import nmm
 from nmm.stepping.safety import strength_reduction
-from nmm.testing.killing import check_same_bytes, killed_and_gone_on
+from nmm.testing.resumed.killing import check_same_bytes, killed_and_gone_on
+from nmm.testing.resumed.stopping import stopped_after
 from nmm.testing.scenes import block_on_incline
-from nmm.testing.stopping import stopped_after
 
 # A block on an incline of 30 degrees: its factor is tan 20 / tan 30 = 0.63 without cohesion.
 INCLINE = block_on_incline(30, 20, search="tolerance = 0.05") + (
