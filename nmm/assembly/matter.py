@@ -148,9 +148,9 @@ class Matter:
         # All but the stress, which is given anew.
         after = {name: history[name].copy() for name in history if name not in (INITIAL, STRESS)}
         for law, at in self._points:
-            answer = law.update(whole[at], self._own(law, history, at), self.plane, step)
-            stress[at], tangent[at] = answer.stress, answer.tangent
-            for name, value in answer.history.items():
+            given = whole[at], self._own(law, history, at), self.plane, step
+            stress[at], tangent[at], left = law.update(*given)
+            for name, value in left.items():
                 after[name][at, : value.shape[1]] = value
         if initial is not None:
             stress, after[INITIAL] = stress - self._initial(initial), initial

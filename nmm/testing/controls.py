@@ -22,8 +22,8 @@ def check_control(scene: Scene) -> None:
         Saying what is not kept and by how much.
     """
     loading = scene.loading
-    assert loading is not None
-    assert loading.control is not None
+    if loading is None or loading.control is None:
+        raise AssertionError("scene: it has no [loading.control], which names the control to check")
     given = loading.control
     finer = {
         name: getattr(given, name) / 3

@@ -7,6 +7,7 @@ import numpy as np
 
 from integration.arrays import Floats
 from nmm.materials.base import History, Law, Response
+from nmm.testing.claims import claim
 
 # Points of a check, each with a path of its own of so many steps.
 POINTS, STEPS = 200, 4
@@ -92,6 +93,11 @@ def start_of(law: Law, plane: str, points: int) -> dict[str, Floats]:
     return {name: np.tile(one, (points, 1)) for name, one in law.variables(plane).items()}
 
 
+def answered(law: Law, strain: Floats, history: History, plane: str, step: float) -> Response:
+    """Return what a law answers, be it a plain tuple."""
+    return Response(*law.update(strain, history, plane, step))
+
+
 def differences(
     law: Law, strain: Floats, history: History, plane: str, step: float, near: float
 ) -> Floats:
@@ -99,24 +105,29 @@ def differences(
     found = np.empty((len(strain), 3, 3))
     for axis in range(3):
         way = near * np.eye(3)[axis]
-        ends = [law.update(strain + sign * way, history, plane, step).stress for sign in (1, -1)]
+        ends = [answered(law, strain + sign * way, history, plane, step).stress for sign in (1, -1)]
         found[:, :, axis] = (ends[0] - ends[1]) / (2 * near)
     return found
 
 
 def _stiffness(law: Law, plane: str) -> None:
     matrix = np.asarray(law.stiffness(plane), dtype=float)
-    assert matrix.shape == (3, 3), f"stiffness in plane {plane}: shape {matrix.shape}, not (3, 3)"
+    claim(
+        bool(matrix.shape == (3, 3)),
+        f"stiffness in plane {plane}: shape {matrix.shape}, not (3, 3)",
+    )
     off = float(np.abs(matrix - matrix.T).max() / np.abs(matrix).max())
-    assert off < 1e-12, f"stiffness in plane {plane}: {off:.1e} off from symmetric"
+    claim(off < 1e-12, f"stiffness in plane {plane}: {off:.1e} off from symmetric")
     least = float(np.linalg.eigvalsh(matrix)[0])
-    assert least > 0, f"stiffness in plane {plane}: smallest eigenvalue {least:.3g}, not above 0"
+    claim(
+        bool(least > 0), f"stiffness in plane {plane}: smallest eigenvalue {least:.3g}, not above 0"
+    )
     start = start_of(law, plane, 1)
-    rest = law.update(np.zeros((1, 3)), start, plane, 0.0)
+    rest = answered(law, np.zeros((1, 3)), start, plane, 0.0)
     unit = float(np.abs(matrix).max())
-    assert np.abs(rest.stress).max() < 1e-12 * unit, f"plane {plane}: stress without strain"
+    claim(np.abs(rest.stress).max() < 1e-12 * unit, f"plane {plane}: stress without strain")
     off = float(np.abs(rest.tangent[0] - matrix).max() / unit)
-    assert off < 1e-9, f"plane {plane}: the first tangent is {off:.1e} off from `stiffness`"
+    claim(off < 1e-9, f"plane {plane}: the first tangent is {off:.1e} off from `stiffness`")
 
 
 def _path(law: Law, plane: str, size: float, step: float, random: np.random.Generator) -> None:
@@ -125,14 +136,16 @@ def _path(law: Law, plane: str, size: float, step: float, random: np.random.Gene
     unit = float(np.abs(law.stiffness(plane)).max())
     history: History = start_of(law, plane, POINTS)
     strain = np.zeros((POINTS, 3))
-    stress = law.update(strain, history, plane, 0.0).stress
+    stress = answered(law, strain, history, plane, 0.0).stress
     stored = law.energy(stress, history, plane)
     for _ in range(STEPS):
         before = {name: value.copy() for name, value in history.items()}
         then = strain + size * random.normal(size=(POINTS, 3))
-        found = law.update(then, history, plane, step)
+        found = answered(law, then, history, plane, step)
         for name, value in before.items():
-            assert np.array_equal(value, history[name]), f"{where}: update changed {name} it got"
+            claim(
+                bool(np.array_equal(value, history[name])), f"{where}: update changed {name} it got"
+            )
         _shapes(found, before, where)
         _alone(law, then, history, found, (plane, step, where))
         near = NEAR * size
@@ -141,31 +154,36 @@ def _path(law: Law, plane: str, size: float, step: float, random: np.random.Gene
         bad = float((off > CLOSE).mean())
         if law.symmetric:
             odd = np.abs(found.tangent - np.swapaxes(found.tangent, 1, 2)).max() / unit
-            assert odd < 1e-9, (
+            claim(
+                bool(odd < 1e-9),
                 f"{where}: tangents are {odd:.1e} off from symmetric: correct them, or say so by "
-                "`symmetric`"
+                "`symmetric`",
             )
-        assert bad <= KINKS, (
+        claim(
+            bad <= KINKS,
             f"{where}: the tangent is no derivative at {100 * bad:.0f} % of the points, by up to "
-            f"{off.max():.1e} of the elastic stiffness"
+            f"{off.max():.1e} of the elastic stiffness",
         )
         energy = law.energy(found.stress, found.history, plane)
-        assert np.isfinite(energy).all(), f"{where}: energy is not finite"
+        claim(np.isfinite(energy).all(), f"{where}: energy is not finite")
         _loss(law, (strain, stress, stored), then, history, (plane, step, where))
         strain, stress, stored, history = then, found.stress, energy, found.history
 
 
 def _shapes(found: Response, before: History, where: str) -> None:
-    assert found.stress.shape == (POINTS, 3), f"{where}: stress of shape {found.stress.shape}"
-    assert found.tangent.shape == (POINTS, 3, 3), f"{where}: tangent {found.tangent.shape}"
-    assert set(found.history) == set(before), (
-        f"{where}: variables {sorted(found.history)}, not {sorted(before)} as `variables` says"
+    claim(found.stress.shape == (POINTS, 3), f"{where}: stress of shape {found.stress.shape}")
+    claim(found.tangent.shape == (POINTS, 3, 3), f"{where}: tangent {found.tangent.shape}")
+    claim(
+        bool(set(found.history) == set(before)),
+        f"{where}: variables {sorted(found.history)}, not {sorted(before)} as `variables` says",
     )
     for name, value in before.items():
         shape = np.shape(found.history[name])
-        assert shape == value.shape, f"{where}: {name} of shape {shape}, not {value.shape}"
+        claim(shape == value.shape, f"{where}: {name} of shape {shape}, not {value.shape}")
     finite = [found.stress, found.tangent, *found.history.values()]
-    assert all(np.isfinite(one).all() for one in finite), f"{where}: numbers that are not finite"
+    claim(
+        bool(all(np.isfinite(one).all() for one in finite)), f"{where}: numbers that are not finite"
+    )
 
 
 def _alone(
@@ -175,10 +193,10 @@ def _alone(
     plane, step, where = at
     some = np.arange(POINTS)[::-7]
     own = {name: value[some] for name, value in history.items()}
-    answer = law.update(strain[some], own, plane, step)
+    answer = answered(law, strain[some], own, plane, step)
     scale = float(np.abs(found.stress).max()) or 1.0
     off = float(np.abs(answer.stress - found.stress[some]).max()) / scale
-    assert off < 1e-12, f"{where}: points know of each other: stresses differ by {off:.1e}"
+    claim(off < 1e-12, f"{where}: points know of each other: stresses differ by {off:.1e}")
 
 
 def _loss(
@@ -195,11 +213,14 @@ def _loss(
     first, way = strain, (then - strain) / parts
     energy = stored
     for _ in range(parts):
-        found = law.update(first + way, history, plane, step / parts)
+        found = answered(law, first + way, history, plane, step / parts)
         work += ((stress + found.stress) / 2 * way).sum(axis=1)
         first, stress, history = first + way, found.stress, found.history
         energy = law.energy(stress, history, plane)
     # Work by trapezia is off by some 1e-4 of the largest energies where the law has a kink.
     scale = float(np.maximum(np.abs(work), energy).max())
     given = float((energy - stored - work).max())
-    assert given <= 1e-3 * scale, f"{where}: a path gives {given / scale:.1e} of its energy"
+    claim(
+        given <= 1e-3 * scale,
+        f"{where}: a path gives {given / scale:.1e} of its energy: `energy` says what is stored",
+    )

@@ -5,11 +5,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+import nmm
 from nmm.errors import FormulationError
+from nmm.formulation import parse_formulation
 from nmm.materials.elastic import Elastic
 from nmm.materials.mohr_coulomb import MohrCoulombPlasticity
 from nmm.materials.von_mises import VonMisesPlasticity
+from nmm.scene import parse_scene
 from nmm.testing.laws import check_law, start_of
+from nmm.testing.scenes import pulled_bar
 
 STEEL = VonMisesPlasticity(200e9, 0.3, 250e6, 20e9)
 
@@ -36,6 +40,26 @@ def test_mohr_coulomb_keeps_what_every_law_must(friction, dilation):
 def test_mohr_coulomb_is_refused_in_plane_stress():
     with pytest.raises(FormulationError, match="takes part in the yield"):
         MohrCoulombPlasticity(1e5, 0.25, 20.0, 0.5).stiffness("stress")
+
+
+@dataclass(frozen=True)
+class Plain(Elastic):
+    """A law that answers in a plain tuple."""
+
+    def update(self, strain, history, plane, step):
+        matrix = self.stiffness(plane)
+        return strain @ matrix, np.tile(matrix, (len(strain), 1, 1)), history
+
+
+def test_a_law_may_answer_in_a_plain_tuple():
+    check_law(Plain(1e9, 0.3))
+    material = f'[materials.m]\nlaw = "{__name__}:Plain"\nyoung_modulus = 100\npoisson_ratio = 0\n'
+    bar = parse_scene(pulled_bar([material], [("bar", "m")]), "bar")
+    held = '[supports]\nmethod = "penalty"\nstiffness = 1e3\n'
+    formulation = parse_formulation(f'[cover]\ntype = "triangles"\nsize = 0.4\n{held}')
+    end = nmm.run(bar, formulation, allow_code=[__name__]).history["monitor:end:ux"][-1]
+    # 1 Pa on 1 m of 100 Pa, and on springs of 1e3 moduli over the cell; iterations leave 1e-10.
+    assert end == pytest.approx(1 / 100 + 0.4 / (1e3 * 100), rel=1e-9)
 
 
 @dataclass(frozen=True)
