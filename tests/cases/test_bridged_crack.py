@@ -68,3 +68,19 @@ def test_a_cable_is_stretched_by_what_the_crack_opens(run):
     np.testing.assert_allclose(anchors, anchors.mean(), rtol=0.03)
     assert 1 < anchors.mean() < 3
     np.testing.assert_allclose(force, opened / (each + anchors.mean() / MODULUS), rtol=8e-3)
+
+
+def test_a_crack_grows_at_its_toughness_where_the_cable_yields(run):
+    # The cable yields at 150 kN, below the 209 kN that the elastic one takes at first. The
+    # load was scaled once, as if all were linear: the run ended after a piece.
+    yields = SCENE.read_text().replace(
+        "[[supports]]", 'yield_stress = "10.71 MPa"\n[[supports]]', 1
+    )
+    found = nmm.run(nmm.parse_scene(yields.replace("cable", "strand")))
+    length, load = found.history["fracture:crack:length"], found.history["load_factor"]
+    np.testing.assert_allclose(length, 0.2 + 0.02 * np.arange(6), atol=1e-9)
+    np.testing.assert_allclose(found.history["fracture:crack:end:share"], 1, atol=1e-8)
+    force = 2 * found.history["bars:strand:force"]
+    assert (force < 0.75 * 2 * run.history["bars:cable:force"]).all()
+    closing = force * [of_cable(a) for a in length]
+    np.testing.assert_allclose(load * TENSION * of_tension(length) - closing, TOUGHNESS, rtol=3e-3)

@@ -20,8 +20,11 @@ from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.stepper import Stepper
 
 if TYPE_CHECKING:
+    from nmm.fracture.growth.growing import GrowingCracks
     from nmm.stepping.step.trial import Attempt
 
+# Solutions to find a load factor, and how near to the toughness it brings a tip.
+TRIALS, CLOSE = 20, 1e-9
 NOT_FELT = "no load factor opens a crack, no tip feels more than the error of its intensities"
 
 
@@ -69,17 +72,33 @@ class _Growing:
             return self._ended("no crack grows further", at)
         if stepper.model.manifold.n_bodies > self.bodies:
             return self._ended("a piece came free", at)
-        trial = self._solved(at, at.increment)
-        if isinstance(trial, RunVerdict):
-            return trial
-        with stepper.clock.phase("events"):
-            share = fracture.reached(trial.state)
-        if share is None:
-            return self._ended("every crack has come to an end", at)
-        if not share > 0:
-            return RunVerdict(FAILED, f"{NOT_FELT}: {at.changed or 'at first'}")
-        attempt = self._solved(at, at.increment / share)
+        attempt = self._at_toughness(at, fracture)
         return attempt if isinstance(attempt, RunVerdict) else self._grown(at, attempt)
+
+    def _at_toughness(self, at: UnderLoad, fracture: "GrowingCracks") -> "Attempt | RunVerdict":
+        """Balance at which the most critical tip is at its toughness, by secants from no load.
+
+        The first of them is exact but where members yield or slide.
+        """
+        before, had, factor = 0.0, 0.0, at.increment
+        for _ in range(TRIALS):
+            trial = self._solved(at, factor)
+            if isinstance(trial, RunVerdict):
+                return trial
+            with self.stepper.clock.phase("events"):
+                share = fracture.reached(trial.state)
+            if share is None:
+                return self._ended("every crack has come to an end", at)
+            if abs(share - 1) < CLOSE:
+                return trial
+            slope = (share - had) / (factor - before)
+            if not slope > 0:
+                break
+            before, had, factor = factor, share, factor + (1 - share) / slope
+        if not share and at.changed:
+            return self._ended(NOT_FELT, at)
+        missed = f"no load factor brings a tip to its toughness, {share:.6g} of it at {factor:.6g}"
+        return RunVerdict(FAILED, f"{missed if share else NOT_FELT}: {at.changed or 'at first'}")
 
     def _solved(self, at: UnderLoad, factor: float) -> "Attempt | RunVerdict":
         try:
