@@ -24,6 +24,7 @@ from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.contact.detection.joints import Joints
 from nmm.effects.base import Setup
+from nmm.effects.initial.stress_at_start import StressAtStart
 from nmm.errors import FormulationError, SceneError
 
 if TYPE_CHECKING:
@@ -55,7 +56,8 @@ class BondedInterfaces(TiedInterfaces):
             interface = gauss_interface(model, joints.take(sprung))
             stiffness = spring[sprung][interface.first.piece]
             glue = glue_stiffness(model, interface, part.stiffness)[:, None]
-            ties.append(joint_springs(interface, np.where(np.isnan(stiffness), glue, stiffness)))
+            tie = joint_springs(interface, np.where(np.isnan(stiffness), glue, stiffness))
+            ties.append(_under_stress(setup, tie) if setup.scene.initial_stresses else tie)
         cover = setup.formulation.cover
         if glued.any():
             size = cover.finest if model.manifold.shared_covers else None
@@ -173,6 +175,18 @@ def glue_edges(model: Model, joints: Joints, part: "Glue", size: float | None) -
         )
     stiffness = glue_stiffness(model, interface, part.stiffness) * interface.area
     return [tie, Springs(interface, np.where(free, stiffness, 0.0))]
+
+
+def _under_stress(setup: Setup, tie: Springs) -> Springs:
+    """Return springs that carry the stress of the ground as they are drawn: the mean traction."""
+    ground, interface = StressAtStart.declared(setup), tie.interface
+    a, b = (ground.at(setup.model, side.elements, side.position) for side in interface.sides)
+    xx, yy, xy, _ = ((a + b) / 2).T
+    assert interface.first.normal is not None
+    stress = np.stack([xx, xy, xy, yy], axis=1).reshape(-1, 2, 2)
+    force = interface.area[:, None, None] * stress @ interface.first.normal[:, :, None]
+    anchor = np.linalg.solve(tie.stiffness, force)[:, :, 0]
+    return replace(tie, interface=replace(interface, anchor=anchor))
 
 
 def _stiffnesses(setup: Setup, joints: Joints) -> tuple[Floats, Bools, Bools]:

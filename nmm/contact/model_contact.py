@@ -26,6 +26,7 @@ from nmm.contact.solution.step_bonds import StepBonds
 
 if TYPE_CHECKING:
     from nmm.contact.detection.crossing import Motion
+    from nmm.contact.laws.laid_under_stress import StressIn
     from nmm.contact.problem.step_problem import Limits
     from nmm.contact.solution.driver import ContactSolver
     from nmm.contact.solution.momentum import Momentum
@@ -55,7 +56,11 @@ class ModelContact:
         what solves is made in the first step.
     steps
         What puts the problem of a step together and solves it.
+    stored_first
+        Energy (J) of springs that carry something from the start (`lie_under`).
     """
+
+    stored_first: float = 0.0
 
     def __init__(self, model: Model, parts: ContactParts, start: State) -> None:
         self.laws, self.partners, self.exact = parts.laws, parts.partners, parts.enforcement.exact
@@ -110,6 +115,16 @@ class ModelContact:
         given = self._candidates, kin, state, self._parts.cracks, springs
         self.record = succeeding(old.record, self.record, *given)
         self._unbonded = self.record.book.broken - old.broken_bonds
+
+    def lie_under(self, stress: "StressIn") -> None:
+        """Let springs of joints carry a stress of the ground from the start."""
+        if not len(self.record.book.points):
+            return
+        from nmm.contact.laws.laid_under_stress import laid_under_stress
+
+        book = laid_under_stress(self.record.book, self.model, self.laws, stress)
+        self.record = replace(self.record, book=book)
+        self.stored_first = self.laws.energy(book.points, own_only=self.exact)
 
     def candidates(
         self,

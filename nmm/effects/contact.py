@@ -12,9 +12,10 @@ from nmm.assembly.pushes import Pushes
 from nmm.assembly.stress_points import StressAt
 from nmm.contact.model_contact import ModelContact
 from nmm.effects.base import Effect, Setup
-from nmm.effects.contact_parts import contact_parts
+from nmm.effects.contact_parts import contact_parts, stress_of_ground
 
 if TYPE_CHECKING:
+    from nmm.contact.laws.laid_under_stress import StressIn
     from nmm.effects.change import Change
 
 
@@ -23,11 +24,20 @@ class Contact(ModelContact, Effect):
 
     name = "contact"
     external = False
+    _ground: "StressIn | None" = None
 
     @classmethod
     def from_setup(cls, setup: Setup) -> Self:
         """See `Effect.from_setup`."""
-        return cls(setup.model, contact_parts(setup), setup.start)
+        found = cls(setup.model, contact_parts(setup), setup.start)
+        found._ground = stress_of_ground(setup)
+        return found
+
+    def begin(self, state: State) -> State:
+        """See `Effect.begin`: joints carry what stress there is in the ground as they are drawn."""
+        if self._ground is not None:
+            self.lie_under(self._ground)
+        return state
 
     @property
     def caution(self) -> str:

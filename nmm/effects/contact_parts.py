@@ -1,6 +1,7 @@
 """What contact is made of, as a scene and its formulation say it."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,6 +22,9 @@ from nmm.formulation import ContactMethod
 from nmm.geometry.tessellation.cover_types import piece_glue
 from nmm.integrators.base import make_integrator
 from nmm.interfaces.from_scene import interface_law
+
+if TYPE_CHECKING:
+    from nmm.contact.laws.laid_under_stress import StressIn
 
 # Lengths by which a cut may move a crack, within which an edge lies on it.
 MOVED = 4.0
@@ -55,6 +59,15 @@ def contact_parts(setup: Setup) -> ContactParts:
     return ContactParts(
         laws, partners, enforcement, joint_rule, cracks, mixed, held, bends, nodes, springs
     )
+
+
+def stress_of_ground(setup: Setup) -> "StressIn | None":
+    """Return the stress of ``[[initial_stresses]]`` at places in elements; None without any."""
+    if not setup.scene.initial_stresses:
+        return None
+    from nmm.effects.initial.stress_at_start import StressAtStart
+
+    return StressAtStart.declared(setup).within(setup.model)
 
 
 def _no_potential(setup: Setup) -> FormulationError:

@@ -1,5 +1,6 @@
 """The stress in the ground before anything moves: even in a block, or growing with depth."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
@@ -60,6 +61,10 @@ class StressAtStart:
         """Return it (m, 4) at reference points (m, 2) in elements (m,)."""
         above = points[:, 1] - centroids(model.manifold.elements)[elements, 1]
         return np.asarray(self.mean[elements] + above[:, None] * self.slope[elements])
+
+    def within(self, model: Model) -> Callable[[Ints, Floats], Floats]:
+        """Return what gives its components in the plane (m, 3) as `at` does."""
+        return lambda elements, points: self.at(model, elements, points)[:, :3]
 
     def force(self, model: Model) -> Floats:
         """Return the integral of ``B^T sigma`` (n,): that of the means, and of what is linear."""

@@ -1,5 +1,7 @@
 """Bodies: how deep they lie in each other, what they weigh, and how they move as a whole."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from integration.arrays import Floats
@@ -9,10 +11,17 @@ from nmm.assembly.motion import State
 from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.step.stepper import Stepper
 
+if TYPE_CHECKING:
+    from nmm.contact.model_contact import ModelContact
+
 SPRINGS_GIVE = "raise [contact] normal_penalty, take smaller steps, or an exact enforcement"
 HELD_IN_THE_MEAN = (
     "faces of meshes are held apart in the mean: take smaller cells, or "
     '[contact] points = "vertices"'
+)
+JOINTS_GIVE = (
+    "a joint gives by the normal_stiffness of its interface: raise that where joints are no such "
+    "seams"
 )
 
 
@@ -27,7 +36,7 @@ def bodies(run: Ended) -> Findings:
             deep / size,
             f"bodies overlap by up to {deep:.3g} m, {percent(deep / size)} of the smallest: "
             f"{run.recorder.totals.deepest}",
-            HELD_IN_THE_MEAN if contact.exact else SPRINGS_GIVE,
+            _held_apart(contact),
             mild=contact.laws.stiff,
         )
     if run.formulation.rotation.update == "linear":
@@ -44,6 +53,15 @@ def bodies(run: Ended) -> Findings:
     whole = run.formulation.integrator.kinetic_factor == 1
     if run.dynamic and not forces and whole and run.formulation.rotation.update != "linear":
         yield from _momentum(run)
+
+
+def _held_apart(contact: "ModelContact") -> str:
+    """Return what to do about bodies that overlap, by what holds them apart."""
+    own = contact.laws.has_stiffness
+    if own.all():
+        return JOINTS_GIVE
+    other = HELD_IN_THE_MEAN if contact.exact else SPRINGS_GIVE
+    return f"{JOINTS_GIVE}; elsewhere {other}" if own.any() else other
 
 
 def _momentum(run: Ended) -> Findings:

@@ -303,8 +303,9 @@ def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
 
 
 def untouched(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
-    """Return the energies (J) before any contact, which tells those of the last accepted step."""
-    return {**stored(plan, model, state), "contact_energy": 0.0}
+    """Return the energies (J) before any step: contact tells that of the last accepted one."""
+    contact = 0.0 if plan.contact is None else plan.contact.stored_first
+    return {**stored(plan, model, state), "contact_energy": contact}
 
 
 def standing(plan: "Plan", before: State, after: State) -> float:

@@ -111,8 +111,8 @@ class Equations:
     symmetric
         Whether the matrix is.
     among
-        (n,) size of the forces that ``force`` is the sum of, where rounding of them counts: in
-        statics of dependent functions.
+        (n,) size of the forces that ``force`` is the sum of, where rounding of them counts: of
+        dependent functions. In time that of elastic and applied forces at the end of the step.
     """
 
     state: State
@@ -156,10 +156,11 @@ class Assembly:
         line = Linearisation.linear(model, state) if matter is None else matter
         parts = list(plan.forces(state, end))
         force = sum(parts, start=np.zeros(len(state.deformation))) - line.force
+        among = None
+        if model.manifold.dependent:
+            among = sum((np.abs(part) for part in parts), start=np.abs(line.force))
         if step is None or plan.inertia is None:
-            nothing, among = ROUNDING if matter is None else BALANCED, None
-            if model.manifold.dependent:
-                among = sum((np.abs(part) for part in parts), start=np.abs(line.force))
+            nothing = ROUNDING if matter is None else BALANCED
             held = self._anchored(line.stiffness) if anchored else line.stiffness
             matrix, even = plan.matrix(state, held), line.symmetric
             if among is not None and (
@@ -168,7 +169,10 @@ class Assembly:
             ):
                 force = np.zeros_like(force)
             return Equations(state, end, step, rule, matrix, force, symmetric=even, among=among)
-        given = Equations(state, end, step, rule, line.stiffness, force, symmetric=line.symmetric)
+        even = line.symmetric
+        given = Equations(
+            state, end, step, rule, line.stiffness, force, symmetric=even, among=among
+        )
         return self._in_time(given, line, matter is None)
 
     def _nothing_acts(self, parts: Sequence[Floats], force: Floats, matrix: csc_array) -> bool:

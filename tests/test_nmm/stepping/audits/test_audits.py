@@ -81,6 +81,16 @@ def test_soft_springs_of_contact_are_told_by_the_overlap():
     assert " s; raise" in told
 
 
+@pytest.mark.parametrize("enforcement", ["penalty", "cone"])
+def test_a_joint_that_gives_is_told_by_its_own_stiffness(enforcement):
+    soft = DROP.replace("friction_angle", "normal_stiffness = 5e6\nfriction_angle")
+    found = run(soft, contact={"enforcement": enforcement}, integrator={"step": 1e-3})
+    told = next(one for one in found.warnings if "audit penetration" in one)
+    assert "normal_stiffness of its interface" in told
+    assert "penalty" not in told
+    assert "faces of meshes" not in told
+
+
 def test_the_growth_of_the_linear_update_is_told():
     found = run(FREE.replace("velocity = 2.0", "velocity = 20.0"), rotation={"update": "linear"})
     # Each step of angle t grows the area by t^2: 100 steps of 0.02 rad make 4 %.

@@ -1,0 +1,48 @@
+"""Ground under its weight and the stress that balances it stands still in time, on any cover."""
+
+import numpy as np
+import pytest
+
+import nmm
+from nmm.verification import text
+
+WEIGHT = 25e3
+BONDED = {"bonded": True, "cohesion": 1e9, "tensile_strength": 1e9}
+LAYERS = [text.box(f"layer {y}", (0, y), (2, 1)) for y in range(4)]
+HELD = [
+    f'[[supports]]\nname = "{name}"\nsegment = {segment}\nfix = ["{axis}"]\n'
+    for name, segment, axis in (
+        ("base", [[0, 0], [2, 0]], "y"),
+        ("left", [[0, 0], [0, 4]], "x"),
+        ("right", [[2, 0], [2, 4]], "x"),
+    )
+]
+GROUND = text.scene(
+    'plane = "strain"\nduration = 0.01\n[inertia]\n[gravity]\n',
+    [
+        text.material("rock", 1e9, 0.2, WEIGHT / text.G),
+        text.interface(
+            "seam", 40.0, more={"bonded": True, "cohesion": 1e9, "tensile_strength": 1e9}
+        ),
+        *LAYERS,
+        *HELD,
+        '[[initial_stresses]]\nblock = "all"\nsurface = 4.0\nratio = 0.4\n'
+        f"unit_weight = {WEIGHT}\n",
+    ],
+)
+
+
+@pytest.mark.parametrize("contact", ["", "[contact]\n"])
+@pytest.mark.parametrize(
+    ("cover", "degree", "integrator"),
+    [("triangles", 1, "newmark"), ("quads", 2, "shi"), ("graded", 1, "generalized_alpha")],
+)
+def test_ground_in_balance_stands_still(cover, degree, integrator, contact):
+    table = {
+        "cover": {"type": cover, "size": 0.7, "degree": degree},
+        "integrator": {"type": integrator, "step": 1e-3},
+    }
+    found = nmm.run(nmm.parse_scene(GROUND + contact), nmm.Formulation.model_validate(table))
+    assert found.summary.status == "converged", found.summary.sentence
+    # Weight that nothing balanced would press it together by some 0.2 mm.
+    assert np.abs(found.displacement).max() < 1e-12
