@@ -149,10 +149,12 @@ class Simulation(CompiledScene):
         summary = summed_up(
             self.identity(), recorder, self.start, state, verdict, asked, self.begun
         )
-        if self.safety is not None:
-            summary = self.safety.told(summary)
-        sink.finish(replace(summary, failure_bound=bound))
+        sink.finish(self._told(replace(summary, failure_bound=bound)))
         return state
+
+    def _told(self, summary: Summary) -> Summary:
+        """Return the summary with the factor of safety, where one was sought."""
+        return summary if self.safety is None else self.safety.told(summary)
 
     def _compile_ahead(self) -> None:
         """Have the loops of contact compiled beside the run where it will call them."""
@@ -203,7 +205,7 @@ class Simulation(CompiledScene):
             self.identity(), recorder, end.start, end.state, end.verdict, asked, self.begun
         )
         energy = recorder.ledger.change_energy
-        recorder.sink.finish(replace(summary, change_energy=energy))
+        recorder.sink.finish(self._told(replace(summary, change_energy=energy)))
         return end.state
 
     def _failure_bound(self) -> float | None:

@@ -9,12 +9,12 @@ from pydantic import Field, model_validator
 
 from nmm.scene.fields import Frozen, Number, fault
 from nmm.scene.lines import Path
-from nmm.scene.unread_rows import Finding
+from nmm.scene.unread_rows import Finding, rows
 
 # What a run that is repeated with other strengths cannot be besides.
 OTHERS = ("inertia", "duration", "loading", "fracture")
 # The same of tables that are several, and none where the list is empty.
-SEVERAL = ("stages", "splitting")
+SEVERAL = ("splitting",)
 STRENGTHS = ("cohesion", "friction_angle", "tensile_strength", "yield_stress")
 
 
@@ -24,7 +24,7 @@ class StrengthReductionTable(Frozen):
     Cohesion, the tangents of friction angles, tensile strengths and yield stresses of all materials
     and interfaces are divided. A factor holds where the scene finds equilibrium under all its
     loads, and fails where it finds none. The answer is bracketed: the largest factor that holds and
-    the smallest that fails.
+    the smallest that fails. With stages a factor holds where all of them find equilibrium.
     """
 
     lowest: Number = Field(
@@ -54,8 +54,14 @@ def reduction_contradictions(data: Mapping[str, Any]) -> Iterator[Finding]:
     for key in [*named, *(key for key in SEVERAL if data.get(key))]:
         remedy = f"remove {key}, or [strength_reduction]"
         yield place, f"[strength_reduction] with {key}", "statics under full load", remedy
+    for number, row in rows(data, "stages"):
+        if "duration" in row:
+            found = f"[strength_reduction] with duration = {row['duration']}"
+            yield (*number, "duration"), found, "stages that come to rest", "remove one of them"
     tables = [data.get(key) for key in ("materials", "interfaces")]
-    rows = [row for table in tables if isinstance(table, Mapping) for row in table.values()]
-    if not any(isinstance(row, Mapping) and any(key in row for key in STRENGTHS) for row in rows):
+    parts = [part for one in tables if isinstance(one, Mapping) for part in one.values()]
+    if not any(
+        isinstance(part, Mapping) and any(key in part for key in STRENGTHS) for part in parts
+    ):
         remedy = "give a material a law with strength, or add [interfaces.NAME]"
         yield place, "nothing has strength", "strength to be reduced", remedy
