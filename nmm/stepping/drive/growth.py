@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from nmm.stepping.step.trial import Attempt
 
 # Solutions to find a load factor, and how near to the toughness it brings a tip.
-TRIALS, CLOSE = 20, 1e-9
+SECANTS, AT_TOUGHNESS = 20, 1e-9
 NOT_FELT = "no load factor opens a crack, no tip feels more than the error of its intensities"
 
 
@@ -81,7 +81,7 @@ class _Growing:
         The first of them is exact but where members yield or slide.
         """
         before, had, factor = 0.0, 0.0, at.increment
-        for _ in range(TRIALS):
+        for _ in range(SECANTS):
             trial = self._solved(at, factor)
             if isinstance(trial, RunVerdict):
                 return trial
@@ -89,7 +89,7 @@ class _Growing:
                 share = fracture.reached(trial.state)
             if share is None:
                 return self._ended("every crack has come to an end", at)
-            if abs(share - 1) < CLOSE:
+            if abs(share - 1) < AT_TOUGHNESS:
                 return trial
             slope = (share - had) / (factor - before)
             if not slope > 0:
