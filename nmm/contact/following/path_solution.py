@@ -1,8 +1,10 @@
 """Contact of a step along a path: posed, solved, and told as any other step's."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from integration.arrays import Bools, Floats
 from nmm.assembly.motion import State
@@ -15,65 +17,115 @@ from nmm.contact.laws.tractions import ContactForces, contact_forces
 from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.problem.step_problem import BONDED, OPEN, SLIDE, STICK, StepAnswer, Verdict
+from nmm.contact.solution.mixed_bonds import MixedBonds
 from nmm.contact.solution.record import ContactSolution
 from nmm.contact.solution.request import StepRequest
 from nmm.contact.solution.steps import ContactSteps
 from nmm.controls.path_equation import PathEquation
+from nmm.solvers.linear import LinearSolver
 
 # Elastic slips that differ by less than this share of the largest are the same: nothing slid.
 STILL = 1e-12
 
 
-def path_solution(
-    steps: ContactSteps,
-    contacts: ContactPoints,
-    state: State,
-    request: StepRequest,
-    path: PathEquation,
-    joints: ContactPoints,
-) -> tuple[ContactSolution, float]:
-    """Solve a step; return it, and by how much its load factor changes.
+@dataclass(frozen=True)
+class PosedPath:
+    """Contact of the steps from one state, whatever path they follow.
 
-    Parameters
+    Attributes
     ----------
-    steps
-        What steps are put together from.
-    contacts, state
-        All contacts of the step, and where it starts.
-    request
-        Matrix and force of all but contacts, and the solver.
-    path
-        The equation beside balance.
-    joints
-        All of the scene as they stand: until one softens limits are judged by others.
-
-    Raises
-    ------
-    SolveError
-        Where nothing holds a part.
+    laws, problem
+        Of its contacts.
+    contacts, rows
+        All of them, with jumps as their springs feel them.
+    free
+        Which (m,) are springs, and not tied.
+    tied, mixed
+        Whole bonds of consistent terms, and those of the mixed form; None without any.
+    found
+        The contacts with the jumps themselves.
     """
-    rows, bonds = steps.geometry.rows(contacts, state), steps.bonds
-    tied = bonds.tied(contacts, state, rows, request.weight, request.time)
-    mixed, whole = bonds.mixed(contacts, state, request.time), bonds.unsoftened(contacts, joints)
-    given = contacts, rows, request
-    posed = given if mixed is None else mixed.posed(*given)
-    solved, change = _solved(steps.laws, *posed, tied, path, whole)
-    return solved if mixed is None else mixed.told(solved, contacts), change
+
+    laws: ContactLaws
+    problem: PathProblem
+    contacts: ContactPoints
+    rows: ContactRows
+    free: Bools
+    tied: TiedBonds | None
+    mixed: MixedBonds | None
+    found: ContactPoints
+
+    @classmethod
+    def of(
+        cls,
+        steps: ContactSteps,
+        contacts: ContactPoints,
+        state: State,
+        request: StepRequest,
+        joints: ContactPoints,
+    ) -> Self:
+        """Pose them.
+
+        Parameters
+        ----------
+        steps
+            What steps are put together from.
+        contacts, state
+            All contacts of a step, and where it starts.
+        request
+            Matrix and force of all but contacts.
+        joints
+            All of the scene as they stand: until one softens limits are judged by others.
+        """
+        rows, bonds = steps.geometry.rows(contacts, state), steps.bonds
+        tied = bonds.tied(contacts, state, rows, request.weight, request.time)
+        mixed, whole = (
+            bonds.mixed(contacts, state, request.time),
+            bonds.unsoftened(contacts, joints),
+        )
+        given = contacts, rows, request
+        posed = given if mixed is None else mixed.posed(*given)
+        free = np.ones(len(contacts), dtype=bool)
+        if tied is not None:
+            free[tied.index] = False
+        problem = _problem(steps.laws, *posed, free, tied, whole)
+        return cls(steps.laws, problem, *posed[:2], free, tied, mixed, contacts)
+
+    def solved(self, path: PathEquation, solver: LinearSolver) -> tuple[ContactSolution, float]:
+        """Solve a step along a path; return it, and by how much its load factor changes.
+
+        Raises
+        ------
+        SolveError
+            Where nothing holds a part.
+        """
+        contacts, free = self.contacts, self.free
+        step = follow(self.problem, path, solver)
+        answer = _answer(contacts, self.rows, step, free, self.tied)
+        history = {name: column.copy() for name, column in contacts.history.items()}
+        for name, column in step.contacts.history.items():
+            history[name][free] = column
+        after = replace(contacts, history=history)
+        sliding = history["plastic_slip"] - contacts.history["plastic_slip"]
+        loss = _loss(self.laws, contacts, after, answer, sliding)
+        told = {"sliding": sliding, "rows": self.rows}
+        solved = ContactSolution(after, answer, step.iterations, loss, **told)
+        return self._with_jumps(solved), step.change
+
+    def _with_jumps(self, solved: ContactSolution) -> ContactSolution:
+        return solved if self.mixed is None else self.mixed.told(solved, self.found)
 
 
-def _solved(
+def _problem(
     laws: ContactLaws,
     contacts: ContactPoints,
     rows: ContactRows,
     request: StepRequest,
+    free: Bools,
     tied: TiedBonds | None,
-    path: PathEquation,
     whole: Bools | None,
-) -> tuple[ContactSolution, float]:
-    """Solve a step with bonds that are tied, and ``whole`` ones (m,), none of which softens."""
-    index = np.zeros(0, dtype=np.int64) if tied is None else tied.index
-    free = np.ones(len(contacts), dtype=bool)
-    free[index] = False
+) -> PathProblem:
+    """Pose balance with ``free`` springs (m,) and ``whole`` bonds (m,), none of which softens."""
     some, springs = contacts.take(free), laws.springs(contacts)
     stiff = (springs[0][free], springs[1][free], springs[2][free])
     elastic = some.bonded & laws.brittle[some.interface]
@@ -85,22 +137,12 @@ def _solved(
     matrix, force = request.matrix, request.force
     scale = float(np.linalg.norm(force))
     if tied is not None:
-        matrix, push = matrix + tied.matrix, tied.push
+        matrix, push = csc_array(matrix + tied.matrix), tied.push
         force, scale = force - push, max(scale, float(np.linalg.norm(push)))
     through = ContactRows(rows.normal[free], rows.tangent[free], rows.direction[free])
     stiffest = float(np.concatenate(stiff[:2]).max(initial=0.0))
     rounding = float(np.finfo(float).eps) * stiffest * float(some.length.sum())
-    problem = PathProblem(matrix, force, through, some.gap, some.slip, law, scale, rounding)
-    step = follow(problem, path, request.solver)
-    answer = _answer(contacts, rows, step, free, tied)
-    history = {name: column.copy() for name, column in contacts.history.items()}
-    for name, column in step.contacts.history.items():
-        history[name][free] = column
-    after = replace(contacts, history=history)
-    sliding = history["plastic_slip"] - contacts.history["plastic_slip"]
-    loss = _loss(laws, contacts, after, answer, sliding)
-    solved = ContactSolution(after, answer, step.iterations, loss, sliding=sliding, rows=rows)
-    return solved, step.change
+    return PathProblem(matrix, force, through, some.gap, some.slip, law, scale, rounding)
 
 
 def _answer(

@@ -1,10 +1,15 @@
-"""A step of statics with contact whose load factor is found with the unknowns."""
+"""Steps of statics with contact whose load factor is found with the unknowns.
 
-from dataclasses import replace
+The next event on a path is sought by a handful of steps from one state: what they share is posed
+once.
+"""
+
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from nmm.assembly.motion import State
 from nmm.contact.detection.tolerances import FURTHER
-from nmm.contact.following.path_solution import path_solution
+from nmm.contact.following.path_solution import PosedPath
 from nmm.contact.solution.request import StepRequest
 from nmm.effects.base import Instant
 from nmm.solvers.linear import LinearSolver
@@ -14,40 +19,71 @@ from nmm.stepping.step.mover import Mover
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
+    from nmm.contact.solution.record import ContactRecord
     from nmm.controls.path_equation import PathEquation
 
 # Solutions of a step along a path, each with contacts sought further.
 PATH_SOLUTIONS = 4
 
 
-def step_along(
-    search: ContactSearch,
-    mover: Mover,
-    solver: LinearSolver,
-    equations: Equations,
-    path: "PathEquation",
-    reach: float,
-) -> Attempt:
-    """Solve the step.
+class PathSteps:
+    """Solves them: any number from one state, each along a path of its own."""
 
-    Contacts are sought up to ``reach`` (m) at first. The equations are of the load factor that the
-    step begins with.
+    def __init__(self, search: ContactSearch, mover: Mover) -> None:
+        self._search, self._mover = search, mover
+        self.forget()
 
-    Raises
-    ------
-    SolveError
-        Where nothing holds a part.
-    """
-    state, still, contact = equations.state, equations.end, search.contact
-    request = StepRequest(equations.matrix, equations.force, solver, time=still.time)
-    given, joints = (state, request, path), contact.record.book.points
-    for _ in range(PATH_SOLUTIONS):
-        contacts = search.candidates(state, reach, None)
-        solved, change = path_solution(contact.steps, contacts, *given, joints)
-        end = Instant(still.time, still.load_factor + change)
-        result = mover.after(replace(equations, end=end), solved.answer.increment)
-        if result.motion <= reach or not solved.answer.verdict.converged:
-            break
-        reach = FURTHER * result.motion
-    verdict = solved.answer.verdict
-    return result.told(verdict.converged, verdict.sentence, solved, solved.passes)
+    def forget(self) -> None:
+        """Drop what was posed of the last state."""
+        self._last: _Posed | None = None
+
+    def attempt(
+        self, solver: LinearSolver, equations: Equations, path: "PathEquation", reach: float
+    ) -> Attempt:
+        """Solve a step.
+
+        Contacts are sought up to ``reach`` (m) at first. The equations are of the load factor that
+        the step begins with.
+
+        Raises
+        ------
+        SolveError
+            Where nothing holds a part.
+        """
+        still = equations.end
+        for _ in range(PATH_SOLUTIONS):
+            posed = self._posed(solver, equations, reach)
+            solved, change = posed.contact.solved(path, solver)
+            end = Instant(still.time, still.load_factor + change)
+            result = self._mover.after(replace(equations, end=end), solved.answer.increment)
+            if result.motion <= posed.reach or not solved.answer.verdict.converged:
+                break
+            reach = FURTHER * result.motion
+        verdict = solved.answer.verdict
+        return result.told(verdict.converged, verdict.sentence, solved, solved.passes)
+
+    def _posed(self, solver: LinearSolver, equations: Equations, reach: float) -> "_Posed":
+        """Return the contact of steps from a state, that of the last one where it is the same."""
+        state, contact, last = equations.state, self._search.contact, self._last
+        if last is not None and last.serves(state, contact.record, reach):
+            return last
+        contacts = self._search.candidates(state, reach, None)
+        request = StepRequest(equations.matrix, equations.force, solver, time=equations.end.time)
+        joints = contact.record.book.points
+        posed = PosedPath.of(contact.steps, contacts, state, request, joints)
+        self._last = _Posed(state, contact.record, reach, posed)
+        return self._last
+
+
+@dataclass(frozen=True)
+class _Posed:
+    """Contact as posed from a state and what is known of it, sought up to a reach (m)."""
+
+    state: State
+    record: "ContactRecord"
+    reach: float
+    contact: PosedPath
+
+    def serves(self, state: State, record: "ContactRecord", reach: float) -> bool:
+        """Whether it is that of another step."""
+        return self.state is state and self.record is record and reach <= self.reach

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from nmm.contact.enforcement.null_space import NullSpace
     from nmm.contact.solution.record import Breaking, Broken, ContactSolution
     from nmm.controls.path_equation import PathEquation
+    from nmm.stepping.step.contact_path import PathSteps
 
 
 class Touching:
@@ -52,10 +53,11 @@ class Touching:
         self._size, self._carries = size, carries
         self.search = ContactSearch(current, mover, size, clock)
         self._held: NullSpace | None = None
+        self._paths: PathSteps | None = None
 
     def forget(self) -> None:
         """Drop what is kept for speed alone, and of one model: the conditions of supports."""
-        self._held = None
+        self._held = self._paths = None
         self.search.forget()
 
     def attempt(
@@ -102,10 +104,11 @@ class Touching:
         return result.told(good and not passage, sentence, solved, passes)
 
     def along(self, equations: Equations, path: "PathEquation", reach: float) -> Attempt:
-        """Solve a step of statics whose load factor is found with the unknowns (`step_along`)."""
-        from nmm.stepping.step.contact_path import step_along
+        """Solve a step of statics whose load factor is found with the unknowns (`PathSteps`)."""
+        from nmm.stepping.step.contact_path import PathSteps
 
-        return step_along(self.search, self._mover, self.solver, equations, path, reach)
+        self._paths = self._paths or PathSteps(self.search, self._mover)
+        return self._paths.attempt(self.solver, equations, path, reach)
 
     def _why(self, solution: str, result: Attempt, solved: "ContactSolution") -> str:
         """Say why a solution is no step, though it be one of its equations."""
