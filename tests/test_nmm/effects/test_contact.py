@@ -157,24 +157,31 @@ def test_friction_loses_what_dilation_does_not_lift():
     assert abs(found.summary.energy_balance) < 1e-6
 
 
+def in_time(blocks, joint, duration, integrator, step=1e-3, poisson=0.2, **drive):
+    """Blocks on a held base, joined to it as ``joint`` says, in motion by what is in ``drive``."""
+    scene = {
+        "title": "joints in time",
+        "plane": "strain",
+        "duration": duration,
+        "materials": {"r": {"young_modulus": 5e8, "poisson_ratio": poisson, "density": 2200.0}},
+        "interfaces": {"i": {"friction_angle": 0.5, **joint}},
+        "blocks": [block("base", -4, -1, 10, 1), *blocks],
+        "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
+        "inertia": {},
+        "contact": {},
+        **drive,
+    }
+    method = {"integrator": {"type": integrator, "step": step}}
+    return run(Scene.model_validate(scene), Formulation.model_validate(method))
+
+
 @pytest.mark.parametrize("integrator", ["shi", "newmark", "generalized_alpha"])
 def test_a_block_that_rides_up_as_it_slides_makes_no_energy(integrator):
     """0.6 m/s over asperities of 20 mm at 0.14: the block leaps, and comes down again."""
-    scene = {
-        "title": "leap",
-        "plane": "strain",
-        "duration": 0.12,
-        "materials": {"r": {"young_modulus": 5e8, "poisson_ratio": 0.0, "density": 2200.0}},
-        "interfaces": {"i": {"friction_angle": 0.5, "dilation_angle": 0.14, "dilation_slip": 0.02}},
-        "blocks": [block("base", -1, -1, 3, 1), block("top", 0, 0, 1, 0.3)],
-        "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
-        "initial_velocities": [{"block": "top", "velocity": [0.6, 0.0]}],
-        "gravity": {},
-        "inertia": {},
-        "contact": {},
-    }
-    method = {"integrator": {"type": integrator, "step": 1e-3}}
-    found = run(Scene.model_validate(scene), Formulation.model_validate(method))
+    rough = {"dilation_angle": 0.14, "dilation_slip": 0.02}
+    moving = [{"block": "top", "velocity": [0.6, 0.0]}]
+    given = [block("top", 0, 0, 1, 0.3)], rough, 0.12, integrator
+    found = in_time(*given, poisson=0.0, initial_velocities=moving, gravity={})
     audits = found.summary.audits
     # What remains is the turn of blocks in a step; it was 0.05 to 0.2.
     assert audits["energy_made_in_step"] < 1e-5
@@ -184,40 +191,16 @@ def test_a_block_that_rides_up_as_it_slides_makes_no_energy(integrator):
 @pytest.mark.parametrize("integrator", ["shi", "newmark", "generalized_alpha"])
 def test_bonds_that_break_in_time_make_no_energy(integrator):
     """A block is pushed off its bonds; springs that take them over act from the start of a step."""
-    scene = {
-        "title": "sheared off",
-        "plane": "strain",
-        "duration": 0.15,
-        "materials": {"r": {"young_modulus": 5e8, "poisson_ratio": 0.2, "density": 2200.0}},
-        "interfaces": {
-            "i": {
-                "friction_angle": 0.5,
-                "cohesion": 1.5e4,
-                "tensile_strength": 5e3,
-                "bonded": True,
-            }
-        },
-        "blocks": [
-            block("base", -4, -1, 10, 1),
-            block("a", 0, 0, 1.2, 0.8),
-            block("b", 0.1, 0.8, 0.9, 0.7),
-        ],
-        "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
-        "loads": [
-            {
-                "name": "push",
-                "kind": "edge",
-                "segment": [[0.1, 0.8], [0.1, 1.5]],
-                "traction": [6e4, 0],
-                "history": [[0, 0], [0.1, 1], [0.12, 0]],
-            }
-        ],
-        "gravity": {},
-        "inertia": {},
-        "contact": {},
+    bond = {"cohesion": 1.5e4, "tensile_strength": 5e3, "bonded": True}
+    push = {
+        "name": "push",
+        "kind": "edge",
+        "segment": [[0.1, 0.8], [0.1, 1.5]],
+        "traction": [6e4, 0],
+        "history": [[0, 0], [0.1, 1], [0.12, 0]],
     }
-    method = {"integrator": {"type": integrator, "step": 1e-3}}
-    found = run(Scene.model_validate(scene), Formulation.model_validate(method))
+    blocks = [block("a", 0, 0, 1.2, 0.8), block("b", 0.1, 0.8, 0.9, 0.7)]
+    found = in_time(blocks, bond, 0.15, integrator, loads=[push], gravity={})
     assert found.history["broken"][-1] >= 3
     # Newmark exchanges some 1e-6 between vibration and spin; it was 6e-3 in one step.
     assert found.summary.audits["energy_made_in_step"] < 1e-5
@@ -227,20 +210,8 @@ def torn_off(velocity, step):
     """A block of 0.9 m that flies off two softening bonds of 50 J/m2."""
     bond = {"cohesion": 1e5, "tensile_strength": 5e4, "bonded": True, "fracture_energy": 50.0}
     stiff = {"normal_stiffness": 1e9, "shear_stiffness": 5e8}
-    scene = {
-        "title": "torn off",
-        "plane": "strain",
-        "duration": 0.008,
-        "materials": {"r": {"young_modulus": 5e8, "poisson_ratio": 0.2, "density": 2200.0}},
-        "interfaces": {"i": {"friction_angle": 0.5, **bond, **stiff}},
-        "blocks": [block("base", -4, -1, 10, 1), block("b", 0, 0, 0.9, 0.7)],
-        "supports": [{"name": "ground", "block": "base", "fix": ["x", "y"]}],
-        "initial_velocities": [{"block": "b", "velocity": velocity}],
-        "inertia": {},
-        "contact": {},
-    }
-    method = {"integrator": {"type": "newmark", "step": step}}
-    return run(Scene.model_validate(scene), Formulation.model_validate(method))
+    given = [block("b", 0, 0, 0.9, 0.7)], bond | stiff, 0.008, "newmark", step
+    return in_time(*given, initial_velocities=[{"block": "b", "velocity": velocity}])
 
 
 def test_bonds_torn_in_time_take_their_fracture_energy():
