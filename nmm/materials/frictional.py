@@ -72,6 +72,10 @@ class Frictional(Plastic):
                 f"at c / tan(phi) = {self.apex:.6g} Pa, beyond which it never acts: lower it, or "
                 "leave it out"
             )
+        self._check_softening()
+
+    def _check_softening(self) -> None:
+        """Refuse constants with which it cannot soften."""
         if self.softening_energy is None:
             if self.residual_cohesion:
                 raise FormulationError(

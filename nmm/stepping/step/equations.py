@@ -192,41 +192,55 @@ class Assembly:
         plan, rule, state, step = self._solved.plan, static.rule, static.state, static.step
         assert step is not None
         assert plan.inertia is not None
-        weight, force, mass = rule.end_weight, static.force, plan.inertia.mass
-        gain: Floats | None = None
-        applied: Floats | None = None
-        steady = plan.steady and linear
-        if weight < 1 or not steady:
-            earlier = plan.force(state, Instant.of(state)) - line.start
-            if not steady:
-                gain = force - earlier
-                if weight > 0.5:  # means of both ends do what effects say they do
-                    applied = gain + line.force - line.start - self._driven(state, static.end)
-            force = force if weight == 1 else weight * force + (1 - weight) * earlier
-        velocity = rule.kinetic_factor * state.velocity
+        force, gain, applied = self._weighed(static, line, plan.steady and linear)
+        velocity, mass = rule.kinetic_factor * state.velocity, plan.inertia.mass
         rates = rule.momentum(velocity, state.acceleration, step)
         momentum, factor = product(mass, rates), rule.mass_factor(step)
         resisting = plan.damping(state), plan.added_mass(state)
         damping = Damping.of(*resisting, rule, velocity, state.acceleration, step)
-        heavy = [mass]
         pushed = force + momentum
         if damping is not None:
-            heavy += damping.masses.values()
             pushed += damping.force()
             pushed += sum(one @ rates for one in damping.masses.values())
         share = 1.0 if plan.contact is None else rule.contact_factor
-        given = mass, factor, momentum, rates, weight, share
+        given = mass, factor, momentum, rates, rule.end_weight, share
         terms = InertiaTerms(*given, gain, applied, damping)
-        if not weight:  # explicit: what is elastic joins no matrix
-            elastic = plan.matrix(state, line.stiffness)
-            matrix = self._sum([(factor / share, one) for one in heavy])
-            terms = replace(terms, elastic=elastic)
-            return with_parts(static, matrix=matrix, force=pushed / share, inertia=terms)
+        if not terms.weight:  # explicit: what is elastic joins no matrix
+            terms = replace(terms, elastic=plan.matrix(state, line.stiffness))
+        matrix = self._matrix_in_time(state, line, terms)
+        return with_parts(static, matrix=matrix, force=pushed / share, inertia=terms)
+
+    def _weighed(
+        self, static: Equations, line: Linearisation, steady: bool
+    ) -> tuple[Floats, Floats | None, Floats | None]:
+        """Return the force (n,) as the integrator weighs both ends, and what of it grows.
+
+        See `InertiaTerms` for ``gain`` and ``applied``, which are None where forces are steady.
+        """
+        plan, weight = self._solved.plan, static.rule.end_weight
+        force, state = static.force, static.state
+        if weight == 1 and steady:
+            return force, None, None
+        gain: Floats | None = None
+        applied: Floats | None = None
+        earlier = plan.force(state, Instant.of(state)) - line.start
+        if not steady:
+            gain = force - earlier
+            if weight > 0.5:  # means of both ends do what effects say they do
+                applied = gain + line.force - line.start - self._driven(state, static.end)
+        return force if weight == 1 else weight * force + (1 - weight) * earlier, gain, applied
+
+    def _matrix_in_time(self, state: State, line: Linearisation, terms: InertiaTerms) -> csc_array:
+        """Return the matrix of a step, over the factor of contact forces."""
+        weight, factor, damping = terms.weight, terms.factor, terms.damping
+        heavy = [terms.mass, *(() if damping is None else damping.masses.values())]
+        if not weight:
+            return self._sum([(factor / terms.contact_factor, one) for one in heavy])
         parts = [(1.0, line.stiffness), *((factor / weight, one) for one in heavy)]
         if damping is not None:
             parts += [(damping.rate / weight, one) for one in damping.dampers.values()]
-        matrix = self._times(weight / share, plan.matrix(state, self._sum(parts)))
-        return with_parts(static, matrix=matrix, force=pushed / share, inertia=terms)
+        whole = self._solved.plan.matrix(state, self._sum(parts))
+        return self._times(weight / terms.contact_factor, whole)
 
     def _driven(self, state: State, end: Instant) -> Floats | float:
         """Return by how much the ground's motion in a step stretches what holds bodies (n,)."""
