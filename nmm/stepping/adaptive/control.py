@@ -74,6 +74,8 @@ class StepControl:
     impacts
         Whether speeds count where contacts close or open, as springs turn a body in a time that
         steps can resolve.
+    rounded
+        What places are rounded by (m): by less they are not off.
     """
 
     error: float
@@ -83,6 +85,7 @@ class StepControl:
     first: float
     rigid: bool = False
     impacts: bool = False
+    rounded: float = 0.0
 
     @classmethod
     def of(
@@ -111,6 +114,8 @@ class StepControl:
         ``apart`` (m) and ``faster`` (m/s) are by how much places and speeds are off. With order 1
         speeds err by one order more than places, and count as those places are off by in the step.
         """
+        apart = max(apart - self.rounded, 0.0)
+        faster = max(faster - self.rounded / length, 0.0)
         if self.order == 1:
             faster = max(faster, apart / length)
         place = apart / seen.way if seen.way else 0.0

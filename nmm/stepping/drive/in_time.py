@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
-from nmm.assembly.motion import State
+from nmm.assembly.motion import State, coordinate_rounding
 from nmm.frozen import with_parts
 
 if TYPE_CHECKING:
@@ -75,6 +75,7 @@ def control_of(stepper: "Stepper", formulation: "Formulation", duration: float) 
         StepControl.of(table, order, duration, finest),
         rigid=rigid and stepper.kinematics.turns,
         impacts=contact is not None and not contact.exact,
+        rounded=float(coordinate_rounding(manifold).max()),
     )
 
 

@@ -46,3 +46,17 @@ def test_ground_in_balance_stands_still(cover, degree, integrator, contact):
     assert found.summary.status == "converged", found.summary.sentence
     # Weight that nothing balanced would press it together by some 0.2 mm.
     assert np.abs(found.displacement).max() < 1e-12
+
+
+def test_steps_chosen_by_their_error_do_not_follow_rounding():
+    table = {
+        "cover": {"type": "quads", "size": 0.7, "degree": 1},
+        "integrator": {"type": "newmark", "step": "auto"},
+        "loading": {"max_steps": 200},
+    }
+    joints = "normal_stiffness = 1e9\ncohesion = 0.0\ntensile_strength = 0.0\n"
+    bonded = "bonded = true\ncohesion = 1000000000.0\ntensile_strength = 1000000000.0\n"
+    jointed = GROUND.replace(bonded, joints) + "[contact]\n"
+    assert jointed.count(joints) == 1
+    found = nmm.run(nmm.parse_scene(jointed), nmm.Formulation.model_validate(table)).summary
+    assert (found.status, list(found.warnings)) == ("converged", [])
