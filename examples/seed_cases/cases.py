@@ -24,6 +24,7 @@ DOCS = HERE.parents[1] / "docs"
 BEAM = (HERE.parent / "kitoh_beam" / "kitoh_130.toml").read_text()
 PULL_OUT = (HERE / "pull_out.toml").read_text()
 REINFORCED = (HERE.parent / "kitoh_beam" / "kitoh_reinforced.toml").read_text()
+BAR = (HERE.parent / "kitoh_beam" / "kitoh_bar.toml").read_text()
 
 EVENTS = '\n[loading.control]\ntype = "events"\nfall = 0.1\n\n[[reference]]'
 # Rigid blocks on springs as stiff as the material between their middles (Kawai 1978).
@@ -86,6 +87,36 @@ def parted(text: str, size: str, mesh: str = "voronoi") -> str:
     return table.sub(body, text) + cover
 
 
+def without(text: str, table: str) -> str:
+    """Return a scene without a table."""
+    return re.sub(rf"\[{re.escape(table)}\]\n(.+\n)*", "", text)
+
+
+def split(text: str) -> str:
+    """Return a scene whose blocks split besides joints that break, under a growing load."""
+    found = re.search(r"\[splitting\.concrete\]\n(.+\n)+", plain("splitting"))
+    assert found is not None
+    steps = "\n[formulation.loading]\nincrement = 1\ntolerance = 0.005\n"
+    return without(text, "loading.control") + "\n" + found[0] + steps
+
+
+def barred(way: str) -> str:
+    """Return the plain beam as one body by one of its ways, with the bar of ``kitoh_bar.toml``."""
+    found = re.search(r"\[\[bars\]\]\n(.+\n)+", BAR)
+    assert found is not None
+    return plain(way) + "\n" + found[0] + "\n[formulation.bars]\npieces = 80\n"
+
+
+def barred_plane() -> str:
+    """Return the beam with a bar and a cohesive plane at midspan, under a load up to 40 kN."""
+    text = without(without(barred("cohesive"), "cohesive_zones"), "loading.control")
+    text = text.replace('["200 mm", "10 mm"]]', '["200 mm", "100 mm"]]\nbonded = true')
+    text = text.replace('until = "failure"', "until = 40").replace(
+        'size = "10 mm"', 'size = "14 mm"'
+    )
+    return text + "\n[formulation.loading]\nincrement = 1\n"
+
+
 def triangles(size: str) -> str:
     """Return the plain beam whose sub-blocks are triangles."""
     return plain("sub_blocks").replace("17.5 mm", size).replace('"voronoi"', '"triangles"')
@@ -126,6 +157,21 @@ CASES: dict[str, tuple[str, Callable[[], str]]] = {
         "704 sub-blocks that part, k = 0",
         lambda: parted(loose(), "15.957 mm"),
     ),
+    "pull-out cohesive": (
+        "cohesive cone, k = infinity",
+        lambda: (HERE / "pull_out_cohesive.toml").read_text(),
+    ),
+    "pull-out crack": (
+        "cracks that grow, k = infinity",
+        lambda: (HERE / "pull_out_crack.toml").read_text(),
+    ),
+    "pull-out splitting": (
+        "joints that break, blocks that split, k = infinity",
+        lambda: split(PULL_OUT),
+    ),
+    "reinforced crack": ("crack that grows across an embedded bar", lambda: barred("notch")),
+    "reinforced cohesive": ("cohesive plane, embedded bar", barred_plane),
+    "reinforced splitting": ("joints that break, blocks that split", lambda: split(REINFORCED)),
     "reinforced sub-blocks": ("457 sub-blocks that part", lambda: parted(REINFORCED, "9.6 mm")),
 }
 for _n in (60, 130, 455):

@@ -73,6 +73,12 @@ class Beginnings:
             self._known = state.deformation, self._nuclei.nearest(partial(self._opening, state))
         return self._known[1]
 
+    def unopened(self, state: State) -> float:
+        """Largest share of the strength in a state in which no line that is opened fits; else 0."""
+        if self._nuclei is None or self.next(state) is not None:
+            return 0.0
+        return self._nuclei.largest(partial(self._opening, state))
+
     def _opening(self, state: State, rule: PointRule) -> Floats:
         """Return the stresses (Q, 3) that open cracks: with the pressure in the pores, or all (Pa).
 

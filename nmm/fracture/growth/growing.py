@@ -128,6 +128,10 @@ class GrowingCracks(Effect):
         left = left if len(left) else found.share
         return float(left.max(initial=0.0))
 
+    def unopened(self, state: State) -> float:
+        """Largest share of the strength where no line fits along which a crack could begin."""
+        return self._beginnings.unopened(state)
+
     def feel(self, stresses: Sequence[StressAt]) -> None:
         """See `Effect.feel`."""
         self._measured.stresses = stresses

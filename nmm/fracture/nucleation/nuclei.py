@@ -95,6 +95,14 @@ class Nuclei:
                 best = found
         return best
 
+    def largest(self, stress: StressOn) -> float:
+        """Largest share of the strength at any place, whatever lines fit there."""
+        places = self.places
+        if not len(places):
+            return 0.0
+        rule = PointRule(places.point, np.ones(len(places)), places.element)
+        return float(LargestPrincipal.of(stress(rule)).size.max()) / self.rule.strength
+
     def _order(self, stress: Floats) -> Ints:
         """Places by falling stress (k,); of even ones those on edges first, then the middle one."""
         level = _levels(stress)

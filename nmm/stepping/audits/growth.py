@@ -17,6 +17,15 @@ def growth(run: Ended) -> Findings:
         f"the path of a crack swings: pieces turn to and fro by {math.degrees(swing):.0f} degrees",
         "add parallel_stress = true to [fracture], or take shorter pieces",
     )
+    unopened = cracks.unopened(run.state)
+    yield AuditFinding(
+        "nucleation_length",
+        unopened,
+        f"the stress was {unopened:.3g} of the strength, and no crack could begin: no body holds a "
+        "line as long as the mean across it",
+        "give [fracture.nucleation] a smaller length, or check toughness and strength, from which "
+        "it follows",
+    )
     if not ledger.throughput:
         return
     if run.dynamic and not run.scene.stages:

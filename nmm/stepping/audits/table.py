@@ -154,6 +154,13 @@ THRESHOLDS: dict[str, Threshold] = {
         None,
         "`[fracture]`",
     ),
+    "nucleation_length": Threshold(
+        "largest stress over the strength of cracks that begin, where no line of the mean fits "
+        "across what is pulled",
+        0.999,
+        None,
+        "`[fracture.nucleation]`",
+    ),
     "faces_overlap": Threshold(
         "overlap of the faces of a crack, over the largest distance between faces; or -K_I, over K "
         "of both modes, of a tip that grew",

@@ -181,6 +181,14 @@ def test_a_length_that_no_block_holds_is_refused_with_its_line() -> None:
         prepare(bar(nucleation="tensile_strength = 0.1"), parse_formulation(NET))
 
 
+def test_stress_beyond_the_strength_that_no_line_can_open_is_told() -> None:
+    # Lines of 0.6 fit along the bar, and none across it, where tension of 1 would open it at 0.5.
+    deep = "tensile_strength = 0.5\nlength = 0.6"
+    summary = run(bar("", deep, LOADS.format(until=1.0))).summary
+    assert summary.audits["nucleation_length"] == pytest.approx(2, rel=1e-6)
+    assert any("no crack could begin" in one for one in summary.warnings)
+
+
 @pytest.mark.parametrize(
     "cover",
     [
