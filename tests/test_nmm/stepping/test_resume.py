@@ -9,7 +9,7 @@ import pytest
 
 import nmm
 from nmm.errors import DamageError, StorageError
-from nmm.testing import stopping
+from nmm.testing.resumed import stopping
 from nmm.testing.resumed.killing import check_same_bytes, killed_and_gone_on
 
 SPEC = importlib.util.spec_from_file_location(
