@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 Axis = Literal["x", "y"]
 
+JUMP = 100
+"""Two samples are a jump where those beside them are more than so many times as far off."""
+
 
 @dataclass(frozen=True)
 class GroundMotion:
@@ -62,8 +65,14 @@ class GroundMotion:
 
     @cached_property
     def shortest_step(self) -> float:
-        """Shortest time between two samples (s)."""
-        return float(np.diff(self.times).min())
+        """Shortest time between two samples (s), but for those that draw a jump.
+
+        These are `JUMP` times as near to each other as to the samples beside them.
+        """
+        steps = np.diff(self.times)
+        beside = np.pad(steps, 1, constant_values=np.inf)
+        jumps = JUMP * steps < np.minimum(beside[:-2], beside[2:])
+        return float(steps.min() if len(steps) < 2 else steps[~jumps].min())
 
     def displacement_at(self, time: float) -> float:
         """Return the displacement (m)."""

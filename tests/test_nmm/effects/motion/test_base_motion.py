@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nmm
+from nmm.effects.motion.record import GroundMotion
 
 # Record R1: m/s2, every 0.1 s, linear between.
 R1 = [0, 0.6, 1.8, -1.2, -3.0, 0.9, 3.4, 2.1, -0.8, -3.6, -1.5, 2.4, 1.1, -2.2, 0.4, 1.6, -0.9]
@@ -179,3 +180,17 @@ def test_a_record_of_velocity_or_displacement_moves_by_it(quantity):
         assert motion.velocity_at(0.75) == pytest.approx(2.0)
         assert motion.displacement_at(0.75) == pytest.approx(0.25 + 0.25 * 1.5)
         assert motion.displacement_at(2.0) == pytest.approx(0.25 + 1.0 + 0.75)
+
+
+@pytest.mark.parametrize(
+    ("times", "resolved"),
+    [
+        ([0.0, 0.1, 0.1 + 1e-6, 1.0], 0.1),
+        ([0.0, 1e-6, 0.5, 0.7], 0.2),
+        ([0.0, 1e-6], 1e-6),
+        ([0.0, 0.1, 0.11, 0.12, 1.0], 0.01),
+    ],
+)
+def test_a_jump_drawn_by_two_samples_asks_for_no_steps_that_resolve_it(times, resolved):
+    motion = GroundMotion.from_acceleration(np.array(times), np.arange(float(len(times))))
+    assert motion.shortest_step == pytest.approx(resolved, rel=1e-4)

@@ -104,3 +104,15 @@ def test_springs_of_contact_have_not_lost_what_they_stored_in_the_first_step():
     (said,) = (line for line in found.warnings if "energy_lost" in line)
     lost = sum(float(part) for part in re.findall(r"([0-9.]+) % by", said))
     assert lost == pytest.approx(100 * found.energy_balance, rel=5e-3)  # three digits are told
+
+
+def test_an_integrator_has_not_lost_what_dashpots_took():
+    damped = WAVES.replace("[damping]\nlocal = 0.5\n", "") + (
+        '[[dashpots]]\nname = "damper"\npoints = [[3, 0.5], [1, 0.5]]\nviscosity = 2e4\n'
+        'blocks = ["ground", "mass"]\n'
+    )
+    table = {"integrator": {"type": "shi", "step": 1e-2}}
+    found = nmm.run(nmm.parse_scene(damped), nmm.Formulation.model_validate(table)).summary
+    (said,) = (line for line in found.warnings if "energy_lost" in line)
+    (lost,) = re.findall(r"([0-9.]+) % by", said)
+    assert float(lost) == pytest.approx(100 * found.energy_balance, rel=5e-3)  # three digits
