@@ -99,6 +99,11 @@ class Matter:
                 one.check_size(sizes[own == number])
         return cls(chosen, own, points, elastic, plane, thickness, rest, sizes)
 
+    @property
+    def softens(self) -> bool:
+        """Whether some law loses strength in bands of a cell's width."""
+        return any(law.sized for law in self.laws)
+
     def start(self) -> dict[str, Floats]:
         """Return the history of matter that nothing has happened to: (Q, h) by name.
 

@@ -58,6 +58,9 @@ class FiniteMatter:
     flows: ClassVar[bool] = False
     """Whether matter may give way without end."""
 
+    softens: ClassVar[bool] = False
+    """Whether it loses strength as it does."""
+
     @classmethod
     def of(
         cls, manifold: Manifold, laws: Sequence[Law], law: Ints, plane: str, thickness: float

@@ -292,3 +292,51 @@ def test_softening_in_plane_stress_is_refused_by_line():
     )
     with pytest.raises(SceneError, match="scene:7: .*softening_energy.*plane strain"):
         nmm.parse_scene(text)
+
+
+@pytest.mark.parametrize("degree", [0, 1])
+def test_a_column_that_softens_has_a_failure_load(degree):
+    """Its foot yields at ``2 c - w H``, and no part bears more than ``2 c``.
+
+    Beyond the peak iterations go to and fro between matter that softens and matter that unloads.
+    """
+    weight, cohesion = 2000 * 9.81 * 2, 1e5
+    text = f"""plane = "strain"
+        [gravity]
+        [materials.clay]
+        law = "mohr_coulomb"
+        young_modulus = 1e8
+        poisson_ratio = 0.3
+        density = 2000
+        cohesion = {cohesion}
+        friction_angle = 0
+        softening_energy = 5e3
+        [[blocks]]
+        name = "column"
+        material = "clay"
+        vertices = [[0, 0], [1, 0], [1, 2], [0, 2]]
+        [[supports]]
+        name = "foot"
+        segment = [[0, 0], [1, 0]]
+        fix = ["y"]
+        [[supports]]
+        name = "left"
+        segment = [[0, 0], [0, 2]]
+        fix = ["x"]
+        [[loads]]
+        name = "press"
+        kind = "edge"
+        segment = [[0, 2], [1, 2]]
+        traction = [0, -1e5]
+        [loading]
+        scaled = ["press"]
+        until = "failure"
+        [formulation.cover]
+        type = "quads"
+        size = 0.25
+        degree = {degree}
+        """
+    found = nmm.run(nmm.parse_scene(text)).summary
+    assert found.status == "failure_load", found.sentence
+    assert "softens" in found.sentence
+    assert 2 * cohesion - weight <= found.failure_load <= 2 * cohesion

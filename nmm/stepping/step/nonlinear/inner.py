@@ -36,8 +36,8 @@ class Inner:
         (n, n) elastic stiffness of matter.
     symmetric
         Whether tangents are.
-    flows
-        Whether matter may flow.
+    flows, softens
+        Whether matter may flow, and lose strength as it does.
     searches
         Whether iterations are shortened where forces overshoot: not under finite strain, whose
         tangents foresee how slender bodies stretch as they turn.
@@ -64,6 +64,7 @@ class Inner:
         kept = matter is None or (matter.symmetric and not conserves)
         self.symmetric = symmetric or (kept and even)
         self.flows = matter is not None and matter.flows
+        self.softens = matter is not None and matter.softens
         self.searches = matter is None or matter.flows
         self.tolerance = CONSERVED if conserves else BALANCED
         swelling = current.plan.swelling(state, end) if self.flows else None

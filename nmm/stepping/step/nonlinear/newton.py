@@ -55,7 +55,7 @@ def newton(
     The last equations and their solution, with what is remembered at its end.
     """
     elastic, scale = inner.elastic if inner.flows else None, _scale(inner.elastic)
-    way, passes = np.zeros_like(inner.start), 0
+    way, passes, softens = np.zeros_like(inner.start), 0, False
     now = inner.at(way)
     found: Attempt | None = None
     imbalances: list[float] = []
@@ -65,15 +65,16 @@ def newton(
         passes += found.passes
         found = replace(found, passes=passes, imbalances=tuple(imbalances))
         if not found.converged and not _goes_on(found):
-            return equations, _failed(found, found.sentence, _flow(elastic, line, way))
+            return equations, _failed(found, found.sentence, _flow(elastic, line, way, softens))
         then = inner.at(found.increment, now, found.state)
         imbalances.append(inner.imbalance(now, then, scale, equations.force, found.missed))
         found = replace(found, imbalances=tuple(imbalances))
         if _balanced(imbalances, inner.tolerance, found.residual):
             return equations, _accepted(found, then)
         way = then.increment - now.increment
+        softens = softens or (inner.softens and float(way @ (line.stiffness @ way)) < 0)
         if _hopeless(imbalances):
-            return equations, _lost(found, state, _flow(elastic, line, way))
+            return equations, _lost(found, state, _flow(elastic, line, way, softens))
         now, before = searched(equations, line, now, then, inner) if inner.searches else then, now
         if inner.searches and not inner.flows and _falls(imbalances):
             now = now.with_tangent_of(before)
@@ -140,8 +141,14 @@ def _falls(imbalances: list[float]) -> bool:
     return last <= NEARLY and last <= FALLS * before
 
 
-def _flow(elastic: csc_array | None, line: Linearisation, way: Floats) -> str:
-    """Say how little of its elastic stiffness matter has against a motion (n,); empty if enough."""
+def _flow(elastic: csc_array | None, line: Linearisation, way: Floats, softens: bool) -> str:
+    """Say how little of its elastic stiffness matter has against a motion (n,); empty if enough.
+
+    Where it ``softens`` some motion of the iterations took work of second order below zero (Hill
+    1958); the last one may be of matter that unloads again, with all of its stiffness.
+    """
+    if softens:
+        return "matter softens faster than what is about it unloads"
     if elastic is None:
         return ""
     whole = float(way @ (elastic @ way))
