@@ -88,6 +88,15 @@ traction = [0, -1.0]
     assert run.summary.fracture_energy == 0.0
 
 
+def test_a_crack_grows_under_supports_that_are_driven_at_once_without_halves_of_a_load() -> None:
+    # No factor scales them: increments were halved down to 1e-9 of a load that is not there.
+    rule = "toughness = 0.9\nincrement = 0.1\nmax_growth = 0.2"
+    run = nmm.run(plate(rule, DRIVEN.replace("1.0]", "4.0]")), net())
+    assert run.history["load_factor"] == pytest.approx([1.0] * 3)
+    assert run.history["fracture:growth"] == pytest.approx([0.0, 0.1, 0.2], abs=1e-9)
+    assert run.summary.sentence == "equilibrium at load factor 1"
+
+
 def test_what_growth_takes_is_missing_in_the_stored_energy() -> None:
     # Irwin: G = K^2 / E' for every unit of growth, whatever the net resolves of it.
     run = nmm.run(plate(FOLLOW.replace("0.1", "0.05")), net())
