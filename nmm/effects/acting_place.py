@@ -59,4 +59,6 @@ def edge_place(setup: Setup, key: str, table: "OnEdges", order: int) -> Place:
 def _nowhere(setup: Setup, key: str, table: "OnEdges", there: str) -> Fault:
     where = setup.scene.source.of_name(key, table.name)
     expected, remedy = "a place on the material", "move it onto a block or onto the edge of one"
+    if setup.acting is not None and key in ("supports", "loads"):
+        remedy += f", or list the {key} of the stage without it"
     return Fault(where, f'"{table.name}": {there}', expected, remedy)

@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -112,8 +112,14 @@ class Frictional(Plastic):
 
     def check_size(self, size: Floats) -> None:
         """See `Law.check_size`."""
-        assert self.softening_energy is not None
-        check_cells(self.softening_energy, size, largest_cell(self.sets, self.softening_energy))
+        energy = self.softening_energy
+        assert energy is not None
+        most, remedy = largest_cell(self.sets, energy), ""
+        if self.tensile_strength is None:
+            cut = replace(self, tensile_strength=min(self.cohesion, self.apex))
+            if largest_cell(cut.sets, energy) > most:
+                remedy = f", or give a tensile_strength below the apex of {self.apex:.4g} Pa"
+        check_cells(energy, size, most, remedy)
 
     def variables(self, plane: str) -> History:
         """See `Law.variables`."""

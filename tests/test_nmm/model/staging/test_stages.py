@@ -37,6 +37,12 @@ def run(scene, cover, **more):
     return nmm.run(parse_scene(scene), nmm.Formulation.model_validate(table))
 
 
+def test_a_support_whose_block_has_left_is_refused_with_the_key_that_lists_others():
+    roof = '[[supports]]\nname = "roof"\nsegment = [[0, 3], [1, 3]]\nfix = ["x"]\n'
+    with pytest.raises(NmmError, match="or list the supports of the stage without it"):
+        run(STACKED + roof + STAGES, MESHES["quads"])
+
+
 @pytest.mark.parametrize("cover", ["triangles", "quads", "graded"])
 def test_a_column_carries_the_weight_that_is_on_it_in_each_stage(cover):
     found = run(STACKED + STAGES, MESHES[cover])
