@@ -8,7 +8,7 @@ import pytest
 import nmm
 from nmm.errors import FormulationError
 from nmm.formulation import parse_formulation
-from nmm.materials.elastic import Elastic
+from nmm.materials.elastic import Elastic, elastic_energy
 from nmm.materials.mohr_coulomb import MohrCoulombPlasticity
 from nmm.materials.von_mises import VonMisesPlasticity
 from nmm.scene import parse_scene
@@ -60,6 +60,14 @@ def test_a_law_may_answer_in_a_plain_tuple():
     end = nmm.run(bar, formulation, allow_code=[__name__]).history["monitor:end:ux"][-1]
     # 1 Pa on 1 m of 100 Pa, and on springs of 1e3 moduli over the cell; iterations leave 1e-10.
     assert end == pytest.approx(1 / 100 + 0.4 / (1e3 * 100), rel=1e-9)
+
+
+def test_elastic_energy_is_that_of_uniaxial_hydrostatic_and_shear_stress():
+    """``s^2 / 2E``, ``3 (1 - 2 nu) s^2 / 2E`` and ``(1 + nu) s^2 / E``."""
+    stress = 3e6 * np.array([[1.0, 0, 0], [1.0, 1.0, 0], [0, 0, 1.0]])
+    found = elastic_energy(2e9, 0.3, stress, 3e6 * np.array([0.0, 1.0, 0.0]))
+    expected = np.array([0.5, 1.5 * (1 - 2 * 0.3), 1 + 0.3]) * 3e6**2 / 2e9
+    assert found == pytest.approx(expected, rel=1e-12)
 
 
 @dataclass(frozen=True)
