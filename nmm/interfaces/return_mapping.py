@@ -38,20 +38,29 @@ def mapped(
         tangent = np.zeros((len(gap), 2, 2))
         tangent[:, 0, 0], tangent[:, 1, 1] = slope, stiffness[1]
         # While the history stands springs are linear; what it changes is differenced.
-        stretch = slip - history["plastic_slip"]
-        for column, (there, size) in enumerate(((gap, gap), (slip, stretch))):
-            nudge = NUDGE * (np.abs(size) + 1e-3 * np.abs(size).max(initial=1e-12))
-            nudge += ROUNDED_PLACE * np.abs(there)
-            sides = []
-            for sign in (1, -1):
-                moved = [gap, slip]
-                moved[column] = there + sign * nudge
-                other = _after(law, history, moved[0], moved[1], stiffness)
-                sides.append(_traction(law, history, other, gap, slip, stiffness)[0])
-            tangent[:, :, column] += (sides[0] - sides[1]) / (2 * nudge[:, None])
+        by_gap, by_slip = _nudge(gap, gap), _nudge(slip, slip - history["plastic_slip"])
+        still = np.zeros_like(gap)
+        # All four neighbours of a point are points of the law: gap and slip, more and less.
+        known = {name: np.tile(column, 4) for name, column in history.items()}
+        stiff = np.tile(stiffness[0], 4), np.tile(stiffness[1], 4)
+        here = np.tile(gap, 4), np.tile(slip, 4)
+        gaps = here[0] + np.concatenate([by_gap, -by_gap, still, still])
+        slips = here[1] + np.concatenate([still, still, by_slip, -by_slip])
+        other = _after(law, known, gaps, slips, stiff)
+        more, less = (
+            _traction(law, known, other, *here, stiff)[0].reshape(2, 2, -1, 2).swapaxes(0, 1)
+        )
+        for column, nudge in enumerate((by_gap, by_slip)):
+            tangent[:, :, column] += (more[column] - less[column]) / (2 * nudge[:, None])
         return tangent
 
     return Traction(traction, after, slopes)
+
+
+def _nudge(there: Floats, size: Floats) -> Floats:
+    """Return by how much a place (m,) is moved to difference: a part of its ``size`` (m,)."""
+    scale = np.abs(size) + 1e-3 * np.abs(size).max(initial=1e-12)
+    return np.asarray(NUDGE * scale + ROUNDED_PLACE * np.abs(there))
 
 
 def _after(
