@@ -69,8 +69,9 @@ def flowed(
 
     Stress (m, 4) has that across last.
     """
+    swelling = history.get("swelling")
     variables = {
-        "plastic_strain": history["plastic_strain"] + (strain - inelastic(history)),
+        "plastic_strain": strain if swelling is None else strain - swelling * EVEN,
         "accumulated_plastic_strain": accumulated[:, None],
         "stress_zz": stress[:, 3:],
     }
