@@ -14,6 +14,7 @@ import numpy as np
 
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
+from nmm.assembly.motion import State
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
@@ -23,7 +24,7 @@ from nmm.constraints.springs import Springs, glue_stiffness, joint_springs
 from nmm.constraints.tied_interfaces import TiedInterfaces
 from nmm.constraints.turned_axes import turning
 from nmm.contact.detection.joints import Joints
-from nmm.effects.base import Setup
+from nmm.effects.base import Instant, Setup
 from nmm.effects.initial.stress_at_start import StressAtStart
 from nmm.errors import FormulationError, SceneError
 
@@ -78,6 +79,23 @@ class BondedInterfaces(TiedInterfaces):
             anchor = np.where(arrived[:, None], interface.motion(state), anchor)
             new.ties[number] = replace(tie, interface=replace(interface, anchor=anchor))
         return new
+
+    def energy(self, state: State) -> float:
+        """See `Effect.energy`."""
+        return super().energy(state) - self._laid_energy(state)
+
+    def felt_energy(self, state: State) -> float:
+        """See `Effect.felt_energy`: of stress that springs carry as they are drawn, too."""
+        return super().felt_energy(state) + self._laid_energy(state)
+
+    def _laid_energy(self, state: State) -> float:
+        """The part (J) of the energy of springs that is linear in the way from where they lay."""
+        total = 0.0
+        for tie, jump in self._each(state, Instant.of(state)):  # a handful of ties
+            anchor = np.broadcast_to(tie.interface.anchor, jump.shape)
+            if anchor.any():
+                total += float(np.sum((jump + anchor) * tie.point_forces(state, anchor)))
+        return total
 
     @property
     def about(self) -> str:
