@@ -23,6 +23,7 @@ from nmm.scene.actions import (
     InitialVelocityTable,
     Loading,
     MonitorTable,
+    Placed,
     ReferenceTable,
     SupportTable,
 )
@@ -184,6 +185,15 @@ class Scene(Frozen):
             field is not None and field.transient
             for field in (self.heat, self.seepage, self.joint_flow)
         )
+
+    @property
+    def steady(self) -> bool:
+        """Whether nothing that acts may change with the load factor, by itself or by a history."""
+        given = (getattr(self, name) for name in type(self).model_fields)
+        tables = (one for listed in given if isinstance(listed, tuple | list) for one in listed)
+        acts = [one for one in tables if isinstance(one, Placed)]
+        changes = (one.history or getattr(one, "field", None) for one in acts)
+        return not (self.loads or self.water_pressures or any(changes))
 
     @property
     def source(self) -> Source:

@@ -112,8 +112,7 @@ class Drive:
         if loading is None:
             increment = steps.increment if scene.followed else 1.0
             # Cracks that weight or driven supports open meet all of it, whatever the increment.
-            steady = scene.fracture is not None and not (scene.loads or scene.water_pressures)
-            at_once = self.made.at_once or steady
+            at_once = self.made.at_once or (scene.fracture is not None and scene.steady)
             return LoadSchedule(1.0, False, increment, steps.tolerance, at_once=at_once, **alike)
         until = loading.until == "failure"
         target = loading.maximum_factor or (np.inf if until else float(loading.until))
