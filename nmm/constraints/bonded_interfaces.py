@@ -15,6 +15,7 @@ import numpy as np
 from integration.arrays import Bools, Floats, Ints
 from nmm.assembly.model import Model
 from nmm.assembly.motion import State
+from nmm.assembly.tractions.donors import across
 from nmm.constraints.imposition import Imposition, Method
 from nmm.constraints.interface import Interface, nearest
 from nmm.constraints.linear_matter import method_for
@@ -199,11 +200,9 @@ def _under_stress(setup: Setup, tie: Springs) -> Springs:
     """Return springs that carry the stress of the ground as they are drawn: the mean traction."""
     ground, interface = StressAtStart.declared(setup), tie.interface
     a, b = (ground.at(setup.model, side.elements, side.position) for side in interface.sides)
-    xx, yy, xy, _ = ((a + b) / 2).T
     assert interface.first.normal is not None
-    stress = np.stack([xx, xy, xy, yy], axis=1).reshape(-1, 2, 2)
-    force = interface.area[:, None, None] * stress @ interface.first.normal[:, :, None]
-    anchor = np.linalg.solve(tie.stiffness, force)[:, :, 0]
+    force = interface.area[:, None] * across((a + b)[:, :3] / 2, interface.first.normal)
+    anchor = np.asarray(np.linalg.solve(tie.stiffness, force[:, :, None])[:, :, 0], dtype=float)
     return replace(tie, interface=replace(interface, anchor=anchor))
 
 

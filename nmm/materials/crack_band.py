@@ -1,4 +1,4 @@
-"""Cells in which matter that softens has an answer."""
+"""What laws that soften check alike: what strength is left, and cells in which they answer."""
 
 from integration.arrays import Floats
 from nmm.errors import FormulationError
@@ -16,3 +16,19 @@ def check_cells(energy: float, size: Floats, most: float, remedy: str = "") -> N
             f"{most:.4g} m, where they unload more slowly than they soften: refine the cover"
             + remedy
         )
+
+
+def check_residual(
+    energy: float | None, residual: tuple[str, float], most: float, expected: str
+) -> None:
+    """Refuse a residual strength, by name, of a law that does not soften or of ``most`` and more.
+
+    ``expected`` says what it may be, up to the strength that it falls from (Pa).
+    """
+    name, value = residual
+    if energy is None and value:
+        raise FormulationError(
+            f"{name}: {value}: expected a law that softens: add softening_energy"
+        )
+    if energy is not None and not 0 <= value < most:
+        raise FormulationError(f"{name}: {value}: expected {expected} of {most:.6g} Pa: lower it")

@@ -9,7 +9,7 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import Fault, FormulationError
 from nmm.materials.base import History, Response
-from nmm.materials.crack_band import check_cells
+from nmm.materials.crack_band import check_cells, check_residual
 from nmm.materials.planes import Planes, ReturnedStress, Weakening, largest_cell
 from nmm.materials.plasticity import Plastic, flowed, grown
 
@@ -76,23 +76,14 @@ class Frictional(Plastic):
 
     def _check_softening(self) -> None:
         """Refuse constants with which it cannot soften."""
-        if self.softening_energy is None:
-            if self.residual_cohesion:
-                raise FormulationError(
-                    f"residual_cohesion: {self.residual_cohesion}: expected a law that softens: "
-                    "add softening_energy"
-                )
-            return
-        if not (self.softening_energy > 0 and self.cohesion > 0):
+        energy = self.softening_energy
+        if energy is not None and not (energy > 0 and self.cohesion > 0):
             raise FormulationError(
-                f"softening_energy: {self.softening_energy}: expected an energy in J/m2, > 0, of a "
+                f"softening_energy: {energy}: expected an energy in J/m2, > 0, of a "
                 "law with a cohesion that can fall: correct it, or raise cohesion"
             )
-        if not 0 <= self.residual_cohesion < self.cohesion:
-            raise FormulationError(
-                f"residual_cohesion: {self.residual_cohesion}: expected a cohesion from 0 to below "
-                f"that of {self.cohesion:.6g} Pa: lower it"
-            )
+        left = "residual_cohesion", self.residual_cohesion
+        check_residual(energy, left, self.cohesion, "a cohesion from 0 to below that")
 
     @property
     @abstractmethod
@@ -102,8 +93,7 @@ class Frictional(Plastic):
     @property
     def fall(self) -> float:
         """Share of the strengths that is lost in the end."""
-        soft = self.softening_energy is not None
-        return 1 - self.residual_cohesion / self.cohesion if soft else 0.0
+        return 1 - self.residual_cohesion / self.cohesion if self.sized else 0.0
 
     @property
     def sized(self) -> bool:

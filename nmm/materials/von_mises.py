@@ -8,7 +8,7 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
-from nmm.materials.crack_band import check_cells
+from nmm.materials.crack_band import check_cells, check_residual
 from nmm.materials.plasticity import Plastic, flowed, inelastic
 from nmm.materials.projected_return import projected_return
 from nmm.materials.radial_return import Returned, radial_return
@@ -58,23 +58,14 @@ class VonMisesPlasticity(Plastic):
                 f"hardening_modulus: {self.hardening_modulus}: expected a modulus in Pa, >= 0: "
                 "0 is perfectly plastic; softening is given by softening_energy"
             )
-        if self.softening_energy is None:
-            if self.residual_stress:
-                raise FormulationError(
-                    f"residual_stress: {self.residual_stress}: expected a law that softens: add "
-                    "softening_energy"
-                )
-            return
-        if self.hardening_modulus or not self.softening_energy > 0:
+        energy = self.softening_energy
+        if energy is not None and (self.hardening_modulus or not energy > 0):
             raise FormulationError(
-                f"softening_energy: {self.softening_energy}: expected an energy in J/m2, > 0, of a "
+                f"softening_energy: {energy}: expected an energy in J/m2, > 0, of a "
                 "law that does not harden: correct it, or remove hardening_modulus"
             )
-        if not 0 <= self.residual_stress < self.yield_stress:
-            raise FormulationError(
-                f"residual_stress: {self.residual_stress}: expected a stress from 0 to below the "
-                f"yield stress of {self.yield_stress:.6g} Pa: lower it"
-            )
+        left = "residual_stress", self.residual_stress
+        check_residual(energy, left, self.yield_stress, "a stress from 0 to below the yield stress")
 
     @property
     def sized(self) -> bool:

@@ -1,16 +1,15 @@
 """Balance of a step along a path, and an iterate of it."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csc_array, diags_array, vstack
 
-from integration.arrays import Floats, same
+from integration.arrays import Floats
 from nmm.contact.laws.tractions import ContactForces
 from nmm.contact.points.contact_rows import ContactRows
 from nmm.controls.path_equation import PathEquation
-from nmm.solvers.linear import Factor, LinearSolver
 
 # Out-of-balance force over the largest one below which iterations without gain are rounding.
 ROUNDED = 1e-8
@@ -64,15 +63,6 @@ class PathStep:
         return float(np.linalg.norm(self.rest))
 
 
-@dataclass
-class LastFactor:
-    """The last tangent's factor, and what it was made of: slopes of contacts, and the solver."""
-
-    slope: Floats = field(default_factory=lambda: np.zeros((0, 2, 2)))
-    solver: LinearSolver | None = None
-    factor: Factor | None = None
-
-
 @dataclass(frozen=True)
 class PathProblem:
     """Balance of a step along a path.
@@ -91,9 +81,6 @@ class PathProblem:
         Force (N) beside which what is out of balance is small; that of contacts and load besides.
     rounding
         Force (N) that contacts answer to places that are rounded: less is in balance.
-    last
-        Serves again where contacts answer as they did: of most iterates, and of steps from one
-        state along other paths.
     """
 
     matrix: csc_array
@@ -104,7 +91,6 @@ class PathProblem:
     law: Law
     scale: float
     rounding: float = 0.0
-    last: LastFactor = field(default_factory=LastFactor)
 
     def at(self, path: PathEquation, increment: Floats, change: float) -> PathStep:
         """Return the iterate at an increment (n,) and a change of the load factor."""
@@ -120,27 +106,9 @@ class PathProblem:
         short = abs(path.left(increment, change)) / (abs(path.target) or 1.0)
         return PathStep(increment, change, contacts, gap, slip, rest, residual, short)
 
-    def factor(self, contacts: ContactForces, solver: LinearSolver) -> Factor:
-        """Return the factor of `tangent`.
-
-        Raises
-        ------
-        SolveError
-            Where it has none.
-        """
-        slope, last = contacts.tangent, self.last
-        if last.factor is None or last.solver != solver or not same(last.slope, slope):
-            last.factor = None
-            last.factor = solver.factorise(self.tangent(slope))
-            last.slope, last.solver = slope, solver
-        return last.factor
-
-    def tangent(self, slope: Floats) -> csc_array:
-        """Return the matrix (n, n) by which forces answer a further increment.
-
-        ``slope`` (m, 2, 2) are the derivatives of those of contacts.
-        """
-        normal, tangent = self.rows.normal, self.rows.tangent
+    def tangent(self, contacts: ContactForces) -> csc_array:
+        """Return the matrix (n, n) by which forces answer a further increment."""
+        normal, tangent, slope = self.rows.normal, self.rows.tangent, contacts.tangent
         if not len(slope):
             return self.matrix
         parts = [

@@ -110,10 +110,9 @@ class PosedPath:
         loss = _loss(self.laws, contacts, after, answer, sliding)
         told = {"sliding": sliding, "rows": self.rows}
         solved = ContactSolution(after, answer, step.iterations, loss, **told)
-        return self._with_jumps(solved), step.change
-
-    def _with_jumps(self, solved: ContactSolution) -> ContactSolution:
-        return solved if self.mixed is None else self.mixed.told(solved, self.found)
+        if self.mixed is not None:
+            solved = self.mixed.told(solved, self.found)
+        return solved, step.change
 
 
 def _problem(

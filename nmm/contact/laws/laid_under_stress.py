@@ -8,6 +8,7 @@ import numpy as np
 from integration.arrays import Floats, Ints
 from integration.contraction import contract
 from nmm.assembly.model import Model
+from nmm.assembly.tractions.donors import across
 from nmm.contact.laws.contact_laws import ContactLaws
 from nmm.contact.points.boundary_points import tangents
 from nmm.contact.points.joint_book import JointBook
@@ -62,10 +63,9 @@ def _traction(book: JointBook, model: Model, stress: StressIn) -> tuple[Floats, 
         stress(boundary.element[edge], place)
         for (edge, _), place in zip(points.sides, places, strict=True)
     )
-    xx, yy, xy = ((a + b) / 2).T
-    traction = np.stack([xx, xy, xy, yy], axis=1).reshape(-1, 2, 2) @ normal[:, :, None]
+    traction = across((a + b) / 2, normal)
     line = contract("ij,ij->i", places[0], way)
-    pull, along = (contract("ij,ij->i", traction[:, :, 0], axis) for axis in (normal, way))
+    pull, along = (contract("ij,ij->i", traction, axis) for axis in (normal, way))
     return _with_moment(book, line, pull), _with_moment(book, line, along)
 
 

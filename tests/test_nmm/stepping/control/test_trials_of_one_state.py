@@ -35,6 +35,6 @@ def test_trials_from_one_state_seek_contacts_once_and_answer_as_each_alone(monke
         stepper.forget()
         alone = trial(load)
         assert alone.state.load_factor == shared.state.load_factor == load
-        # The same equations, and the factor that the first trial left: to rounding.
+        # The same equations: to rounding.
         np.testing.assert_allclose(alone.increment, shared.increment, rtol=1e-12)
     assert len(sought) == 4
