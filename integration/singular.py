@@ -88,15 +88,14 @@ def apex_rule(apex: Floats, start: Floats, end: Floats, order: int) -> TipRule:
     return TipRule(points.reshape(-1, 2), weights.ravel(), owner, offsets.reshape(-1, 2))
 
 
-def tip_rule(
-    polygons: Polygons, tips: npt.ArrayLike, order: int, faces: npt.ArrayLike | None = None
-) -> TipRule:
+def tip_rule(polygons: Polygons, tips: npt.ArrayLike, order: int) -> TipRule:
     """Points for integrals over polygons of functions singular at a tip of each.
 
     The tip may lie inside, on the boundary, in a hole or outside. Points lie inside the polygon
     where it is seen whole from the tip; elsewhere some lie outside and some weights are negative,
-    so that the integrand must be defined there. For a tip many diameters away the terms cancel:
-    prefer `integration.rules.polygon_rule` there.
+    so that the integrand must be defined there. A polygon in which the integrand jumps across a
+    ray from the tip needs a vertex where the ray leaves it, so that no triangle spans the jump. For
+    a tip many diameters away the terms cancel: prefer `integration.rules.polygon_rule` there.
 
     Parameters
     ----------
@@ -106,22 +105,13 @@ def tip_rule(
         tip of each polygon.
     order : int
         as in `apex_rule`.
-    faces : (N, 2) or (2,), optional
-        direction from the tip along the crack faces, where the integrand jumps. Edges that cross
-        this ray are parted there, so that no triangle of the fan spans the jump.
     """
     owner = polygons.polygon_of_point
     tip = np.broadcast_to(np.asarray(tips, dtype=float), (len(polygons), 2))[owner]
     start, end = polygons.points, polygons.points[polygons.next_point]
-    if faces is not None:
-        ray = np.broadcast_to(np.asarray(faces, dtype=float), (len(polygons), 2))[owner]
-        edge, start, end = _parted(start, end, tip, ray)
-        owner, tip = owner[edge], tip[edge]
-    else:
-        edge = np.arange(len(owner))
     sense = np.sign(polygons.ring_areas) * polygons.ring_signs
     rule = apex_rule(tip, start, end, order)
-    weights = rule.weights * sense[polygons.ring_of_point[edge]][rule.owner]
+    weights = rule.weights * sense[polygons.ring_of_point][rule.owner]
     return TipRule(rule.points, weights, owner[rule.owner], rule.offsets)
 
 
@@ -145,21 +135,3 @@ def _pieces(first: Floats, length: Floats, number: int) -> tuple[Ints, Floats, F
     nodes, weights = gauss.interval(number)
     s = (first[interval] + within(counts) * width)[:, None] + width[:, None] * nodes
     return interval, s, width[:, None] * weights
-
-
-def _parted(start: Floats, end: Floats, tip: Floats, ray: Floats) -> tuple[Ints, Floats, Floats]:
-    """Edges cut where they cross the rays from the tips: number, start and end, in order."""
-    p, q = start - tip, end - tip
-    side_p = ray[:, 0] * p[:, 1] - ray[:, 1] * p[:, 0]
-    side_q = ray[:, 0] * q[:, 1] - ray[:, 1] * q[:, 0]
-    across = np.flatnonzero(side_p * side_q < 0.0)
-    part = (side_p[across] / (side_p[across] - side_q[across]))[:, None]
-    offset = p[across] + part * (q[across] - p[across])
-    ahead = np.einsum("ij,ij->i", offset, ray[across]) > 0.0
-    across, meeting = across[ahead], (tip[across] + offset)[ahead]
-    edge = np.insert(np.arange(len(start)), across, across)
-    added = across + np.arange(len(across))
-    parted_start, parted_end = start[edge], end[edge]
-    parted_end[added] = meeting
-    parted_start[added + 1] = meeting
-    return edge, parted_start, parted_end
