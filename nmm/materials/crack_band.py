@@ -1,21 +1,49 @@
-"""What laws that soften check alike: what strength is left, and cells in which they answer."""
+"""Plastic laws that may soften in bands of a cell's width: strength left, and the largest cells."""
+
+from abc import abstractmethod
+from dataclasses import dataclass, field
 
 from integration.arrays import Floats
 from nmm.errors import FormulationError
+from nmm.materials.plasticity import Plastic
 
 
-def check_cells(energy: float, size: Floats, most: float, remedy: str = "") -> None:
-    """Refuse cells of sizes (m,) of which one is ``most`` or more (m).
+@dataclass(frozen=True)
+class SofteningPlasticity(Plastic):
+    """Base of plastic laws that soften where they are given an energy.
 
-    There flow takes more strain than the stress that it relieves gives back. What helps besides
-    smaller cells is the ``remedy``.
+    Attributes
+    ----------
+    softening_energy
+        J/m2 that a band of flow takes for its area until it has softened; None is no softening.
     """
-    if size.max(initial=0.0) >= most:
-        raise FormulationError(
-            f"softening_energy: {energy}: cells of {size.max():.4g} m: expected cells below "
-            f"{most:.4g} m, where they unload more slowly than they soften: refine the cover"
-            + remedy
-        )
+
+    softening_energy: float | None = field(default=None, kw_only=True)
+
+    @abstractmethod
+    def cell_limit(self, energy: float) -> tuple[float, str]:
+        """Return the cell size (m) below which the law has an answer, and what else would raise it.
+
+        In larger cells flow takes more strain than the stress that it relieves gives back.
+        """
+
+    @property
+    def sized(self) -> bool:
+        """See `Law.sized`."""
+        return self.softening_energy is not None
+
+    def check_size(self, size: Floats) -> None:
+        """See `Law.check_size`."""
+        energy = self.softening_energy
+        if energy is None:
+            return
+        most, remedy = self.cell_limit(energy)
+        if size.max(initial=0.0) >= most:
+            raise FormulationError(
+                f"softening_energy: {energy}: cells of {size.max():.4g} m: expected cells below "
+                f"{most:.4g} m, where they unload more slowly than they soften: refine the cover"
+                + remedy
+            )
 
 
 def check_residual(

@@ -9,13 +9,13 @@ import numpy as np
 from integration.arrays import Floats
 from nmm.errors import Fault, FormulationError
 from nmm.materials.base import History, Response
-from nmm.materials.crack_band import check_cells, check_residual
+from nmm.materials.crack_band import SofteningPlasticity, check_residual
 from nmm.materials.planes import Planes, ReturnedStress, Weakening, largest_cell
-from nmm.materials.plasticity import Plastic, flowed, grown
+from nmm.materials.plasticity import flowed, grown
 
 
 @dataclass(frozen=True)
-class Frictional(Plastic):
+class Frictional(SofteningPlasticity):
     """Base of laws with cohesion and friction in plane strain, perfectly plastic or softening.
 
     Attributes
@@ -44,7 +44,6 @@ class Frictional(Plastic):
     friction_angle: float
     dilation_angle: float = 0.0
     tensile_strength: float | None = None
-    softening_energy: float | None = field(default=None, kw_only=True)
     residual_cohesion: float = field(default=0.0, kw_only=True)
 
     def __post_init__(self) -> None:
@@ -95,21 +94,14 @@ class Frictional(Plastic):
         """Share of the strengths that is lost in the end."""
         return 1 - self.residual_cohesion / self.cohesion if self.sized else 0.0
 
-    @property
-    def sized(self) -> bool:
-        """See `Law.sized`."""
-        return self.softening_energy is not None
-
-    def check_size(self, size: Floats) -> None:
-        """See `Law.check_size`."""
-        energy = self.softening_energy
-        assert energy is not None
+    def cell_limit(self, energy: float) -> tuple[float, str]:
+        """See `SofteningPlasticity.cell_limit`."""
         most, remedy = largest_cell(self.sets, energy), ""
         if self.tensile_strength is None:
             cut = replace(self, tensile_strength=min(self.cohesion, self.apex))
             if largest_cell(cut.sets, energy) > most:
                 remedy = f", or give a tensile_strength below the apex of {self.apex:.4g} Pa"
-        check_cells(energy, size, most, remedy)
+        return most, remedy
 
     def variables(self, plane: str) -> History:
         """See `Law.variables`."""

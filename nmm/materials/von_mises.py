@@ -8,14 +8,14 @@ import numpy as np
 from integration.arrays import Bools, Floats
 from nmm.errors import FormulationError
 from nmm.materials.base import History, Response
-from nmm.materials.crack_band import check_cells, check_residual
-from nmm.materials.plasticity import Plastic, flowed, inelastic
+from nmm.materials.crack_band import SofteningPlasticity, check_residual
+from nmm.materials.plasticity import flowed, inelastic
 from nmm.materials.projected_return import projected_return
 from nmm.materials.radial_return import Returned, radial_return
 
 
 @dataclass(frozen=True)
-class VonMisesPlasticity(Plastic):
+class VonMisesPlasticity(SofteningPlasticity):
     """Yield where ``sqrt(3/2 s : s)`` reaches ``yield_stress + hardening_modulus * p``.
 
     The step is implicit (backward Euler): the radial return in plane strain, the return projected
@@ -45,7 +45,6 @@ class VonMisesPlasticity(Plastic):
 
     yield_stress: float
     hardening_modulus: float = 0.0
-    softening_energy: float | None = None
     residual_stress: float = 0.0
 
     def __post_init__(self) -> None:
@@ -67,16 +66,10 @@ class VonMisesPlasticity(Plastic):
         left = "residual_stress", self.residual_stress
         check_residual(energy, left, self.yield_stress, "a stress from 0 to below the yield stress")
 
-    @property
-    def sized(self) -> bool:
-        """See `Law.sized`."""
-        return self.softening_energy is not None
-
-    def check_size(self, size: Floats) -> None:
-        """See `Law.check_size`: flow takes more strain than the shear that it relieves."""
+    def cell_limit(self, energy: float) -> tuple[float, str]:
+        """Return where flow would take more strain than the shear that it relieves."""
         shear = self.young_modulus / 2 / (1 + self.poisson_ratio)
-        assert self.softening_energy is not None
-        check_cells(self.softening_energy, size, 3 * shear / self._slope(1.0))
+        return 3 * shear / self._slope(1.0), ""
 
     def _slope(self, size: float | Floats) -> Any:
         """By how much the yield stress falls over the plastic strain in cells of a size (Pa)."""

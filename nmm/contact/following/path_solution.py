@@ -79,16 +79,11 @@ class PosedPath:
         """
         rows, bonds = steps.geometry.rows(contacts, state), steps.bonds
         tied = bonds.tied(contacts, state, rows, request.weight, request.time)
-        mixed, whole = (
-            bonds.mixed(contacts, state, request.time),
-            bonds.unsoftened(contacts, joints),
-        )
-        given = contacts, rows, request
-        posed = given if mixed is None else mixed.posed(*given)
+        mixed, posed = bonds.posed(contacts, rows, request, state)
         free = np.ones(len(contacts), dtype=bool)
         if tied is not None:
             free[tied.index] = False
-        problem = _problem(steps.laws, *posed, free, tied, whole)
+        problem = _problem(steps.laws, *posed, free, tied, bonds.unsoftened(contacts, joints))
         return cls(steps.laws, problem, *posed[:2], free, tied, mixed, contacts)
 
     def solved(self, path: PathEquation, solver: LinearSolver) -> tuple[ContactSolution, float]:

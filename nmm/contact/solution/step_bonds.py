@@ -15,6 +15,7 @@ from nmm.contact.points.contact_points import ContactPoints
 from nmm.contact.points.contact_rows import ContactRows
 from nmm.contact.problem.step_problem import StepAnswer
 from nmm.contact.solution.mixed_bonds import MixedBonds
+from nmm.contact.solution.request import StepRequest
 
 
 @dataclass
@@ -63,6 +64,13 @@ class StepBonds:
         if self.terms is None:
             return None
         return MixedBonds.of(self.terms, self.laws, contacts, state, self.stresses, time)
+
+    def posed(
+        self, contacts: ContactPoints, rows: ContactRows, request: StepRequest, state: State
+    ) -> tuple[MixedBonds | None, tuple[ContactPoints, ContactRows, StepRequest]]:
+        """Return the bonds of the mixed form, and the problem of a step with their springs."""
+        mixed, given = self.mixed(contacts, state, request.time), (contacts, rows, request)
+        return mixed, given if mixed is None else mixed.posed(*given)
 
     def unsoftened(self, contacts: ContactPoints, joints: ContactPoints) -> Bools | None:
         """Return which contacts (m,) are bonds of the mixed form while none has softened.

@@ -53,9 +53,7 @@ class ContactSteps:
         else:
             rows = self.geometry.conserving(contacts, state, end)
         surface = self.surface(state)
-        mixed = self.bonds.mixed(contacts, state, request.time)
-        posed = contacts, rows, request
-        posed = posed if mixed is None else mixed.posed(*posed)
+        mixed, posed = self.bonds.posed(contacts, rows, request, state)
 
         def besides(present: ContactPoints) -> list[Transform]:
             tied = self.bonds.tied(present, state, rows, request.weight, request.time)
