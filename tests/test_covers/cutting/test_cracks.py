@@ -43,6 +43,14 @@ def test_a_segment_that_passes_vertices_within_the_tolerance_is_bent_through_the
     np.testing.assert_array_equal(moved.end, [[1, 1], [2, 2], [3, 3]])
 
 
+@pytest.mark.parametrize(("off", "vertex"), [(5e-9, [1, 1]), (5e-8, [1 + 5e-8, 1])])
+def test_cuts_move_cracks_by_a_hundred_millionth_of_the_smallest_cell(off, vertex):
+    found = cut(CELLS, BLOCK, [[[0.3, 1.0], [1 + off, 1.0]]])
+    ends = found.elements.points[found.elements.points[:, 1] == 1.0]
+    assert (ends == vertex).all(axis=1).any()
+    assert not ((ends[:, 0] > 1) & (ends[:, 0] < vertex[0])).any()
+
+
 def test_ends_near_another_crack_meet_it_and_ends_near_one_another_are_one():
     moved = settle(
         [[0.2, 0.2], [0.8, 0.2]], [[0.5, 0.2 + 5e-9], [0.5, 0.7]], [[0.5, 0.7 + 2e-9], [0.6, 0.9]]

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from nmm.formulation import parse_formulation
 from nmm.frozen import with_parts
@@ -38,34 +39,59 @@ vertices = [[0, 0], [1, 0], [1, 1], [0, 1]]
 GAUSS = '[contact]\njoint_points = "gauss"\n'
 
 
-def found(angle: float) -> np.ndarray:
-    """Depths (m) of contacts of a block that has turned about the last bond of its joint."""
+# Where the last bond of the joint is (m), and how far the other one is from it.
+HINGE, APART = (1 + 1 / np.sqrt(3)) / 2, 1 / np.sqrt(3)
+
+
+def hinged():
+    """Return contact and start of two blocks, and a book in which one of two bonds is broken."""
     made = prepare(parse_scene(HINGED), parse_formulation(GAUSS))
-    contact, start = made.stepper.plan.contact, made.start
-    book = contact.record.book
-    hinge = (1 + 1 / np.sqrt(3)) / 2
+    contact = made.stepper.plan.contact
+    points = contact.record.book.points
+    far = np.abs(points.parameter_b - HINGE) > 0.1
+    broken = with_parts(points, history=points.history | {"bonded": ~far})
+    return contact, made.start, replace(contact.record.book, points=broken)
+
+
+def turned(start, angle: float):
+    """Return a state in which the upper block has turned about the last bond."""
     frames = start.frames
     c, s = np.cos(angle), np.sin(angle)
-    arm = np.array([hinge, 0.0]) - frames.centre[1]
+    arm = np.array([HINGE, 0.0]) - frames.centre[1]
     centre = frames.centre.copy()
     centre[1] += arm - np.array([c * arm[0] - s * arm[1], s * arm[0] + c * arm[1]])
-    turned = replace(frames, centre=centre, angle=np.array([0.0, angle]))
-    state = with_parts(start, frames=turned)
-    far = np.abs(book.points.parameter_b - hinge) > 0.1
-    points = with_parts(book.points, history=book.points.history | {"bonded": ~far})
-    surface = contact.partners.surface(state)
-    book = book.keep(points, contact.geometry.faces(state, surface))
-    contact.record = with_parts(contact.record, book=book)
+    return with_parts(start, frames=replace(frames, centre=centre, angle=np.array([0.0, angle])))
+
+
+def kept(contact, book, state):
+    """Return the book after a step that ends in a state."""
+    return book.keep(book.points, contact.geometry.faces(state, contact.partners.surface(state)))
+
+
+def found(angle: float) -> np.ndarray:
+    """Depths (m) of contacts of a block that has turned about the last bond of its joint."""
+    contact, start, book = hinged()
+    state = turned(start, angle)
+    contact.record = with_parts(contact.record, book=kept(contact, book, state))
     points = contact.candidates(state, 0.01)
     return -(points.gap + points.reference)[~points.is_joint]
 
 
 def test_a_corner_beyond_the_last_bond_is_a_contact_with_its_whole_depth() -> None:
     angle = -0.2
-    depth = (1 - (1 + 1 / np.sqrt(3)) / 2) * np.sin(-angle)
+    depth = (1 - HINGE) * np.sin(-angle)
     # Its vertex in the edge below; rounding of a rotation.
     assert np.abs(found(angle) - depth).min() < 1e-12
 
 
 def test_a_joint_that_has_opened_little_hides_the_corners_at_its_ends() -> None:
     assert not len(found(-0.01))
+
+
+def test_a_point_that_was_given_up_goes_on_telling_how_far_its_faces_are_apart() -> None:
+    contact, start, book = hinged()
+    for angle in (-0.2, -0.3):
+        book = kept(contact, book, turned(start, angle))
+    # Across the line between the faces, which halves their angle: the chord of the arc.
+    assert book.lost.gap == pytest.approx(2 * APART * np.sin(0.15), rel=1e-12)
+    assert book.broken == 1

@@ -68,6 +68,18 @@ def test_a_bound_of_the_static_theorem_spares_runs_and_may_be_above_the_limit():
     assert low.factor <= 1.37 < high.factor <= low.factor + 0.01
 
 
+@pytest.mark.parametrize(("limit", "asked"), [(1.5, [4.0]), (0.7, [1.0])])
+def test_the_static_theorem_is_asked_up_to_the_least_factor_that_is_known_to_fail(limit, asked):
+    highest = []
+
+    def run(factor):
+        status = "converged" if factor <= limit else "collapsed"
+        return FactorTried(factor, status, "", lambda most, width: highest.append(most))
+
+    bracket(run, StrengthReductionTable(highest=4.0))
+    assert highest == asked
+
+
 @pytest.mark.parametrize("limit", [0.13, 0.99, 1.0, 1.37, 7.7])
 def test_the_bracket_closes_around_any_limit(limit):
     def run(factor):
