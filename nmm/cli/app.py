@@ -9,24 +9,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from nmm.cli import motion_verbs, scene_verbs, study_verbs, verification_verbs
+from nmm.cli import motion_verbs, result_verbs, scene_verbs, study_verbs, verification_verbs
+from nmm.cli.result_verbs import draw, paraview_files
 from nmm.cli.scene_verbs import AllowCode, FormulationFile, allowed, read_formulation
-from nmm.cli.terminal import (
-    console,
-    faults_told,
-    progress_bar,
-    tell_faults,
-    tell_files,
-    tell_next,
-    tell_run,
-)
+from nmm.cli.terminal import console, faults_told, progress_bar, tell_files, tell_next, tell_run
 from nmm.errors import NmmError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from nmm.results import StoredRun
-    from nmm.results.sink import RunData
     from nmm.scene import Scene
     from nmm.stepping.run import Run
 
@@ -43,13 +32,16 @@ Out = Annotated[
     Path | None,
     typer.Option("--out", "-o", help="Folder of the run; else one of its name in runs/."),
 ]
+
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print the verdict only.")]
 
 DEMO = "kitoh_beam/kitoh_130.toml"
+
 # Objects made between two searches for circles of them. Libraries make 160 000 that stay when they
 # are imported; to look through these again and again is a tenth of a small run, 50 ms even once
 # for each 100 000.
 MADE_BETWEEN_SEARCHES = 300_000
+
 RUNS = Path("runs")
 
 
@@ -133,64 +125,13 @@ def compile_ahead() -> None:
         compile_kernels()
 
 
-@app.command()
-def plot(
-    run: Annotated[Path, typer.Argument(help="Folder of a run.", metavar="RUN")],
-    frame: Annotated[
-        int | None, typer.Option(help="Number of the frame, from the end when negative.")
-    ] = None,
-    magnification: Annotated[
-        float | None, typer.Option(min=0, help="Factor on displacements.")
-    ] = None,
-    component: Annotated[
-        str, typer.Option(help="Stress drawn: mises, xx, yy, xy, major, minor.")
-    ] = "mises",
-    allow_code: AllowCode = None,
-) -> None:
-    """Draw a run, whole or one frame of it; a run that was stopped can be drawn too.
-
-    Exit code 1 when the folder is damaged so that a picture or file could not be made.
-    """
-    from nmm.results import read_run
-
-    missed: list[str] = []
-    with faults_told(), allowed(run / "scene.toml", allow_code):
-        stored = read_run(run)
-        _frame_exists(frame, len(stored.frames))
-        scene = _scene_of(stored, missed.append)
-        drawn = _draw(stored, run, scene, frame, magnification, component, missed.append)
-        tell_files(drawn)
-        if not drawn:
-            missed.append(f"{run}: nothing to draw: expected frames or a history: run it again")
-    _tell_missed(missed)
-
-
-@app.command()
-def export(
-    run: Annotated[Path, typer.Argument(help="Folder of a run.", metavar="RUN")],
-    allow_code: AllowCode = None,
-) -> None:
-    """Write the ParaView files of a run; one that was stopped is written up to its last frame.
-
-    Exit code 1 when the folder is damaged so that a frame could not be written.
-    """
-    from nmm.results import read_run
-
-    missed: list[str] = []
-    with faults_told(), allowed(run / "scene.toml", allow_code):
-        tell_files(_paraview(read_run(run), run, missed.append))
-    _tell_missed(missed)
-
-
-def _tell_missed(missed: list[str]) -> None:
-    """Tell what could not be made of a damaged folder, and leave with exit code 1."""
-    tell_faults(missed)
-    if missed:
-        raise typer.Exit(1)
-
-
+result_verbs.register(app)
 study_verbs.register(app)
+
+
 motion_verbs.register(app)
+
+
 verification_verbs.register(app)
 
 
@@ -264,59 +205,10 @@ def _shown(scene: "Scene", done: "Run", out: Path, pictures: bool) -> list[Path]
     asked, files = scene.output, []
     if pictures or (asked is not None and asked.pictures):
         # Drawn from the folder, as `nmm plot` does, which knows the covers too.
-        files += _draw(nmm.read_run(out), out, scene)
+        files += draw(nmm.read_run(out), out, scene)
     if asked is not None and asked.paraview:
-        files += _paraview(done, out)
+        files += paraview_files(done, out)
     return files
-
-
-def _draw(
-    run: "RunData",
-    folder: Path,
-    scene: "Scene | None",
-    frame: int | None = None,
-    magnification: float | None = None,
-    component: str = "mises",
-    tell: "Callable[[str], None] | None" = None,
-) -> list[Path]:
-    from nmm.plots import draw_all
-    from nmm.results.storage.files import PICTURES
-
-    return draw_all(
-        run,
-        folder / PICTURES,
-        scene=scene,
-        frame=frame,
-        magnification=magnification,
-        component=component,
-        tell=tell,
-    )
-
-
-def _scene_of(stored: "StoredRun", tell: "Callable[[str], None]") -> "Scene | None":
-    """Read the scene of a run again; a run is drawn without one that cannot be read."""
-    from nmm.results.storage.files import SCENE
-    from nmm.scene import parse_scene
-
-    try:
-        return parse_scene(stored.scene, str(stored.folder / SCENE)) if stored.scene else None
-    except NmmError as error:
-        tell(f"{error.faults[0]}; supports, loads and covers are not drawn")
-        return None
-
-
-def _paraview(
-    run: "RunData", folder: Path, tell: "Callable[[str], None] | None" = None
-) -> list[Path]:
-    from nmm.results.storage.files import PARAVIEW
-    from nmm.results.viewing.paraview import write_paraview
-
-    return write_paraview(run, folder / PARAVIEW, tell)
-
-
-def _frame_exists(frame: int | None, count: int) -> None:
-    if frame is not None and not -count <= frame < count:
-        raise NmmError(f"--frame {frame}: expected {-count} to {count - 1}: the run has {count}")
 
 
 def _free(path: Path) -> Path:

@@ -1,92 +1,25 @@
-"""The verbs of studies: cost, compare, ablate, study, calibrate. What they need they import."""
+"""The verbs of studies: compare, ablate, study. What they need they import."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from nmm.cli.cost_verbs import calibrate, cost
 from nmm.cli.scene_verbs import AllowCode, allowed
-from nmm.cli.terminal import console, faults_told, progress_bar, tell_files
+from nmm.cli.study_arguments import (
+    Formulations,
+    Out,
+    Quiet,
+    SceneFile,
+    formulations_of,
+    one_thread_only,
+)
+from nmm.cli.terminal import faults_told, progress_bar, tell_files
 
 if TYPE_CHECKING:
-    from nmm.formulation import Formulation
     from nmm.scene import Scene
     from nmm.study.cases.variants import StudyCase
-
-SceneFile = Annotated[Path, typer.Argument(help="Scene file, TOML.", metavar="SCENE")]
-Formulations = Annotated[
-    list[Path] | None, typer.Argument(help="Formulation files, TOML.", metavar="FORMULATION")
-]
-FirstFormulations = Annotated[
-    list[Path] | None,
-    typer.Option("--formulations", "-f", help="Formulation files; more may follow without it."),
-]
-Out = Annotated[Path | None, typer.Option("--out", "-o", help="Folder to write to.")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print the outcome only.")]
-
-
-def cost(
-    scene: SceneFile,
-    more: Formulations = None,
-    formulations: FirstFormulations = None,
-    sizes: Annotated[
-        str | None, typer.Option(help="Sizes of covers in m, with commas: 0.2,0.1,0.05.")
-    ] = None,
-    vary: Annotated[
-        list[str] | None,
-        typer.Option(help="key=v1,v2,...: formulation.integrator.step=2e-3,1e-3; repeatable."),
-    ] = None,
-    yardstick: Annotated[
-        str | None,
-        typer.Option(help="Also finite elements of scikit-fem, with commas: P1,P2,P3."),
-    ] = None,
-    quantity: Annotated[
-        str | None, typer.Option(help="What error is taken of; else the scene's first reference.")
-    ] = None,
-    exponent: Annotated[
-        float | None,
-        typer.Option(
-            min=0, help="Of the strongest singularity, 0.5 at crack tips: for theory's orders."
-        ),
-    ] = None,
-    repeats: Annotated[int, typer.Option(min=1, help="Counted repeats of each run.")] = 3,
-    memory: Annotated[bool, typer.Option(help="Measure memory, in processes of their own.")] = True,
-    out: Out = None,
-    quiet: Quiet = False,
-    allow_code: AllowCode = None,
-) -> None:
-    """Show what accuracy costs: error against seconds over formulations and sizes."""
-    with faults_told(), allowed(scene, allow_code):
-        _one_thread()
-        import nmm
-        from nmm.study.cases.variants import SIZE
-        from nmm.study.cost.cost_study import cost_study, yardsticks
-        from nmm.study.cost.levels import levels
-        from nmm.study.cost.report import write_cost_report
-
-        said = ([f"{SIZE}={sizes}"] if sizes else []) + (vary or [])
-        with progress_bar(quiet) as progress:
-            study = cost_study(
-                nmm.read_scene(scene),
-                _formulations(scene, [*(formulations or []), *(more or [])])
-                | yardsticks(_listed(yardstick)),
-                dict(_varied(text) for text in said),
-                quantity,
-                repeats,
-                progress,
-                memory,
-                exponent,
-            )
-        files = write_cost_report(study, out or Path("runs") / f"{scene.stem}-cost")
-        lost = sum(not one.valid for one in study.records)
-        console().print(
-            f"{len(study.records)} cases, {lost} failed; reference of {study.reference.quantity} "
-            f"{study.reference.value:.6g}: {study.reference.source}",
-            highlight=False,
-        )
-        for line in levels(study):
-            console().print(line, highlight=False)
-        tell_files(files)
 
 
 def compare(
@@ -105,7 +38,7 @@ def compare(
 ) -> None:
     """Draw a scene under several formulations, or scenes of one case, side by side with a table."""
     with faults_told(), allowed(scene, allow_code):
-        _one_thread()
+        one_thread_only()
         from nmm.study.comparison.page import comparison_page, write_comparison
         from nmm.study.comparison.runs import compare_cases
 
@@ -143,13 +76,13 @@ def ablate(
     It takes as many runs as lines; short ones are made once more, for what the first compiles.
     """
     with faults_told(), allowed(scene, allow_code):
-        _one_thread()
+        one_thread_only()
         import nmm
         from nmm.results.storage.writing import told, write_text
         from nmm.study.ablation.ablate import ablate as run_without
         from nmm.study.ablation.page import ablation_table, ablation_verdict
 
-        ((_, method),) = _formulations(scene, [formulation] if formulation else []).items()
+        ((_, method),) = formulations_of(scene, [formulation] if formulation else []).items()
         with progress_bar(quiet) as progress:
             found = run_without(nmm.read_scene(scene), method, quantity or (), repeats, progress)
         lines = [*ablation_table(found), "", ablation_verdict(found)]
@@ -180,7 +113,7 @@ def study(
     Exit code 2 when all cases failed.
     """
     with faults_told(), allowed(plan, allow_code):
-        _one_thread()
+        one_thread_only()
         from nmm.study.sweep.report import sweep_page, write_sweep
         from nmm.study.sweep.runs import run_study
         from nmm.study.sweep.study_file import read_plan
@@ -217,35 +150,6 @@ def study(
         raise typer.Exit(2)
 
 
-def calibrate(
-    check: Annotated[
-        bool, typer.Option(help="Then predict scenes five times larger and run them.")
-    ] = False,
-    quiet: Quiet = False,
-) -> None:
-    """Fit the model of what runs cost on this machine, for `nmm explain --cost`."""
-    with faults_told():
-        _one_thread()
-        from nmm.study.cost import calibrate as work
-        from nmm.study.cost.cost_model import factor, save_model
-
-        with progress_bar(quiet) as progress:
-            model = work.calibrate(progress)
-        typer.echo(save_model(model))
-        typer.echo(
-            f"fitted up to {max(model.largest.values()):,} unknowns; farthest off by a factor of "
-            f"{model.spread_seconds:.2f} in seconds, {model.spread_memory:.2f} in memory"
-        )
-        for one in work.measured(work.CHECKED) if check else ():
-            spent, said = one.preparing + one.running, model.seconds(one.size)
-            held, told = float(one.memory or 0), model.bytes(one.size)
-            typer.echo(
-                f"{one.name}, {one.size.unknowns:,} unknowns: predicted {said:.3g} s, measured "
-                f"{spent:.3g} s, factor {factor(said, spent):.2f}; predicted {told / 2**20:.0f} "
-                f"MiB, measured {held / 2**20:.0f} MiB, factor {factor(told, held):.2f}"
-            )
-
-
 VERBS = (cost, compare, ablate, study, calibrate)
 
 
@@ -253,23 +157,6 @@ def register(app: typer.Typer) -> None:
     """Add the verbs to the command line."""
     for verb in VERBS:
         app.command()(verb)
-
-
-def _one_thread() -> None:
-    from nmm.study.cases.threads import one_thread
-
-    one_thread()
-
-
-def _formulations(scene: Path, paths: list[Path]) -> "dict[str, Formulation]":
-    import nmm
-    from nmm.formulation import Formulation
-    from nmm.study.cases.variants import read_formulations
-
-    if paths:
-        return read_formulations(paths)
-    own = nmm.read_scene(scene).formulation or Formulation()
-    return {own.title or "the scene's own": own}
 
 
 def _compared_cases(scene: Path, formulations: list[Path], beside: list[Path]) -> "list[StudyCase]":
@@ -282,7 +169,7 @@ def _compared_cases(scene: Path, formulations: list[Path], beside: list[Path]) -
     if beside and not formulations:
         named = {_scene_name(first, scene): first.formulation or Formulation()}
     else:
-        named = _formulations(scene, formulations)
+        named = formulations_of(scene, formulations)
     cases = [StudyCase(name, first, one) for name, one in named.items()]
     for path in beside:  # a handful of scenes
         other = nmm.read_scene(path)
@@ -294,17 +181,3 @@ def _compared_cases(scene: Path, formulations: list[Path], beside: list[Path]) -
 def _scene_name(scene: "Scene", path: Path) -> str:
     own = scene.formulation
     return own.title if own is not None and own.title else scene.title or path.stem
-
-
-def _listed(text: str | None) -> list[str]:
-    return [name.strip() for name in (text or "").split(",") if name.strip()]
-
-
-def _varied(text: str) -> tuple[str, list[object]]:
-    from nmm.errors import NmmError
-    from nmm.study.cases.variants import value_of
-
-    key, equals, values = text.partition("=")
-    if not equals or not values:
-        raise NmmError(f"--vary {text}: expected key=value,value: write it so")
-    return key.strip(), [value_of(item.strip()) for item in values.split(",")]

@@ -13,22 +13,37 @@ if TYPE_CHECKING:
     from covers.approximation.manifold import Manifold
     from nmm.assembly.model import Model
     from nmm.constraints.supports import Supports
+    from nmm.effects.given.setup import Setup
     from nmm.formulation import Solver
-
 
 # Most steps of refinement that take the shift out again. They end when the residual does not fall;
 # springs of 1e6 E make the shift, a share of their diagonal, as stiff as soft motions and want ten.
 REFINEMENTS = 20
+# Unknowns times steps, each with a matrix of its own, from which on compiled factorisations pay the
+# 0.4 s that a start with the compiler takes longer: SuperLU takes 2 to 10 us an unknown more.
+WORTH_COMPILER = 150_000
 
 
-def solver_for(manifold: "Manifold", solver: "Solver", contact: bool = False) -> LinearSolver:
+def solver_of_run(setup: "Setup", manifold: "Manifold", contact: bool) -> LinearSolver:
+    """Return the linear solver of a run from a setup, on a manifold.
+
+    Runs with ``contact`` import the compiler in any case.
+    """
+    step = setup.formulation.integrator.fixed_step if setup.scene.in_time else None
+    # Small displacements keep one factor in all steps.
+    steps = 0.0 if step is None or setup.small else (setup.scene.duration or 0.0) / step
+    compiled = contact or steps * manifold.n_unknowns >= WORTH_COMPILER
+    return solver_for(manifold, setup.formulation.solver, compiled)
+
+
+def solver_for(manifold: "Manifold", solver: "Solver", compiled: bool = False) -> LinearSolver:
     """Return the linear solver, with a shift when functions of the cover are dependent.
 
     The shift adds 1e-10 of the diagonal to the decomposition and refinement removes it again; the
-    displacements are unique whatever the shift (Duarte, Babuska and Oden 2000). Runs with
-    ``contact`` need compiled code in any case.
+    displacements are unique whatever the shift (Duarte, Babuska and Oden 2000). A run that needs
+    ``compiled`` code anyway factorises with it.
     """
-    made = make_solver(solver.type, solver.options).beside(contact)
+    made = make_solver(solver.type, solver.options).beside(compiled)
     if not manifold.dependent or made.shift:
         return made
     return replace(made.deflated(), refinements=max(made.refinements, REFINEMENTS))

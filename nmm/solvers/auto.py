@@ -24,8 +24,8 @@ class Auto(DefiniteSolver):
     ----------
     compiled
         Whether compiled code is taken from `FEW` unknowns on, as it is where contact imports it
-        anyway. What else the process has imported must not choose: a run that is gone on with
-        elsewhere has the same digits.
+        anyway, or where many steps pay for it. What else the process has imported must not
+        choose: a run that is gone on with elsewhere has the same digits.
     """
 
     name: ClassVar[str] = "auto"

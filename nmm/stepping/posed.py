@@ -26,7 +26,7 @@ from nmm.model.origin import own_origin, shifted, shifted_regions
 from nmm.model.parts import check_parts
 from nmm.model.planning.making import compile_plan
 from nmm.model.planning.plan import Plan
-from nmm.model.solver_settings import solver_for
+from nmm.model.solver_settings import solver_of_run
 from nmm.model.staging.stages import Stage, Staged, stages_of
 from nmm.solvers.linear import LinearSolver
 from nmm.stepping.reports.monitors import Monitor, monitors
@@ -111,7 +111,7 @@ def _posed(scene: "Scene", formulation: Formulation) -> Posed:
         stages=stages,
         monitors=monitors(setup, all_there=not stages),
         integrator=make_integrator(formulation.integrator),
-        solver=solver_for(model.manifold, formulation.solver, plan.contact is not None),
+        solver=solver_of_run(setup, model.manifold, plan.contact is not None),
         lay=_lay(formulation, model, plan),
         covers=built - begun,
         effects=perf_counter() - built,

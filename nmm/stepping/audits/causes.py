@@ -1,7 +1,8 @@
 """Which part of a run gave the energy that came from nowhere, and what to do about it."""
 
 from nmm.stepping.audits.base import Ended
-from nmm.stepping.reports.ledger import HOLDING, Rise
+from nmm.stepping.reports.accounts import Rise
+from nmm.stepping.reports.energies import HOLDING
 
 # A part of a rise that explains it.
 EXPLAINS = 0.5

@@ -7,7 +7,7 @@ from nmm.stepping.audits.base import AuditFinding, Ended, Findings, percent
 from nmm.stepping.audits.causes import cause
 from nmm.stepping.audits.steps import impact_lasts
 from nmm.stepping.audits.table import THRESHOLDS
-from nmm.stepping.reports.ledger import Rise
+from nmm.stepping.reports.accounts import Rise
 
 # A rise over the run that is less than this times that of one step is the same rise.
 SAME = 1.5

@@ -26,7 +26,7 @@ from nmm.stepping.drive.changes import Stands, asked, with_events
 from nmm.stepping.drive.settling import rounding
 from nmm.stepping.drive.until_verdict import until_verdict
 from nmm.stepping.drive.verdict import RunVerdict
-from nmm.stepping.reports.ledger import stored
+from nmm.stepping.reports.energies import stored
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.stepper import Stepper
 from nmm.stepping.step.trial import Attempt

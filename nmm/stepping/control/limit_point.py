@@ -8,7 +8,7 @@ from nmm.results.tee import Tee
 from nmm.stepping.control.following import run_path
 from nmm.stepping.control.position import OnPath, PathEnd
 from nmm.stepping.drive.verdict import FAILURE, LimitPoint
-from nmm.stepping.reports.ledger import stored
+from nmm.stepping.reports.energies import stored
 from nmm.stepping.reports.recorder import Recorder
 from nmm.stepping.step.stepper import Stepper
 

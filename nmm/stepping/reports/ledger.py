@@ -6,58 +6,14 @@ from typing import TYPE_CHECKING
 
 from nmm.assembly.motion import State
 from nmm.frozen import with_parts
-from nmm.model.planning.pressures import lifted_energy
+from nmm.stepping.reports.accounts import Account, Rise
+from nmm.stepping.reports.energies import standing, stored, untouched
 from nmm.stepping.step.trial import Attempt
 
 if TYPE_CHECKING:
     from nmm.assembly.model import Model
     from nmm.model.planning.plan import Plan
     from nmm.stepping.step.booking import Booked
-
-# Effects whose springs count as supports: those of the scene, glue, and what holds sub-blocks.
-HOLDING = ("supports", "bonded interfaces", "artificial joints")
-# Effects whose energy is that of the solid, beyond that of its strain.
-STRAINING = ("initial stress", "heat")
-
-
-@dataclass(frozen=True)
-class Account:
-    """Energies (J) that tell where what came from nowhere came from.
-
-    ``made`` is what came; ``given`` is what the integrator gave: waves of one that is not monotone
-    come and go. ``contact`` is what springs and bonds of contact gave beyond what friction and
-    breaking bonds ``lost``, and ``held`` what springs of supports and glue store.
-    """
-
-    made: float = 0.0
-    given: float = 0.0
-    contact: float = 0.0
-    lost: float = 0.0
-    held: float = 0.0
-
-    def since(self, before: "Account") -> "Account":
-        """Return by how much each has grown."""
-        return Account(
-            self.made - before.made,
-            self.given - before.given,
-            self.contact - before.contact,
-            self.lost - before.lost,
-            self.held - before.held,
-        )
-
-
-@dataclass(frozen=True)
-class Rise:
-    """Energy that came from nowhere, and in which step (its number and time, s)."""
-
-    grown: Account = field(default_factory=Account)
-    step: int = 0
-    time: float = 0.0
-
-    @property
-    def energy(self) -> float:
-        """How much (J)."""
-        return self.grown.made
 
 
 @dataclass(frozen=True)
@@ -287,34 +243,3 @@ class Ledger:
         if now.made - before.made > known.energy:
             return Rise(now.since(before), self.steps, time)
         return known
-
-
-def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
-    """Return the energies (J) of a state by name."""
-    lifted = lifted_energy(plan, model, state)
-    strain = model.strain_energy(state) + lifted
-    return {
-        "kinetic_energy": plan.energy("inertia", state),
-        "strain_energy": strain + sum(plan.energy(name, state) for name in STRAINING),
-        "contact_energy": plan.energy("contact", state),
-        "support_energy": sum(plan.energy(name, state) for name in HOLDING) - lifted,
-        **plan.own_energies(state),
-    }
-
-
-def untouched(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
-    """Return the energies (J) before any step: contact tells that of the last accepted one."""
-    contact = 0.0 if plan.contact is None else plan.contact.stored_first
-    return {**stored(plan, model, state), "contact_energy": contact}
-
-
-def standing(plan: "Plan", before: State, after: State) -> float:
-    """Half the work (J) of what acts at the start of statics, weight and initial stress included.
-
-    It is what holds a start that is not in equilibrium and is withdrawn evenly in the first step.
-    What swells in that step has grown from nothing.
-    """
-    held = replace(after, time=before.time, load_factor=before.load_factor, history=before.history)
-    stress = sum(plan.energy(name, before) - plan.energy(name, held) for name in STRAINING)
-    stress += plan.felt_energy(before) - plan.felt_energy(held)
-    return (plan.work(before, held) + stress) / 2

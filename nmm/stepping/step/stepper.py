@@ -13,7 +13,7 @@ from nmm.integrators.base import Integrator
 from nmm.integrators.starting import rule_of
 from nmm.model.build import reshaped
 from nmm.model.discretisation import Current, Discretisation
-from nmm.model.solver_settings import solver_for
+from nmm.model.solver_settings import solver_of_run
 from nmm.solvers.linear import Factor, LinearSolver
 from nmm.stepping.step.budget import Budget
 from nmm.stepping.step.carried import CarriedOver, LaidAnew
@@ -236,8 +236,8 @@ class Stepper:
         ``integrator`` is another one if the change asks for it.
         """
         self.follow(change, self.discretisation.after(change))
-        chosen, contact = change.setup.formulation.solver, self.plan.contact is not None
-        solver = solver_for(change.new.manifold, chosen, contact)
+        contact = self.plan.contact is not None
+        solver = solver_of_run(change.setup, change.new.manifold, contact)
         if integrator is not None:
             self._integrator = self._ruling(integrator)
         self.solver = solver

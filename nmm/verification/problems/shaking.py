@@ -1,4 +1,4 @@
-"""Shaken ground: oscillators, a block on a shaken slope, shear columns, level ground."""
+"""Blocks and ground shaken by records: one degree of freedom, and a block that slides."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
-from integration.arrays import Floats
 from nmm.verification import text
 from nmm.verification.base import Check, Checks, SceneCase, limit
 from nmm.verification.formulations import with_cover
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
 R1 = (0, 0.6, 1.8, -1.2, -3.0, 0.9, 3.4, 2.1, -0.8, -3.6, -1.5, 2.4, 1.1, -2.2, 0.4, 1.6, -0.9)
 RECORD = (*R1, -0.5, 0.3, -0.1, 0)
 """A record of acceleration (m/s2), every 0.1 s, linear between."""
-
 NEWMARK = '[formulation.integrator]\ntype = "newmark"\nstep = {step!r}\n'
 SMALL = '[formulation.rotation]\nupdate = "small"\n'
 
@@ -231,100 +229,6 @@ class ShakenSlope(SceneCase):
         slid = (way(run, "stone") - way(run, "slope"))[-1] @ along
         reason = "contact springs give way by their slip before friction is reached"
         return {"way down the slope (m)": Check(float(slid), self.slides, 0.005, reason)}
-
-
-PULSE = 0.1 * np.sin(np.pi * np.arange(41) / 40) ** 2
-"""Velocity (m/s) of a wave going up, every 5 ms."""
-
-
-class LayerOnRock(SceneCase):
-    """A column of soil on rock: a shear wave comes in through a viscous boundary and rings."""
-
-    name, title = "BM2", "Soil on rock under a pulse that comes from below"
-    source = "d'Alembert: 2 T R^n v(t - (2 n + 1) H / Vs), T = 1.65517241, R = -0.65517241"
-    formulations: ClassVar[tuple[str, ...]] = (
-        "finite elements",
-        "bilinear quads",
-        "manifold",
-        "quads",
-        "splines",
-    )
-    width: ClassVar[float] = 3.0
-    sides: ClassVar[tuple[str, ...]] = (
-        '[[supports]]\nname = "level"\nblock = "soil"\nfix = ["y"]\n',
-    )
-
-    def scene(self) -> str:
-        """Return the ground, 30 m of soil."""
-        wide = self.width
-        return text.scene(
-            'title = "Layer on rock"\nplane = "strain"\nduration = 0.5\n[inertia]\n'
-            + NEWMARK.format(step=0.0025)
-            + SMALL,
-            [
-                text.material("soil", 450e6, 0.25, 2000.0),
-                text.block("soil", "soil", text.rectangle((0, 0), (wide, 30))),
-                record("wave", PULSE.round(12).tolist(), 0.005, 'quantity = "velocity"\n'),
-                '[[viscous_boundaries]]\nname = "base"\nincoming = { x = "wave" }\n'
-                f"segment = [[0, 0], [{wide}, 0]]\n"
-                "density = 2400.0\np_velocity = 2400.0\ns_velocity = 1200.0\n",
-                *self.sides,
-                text.monitor("left", (0.0, 30.0), "soil"),
-                text.monitor("middle", (wide / 2, 30.0), "soil"),
-            ],
-        )
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return twenty cells a wave, or thirty where functions are linear or constant."""
-        degree = super().formulation(scene, name).cover.highest_degree
-        return with_cover(super().formulation(scene, name), size=3.0 if degree else 1.5)
-
-    def measure(self, run: "Run") -> Checks:
-        """Compare the velocity of the surface with the first two peaks."""
-        speed, time = surface(run, "left")
-        reason = "dispersion of the mesh: 2 % of peaks at twenty cells a wave"
-        first = time[np.argmax(speed)]
-        return {
-            "first peak (m/s)": Check(speed.max(), 0.33103448, 0.02, reason),
-            "second peak (m/s)": Check(speed.min(), -0.21688466, 0.02, reason),
-            "time of the first peak (s)": Check(float(first), 0.2, 0.01, reason),
-        }
-
-
-class LevelGround(LayerOnRock):
-    """The same ground 60 m wide between free fields: every line moves as the column."""
-
-    name, title = "BM4", "Level ground between free fields"
-    formulations: ClassVar[tuple[str, ...]] = ("bilinear quads", "quads")
-    width: ClassVar[float] = 60.0
-    sides: ClassVar[tuple[str, ...]] = tuple(
-        f'[[free_fields]]\nname = "{name}"\nbase = "base"\nsegment = [[{x}, 0], [{x}, 30]]\n'
-        for name, x in (("left", 0.0), ("right", 60.0))
-    )
-
-    def formulation(self, scene: "Scene", name: str) -> "Formulation":
-        """Return cells of 2.5 m, or of 6 m with functions of degree 1."""
-        degree = super().formulation(scene, name).cover.highest_degree
-        return with_cover(super().formulation(scene, name), size=6.0 if degree else 2.5)
-
-    def measure(self, run: "Run") -> Checks:
-        """Compare the side and the middle, and how little the ground rises."""
-        found = super().measure(run)
-        middle, _ = surface(run, "middle")
-        side, _ = surface(run, "left")
-        rise = np.abs(way(run, "left")[:, 1]).max() / np.abs(way(run, "left")[:, 0]).max()
-        unlike = float(np.abs(middle - side).max() / np.abs(middle).max())
-        return {
-            **found,
-            "difference of side and middle": limit(unlike, 0.02, "the free field is level ground"),
-            "rise over sway": limit(float(rise), 1e-3, "a wave straight up moves along x alone"),
-        }
-
-
-def surface(run: "Run", monitor: str) -> tuple[Floats, Floats]:
-    """Velocity along x (m/s) of a monitor at the middles of steps, and their times (s)."""
-    moved, time = way(run, monitor)[:, 0], run.history["time"]
-    return np.diff(moved) / np.diff(time), (time[1:] + time[:-1]) / 2
 
 
 def _one_cell(formulation: "Formulation") -> "Formulation":

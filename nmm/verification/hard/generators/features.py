@@ -1,106 +1,13 @@
 """Small scenes of single features, each of which has one answer wherever it is seen from."""
 
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 
 from nmm.verification.hard.cases.base import HardCase, HardClass
+from nmm.verification.hard.generators import feature_texts as texts
 from nmm.verification.hard.oracles.images import seen_alike
-
-HEAD = """plane = "strain"
-[materials.m]
-young_modulus = 1e9
-poisson_ratio = 0.2
-density = 2000.0
-{material}
-"""
-
-
-def _rock(material: str = "") -> str:
-    return HEAD.format(material=material)
-
-
-def _box(name: str, left: float, low: float, right: float, high: float) -> str:
-    corners = [[left, low], [right, low], [right, high], [left, high]]
-    return f'[[blocks]]\nname = "{name}"\nmaterial = "m"\nvertices = {corners}\n'
-
-
-def _held(segment: Sequence[Sequence[float]], block: str) -> str:
-    return (
-        f'[[supports]]\nname = "held"\nblock = "{block}"\nsegment = {segment}\nfix = ["x", "y"]\n'
-    )
-
-
-def _pulled(segment: Sequence[Sequence[float]], traction: Sequence[float], block: str = "") -> str:
-    where = f'block = "{block}"\n' if block else ""
-    return (
-        f'[[loads]]\nname = "pull"\nkind = "edge"\nsegment = {segment}\n{where}'
-        f"traction = {traction}\n"
-    )
-
-
-def _seen(name: str, point: Sequence[float], block: str) -> str:
-    return f'[[monitors]]\nname = "{name}"\npoint = {point}\nblock = "{block}"\n'
-
-
-def _quads(size: float, degree: int = 1) -> str:
-    return f'[formulation.cover]\ntype = "quads"\nsize = {size}\ndegree = {degree}\nangle = 0.0\n'
-
-
-FLOOR = _box("b", 0, 0, 1, 1) + _held([[0, 0], [1, 0]], "b")
-HELD_BELOW = _held([[0, 0], [1, 0]], "b")
-TWO = FLOOR + _box("c", 0, 1, 1, 2)
-SOFT = 'law = "neo_hookean"'
-QUADRATIC = '[formulation.cover]\nfunctions = "monomials"\ndegree = 2\n'
-FINITE = f'{QUADRATIC}[formulation.rotation]\nupdate = "finite"\n'
-CONSERVING = f'{FINITE}[formulation.integrator]\ntype = "energy_momentum"\nstep = 0.002\n'
-FLIGHT = """[[initial_velocities]]
-block = "c"
-velocity = [3.0, -40.0]
-angular_velocity = 20.0
-"""
-DRY = "[contact]\n[interfaces.i]\nfriction_angle = 0.4\n"
-STIFF = "normal_stiffness = 1e10\nshear_stiffness = 1e10\n"
-BONDS = "[formulation.contact]\nbond_stiffness = 100.0\n"
-IN_TIME = '[formulation.integrator]\ntype = "newmark"\nstep = 1e-4\n'
-SOFTENS = """[contact]
-[interfaces.i]
-law = "linear_softening"
-friction_angle = 0.5
-cohesion = 2e6
-tensile_strength = 1e6
-bonded = true
-fracture_energy = 1e4
-normal_stiffness = 1e10
-shear_stiffness = 1e10
-"""
-CONTROLLED = (
-    _rock()
-    + TWO
-    + SOFTENS
-    + _pulled([[0, 2], [1, 2]], [2e4, 1e5])
-    + _seen("o", [0.5, 1], "c")
-    + _seen("u", [0.5, 1], "b")
-    + '[loading]\nuntil = "failure"\n'
-)
-OPENED = """[loading.control]
-type = "opening"
-monitors = ["o", "u"]
-direction = [0.0, 1.0]
-increment = 5e-4
-end = 4e-3
-"""
-MOVED = """[loading.control]
-type = "displacement"
-monitors = ["o"]
-direction = [0.0, 1.0]
-increment = 5e-4
-end = 4e-3
-"""
-DISSIPATED = '[loading.control]\ntype = "dissipation"\nenergy = 500.0\nend_energy = 4e3\n'
-EVENTS = '[loading.control]\ntype = "events"\nfall = 0.3\n'
-CRACK = '[[cracks]]\nname = "k"\npoints = [[0.0, 0.5], [0.45, 0.5]]\n'
 
 
 @dataclass(frozen=True)
@@ -127,221 +34,120 @@ UNITS = ("mm, N, s", "powers of two", "order", "shift")
 ANY = (*UNITS, "shift up", "mirror", "turn by 37 deg")
 NET = (*UNITS, "shift up", "turn by 180 deg")
 LEVEL = (*UNITS, "shift up")
-
 FREE = (*UNITS, "shift up", "turn by 37 deg")
-MOVING = "duration = 0.02\n"
-BOLT = """[[bars]]
-name = "bolt"
-points = [[0.3, 0.3], [0.7, 1.9]]
-diameter = 0.05
-young_modulus = 2e11
-yield_stress = 5e8
-{bond}
-"""
-BOND = """[bars.bond]
-law = "bilinear"
-strength = 1e6
-slips = [1e-4, 2e-3]
-residual_strength = 1e5
-"""
-MEMBERS = """[[foundations]]
-name = "soil"
-segment = [[0, 0], [1, 0]]
-normal_stiffness = 2e7
-shear_stiffness = 1e7
-[[springs]]
-name = "k"
-points = [[1, 1.2], [2, 1.5]]
-blocks = ["c", "ground"]
-stiffness = 1e7
-force = 2e3
-[[dashpots]]
-name = "d"
-points = [[0, 1.5], [-1, 1.7]]
-blocks = ["c", "ground"]
-viscosity = 5e4
-[[masses]]
-name = "machine"
-point = [0.5, 2]
-block = "c"
-mass = 500.0
-"""
-SLOPE = """[[blocks]]
-name = "b"
-material = "m"
-vertices = [[0, 0], [10, 0], [10, 5.773502691896258]]
-[[blocks]]
-name = "c"
-material = "m"
-vertices = [
-    [5, 2.886751345948129], [8, 4.618802153517006],
-    [7, 6.350852961085883], [4, 4.618802153517006],
-]
-[[supports]]
-name = "held"
-block = "b"
-fix = ["x", "y"]
-"""
-HOLDS = DRY + "bonded = true\ncohesion = 1e8\ntensile_strength = 1e8\n"
-FACTOR = "[strength_reduction]\nlowest = 0.8\nhighest = 3.0\n"
-SOIL = """law = "mohr_coulomb"
-cohesion = 2e4
-friction_angle = 0.5
-dilation_angle = 0.0
-"""
-WARM = """conductivity = 2.0
-heat_capacity = 800.0
-thermal_expansion = 1e-5
-hydraulic_conductivity = 1e-6
-"""
-SEASONS = """[heat]
-transient = true
-duration = 1.7e6
-[[temperatures]]
-name = "winter"
-segment = [[0, 0], [0, 1]]
-temperature = -5.0
-[[temperatures]]
-name = "summer"
-segment = [[1, 0], [1, 1]]
-temperature = 20.0
-[seepage]
-[[heads]]
-name = "low"
-segment = [[0, 0], [0, 1]]
-head = 1.0
-[[heads]]
-name = "high"
-segment = [[1, 0], [1, 1]]
-head = 3.0
-[[water_pressures]]
-name = "flood"
-segment = [[1, 0], [1, 1]]
-level = 3.0
-[[stages]]
-name = "winter"
-heat = ["winter"]
-water = ["low"]
-[[stages]]
-name = "summer"
-heat = ["summer"]
-water = ["low", "high", "flood"]
-[formulation.loading]
-increment = 0.2
-"""
-STANDING = """[gravity]
-[inertia]
-[[viscous_boundaries]]
-name = "base"
-segment = [[0, 0], [1, 0]]
-reactions = true
-[[loads]]
-name = "push"
-kind = "edge"
-segment = [[0, 1], [1, 1]]
-traction = [1e5, 2e4]
-[[stages]]
-name = "in place"
-loads = []
-[[stages]]
-name = "free"
-supports = []
-loads = ["push"]
-duration = 0.02
-[formulation.integrator]
-type = "newmark"
-"""
-BUILT = """[gravity]
-[[loads]]
-name = "push"
-kind = "edge"
-segment = [[0, 2], [1, 2]]
-block = "c"
-traction = [2e3, -1e4]
-[[stages]]
-name = "one"
-blocks = ["b"]
-loads = []
-[[stages]]
-name = "two"
-add = ["c"]
-loads = ["push"]
-[[stages]]
-name = "three"
-duration = 0.01
-remove = ["c"]
-"""
-GROWS = """[fracture]
-criterion = "hoop_stress"
-energy = 100.0
-increment = 0.05
-max_growth = 0.2
-"""
-ZONE = """[cohesive_zones]
-increment = 0.1
-length = 0.2
-ahead = 0.5
-max_growth = 0.3
-"""
-FALL = """[splitting.m]
-tensile_strength = 5e4
-cohesion = 1e6
-friction_angle = 0.6
-smallest_block = 0.02
-most_blocks = 20
-"""
-WEIGHT = "[gravity]\n"
-INERTIA = "[inertia]\n"
-NEWMARK = '[formulation.integrator]\ntype = "newmark"\n'
 
 
 def _features() -> Iterator[Feature]:
     """Yield one scene of each."""
     top = [[0, 1], [1, 1]]
-    see, seen = _seen("o", [1, 1], "b"), _seen("o", [0.9, 1.9], "c")
-    bent = _rock(SOFT) + FLOOR + _pulled(top, [2e8, 1e8]) + see
-    yield Feature("finite strain", bent + FINITE, FREE)
-    flying = "duration = 0.04\n" + _rock(SOFT) + _box("c", 0, 0, 1, 2) + FLIGHT + INERTIA
-    yield Feature("finite strain in flight", flying + seen + CONSERVING, FREE)
-    meeting = "duration = 0.04\n" + _rock(SOFT) + FLOOR + _box("c", 0.2, 1.05, 0.9, 1.8)
-    meeting += FLIGHT + DRY + INERTIA + _seen("o", [0.5, 1.5], "c") + CONSERVING
-    yield Feature("finite strain and contact", meeting, FREE)
-    yield Feature("opening", CONTROLLED + OPENED, ANY)
-    yield Feature("displacement", CONTROLLED + MOVED, ANY)
-    yield Feature("dissipation", CONTROLLED.replace(STIFF, "") + BONDS + DISSIPATED, ANY)
-    brittle = CONTROLLED.replace("linear_softening", "mohr_coulomb")
-    yield Feature("events", brittle.replace("fracture_energy = 1e4\n", "") + EVENTS, ANY)
-    bolted = _rock() + TWO + DRY + _pulled([[0, 2], [1, 2]], [4e4, 3e4]) + seen
-    yield Feature("bars with slip", bolted + BOLT.format(bond=BOND), ANY, {"order": 1e-5})
-    yield Feature("bars without bond", bolted + BOLT.format(bond=""), ANY, {"order": 1e-5})
-    members = MOVING + _rock() + TWO.replace(HELD_BELOW, "") + DRY + INERTIA + WEIGHT + seen
-    yield Feature("members in time", members + MEMBERS + NEWMARK, ANY, {"order": 1e-5})
-    yield Feature(
-        "factor of safety", _rock() + SLOPE + DRY.replace("0.4", "0.7") + WEIGHT + FACTOR, ANY
+    see, seen = texts.monitor("o", [1, 1], "b"), texts.monitor("o", [0.9, 1.9], "c")
+    bent = texts.rock(texts.SOFT) + texts.FLOOR + texts.pulled_edge(top, [2e8, 1e8]) + see
+    yield Feature("finite strain", bent + texts.FINITE, FREE)
+    flying = (
+        "duration = 0.04\n"
+        + texts.rock(texts.SOFT)
+        + texts.box("c", 0, 0, 1, 2)
+        + texts.FLIGHT
+        + texts.INERTIA
     )
-    soil = _rock(SOIL) + _box("b", 0, 0, 4, 4) + _held([[0, 0], [4, 0]], "b") + WEIGHT + FACTOR
-    yield Feature("factor of safety of soil", soil + _quads(2.0), NET)
-    yield Feature("seasons", _rock(WARM) + FLOOR + see + SEASONS + _quads(0.5), LEVEL)
-    yield Feature("standing reactions", _rock() + FLOOR + see + STANDING + _quads(0.5), NET)
-    built = _rock() + TWO + HOLDS + INERTIA + BUILT + see
+    yield Feature("finite strain in flight", flying + seen + texts.CONSERVING, FREE)
+    meeting = (
+        "duration = 0.04\n"
+        + texts.rock(texts.SOFT)
+        + texts.FLOOR
+        + texts.box("c", 0.2, 1.05, 0.9, 1.8)
+    )
+    meeting += (
+        texts.FLIGHT
+        + texts.DRY
+        + texts.INERTIA
+        + texts.monitor("o", [0.5, 1.5], "c")
+        + texts.CONSERVING
+    )
+    yield Feature("finite strain and contact", meeting, FREE)
+    yield Feature("opening", texts.CONTROLLED + texts.OPENED, ANY)
+    yield Feature("displacement", texts.CONTROLLED + texts.MOVED, ANY)
+    yield Feature(
+        "dissipation",
+        texts.CONTROLLED.replace(texts.STIFF, "") + texts.BONDS + texts.DISSIPATED,
+        ANY,
+    )
+    brittle = texts.CONTROLLED.replace("linear_softening", "mohr_coulomb")
+    yield Feature("events", brittle.replace("fracture_energy = 1e4\n", "") + texts.EVENTS, ANY)
+    bolted = (
+        texts.rock()
+        + texts.TWO
+        + texts.DRY
+        + texts.pulled_edge([[0, 2], [1, 2]], [4e4, 3e4])
+        + seen
+    )
+    yield Feature(
+        "bars with slip", bolted + texts.BOLT.format(bond=texts.BOND), ANY, {"order": 1e-5}
+    )
+    yield Feature("bars without bond", bolted + texts.BOLT.format(bond=""), ANY, {"order": 1e-5})
+    members = (
+        texts.MOVING
+        + texts.rock()
+        + texts.TWO.replace(texts.HELD_BELOW, "")
+        + texts.DRY
+        + texts.INERTIA
+        + texts.WEIGHT
+        + seen
+    )
+    yield Feature("members in time", members + texts.MEMBERS + texts.NEWMARK, ANY, {"order": 1e-5})
+    yield Feature(
+        "factor of safety",
+        texts.rock() + texts.SLOPE + texts.DRY.replace("0.4", "0.7") + texts.WEIGHT + texts.FACTOR,
+        ANY,
+    )
+    soil = (
+        texts.rock(texts.SOIL)
+        + texts.box("b", 0, 0, 4, 4)
+        + texts.held_edge([[0, 0], [4, 0]], "b")
+        + texts.WEIGHT
+        + texts.FACTOR
+    )
+    yield Feature("factor of safety of soil", soil + texts.quads(2.0), NET)
+    yield Feature(
+        "seasons",
+        texts.rock(texts.WARM) + texts.FLOOR + see + texts.SEASONS + texts.quads(0.5),
+        LEVEL,
+    )
+    yield Feature(
+        "standing reactions",
+        texts.rock() + texts.FLOOR + see + texts.STANDING + texts.quads(0.5),
+        NET,
+    )
+    built = texts.rock() + texts.TWO + texts.HOLDS + texts.INERTIA + texts.BUILT + see
     yield Feature("stages", built, ANY)
-    pulled = _rock() + FLOOR + CRACK + see
-    grows = pulled + _pulled(top, [5e4, 1e6]) + GROWS + _quads(0.125)
+    pulled = texts.rock() + texts.FLOOR + texts.CRACK + see
+    grows = pulled + texts.pulled_edge(top, [5e4, 1e6]) + texts.GROWS + texts.quads(0.125)
     turned = {"turn by 180 deg": 1e-4}  # functions of tips are integrated to that
     yield Feature("growth", grows + "[formulation.loading]\nincrement = 0.25\n", NET, turned)
     yield Feature(
         "growth in time",
-        "duration = 2e-3\n" + grows + INERTIA + IN_TIME,
+        "duration = 2e-3\n" + grows + texts.INERTIA + texts.IN_TIME,
         NET,
         dict.fromkeys(NET, 2e-2),
     )
-    zone = pulled + SOFTENS + _pulled(top, [1e4, 1e6]) + ZONE + _quads(0.25)
-    yield Feature("cohesive zones", zone, LEVEL, dict.fromkeys(LEVEL, 1e-6))
-    falling = "duration = 0.01\n" + _rock() + FLOOR + _box("c", 0.2, 1.0, 0.8, 1.5) + DRY
-    falling += (
-        '[[initial_velocities]]\nblock = "c"\nvelocity = [0, -5]\n' + INERTIA + FALL + NEWMARK
+    zone = (
+        pulled + texts.SOFTENS + texts.pulled_edge(top, [1e4, 1e6]) + texts.ZONE + texts.quads(0.25)
     )
-    yield Feature("splitting", falling + _seen("o", [0.5, 0.2], "b"), FREE)
+    yield Feature("cohesive zones", zone, LEVEL, dict.fromkeys(LEVEL, 1e-6))
+    falling = (
+        "duration = 0.01\n"
+        + texts.rock()
+        + texts.FLOOR
+        + texts.box("c", 0.2, 1.0, 0.8, 1.5)
+        + texts.DRY
+    )
+    falling += (
+        '[[initial_velocities]]\nblock = "c"\nvelocity = [0, -5]\n'
+        + texts.INERTIA
+        + texts.FALL
+        + texts.NEWMARK
+    )
+    yield Feature("splitting", falling + texts.monitor("o", [0.5, 0.2], "b"), FREE)
 
 
 FEATURES = {one.name: one for one in _features()}

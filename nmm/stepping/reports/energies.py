@@ -1,0 +1,46 @@
+"""The energies of a state by name, and the work of what stands at the start of statics."""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from nmm.assembly.motion import State
+from nmm.model.planning.pressures import lifted_energy
+
+if TYPE_CHECKING:
+    from nmm.assembly.model import Model
+    from nmm.model.planning.plan import Plan
+# Effects whose springs count as supports: those of the scene, glue, and what holds sub-blocks.
+HOLDING = ("supports", "bonded interfaces", "artificial joints")
+# Effects whose energy is that of the solid, beyond that of its strain.
+STRAINING = ("initial stress", "heat")
+
+
+def stored(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
+    """Return the energies (J) of a state by name."""
+    lifted = lifted_energy(plan, model, state)
+    strain = model.strain_energy(state) + lifted
+    return {
+        "kinetic_energy": plan.energy("inertia", state),
+        "strain_energy": strain + sum(plan.energy(name, state) for name in STRAINING),
+        "contact_energy": plan.energy("contact", state),
+        "support_energy": sum(plan.energy(name, state) for name in HOLDING) - lifted,
+        **plan.own_energies(state),
+    }
+
+
+def untouched(plan: "Plan", model: "Model", state: State) -> dict[str, float]:
+    """Return the energies (J) before any step: contact tells that of the last accepted one."""
+    contact = 0.0 if plan.contact is None else plan.contact.stored_first
+    return {**stored(plan, model, state), "contact_energy": contact}
+
+
+def standing(plan: "Plan", before: State, after: State) -> float:
+    """Half the work (J) of what acts at the start of statics, weight and initial stress included.
+
+    It is what holds a start that is not in equilibrium and is withdrawn evenly in the first step.
+    What swells in that step has grown from nothing.
+    """
+    held = replace(after, time=before.time, load_factor=before.load_factor, history=before.history)
+    stress = sum(plan.energy(name, before) - plan.energy(name, held) for name in STRAINING)
+    stress += plan.felt_energy(before) - plan.felt_energy(held)
+    return (plan.work(before, held) + stress) / 2
