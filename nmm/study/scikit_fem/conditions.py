@@ -7,14 +7,14 @@ import numpy as np
 
 from integration.arrays import Floats, Ints
 from nmm.errors import NmmError
-from nmm.study.scikit_fem.solids import Solid
+from nmm.study.scikit_fem.solids import MeshedBody
 
 if TYPE_CHECKING:
     from nmm.scene import Scene
     from nmm.scene.tables.loading.loads import LoadTable
 
 
-def force_of(solid: Solid) -> Floats:
+def force_of(solid: MeshedBody) -> Floats:
     """Return the forces (n,) of all loads at full load (N)."""
     total = np.zeros(solid.basis.N)
     for one in _forces(solid):
@@ -22,7 +22,7 @@ def force_of(solid: Solid) -> Floats:
     return total
 
 
-def _forces(solid: Solid) -> Iterator[Floats]:
+def _forces(solid: MeshedBody) -> Iterator[Floats]:
     """Yield the forces of each load and of the weight."""
     import skfem
 
@@ -58,7 +58,7 @@ def _constant(field: Sequence[float], thickness: float) -> Any:
     return skfem.LinearForm(lambda v, w: x * v[0] + y * v[1])
 
 
-def _at_node(solid: Solid, load: "LoadTable") -> Floats:
+def _at_node(solid: MeshedBody, load: "LoadTable") -> Floats:
     assert load.point is not None
     assert load.force is not None
     node = solid.node(load.point)
@@ -71,7 +71,7 @@ def _at_node(solid: Solid, load: "LoadTable") -> Floats:
     return force
 
 
-def held_nodes(solid: Solid) -> tuple[Ints, Floats]:
+def held_nodes(solid: MeshedBody) -> tuple[Ints, Floats]:
     """Return the held unknowns and their values."""
     values: dict[int, float] = {}
     basis = solid.basis

@@ -18,7 +18,7 @@ NEAR = 1e-9  # of the body's extent: what lies on a segment
 
 
 @dataclass(frozen=True)
-class Solid:
+class MeshedBody:
     """Elements of a scene's body.
 
     Attributes
@@ -90,7 +90,7 @@ def refuse(scene: "Scene", formulation: Formulation) -> None:
         )
 
 
-def solid_of(scene: "Scene", formulation: Formulation) -> Solid:
+def meshed_body(scene: "Scene", formulation: Formulation) -> MeshedBody:
     """Return the body of a scene with its mesh."""
     import skfem
 
@@ -108,4 +108,4 @@ def solid_of(scene: "Scene", formulation: Formulation) -> Solid:
     mesh = fitted_mesh(body, cracks, marks, size)
     element = skfem.ElementVector(getattr(skfem, f"ElementTriP{degree}")())
     basis = skfem.Basis(mesh, element, intorder=max(2 * (degree - 1), 1))
-    return Solid(scene, basis, NEAR * float(np.ptp(mesh.p, axis=1).max()))
+    return MeshedBody(scene, basis, NEAR * float(np.ptp(mesh.p, axis=1).max()))

@@ -18,7 +18,7 @@ from nmm.formulation import Formulation, formulation_hash
 from nmm.results.summary import Summary
 from nmm.scene import scene_hash
 from nmm.study.scikit_fem.conditions import force_of, held_nodes
-from nmm.study.scikit_fem.solids import Solid, refuse, solid_of
+from nmm.study.scikit_fem.solids import MeshedBody, meshed_body, refuse
 
 if TYPE_CHECKING:
     from nmm.scene import Scene
@@ -57,7 +57,7 @@ def run_elements(scene: "Scene", formulation: Formulation) -> ElementRun:
     """
     begun, clock = perf_counter(), _Clock()
     refuse(scene, formulation)
-    solid = clock.timed(clock.phases, "covers", lambda: solid_of(scene, formulation))
+    solid = clock.timed(clock.phases, "covers", lambda: meshed_body(scene, formulation))
     matrix = clock.timed(clock.phases, "assembly", lambda: _stiffness(solid))
     force = clock.timed(clock.effects, "loads", lambda: force_of(solid))
     held, values = clock.timed(clock.effects, "supports", lambda: held_nodes(solid))
@@ -83,7 +83,7 @@ def run_elements(scene: "Scene", formulation: Formulation) -> ElementRun:
     return ElementRun(summary, history)
 
 
-def _stiffness(solid: Solid) -> Any:
+def _stiffness(solid: MeshedBody) -> Any:
     from skfem.models.elasticity import lame_parameters, linear_elasticity
 
     material = solid.scene.materials[solid.scene.blocks[0].material]
@@ -113,7 +113,7 @@ def _solved(matrix: Any, force: Floats, held: Ints, values: Floats) -> Floats:
     return moved
 
 
-def _history(solid: Solid, matrix: Any, moved: Floats) -> dict[str, Floats]:
+def _history(solid: MeshedBody, matrix: Any, moved: Floats) -> dict[str, Floats]:
     """Return the columns that a run of nmm would have for the same scene."""
     energy = float(moved @ (matrix @ moved)) / 2
     columns = {"load_factor": 1.0, "strain_energy": energy, "external_work": energy}
@@ -123,7 +123,7 @@ def _history(solid: Solid, matrix: Any, moved: Floats) -> dict[str, Floats]:
     return {name: np.array([value]) for name, value in columns.items()}
 
 
-def _displacement(solid: Solid, moved: Floats, point: Sequence[float]) -> Floats:
+def _displacement(solid: MeshedBody, moved: Floats, point: Sequence[float]) -> Floats:
     node = solid.node(point)
     if node is not None:
         return np.asarray(moved[solid.basis.nodal_dofs[:2, node]])

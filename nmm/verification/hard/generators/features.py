@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from nmm.verification.hard.cases.base import HardCase, HardClass
-from nmm.verification.hard.generators import feature_texts as texts
+from nmm.verification.hard.generators.scenes import feature_texts as texts
 from nmm.verification.hard.oracles.images import seen_alike
 
 
