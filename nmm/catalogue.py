@@ -11,6 +11,7 @@ from inspect import getmembers, isabstract, isclass
 from pathlib import Path
 from typing import Any
 
+from nmm.constraints.imposition import IMPOSITIONS
 from nmm.contact.enforcement.base import ENFORCEMENTS
 from nmm.controls.base import CONTROLS
 from nmm.fracture.criteria.base import CRITERIA
@@ -32,6 +33,7 @@ REGISTRIES: tuple[Registry[Any], ...] = (
     INTERFACE_LAWS,
     BOND_LAWS,
     ENFORCEMENTS,
+    IMPOSITIONS,
     INTEGRATORS,
     SOLVERS,
     EFFECTS,

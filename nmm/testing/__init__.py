@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from nmm.testing.block_covers import check_block_cover as check_block_cover
+    from nmm.testing.bond_laws import check_bond_law as check_bond_law
     from nmm.testing.controls import check_control as check_control
     from nmm.testing.covers import check_cover as check_cover
     from nmm.testing.criteria import check_criterion as check_criterion
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 _HOME = {
     "check_block_cover": "block_covers",
+    "check_bond_law": "bond_laws",
     "check_control": "controls",
     "check_cover": "covers",
     "check_criterion": "criteria",
@@ -44,6 +46,7 @@ _HOME = {
 
 __all__ = [
     "check_block_cover",
+    "check_bond_law",
     "check_control",
     "check_cover",
     "check_criterion",

@@ -1,10 +1,19 @@
 """Laws of one force and one way: returns to the yield value, and energy that is never made."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from nmm.interfaces.bond_slip import BilinearBond, LinearBond, ModelCodeBond, PlasticBond
+from nmm.interfaces.bond_slip import (
+    BOND_LAWS,
+    BilinearBond,
+    LinearBond,
+    ModelCodeBond,
+    PlasticBond,
+)
 from nmm.materials.uniaxial import Uniaxial
+from nmm.testing import check_bond_law
 
 LAWS = {
     "hardening": Uniaxial(100.0, (0.0, 10.0), (5.0, 25.0)),
@@ -94,3 +103,49 @@ def test_the_model_code_bond_is_a_power_of_slip():
 def test_a_bond_that_lacks_a_constant_is_refused(kind, given, said):
     with pytest.raises(ValueError, match=said):
         kind(**given)
+
+
+BONDS = {
+    "linear": {"stiffness": 1e9},
+    "plastic": {"stiffness": 1e9, "strength": 3e6},
+    "bilinear": {"strength": 3e6, "slips": (1e-3, 4e-3), "residual_strength": 1e6},
+    "model_code": {"strength": 8e6, "slips": (1e-3, 3e-3, 8e-3), "residual_strength": 3e6},
+}
+
+
+@pytest.mark.parametrize("name", BOND_LAWS.table)
+def test_every_bond_law_keeps_what_bond_laws_promise(name):
+    check_bond_law(BOND_LAWS.make(name, {}, **BONDS[name]))
+
+
+class Gains(Uniaxial):
+    """It answers a tenth more where slip is taken back."""
+
+    def update(self, trial, plastic, flowed):
+        found = super().update(trial, plastic, flowed)
+        return replace(found, force=np.where(flowed > 0, 1.1, 1.0) * found.force)
+
+
+class Restless(BilinearBond):
+    @property
+    def uniaxial(self):
+        return Gains(**vars(super().uniaxial))
+
+
+class Leaping(PlasticBond):
+    @property
+    def uniaxial(self):
+        law = super().uniaxial
+        return replace(law, yields=tuple(1.01 * one for one in law.yields))
+
+
+@pytest.mark.parametrize(
+    ("law", "told"),
+    [
+        (Restless(**BONDS["bilinear"]), "stress given back"),
+        (Leaping(**BONDS["plastic"]), "stress under growing slip"),
+    ],
+)
+def test_a_bond_law_that_breaks_a_promise_is_told_which(law, told):
+    with pytest.raises(AssertionError, match=told):
+        check_bond_law(law)
